@@ -22,22 +22,23 @@ struct Mark {
 
 constexpr std::string_view kGood = "\x1B[1;32m", kBad = "\x1B[1;31m", kOpen = "\x1B[1;33m", kNone = "\x1B[0m";
 
-constexpr Mark kMarks[] = {{Where::kWholeLine, "PASSED", kGood},
-                           {Where::kWholeLine, "FAILED", kBad},
+constexpr Mark kMarks[] = {{Where::kBeginning, "PASSED", kGood},
+                           {Where::kBeginning, "FAILED", kBad},
+                           {Where::kBeginning, "NOTHING JUDGED", kOpen},
                            {Where::kWholeLine, "EQUAL", kGood},
                            {Where::kWholeLine, "DIFFERENT", kBad},
-                           {Where::kBeginning, "NOTHING COMPARED", kBad},
                            {Where::kBeginning, "INTERRUPTED", kOpen},
                            {Where::kBeginning, "  NOT MET  ", kBad},
                            {Where::kBeginning, "  passed  ", kGood},
                            {Where::kBeginning, "  failed  ", kBad},
+                           {Where::kBeginning, "  nothing_judged  ", kOpen},
                            {Where::kBeginning, "  refused  ", kBad},
                            {Where::kBeginning, "  crashed  ", kBad},
                            {Where::kBeginning, "  hung  ", kBad},
-                           {Where::kToTheEnd, "VIOLATION: ", kBad},
                            // rows of regress as blocks, where the terminal is too narrow for its table
                            {Where::kWholeLine, "  verdict   passed", kGood},
                            {Where::kWholeLine, "  verdict   failed", kBad},
+                           {Where::kWholeLine, "  verdict   nothing_judged", kOpen},
                            {Where::kWholeLine, "  verdict   refused", kBad},
                            {Where::kWholeLine, "  verdict   crashed", kBad},
                            {Where::kWholeLine, "  verdict   hung", kBad}};

@@ -76,7 +76,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   for (const scenario::Master& master : scenario.masters) add_master(master);
   for (const scenario::Master2& master : scenario.masters2) add_master2(master);
   script_ = std::make_unique<Script>(scenario_, stations_, execution_->segment(), journal_, replies_, left_out_);
-  script_->on_action = [this](const scenario::Action& action) { exchange_.acts(action); };
+  script_->on_action = [this](const scenario::Action& action, Tick at) { exchange_.acts(action, at); };
   add_agents();
   if (!options.log.empty()) journal_.open(options.log);
   if (!options.trace.empty()) trace_.emplace(options.trace, scenario_, options.from);
@@ -373,6 +373,7 @@ RunResult Bench::collect() {
   result.checks = checks_.results();
   result.checks_mode = checks_.mode();
   result.checks_off = checks_.left_out();
+  result.expects_exchange = scenario_.expects_exchange;
   result.violations = journal_.violations() + checks_.failures();
   add_expectations(result);
   journal_.fill(result);

@@ -17,19 +17,31 @@ std::string microseconds(Tick tick) {
   return fmt::format("{:.3f} us", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
 }
 
-/// An expectation of the scenario that the slave is out of data exchange at some time.
-bool says_otherwise(const Expectation& expectation) {
-  static constexpr std::array<std::string_view, 2> kEnds = {"WD_EXPIRED", "BAUD_LOST"};
+constexpr std::array<std::string_view, 2> kEnds = {"WD_EXPIRED", "BAUD_LOST"};  ///< data exchange
+
+bool is_end(std::string_view code) { return std::find(kEnds.begin(), kEnds.end(), code) != kEnds.end(); }
+
+bool is_away(const Expectation& expectation) {
   return (expectation.dp_state && *expectation.dp_state != profibus::DpState::kDataExch) ||
-         (expectation.baud && !*expectation.baud) || expectation.data_exchanges_at_most ||
-         std::find(kEnds.begin(), kEnds.end(), expectation.event.text) != kEnds.end();
+         (expectation.baud && !*expectation.baud) || expectation.data_exchanges_at_most == 0;
+}
+
+/// That the slave is not in data exchange at the end, or never.
+bool is_away_at_the_end(const Expectation& expectation) {
+  return is_away(expectation) && !expectation.at && !expectation.by;
+}
+
+/// That it is not in data exchange at some time, or that something happens that ends it.
+bool leaves(const Expectation& expectation) {
+  const bool never = expectation.count_at_most == 0;
+  return (is_away(expectation) && expectation.at) || (is_end(expectation.event.text) && !never);
 }
 
 enum class Effect : std::uint8_t {
   kNone,
   kDisturbs,   ///< the slave may leave data exchange, and comes back by itself
   kKeepsAway,  ///< until another action ends that
-  kEnds,       ///< that an earlier action keeps it away
+  kRestores,   ///< that an earlier action keeps it away
 };
 
 Effect effect_of(const Action& action) {
@@ -38,10 +50,9 @@ Effect effect_of(const Action& action) {
     case ActionKind::kStopMaster:
     case ActionKind::kSetSlaveAddress: return Effect::kKeepsAway;
     case ActionKind::kPlug:
-    case ActionKind::kStartMaster: return Effect::kEnds;
-    case ActionKind::kVerdict: return action.refuse ? Effect::kKeepsAway : Effect::kEnds;
+    case ActionKind::kStartMaster: return Effect::kRestores;
+    case ActionKind::kVerdict: return action.refuse ? Effect::kKeepsAway : Effect::kRestores;
     case ActionKind::kReinitialise:
-      return action.new_address || action.cfg ? Effect::kKeepsAway : Effect::kDisturbs;
     case ActionKind::kResetChip:
     case ActionKind::kOfChip:
     case ActionKind::kWrongLength:
@@ -86,22 +97,31 @@ std::string advice_of(const ChipKind& kind, const std::string& code) {
 }  // namespace
 
 ExchangeWatch::ExchangeWatch(const scenario::Scenario& scenario, const Stations& stations)
-    : scenario_(scenario), stations_(stations), steps_(scenario.slaves.size()) {
+    : scenario_(scenario), stations_(stations), steps_(scenario.slaves.size()), ends_(scenario.slaves.size()) {
   if (!scenario.expects_exchange) return;
-  for (const scenario::Master& master : scenario.masters) {
-    for (const scenario::MasterSlave& slave : master.slaves) {
-      if (slave.slave.empty()) continue;
-      Entry entry{master.name.text, slave.slave.text, slave.line};
-      entry.expected = std::none_of(
-          scenario.expect.begin(), scenario.expect.end(),
-          [&slave](const Expectation& each) { return each.slave.text == slave.slave.text && says_otherwise(each); });
-      entries_.push_back(std::move(entry));
-    }
-  }
+  for (const scenario::Master& master : scenario.masters)
+    for (const scenario::MasterSlave& listed : master.slaves) add(master, listed);
+}
+
+/// A slave that is listed by its address alone is the scenario's that has it; with another address nobody is meant.
+void ExchangeWatch::add(const scenario::Master& master, const scenario::MasterSlave& listed) {
+  const auto slave = std::find_if(scenario_.slaves.begin(), scenario_.slaves.end(), [&listed](const auto& each) {
+    return listed.slave.empty() ? listed.address == each.address : listed.slave.text == each.name.text;
+  });
+  if (slave == scenario_.slaves.end()) return;
+  const std::string& name = slave->name.text;
+  const auto any = [&](bool (*is)(const Expectation&)) {
+    return std::any_of(scenario_.expect.begin(), scenario_.expect.end(),
+                       [&](const Expectation& each) { return each.slave.text == name && is(each); });
+  };
+  if (any(is_away_at_the_end)) return;
+  entries_.push_back({master.name.text, name, listed.slave.empty() ? fmt::format("address {}", *listed.address) : name,
+                      listed.line, any(leaves)});
 }
 
 void ExchangeWatch::event(std::size_t slave, const profibus::Event& event) {
   const char* const code = profibus::code(event.reason);
+  if (is_end(code)) ends_[slave] = event;
   const std::optional<std::size_t> step = step_of(code);
   if (!step) return;
   std::optional<profibus::Event>& stands = steps_[slave][*step];
@@ -114,23 +134,27 @@ void ExchangeWatch::event(std::size_t slave, const profibus::Event& event) {
 void ExchangeWatch::master_state(Tick now, const std::string& master, const std::string& member,
                                  const std::string& state) {
   const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& each) {
-    return each.master == master && each.slave == member;
+    return each.master == master && each.member == member;
   });
   if (entry == entries_.end()) return;
   const bool in = state == bus::name(bus::SlaveState::kDataExchange);
   if (in) {
     entry->since = now;
     entry->disturbed = false;
-  } else if (entry->in && !entry->disturbed && !entry->kept_away && entry->left++ == 0) {
+  } else if (entry->in && !entry->disturbed && !entry->kept_away && !entry->may_leave && entry->left++ == 0) {
     entry->first_left = now;
     entry->why = stations_.master(master).slave(*stations_.listed_address(member)).step_reason;
+    const auto& end = ends_[index_of(entry->slave)];
+    if (end && end->at >= *entry->since)
+      entry->why += fmt::format("; {} at {}", profibus::code(end->reason), microseconds(end->at));
   }
   entry->in = in;
 }
 
-void ExchangeWatch::acts(const Action& action) {
-  const Effect effect = effect_of(action);
+void ExchangeWatch::acts(const Action& action, Tick now) {
+  Effect effect = effect_of(action);
   if (effect == Effect::kNone) return;
+  if (effect == Effect::kDisturbs && now + action.duration.value_or(0) >= scenario_.end) effect = Effect::kKeepsAway;
   for (Entry& entry : entries_) {
     if (!concerns(action, scenario_.masters.front().name.text, entry.master, entry.slave)) continue;
     entry.disturbed = true;
@@ -138,44 +162,49 @@ void ExchangeWatch::acts(const Action& action) {
   }
 }
 
-ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult* slave) const {
+ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult& slave) const {
   ExpectationResult result;
-  result.text = fmt::format("{}: data exchange with {}, from then on to the end", entry.slave, entry.master);
+  result.text = fmt::format("{} comes to data exchange with {} and stays to the end (implied; expect: none switches it off)",
+                            entry.slave, entry.master);
   result.line = entry.line;
   result.implied = true;
-  const bool there = entry.in && (slave == nullptr || slave->status.dp_state == profibus::DpState::kDataExch);
-  result.passed = entry.left == 0 && (there || entry.kept_away);
-  const std::string state = slave == nullptr ? "not there" : name(slave->status.dp_state);
-  if (entry.left != 0)
+  const bool there = entry.in && slave.status.dp_state == profibus::DpState::kDataExch;
+  result.left_out = entry.left == 0 && !there && entry.since && entry.kept_away;
+  result.passed = entry.left == 0 && there;
+  const std::string state = there ? "in data exchange" : entry.in || slave.status.dp_state != profibus::DpState::kDataExch
+                                ? name(slave.status.dp_state)
+                                : "no longer asked or heard by " + entry.master;
+  if (!entry.since)
+    result.seen = "never, " + state + " at the end";
+  else if (entry.left != 0)
     result.seen = fmt::format("left {} time{} without the script, first at {}{}; {} at the end", entry.left,
                               entry.left == 1 ? "" : "s", microseconds(entry.first_left),
-                              entry.why.empty() ? "" : ", " + entry.why, there ? "back" : state);
-  else if (entry.since)
-    result.seen = fmt::format("since {}{}", microseconds(*entry.since), there ? "" : ", but at the end " + state);
+                              entry.why.empty() ? "" : ", " + entry.why, state);
   else
-    result.seen = "never, " + state + " at the end";
-  if (result.passed || slave == nullptr || there) return result;
-  if (!slave->master_reason.empty()) result.seen += fmt::format("; {}: {}", entry.master, slave->master_reason);
-  if (!slave->waits_for.empty()) result.seen += "; " + slave->waits_for;
+    result.seen = fmt::format("since {}{}{}", microseconds(*entry.since), there ? "" : ", but at the end " + state,
+                              result.left_out ? ": the script keeps it away" : "");
+  if (result.passed || result.left_out || there) return result;
+  if (!slave.master_reason.empty()) result.seen += fmt::format("; {}: {}", entry.master, slave.master_reason);
+  if (!slave.waits_for.empty()) result.seen += "; " + slave.waits_for;
   return result;
 }
 
 std::vector<ExpectationResult> ExchangeWatch::finish(const std::vector<SlaveResult>& slaves) const {
   std::vector<ExpectationResult> results;
-  for (const Entry& entry : entries_) {
-    if (!entry.expected) continue;
-    const auto slave = std::find_if(slaves.begin(), slaves.end(),
-                                    [&entry](const SlaveResult& each) { return each.name == entry.slave; });
-    results.push_back(judged(entry, slave == slaves.end() ? nullptr : &*slave));
-  }
+  results.reserve(entries_.size());
+  for (const Entry& entry : entries_) results.push_back(judged(entry, slaves[index_of(entry.slave)]));
   return results;
+}
+
+std::size_t ExchangeWatch::index_of(const std::string& slave) const {
+  const auto found = std::find_if(scenario_.slaves.begin(), scenario_.slaves.end(),
+                                  [&slave](const scenario::Slave& each) { return each.name.text == slave; });
+  return static_cast<std::size_t>(found - scenario_.slaves.begin());
 }
 
 std::string ExchangeWatch::waits_for(const SlaveResult& slave) const {
   if (slave.status.dp_state == profibus::DpState::kDataExch) return "";
-  const auto of_name = [&slave](const scenario::Slave& each) { return each.name.text == slave.name; };
-  const auto found = std::find_if(scenario_.slaves.begin(), scenario_.slaves.end(), of_name);
-  const Steps& steps = steps_[static_cast<std::size_t>(found - scenario_.slaves.begin())];
+  const Steps& steps = steps_[index_of(slave.name)];
   const auto stands = std::find_if(steps.begin(), steps.end(), [](const auto& each) { return each.has_value(); });
   if (stands == steps.end())
     return slave.status.dp_state == profibus::DpState::kOffline ? "its user CPU has not initialised it" : "";

@@ -22,7 +22,7 @@ class ExchangeWatch : public Observer {
   void event(std::size_t slave, const profibus::Event& event) override;
   void master_state(Tick now, const std::string& master, const std::string& member, const std::string& state) override;
   /// The script carries out an action.
-  void acts(const scenario::Action& action);
+  void acts(const scenario::Action& action, Tick now);
 
   /// At the end of a run; none where the scenario wants none.
   std::vector<ExpectationResult> finish(const std::vector<SlaveResult>& slaves) const;
@@ -33,8 +33,9 @@ class ExchangeWatch : public Observer {
   /// A slave in the list of a master.
   struct Entry {
     std::string master, slave;
+    std::string member;         ///< what the master calls it
     int line = 0;
-    bool expected = true;       ///< the scenario says nothing else of it
+    bool may_leave = false;     ///< the scenario says so
     bool in = false;            ///< data exchange, as its master has it
     bool disturbed = false;     ///< by the script since it came to data exchange: it may leave it
     bool kept_away = false;     ///< by the script, until the script ends that
@@ -43,14 +44,17 @@ class ExchangeWatch : public Observer {
     Tick first_left = 0;
     std::string why = {};  ///< the first time
   };
+  void add(const scenario::Master& master, const scenario::MasterSlave& listed);
   /// Of each step to data exchange what stands in the way of it, as the chip has said; empty when nothing does.
   using Steps = std::array<std::optional<profibus::Event>, 4>;
-  ExpectationResult judged(const Entry& entry, const SlaveResult* slave) const;
+  ExpectationResult judged(const Entry& entry, const SlaveResult& slave) const;
+  std::size_t index_of(const std::string& slave) const;
 
   const scenario::Scenario& scenario_;
   const Stations& stations_;
   std::vector<Entry> entries_;
-  std::vector<Steps> steps_;  ///< by slave
+  std::vector<Steps> steps_;                          ///< by slave
+  std::vector<std::optional<profibus::Event>> ends_;  ///< by slave: the last event that ends data exchange
 };
 
 }  // namespace dsdpv1::tb

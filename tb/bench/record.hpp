@@ -99,7 +99,7 @@ struct ExpectationResult {
   int line = 0;
   bool passed = false;
   std::string seen;
-  bool left_out = false;  ///< of firmware that does not tell: not judged
+  bool left_out = false;  ///< not judged: of firmware that does not tell, or the script keeps the slave away
   bool implied = false;   ///< by a master that has the slave; `line`: of the slave in the master's list
 };
 
@@ -129,6 +129,7 @@ struct RunResult {
   std::string scenario, file, engine, view;
   bool interrupted = false;
   ChecksMode checks_mode = ChecksMode::kFail;
+  bool expects_exchange = true;  ///< see ExchangeWatch; false: the scenario wants none
   std::uint64_t checks_off = 0;  ///< that the scenario leaves out, each counted once
   Tick simulated = 0;
   double wall_s = 0;

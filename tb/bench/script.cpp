@@ -79,7 +79,7 @@ void Script::carry_out(const Due& due, Tick now) {
       break;
     }
     case Kind::kAction:
-      on_action(scenario.script[due.index]);
+      on_action(scenario.script[due.index], now);
       act(scenario.script[due.index], now);
       break;
     case Kind::kResumeUser:

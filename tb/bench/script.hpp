@@ -25,7 +25,7 @@ class Script : public bus::Agent, public Observer {
          Replies& replies, const std::set<const void*>& left_out);
 
   /// Told of each action before it is carried out.
-  std::function<void(const scenario::Action& action)> on_action;
+  std::function<void(const scenario::Action& action, Tick now)> on_action;
 
   /// Conditions are looked at again at `at`.
   void changed(Tick at) override {

@@ -7,15 +7,16 @@
 namespace dsdpv1::tb {
 namespace {
 
+bool is_missed(const ExpectationResult& each) { return !each.passed && !each.left_out; }
+
 bool failed(const RunResult& result) {
-  const auto missed = [](const ExpectationResult& each) { return !each.passed && !each.left_out; };
-  return result.violations != 0 || std::any_of(result.expectations.begin(), result.expectations.end(), missed) ||
+  return result.violations != 0 || std::any_of(result.expectations.begin(), result.expectations.end(), is_missed) ||
          (result.lockstep && result.lockstep->difference);
 }
 
 bool judged(const RunResult& result) {
   if (result.pacing && result.pacing->telegrams_from_host != 0) return true;
-  const auto is_judged = [](const ExpectationResult& each) { return !each.left_out; };
+  const auto is_judged = [](const ExpectationResult& each) { return !each.left_out || each.implied; };
   const auto exchanges = [](const SlaveResult& each) { return each.status.data_exchanges != 0; };
   return std::any_of(result.expectations.begin(), result.expectations.end(), is_judged) ||
          std::any_of(result.slaves.begin(), result.slaves.end(), exchanges);
@@ -28,17 +29,15 @@ std::uint64_t allowed(const RunResult& result) {
 }
 
 std::string counted(std::uint64_t count, const char* one, const char* what) {
-  return count == 0 ? "" : fmt::format(", {} {}{} {}", count, one, count == 1 ? "" : "s", what);
+  const std::string after = *what == '\0' ? "" : std::string(" ") + what;
+  return count == 0 ? "" : fmt::format(", {} {}{}{}", count, one, count == 1 ? "" : "s", after);
 }
 
-const char* capitals(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kPassed: return "PASSED";
-    case Verdict::kFailed: return "FAILED";
-    case Verdict::kNothingJudged: return "NOTHING JUDGED";
-    case Verdict::kInterrupted: return "INTERRUPTED";
-  }
-  return "";
+std::string faults(const RunResult& result) {
+  const auto unmet = static_cast<std::uint64_t>(std::count_if(result.expectations.begin(), result.expectations.end(), is_missed));
+  const std::string text = counted(unmet, "expectation", "not met") + counted(result.violations, "violation", "") +
+                           (result.lockstep && result.lockstep->difference ? ", model and RTL differ" : "");
+  return text.substr(2);
 }
 
 }  // namespace
@@ -81,10 +80,15 @@ std::string not_judged(const RunResult& result) {
                                       [](const ExpectationResult& each) { return each.left_out; });
   return counted(violations_not_judged(result), "violation", "not judged") +
          counted(static_cast<std::uint64_t>(left_out), "expectation", "not judged") +
-         counted(allowed(result), "violation", "allowed") +
+         counted(allowed(result), "violation", "allowed") + (result.expects_exchange ? "" : ", data exchange not expected") +
          (result.checks_mode == ChecksMode::kOff ? ", checks off" : counted(result.checks_off, "check", "off"));
 }
 
-std::string words(const RunResult& result) { return capitals(verdict(result)) + not_judged(result); }
+std::string words(const RunResult& result) {
+  const Verdict it = verdict(result);
+  if (it == Verdict::kFailed) return "FAILED: " + faults(result);
+  if (it == Verdict::kNothingJudged) return "NOTHING JUDGED: no data exchange, and nothing was expected";
+  return (it == Verdict::kPassed ? "PASSED" : "INTERRUPTED") + not_judged(result);
+}
 
 }  // namespace dsdpv1::tb

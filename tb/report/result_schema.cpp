@@ -118,7 +118,7 @@ Json lockstep() {
 Json expectation() {
   return object({{"text", text("in words")},
                  {"line", count("where it stands in the scenario")},
-                 {"passed", or_null(boolean("null: not judged, since firmware does not tell"))},
+                 {"passed", or_null(boolean("null: not judged, since firmware does not tell, or the script keeps the slave away"))},
                  {"seen", text("what was seen")},
                  {"implied", boolean("by a master that has the slave: data exchange, to the end")}},
                 "an expectation");

@@ -96,13 +96,13 @@ std::string masters(const RunResult& result) {
 
 std::string expectations(const RunResult& result) {
   std::string text;
-  std::size_t all = 0, met = 0, left_out = 0, implied = 0, kept = 0;
+  std::size_t all = 0, met = 0, left_out = 0, implied = 0, kept = 0, kept_away = 0;
   for (const ExpectationResult& each : result.expectations) {
     ++(each.implied ? implied : all);
     if (each.passed) {
       ++(each.implied ? kept : met);
     } else if (each.left_out) {
-      ++left_out;
+      ++(each.implied ? kept_away : left_out);
     } else {
       text += "  NOT MET  " +
               bus::printable(fmt::format("{}:{}: {}; seen: {}", result.file, each.line, each.text, each.seen)) + "\n";
@@ -112,15 +112,24 @@ std::string expectations(const RunResult& result) {
                                    : fmt::format("  expectations   {} of {} met{}\n", met, all,
                                                  left_out != 0 ? fmt::format(", {} left out", left_out) : "");
   const std::string of_masters =
-      implied == 0 ? "" : fmt::format("  data exchange  {} of {} slaves of masters, to the end\n", kept, implied);
+      implied == 0 ? ""
+                   : fmt::format("  data exchange  {} of {} slaves of masters to the end{}\n", kept, implied,
+                                 kept_away != 0 ? fmt::format(", the script keeps {} away", kept_away) : "");
   return of_masters + own + text;
 }
 
-/// Of each slave that is not in data exchange: why not, as its master and its chip have it.
+/// By an expectation that is not met.
+bool is_said(const RunResult& result, const SlaveResult& slave) {
+  return std::any_of(result.expectations.begin(), result.expectations.end(), [&slave](const ExpectationResult& each) {
+    return each.implied && !each.passed && !each.left_out && each.text.rfind(slave.name + " ", 0) == 0;
+  });
+}
+
+/// Of each other slave that is not in data exchange: why not, as its master and its chip have it.
 std::string waiting(const RunResult& result) {
   std::string text;
   for (const SlaveResult& slave : result.slaves) {
-    if (slave.status.dp_state == profibus::DpState::kDataExch) continue;
+    if (slave.status.dp_state == profibus::DpState::kDataExch || is_said(result, slave)) continue;
     text += fmt::format("  {} is in {}", slave.name, name(slave.status.dp_state));
     if (!slave.master_reason.empty()) text += "; its master: " + bus::printable(slave.master_reason);
     if (!slave.waits_for.empty()) text += "; " + bus::printable(slave.waits_for);
@@ -174,7 +183,10 @@ std::string summary(const RunResult& result) {
   if (result.pacing) text += pacing(*result.pacing);
   text += boards(result);
   if (result.violations != 0)
-    text += fmt::format("  violations     {} that the scenario does not allow\n", result.violations);
+    text += fmt::format("  violations     {} that the scenario does not allow{}\n", result.violations,
+                        result.checks_mode == ChecksMode::kFail
+                            ? ""
+                            : ", reported by the chip and the bus monitor: judged whatever the mode of the checks");
   text += expectations(result) + check_report(result);
   return text + fmt::format("\n{}\n", words(result));
 }

@@ -78,7 +78,7 @@ const Field& walk(const Object& object, const Steps& steps, std::size_t at, cons
                   const std::string& origin) {
   const Field& field = find(object, steps[at], kind, origin);
   if (at + 1 == steps.size()) {
-    check_end(field, origin);
+    if (field.type.words.empty()) check_end(field, origin);  // else a word may stand in its place
     return field;
   }
   check_middle(field, steps[at + 1], origin);

@@ -27,7 +27,7 @@ TEST(RunJunit, HasACaseForTheRunItsViolationsAndEachExpectation) {
   ASSERT_EQ(cases.size(), 5U);
   EXPECT_EQ(cases[0].name, "run, engine skip, view pins");
   EXPECT_EQ(cases[0].seconds, 1.5);
-  EXPECT_THAT(cases[0].output, HasSubstr("FAILED, 1 expectation not judged"));
+  EXPECT_THAT(cases[0].output, HasSubstr("FAILED: 1 expectation not met"));
   EXPECT_EQ(cases[1].name, "no violation that the scenario does not allow");
   EXPECT_EQ(cases[2].name, "line 12: demo: dp_state DATA_EXCH");
   for (const tb::JunitCase& each : cases) {

@@ -51,7 +51,7 @@ void expect_fails(const Given& given, const std::string& seen) {
 TEST(ImpliedExchange, IsReachedAndKept) {
   const tb::RunResult result = run({});
   EXPECT_TRUE(implied(result).passed) << implied(result).seen;
-  EXPECT_EQ(implied(result).text, "io: data exchange with plc, from then on to the end");
+  EXPECT_THAT(implied(result).text, HasSubstr("io comes to data exchange with plc and stays to the end"));
   EXPECT_EQ(implied(result).line, 7);
   EXPECT_EQ(tb::words(result), "PASSED");
 }
@@ -62,6 +62,10 @@ TEST(ImpliedExchange, OfAnotherIdentIsNeverReached) {
 
 TEST(ImpliedExchange, OfAnotherConfigurationIsNeverReached) {
   expect_fails({"", ", cfg: \"32\""}, "never, WAIT_CFG at the end; plc: Cfg_Fault; CFG_IO_LENGTH since ");
+}
+
+TEST(ImpliedExchange, WithoutAVerdictOfTheUserIsNeverReachedAndTheUserOwesIt) {
+  expect_fails({"", "", "judge_prm: never", ", prm_mode: 2"}, "PRM_TO_USER since 1");  // us: the first Set_Prm
 }
 
 TEST(ImpliedExchange, WithAnotherAddressIsNeverReached) { expect_fails({"", ", address: 6"}, "never, "); }
@@ -92,7 +96,39 @@ TEST(ImpliedExchange, StaysExpectedBesideOtherExpectations) {
 /// A master that stops cuts its telegram off.
 const std::string kCut = "allow:\n  - {event: BUS_CHARACTER_ERROR}\n  - {event: BUS_TELEGRAM_ERROR}\n";
 
-TEST(ImpliedExchange, MayEndWithTheMaster) { expect_passes({"script:\n  - {at: 5ms, do: stop_master}\n" + kCut}); }
+TEST(ImpliedExchange, IsNotJudgedToTheEndWhenTheScriptKeepsTheSlaveAway) {
+  for (const char* action : {"do: unplug, slave: io", "do: stop_master", "do: reset_chip, slave: io, for: 100ms", "do: pause_user, slave: io, for: 1s"}) {
+    const tb::RunResult result = run({std::string("script:\n  - {at: 4ms, ") + action + "}\n" + kCut, ", watchdog: 1ms"});
+    EXPECT_EQ(tb::verdict(result), tb::Verdict::kPassed) << action << implied(result).seen;
+    EXPECT_TRUE(implied(result).left_out || implied(result).passed) << action;
+  }
+}
+
+TEST(ImpliedExchange, MustHaveBeenThereBeforeTheScriptKeepsTheSlaveAway) {
+  for (const char* action : {"do: unplug, slave: io", "do: stop_master", "do: reinitialise, slave: io, cfg: \"32\""})
+    expect_fails({std::string("script:\n  - {at: 7ms, ") + action + "}\n" + kCut, ", ident: 0xC90C"}, "never, ");
+}
+
+TEST(ImpliedExchange, MustComeBackAfterAReinitialisation) {
+  expect_passes({"script:\n  - {at: 4ms, do: reinitialise, slave: io}\n"});
+  expect_fails({"script:\n  - {at: 4ms, do: reinitialise, slave: io, new_address: 6}\n"}, "at the end");
+}
+
+TEST(ImpliedExchange, OfASlaveThatIsListedByItsAddressIsExpectedToo) {
+  const auto listed = [](const char* more) {
+    tb::scenario::Scenario scenario = tb::scenario::parse(std::string("name: x\nbaud: 12M\nend: 8ms\nslaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: \"31\"}}\n"
+                                                                      "masters:\n  - {name: plc, address: 2, slaves: [{address: 5, cfg: \"31\", ident: ") + more + "}, {address: 9, cfg: \"31\", ident: 1}]}\n", "x.yaml");
+    tb::Bench bench(scenario, {}, tb::make_pin_execution());
+    return bench.run([](tb::Tick) { return true; });
+  };
+  EXPECT_TRUE(implied(listed("0x0CC9")).passed);
+  EXPECT_FALSE(implied(listed("1")).passed);
+}
+
+TEST(ImpliedExchange, IsNotSwitchedOffByAnExpectationThatAsksForMore) {
+  for (const char* more : {"event: WD_EXPIRED, count_at_most: 0", "dp_state: wait_prm, by: 5ms", "data_exchanges_at_most: 5"})
+    EXPECT_EQ(tb::verdict(run({std::string("expect:\n  - {slave: io, ") + more + "}\n", ", ident: 0xC90C"})), tb::Verdict::kFailed) << more;
+}
 
 TEST(ImpliedExchange, ComesBackWithTheMaster) {
   expect_passes({"script:\n  - {at: 4ms, do: stop_master}\n  - {at: 5ms, do: start_master}\n"});
@@ -101,8 +137,6 @@ TEST(ImpliedExchange, ComesBackWithTheMaster) {
 TEST(ImpliedExchange, MustComeBackInTime) {
   expect_fails({"script:\n  - {at: 4ms, do: stop_master}\n  - {at: 7990us, do: start_master}\n"}, "at the end");
 }
-
-TEST(ImpliedExchange, MayEndWithTheSlaveUnplugged) { expect_passes({"script:\n  - {at: 4ms, do: unplug, slave: io}\n"}); }
 
 TEST(ImpliedExchange, OfOneSlaveMayEndWithAnotherOnlyByItsOwnFault) {
   // The user loses the DPRAM for good, which no script has told it to.
@@ -115,11 +149,15 @@ TEST(ImpliedExchange, ComesBackAfterAReset) {
 
 // --- checks
 
-TEST(ChecksOfAScenario, FailByDefaultAndMayBeReportedOrOff) {
-  const std::string rude = "fsmc: {mode: A, datast: 1}";
-  EXPECT_EQ(tb::verdict(run({"", "", rude})), tb::Verdict::kFailed);
-  const tb::RunResult reported = run({"checks: {mode: report}\nallow:\n  - {event: HOST_TS}\n  - {event: HOST_TW}\n  - {event: HOST_TD_SETUP}\n", "", rude});
-  EXPECT_THAT(tb::words(reported), HasSubstr(" violations not judged"));
+TEST(ChecksOfAScenario, FailByDefaultAndMayBeReportedAllowedOrOff) {
+  const auto words = [](const std::string& mode, const std::string& more = "") {
+    return tb::words(run({"checks: {" + mode + "INTR0_SERVICE: {max: 1ns}}\n" + more, "", "", ", prm_mode: 2"}));
+  };
+  EXPECT_EQ(words(""), "FAILED: 2 violations");
+  EXPECT_EQ(words("mode: fail, "), "FAILED: 2 violations");
+  EXPECT_EQ(words("mode: report, "), "PASSED, 2 violations not judged");
+  EXPECT_EQ(words("mode: off, "), "PASSED, checks off");
+  EXPECT_EQ(words("", "allow:\n  - {event: INTR0_SERVICE}\n"), "PASSED, 2 violations allowed");
 }
 
 TEST(ChecksOfAScenario, CannotBeExpectedWhenTheyAreNotMade) {

@@ -14,6 +14,8 @@ using tb::RunResult;
 
 const checks::Rule kRule = {"TIMING_TS", checks::Bound::kMin, 150, 0, "", "", "", "", ""};
 
+constexpr const char* kNothing = "NOTHING JUDGED: no data exchange, and nothing was expected";
+
 struct Case {
   const char* name;
   std::function<void(RunResult& result)> make;
@@ -40,26 +42,26 @@ void violated_check(RunResult& result, ChecksMode mode, std::uint64_t count, std
 ExpectationResult expectation(bool passed, bool left_out = false) { return {"", 1, passed, "", left_out}; }
 
 const Case kCases[] = {
-    {"Nothing", [](RunResult&) {}, 3, "nothing_judged", "NOTHING JUDGED"},
+    {"Nothing", [](RunResult&) {}, 3, "nothing_judged", kNothing},
     {"DataExchange", exchange, 0, "passed", "PASSED"},
     {"ExpectationMet", [](RunResult& r) { r.expectations = {expectation(true)}; }, 0, "passed", "PASSED"},
     {"ExpectationNotMet", [](RunResult& r) { r.expectations = {expectation(true), expectation(false)}; }, 1, "failed",
-     "FAILED"},
+     "FAILED: 1 expectation not met"},
     {"OnlyLeftOut", [](RunResult& r) { r.expectations = {expectation(false, true)}; }, 3, "nothing_judged",
-     "NOTHING JUDGED, 1 expectation not judged"},
+     kNothing},
     {"Violation",
      [](RunResult& r) {
        exchange(r);
        r.violations = 2;
      },
-     1, "failed", "FAILED"},
+     1, "failed", "FAILED: 2 violations"},
     {"AllowedViolation",
      [](RunResult& r) {
        exchange(r);
        r.allowed = 2;
      },
      0, "passed", "PASSED, 2 violations allowed"},
-    {"CheckViolated", [](RunResult& r) { violated_check(r, ChecksMode::kFail, 140, 0); }, 1, "failed", "FAILED"},
+    {"CheckViolated", [](RunResult& r) { violated_check(r, ChecksMode::kFail, 140, 0); }, 1, "failed", "FAILED: 140 violations"},
     {"CheckAllowed", [](RunResult& r) { violated_check(r, ChecksMode::kFail, 140, 140); }, 0, "passed",
      "PASSED, 140 violations allowed"},
     {"CheckReported", [](RunResult& r) { violated_check(r, ChecksMode::kReport, 141, 1); }, 0, "passed",
@@ -70,6 +72,12 @@ const Case kCases[] = {
        r.checks_mode = ChecksMode::kOff;
      },
      0, "passed", "PASSED, checks off"},
+    {"NothingExpected",
+     [](RunResult& r) {
+       exchange(r);
+       r.expects_exchange = false;
+     },
+     0, "passed", "PASSED, data exchange not expected"},
     {"OneCheckOff",
      [](RunResult& r) {
        exchange(r);
@@ -82,11 +90,11 @@ const Case kCases[] = {
        r.lockstep.emplace();
        r.lockstep->difference.emplace();
      },
-     1, "failed", "FAILED"},
+     1, "failed", "FAILED: model and RTL differ"},
     {"ModelAndRtlAreTheSame",
      [](RunResult& r) { r.lockstep.emplace(); },
-     3, "nothing_judged", "NOTHING JUDGED"},
-    {"ServeWithoutATelegram", [](RunResult& r) { r.pacing.emplace(); }, 3, "nothing_judged", "NOTHING JUDGED"},
+     3, "nothing_judged", kNothing},
+    {"ServeWithoutATelegram", [](RunResult& r) { r.pacing.emplace(); }, 3, "nothing_judged", kNothing},
     {"ServeWithATelegram",
      [](RunResult& r) {
        r.pacing.emplace();

@@ -18,14 +18,15 @@ own (`dsdpv1-sim cosim`) the same way, and find the same to the tick.
 
 ## Use
 
-`dsdpv1-sim run SCENARIO --checks report|fail|off`
+`dsdpv1-sim run SCENARIO --checks fail|report|off`, or `checks: {mode: ...}` in the scenario; of the C API, Python, `serve`, `regress`, `replay` and `cosim` too
 
-- **report** (default): violations are listed, in the table, in the log (kind `check`) and in the result file. They do not fail the run.
-- **fail**: a violation fails the run (exit 1), unless the scenario allows it: `allow: [{event: CRC_WRITTEN, slave: demo}]`.
-- **off**: nothing is watched, which costs nothing.
+- **fail** (default): a violation fails the run (exit 1), unless the scenario allows it: `allow: [{event: CRC_WRITTEN, slave: demo}]`.
+- **report**: violations are listed, in the table, in the log (kind `check`) and in the result file. They do not fail the run; the verdict says how
+  many were not judged ([verdicts.md](verdicts.md)).
+- **off**: nothing is watched, which costs nothing; the verdict says so.
 
 The id of a check stands wherever a scenario names the code of an event, so `expect: [{slave: demo, event: TIMING_TS}]` asks for a violation
-(not with `off`). Limits and single checks are set for all slaves of a scenario:
+(refused with `off`). Limits and single checks are set for all slaves of a scenario:
 
 ```
 checks:
