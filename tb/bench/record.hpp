@@ -26,7 +26,7 @@ struct Occurrence {
   std::string code;     ///< stable: "PRM_IDENT", "DSDPV1_ERR_INIT_CRC", "BUS_COLLISION"
   profibus::Severity severity = profibus::Severity::kInfo;
   std::string text;
-  std::string place = {};  ///< the cell that it is about, as "B31A"; empty: none
+  std::string place = {};  ///< the cell that it is about, as its documents write it; empty: none
   bool allowed = false;    ///< a violation that the scenario lists
 };
 

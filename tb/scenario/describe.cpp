@@ -106,10 +106,8 @@ ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
   o.list("script", &Scenario::script, action_keys(kind), kItems, "What happens during the run.");
   o.list_or("expect", &Scenario::expect, expectation_keys(), kItems, {"none", "not even data exchange"},
             &Scenario::expects_exchange,
-            "What must be true, else the run fails (exit 1). Each slave that a master of class 1 has must besides come to "
-            "data exchange, be in it at the end, and not leave it but for the script; not so where an expectation on the "
-            "slave says another `dp_state`, `baud: searching`, `data_exchanges_at_most` or an event that ends data exchange "
-            "(`WD_EXPIRED`, `BAUD_LOST`).");
+            "What must be true, else the run fails (exit 1). Besides, each slave that a master of class 1 has must come to data "
+            "exchange and stay there (docs/verdicts.md).");
   o.list("allow", &Scenario::allow, allow_keys(), kItems,
          "Violations that are expected. Every other one fails the run.");
   o.fields.push_back(checks_field(kind));

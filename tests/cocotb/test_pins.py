@@ -89,3 +89,25 @@ async def a_strobe_that_is_a_tick_too_short_is_found(dut):
     assert await margin(dut, 150) == ([], 0)
     short, worst = await margin(dut, 149)
     assert set(short) == {-1} and worst == -1, short
+
+
+@cocotb.test(expect_error=AssertionError)
+async def a_violation_fails_the_test_at_once(dut):
+    pins = await powered(dut)
+    PinChecker(pins)
+    pins.set("RESET", 1)
+    await wait(10 * US)
+    await HostPort(pins, AccessTiming(wr_low=149)).run(hold(twice_in_a_hold()))
+    await wait(1 * US)
+    raise RuntimeError("it went on")
+
+
+@cocotb.test()
+async def a_checker_that_judged_nothing_fails_the_test(dut):
+    checker = PinChecker(await powered(dut))
+    try:
+        checker.finish()
+    except AssertionError as error:
+        assert str(error) == "nothing was judged: nobody used the host port"
+    else:
+        raise RuntimeError("it passed")
