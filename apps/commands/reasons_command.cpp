@@ -112,7 +112,7 @@ std::vector<tb::CodeTable> all_tables(const tb::ChipKind& kind) {
   if (!kind.rules().empty())
     tables.push_back({"The checks",
                       "What the checks on the user's side found broken, see [checks.md](checks.md). They fail a run "
-                      "with `--checks fail` only.",
+                      "unless its checks are off or only reported.",
                       check_codes(kind)});
   return tables;
 }
