@@ -11,6 +11,8 @@
 
 namespace dsdpv1::tb::campaign {
 
+/// Exit codes of a run, docs/verdicts.md.
+constexpr int kPassed = 0, kFailed = 1, kWrongInput = 2, kNothingJudged = 3;
 constexpr int kSignalled = 128;  ///< an exit code above it: killed by the signal that is the difference
 
 /// A run that has come to its end.

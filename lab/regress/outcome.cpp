@@ -15,14 +15,13 @@ using campaign::Ended;
 using campaign::Json;
 
 constexpr std::array<const char*, 6> kNames = {"passed", "failed", "nothing_judged", "refused", "crashed", "hung"};
-constexpr int kPassedExit = 0, kWrongInput = 2, kNothingJudgedExit = 3;
 
 Verdict verdict_of(const Ended& ended) {
   if (ended.too_long) return Verdict::kHung;
   if (ended.exit > campaign::kSignalled) return Verdict::kCrashed;
-  if (ended.exit == kPassedExit) return Verdict::kPassed;
-  if (ended.exit == kNothingJudgedExit) return Verdict::kNothingJudged;
-  return ended.exit == kWrongInput ? Verdict::kRefused : Verdict::kFailed;
+  if (ended.exit == campaign::kPassed) return Verdict::kPassed;
+  if (ended.exit == campaign::kNothingJudged) return Verdict::kNothingJudged;
+  return ended.exit == campaign::kWrongInput ? Verdict::kRefused : Verdict::kFailed;
 }
 
 std::string first_unmet(const Json& result) {

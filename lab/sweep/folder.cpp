@@ -5,6 +5,7 @@
 
 #include <system_error>
 
+#include "lab/campaign/children.hpp"
 #include "lab/campaign/fingerprint.hpp"
 
 namespace dsdpv1::tb::sweep {
@@ -12,8 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr int kPassed = 0, kFailed = 1, kWrongInput = 2;
 
 bool is_picture(const std::string& name) {
   return name.rfind("map", 0) == 0 && name.size() > 4 && name.substr(name.size() - 4) == ".svg";
@@ -32,8 +31,9 @@ std::string difference(const Json& before, const Json& now) {
 /// What the result of a run says; nullopt when it is no result. Only these exit codes are about the point, see
 /// docs/sweep.md.
 std::optional<Point> statement(int exit, const std::string& error, const Json& result) {
-  const bool ran = (exit == kPassed || exit == kFailed) && error.empty() && result.is_object();
-  const bool refused = exit == kWrongInput && !error.empty() && result.is_null();
+  const bool judged = exit == campaign::kPassed || exit == campaign::kFailed || exit == campaign::kNothingJudged;
+  const bool ran = judged && error.empty() && result.is_object();
+  const bool refused = exit == campaign::kWrongInput && !error.empty() && result.is_null();
   if (!ran && !refused) return std::nullopt;
   return point_of(exit, error, result);
 }
@@ -78,7 +78,7 @@ std::optional<Point> Folder::finished(std::size_t point, const Plan& plan) const
 }
 
 std::optional<Point> Folder::finish(std::size_t point, const Plan& plan, int exit, const std::string& error) const {
-  const Json result = exit == kWrongInput ? Json() : campaign::read_json(result_file(point));
+  const Json result = exit == campaign::kWrongInput ? Json() : campaign::read_json(result_file(point));
   forget(point);
   try {
     if (!statement(exit, error, result)) return std::nullopt;

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "lab/campaign/children.hpp"
+
 namespace dsdpv1::tb::sweep {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr int kNothingJudged = 3;
 
 void take_first(std::optional<FirstViolation>& first, const FirstViolation& seen) {
   if (!first || seen.at_ns < first->at_ns) first = seen;
@@ -77,7 +77,7 @@ std::string Point::reason() const {
   const std::string seen =
       first ? fmt::format("{} at {:.3f} us: {}", first->code, first->at_ns / 1000, first->text) : "";
   if (!bad.empty() || !seen.empty()) return bad + (bad.empty() || seen.empty() ? "" : "; ") + seen;
-  if (exit == kNothingJudged) return "nothing was judged: no data exchange, and nothing was expected";
+  if (exit == campaign::kNothingJudged) return "nothing was judged: no data exchange, and nothing was expected";
   return unmet.empty() ? fmt::format("exit code {}", exit) : "not met: " + unmet;
 }
 

@@ -102,7 +102,7 @@ class Result:
         self._run = executed
         exit_code, words = ctypes.c_int32(), ctypes.c_char_p()
         lib.dpsim_run_verdict(executed, ctypes.byref(exit_code), ctypes.byref(words))
-        self.exit_code, self.verdict = int(exit_code.value), text(words)
+        self.exit_code, self.verdict = int(exit_code.value), text(words.value)
         self.name, self.slaves, self.kind = executed.name, executed.slaves, executed.kind  # type: str, typing.Tuple[str, ...], Kind
         self.passed, self.interrupted = bool(got.passed), bool(got.interrupted)
         self.simulated = int(got.simulated)  # ticks
