@@ -79,7 +79,7 @@ void Script::carry_out(const Due& due, Tick now) {
       break;
     }
     case Kind::kAction:
-      on_action(scenario.script[due.index], now);
+      if (on_action) on_action(scenario.script[due.index], now);
       act(scenario.script[due.index], now);
       break;
     case Kind::kResumeUser:

@@ -24,7 +24,7 @@ class Script : public bus::Agent, public Observer {
   Script(const scenario::Scenario& scenario, Stations& stations, bus::Segment& segment, Journal& journal,
          Replies& replies, const std::set<const void*>& left_out);
 
-  /// Told of each action before it is carried out.
+  /// Told of each action before it is carried out; null: nobody wants to know.
   std::function<void(const scenario::Action& action, Tick now)> on_action;
 
   /// Conditions are looked at again at `at`.

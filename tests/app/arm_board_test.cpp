@@ -305,7 +305,7 @@ TEST(ArmBoard, PathOfTheCommandLineIsRelativeToWhereTheUserStandsOneOfTheScenari
   std::ofstream(folder.path() / "scenarios" / "s.yaml")
       << "name: x\nbaud: 12M\nend: 1ms\nslaves:\n  - {name: own, address: 5, init: {ident: 1, max_inputs: 2, "
          "max_outputs: "
-         "2, cfg: \"31\"}, user_cpu: {kind: arm, elf: ../here/mine.elf}}\n";
+         "2, cfg: \"31\"}, user_cpu: {kind: arm, elf: ../here/mine.elf}}\nexpect: [{slave: own, event: READY_FLAG}]\n";
   EXPECT_EQ(call("run s.yaml", folder.path() / "scenarios").status, 0);
   EXPECT_EQ(call("run scenarios/s.yaml", folder.path()).status, 0);
   EXPECT_EQ(call("run ../scenarios/s.yaml --set user_cpu.elf=mine.elf", folder.path() / "here").status, 0);

@@ -26,15 +26,17 @@ const std::string kBoard = DSDPV1_BOARD;
 class HandOver : public testing::Test {
  protected:
   HandOver() {
-    write("s.yaml", std::string("{kind: arm, elf: \"") + FIRMWARE_WITHOUT_MAILBOX + "\"}");
+    write("s.yaml", std::string("{kind: arm, elf: \"") + FIRMWARE_WITHOUT_MAILBOX + "\"}",
+          "expect: [{slave: own, dp_state: offline}]\n");
     write("native.yaml", "{}");
   }
-  void write(const std::string& name, const std::string& user_cpu) const {
+  void write(const std::string& name, const std::string& user_cpu, const std::string& more = "") const {
     std::ofstream(file(name)) << "name: x\nbaud: 12M\nend: 3ms\nslaves:\n  - {name: own, address: 5, init: {ident: 1, "
                                  "max_inputs: 2, max_outputs: 2, cfg: \"31\"},\n     user_cpu: "
                               << user_cpu
                               << "}\nmasters:\n  - {name: plc, address: 2, slaves: [{slave: own, outputs: "
-                                 "\"01 02\"}]}\n";
+                                 "\"01 02\"}]}\n"
+                              << more;
   }
   std::string file(const std::string& name) const { return folder_.file(name); }
   Called sim(const std::string& arguments) const { return call(arguments, folder_.path()); }
