@@ -109,8 +109,9 @@ void add_report_options(CLI::App& command, RunArguments& arguments) {
   command.add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command.add_option("--result", arguments.result, "Result and measurements as JSON");
   command.add_option("--report", arguments.report, kReportHelp);
-  command.add_option("--junit", arguments.junit,
-                     "The verdict for CI as JUnit's XML: a case for the run, its violations, each check and expectation");
+  command.add_option(
+      "--junit", arguments.junit,
+      "The verdict for CI as JUnit's XML: a case for the run, its violations, each check and expectation");
 }
 
 /// What a run is held against, and with what RTL; those that a saved run already has.

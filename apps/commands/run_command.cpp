@@ -185,9 +185,7 @@ LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make,
   cosim::LockstepExecution& execution = *made;
   LockstepOutcome outcome;
   LockstepSteps steps;
-  steps.judge = [&](tb::RunResult& result) {
-    result.lockstep = execution.result();
-  };
+  steps.judge = [&](tb::RunResult& result) { result.lockstep = execution.result(); };
   steps.report = [&] {
     std::string text;
     const bool same = cosim::report(execution, request.arguments.difference, text);

@@ -216,8 +216,9 @@ bus::Bytes read_bytes(const Field& field, const YAML::Node& node, const Source& 
 }
 
 bool is_word_of(const Field& field, const YAML::Node& node) {
-  return node.IsScalar() && std::any_of(field.type.words.begin(), field.type.words.end(),
-                                        [&node](const Word& word) { return node.Scalar() == word.text; });
+  return node.IsScalar() && std::any_of(
+                                field.type.words.begin(), field.type.words.end(),
+                                [&node](const Word& word) { return node.Scalar() == word.text; });
 }
 
 void check_list(const Field& field, const YAML::Node& node, const Source& source) {

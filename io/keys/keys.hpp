@@ -37,7 +37,7 @@ struct Object;
 struct Type {
   Kind kind = Kind::kText;
   Range range;
-  std::string unit;  ///< of an integer or number, for people
+  std::string unit;                ///< of an integer or number, for people
   std::vector<Word> words;         ///< of a kWord; of a kList: a word in the place of a list
   Kind element = Kind::kObject;    ///< of a kList
   Range each;                      ///< of the elements of a kList of integers
@@ -300,18 +300,17 @@ class ObjectOf : public Object {
 
   /// A list, or `word` in its place, which makes `flag` false.
   template <class U>
-  Field& list_or(const char* key, std::vector<U> T::*member, const ObjectOf<U>& described, Range items, const Word& word,
-                 bool T::*flag, const char* text) {
+  Field& list_or(const char* key, std::vector<U> T::*member, const ObjectOf<U>& described, Range items,
+                 const Word& word, bool T::*flag, const char* text) {
     Field& field = list(key, member, described, items, text);
     field.type.words = {word};
     const auto read_list = field.read;
-    return on_read(field,
-                   [flag, read_list](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
-                     if (is_word_of(self, node))
-                       owner.*flag = false;
-                     else
-                       read_list(&owner, node, source);
-                   });
+    return on_read(field, [flag, read_list](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
+      if (is_word_of(self, node))
+        owner.*flag = false;
+      else
+        read_list(&owner, node, source);
+    });
   }
 
   Field& names(const char* key, std::vector<Name> T::*member, Range items, const char* text) {

@@ -9,12 +9,12 @@
 namespace dsdpv1::tb::regress {
 
 enum class Verdict : std::uint8_t {
-  kPassed,   ///< exit code 0
-  kFailed,   ///< a check or expectation failed, or RTL and model differ
+  kPassed,         ///< exit code 0
+  kFailed,         ///< a check or expectation failed, or RTL and model differ
   kNothingJudged,  ///< exit code 3
-  kRefused,  ///< exit code 2: the scenario, a file of it or the settings are wrong
-  kCrashed,  ///< ended by a signal
-  kHung      ///< killed because its time was over
+  kRefused,        ///< exit code 2: the scenario, a file of it or the settings are wrong
+  kCrashed,        ///< ended by a signal
+  kHung            ///< killed because its time was over
 };
 
 /// "passed", "failed", "nothing_judged", "refused", "crashed", "hung".

@@ -14,7 +14,8 @@ namespace {
 
 using campaign::Json;
 
-constexpr Verdict kOthers[] = {Verdict::kFailed, Verdict::kNothingJudged, Verdict::kRefused, Verdict::kCrashed, Verdict::kHung};
+constexpr Verdict kOthers[] = {Verdict::kFailed, Verdict::kNothingJudged, Verdict::kRefused, Verdict::kCrashed,
+                               Verdict::kHung};
 
 std::size_t count(const Report& report, Verdict verdict) {
   const auto is = [verdict](const Outcome& outcome) { return outcome.verdict == verdict; };

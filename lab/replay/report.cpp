@@ -171,7 +171,8 @@ std::string resolution_text(const Result& result) {
 std::string verdict_text(const Result& result, const RunResult& run) {
   if (result.compared() == 0) return "\nNOTHING JUDGED: nothing could be compared\n";
   if (!result.equal()) return "\nDIFFERENT\n";
-  if (tb::verdict(run) == tb::Verdict::kFailed) return fmt::format("\nFAILED: equal, but {} violations\n", run.violations);
+  if (tb::verdict(run) == tb::Verdict::kFailed)
+    return fmt::format("\nFAILED: equal, but {} violations\n", run.violations);
   return (result.interrupted ? "\nINTERRUPTED, equal so far" : "\nEQUAL") + not_judged(run) + "\n";
 }
 

@@ -41,7 +41,7 @@ struct RunOptions {
   CaptureRequest capture;         ///< of the telegrams
   std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
-  std::optional<ChecksMode> checks;  ///< absent: as the scenario says
+  std::optional<ChecksMode> checks;                                                  ///< absent: as the scenario says
   Tick from = 0;            ///< log, trace, capture, wave and what user CPUs print have what happens from then on
   std::vector<Tick> marks;  ///< when `on_mark` is called, before anybody acts there; a digest costs some time
   /// `digest`: of all before `now`. False: the run ends and leaves no file.

@@ -133,9 +133,8 @@ void ExchangeWatch::event(std::size_t slave, const profibus::Event& event) {
 
 void ExchangeWatch::master_state(Tick now, const std::string& master, const std::string& member,
                                  const std::string& state) {
-  const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& each) {
-    return each.master == master && each.member == member;
-  });
+  const auto entry = std::find_if(entries_.begin(), entries_.end(),
+                                  [&](const Entry& each) { return each.master == master && each.member == member; });
   if (entry == entries_.end()) return;
   const bool in = state == bus::name(bus::SlaveState::kDataExchange);
   if (in) {
@@ -164,14 +163,16 @@ void ExchangeWatch::acts(const Action& action, Tick now) {
 
 ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult& slave) const {
   ExpectationResult result;
-  result.text = fmt::format("{} comes to data exchange with {} and stays to the end (implied; expect: none switches it off)",
-                            entry.slave, entry.master);
+  result.text =
+      fmt::format("{} comes to data exchange with {} and stays to the end (implied; expect: none switches it off)",
+                  entry.slave, entry.master);
   result.line = entry.line;
   result.implied = true;
   const bool there = entry.in && slave.status.dp_state == profibus::DpState::kDataExch;
   result.left_out = entry.left == 0 && !there && entry.since && entry.kept_away;
   result.passed = entry.left == 0 && there;
-  const std::string state = there ? "in data exchange" : entry.in || slave.status.dp_state != profibus::DpState::kDataExch
+  const std::string state = there ? "in data exchange"
+                            : entry.in || slave.status.dp_state != profibus::DpState::kDataExch
                                 ? name(slave.status.dp_state)
                                 : "no longer asked or heard by " + entry.master;
   if (!entry.since)

@@ -33,14 +33,14 @@ class ExchangeWatch : public Observer {
   /// A slave in the list of a master.
   struct Entry {
     std::string master, slave;
-    std::string member;         ///< what the master calls it
+    std::string member;  ///< what the master calls it
     int line = 0;
-    bool may_leave = false;     ///< the scenario says so
-    bool in = false;            ///< data exchange, as its master has it
-    bool disturbed = false;     ///< by the script since it came to data exchange: it may leave it
-    bool kept_away = false;     ///< by the script, until the script ends that
+    bool may_leave = false;          ///< the scenario says so
+    bool in = false;                 ///< data exchange, as its master has it
+    bool disturbed = false;          ///< by the script since it came to data exchange: it may leave it
+    bool kept_away = false;          ///< by the script, until the script ends that
     std::optional<Tick> since = {};  ///< when it came to data exchange last
-    std::uint64_t left = 0;     ///< how often it left without the script
+    std::uint64_t left = 0;          ///< how often it left without the script
     Tick first_left = 0;
     std::string why = {};  ///< the first time
   };

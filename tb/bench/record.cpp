@@ -37,8 +37,8 @@ const char* name(ChecksMode mode) {
 void Repetitions::count(const Occurrence& occurrence) {
   Repeated& entry = entries_[{occurrence.station, occurrence.code, occurrence.place}];
   if (entry.count++ == 0)
-    entry = {occurrence.station, occurrence.code, occurrence.place,  occurrence.text,
-             occurrence.at,      occurrence.at,   1,                 occurrence.allowed};
+    entry = {occurrence.station, occurrence.code, occurrence.place, occurrence.text, occurrence.at, occurrence.at, 1,
+             occurrence.allowed};
   entry.last = std::max(entry.last, occurrence.at);
 }
 

@@ -62,7 +62,7 @@ struct Tsdr {
 struct SlaveResult {
   std::string name;
   ChipStatus status;
-  std::string master_state;  ///< what its master makes of it, empty without one
+  std::string master_state;   ///< what its master makes of it, empty without one
   std::string master_reason;  ///< what it has met, empty when all is well
   std::string waits_for;      ///< of a slave that is not in data exchange: what stands in the way, as its chip has said
   Tsdr tsdr;

@@ -34,7 +34,8 @@ std::string counted(std::uint64_t count, const char* one, const char* what) {
 }
 
 std::string faults(const RunResult& result) {
-  const auto unmet = static_cast<std::uint64_t>(std::count_if(result.expectations.begin(), result.expectations.end(), is_missed));
+  const auto unmet =
+      static_cast<std::uint64_t>(std::count_if(result.expectations.begin(), result.expectations.end(), is_missed));
   const std::string text = counted(unmet, "expectation", "not met") + counted(result.violations, "violation", "") +
                            (result.lockstep && result.lockstep->difference ? ", model and RTL differ" : "");
   return text.substr(2);
@@ -80,7 +81,8 @@ std::string not_judged(const RunResult& result) {
                                       [](const ExpectationResult& each) { return each.left_out; });
   return counted(violations_not_judged(result), "violation", "not judged") +
          counted(static_cast<std::uint64_t>(left_out), "expectation", "not judged") +
-         counted(allowed(result), "violation", "allowed") + (result.expects_exchange ? "" : ", data exchange not expected") +
+         counted(allowed(result), "violation", "allowed") +
+         (result.expects_exchange ? "" : ", data exchange not expected") +
          (result.checks_mode == ChecksMode::kOff ? ", checks off" : counted(result.checks_off, "check", "off"));
 }
 

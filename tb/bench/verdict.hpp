@@ -19,8 +19,8 @@ Verdict verdict(const RunResult& result);
 int exit_code(Verdict verdict);
 /// Stable, in result files: "passed", "failed", "nothing_judged", "interrupted".
 const char* name(Verdict verdict);
-/// For people: "PASSED, 140 violations not judged", "FAILED: 1 expectation not met". Whatever was found and not judged is
-/// said.
+/// For people: "PASSED, 140 violations not judged", "FAILED: 1 expectation not met". Whatever was found and not judged
+/// is said.
 std::string words(const RunResult& result);
 /// What `words` says beside the verdict: ", 140 violations not judged"; empty when all was judged.
 std::string not_judged(const RunResult& result);

@@ -78,26 +78,28 @@ Json arm_board() {
 }
 
 Json slave() {
-  return object({{"name", text("of the scenario")},
-                 {"address", count("0 to 126")},
-                 {"dp_state", one_of({"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"}, "at the end")},
-                 {"baud", text(R"(the rate it has found: "12M" to "9.6k", or "searching")")},
-                 {"master", or_null(count("the one that has it, by address"))},
-                 {"data_exchanges", count("how many the chip has had")},
-                 {"outputs_overwritten", count("outputs that newer ones replaced before the user had fetched them")},
-                 {"rm_registry", registry()},
-                 {"telegrams_received", count("for this station")},
-                 {"telegrams_answered", count("by this station")},
-                 {"tsdr", tsdr()},
-                 {"handshake", handshake()},
-                 {"user_cpu", user_cpu()},
-                 {"arm_board", arm_board(), false},
-                 {"master_state", text("what its master makes of it; empty without one")},
-                 {"master_reason", text("and why")},
-                 {"waits_for", text("not in data exchange: what stands in the way, as its chip has said, and what to do; else empty")},
-                 {"inputs", text("at the end, bytes in hexadecimal")},
-                 {"outputs", or_null(text("at the end, bytes in hexadecimal; null: its program does not tell"))}},
-                "a slave at the end of the run");
+  return object(
+      {{"name", text("of the scenario")},
+       {"address", count("0 to 126")},
+       {"dp_state", one_of({"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"}, "at the end")},
+       {"baud", text(R"(the rate it has found: "12M" to "9.6k", or "searching")")},
+       {"master", or_null(count("the one that has it, by address"))},
+       {"data_exchanges", count("how many the chip has had")},
+       {"outputs_overwritten", count("outputs that newer ones replaced before the user had fetched them")},
+       {"rm_registry", registry()},
+       {"telegrams_received", count("for this station")},
+       {"telegrams_answered", count("by this station")},
+       {"tsdr", tsdr()},
+       {"handshake", handshake()},
+       {"user_cpu", user_cpu()},
+       {"arm_board", arm_board(), false},
+       {"master_state", text("what its master makes of it; empty without one")},
+       {"master_reason", text("and why")},
+       {"waits_for",
+        text("not in data exchange: what stands in the way, as its chip has said, and what to do; else empty")},
+       {"inputs", text("at the end, bytes in hexadecimal")},
+       {"outputs", or_null(text("at the end, bytes in hexadecimal; null: its program does not tell"))}},
+      "a slave at the end of the run");
 }
 
 Json lockstep() {
@@ -116,12 +118,14 @@ Json lockstep() {
 }
 
 Json expectation() {
-  return object({{"text", text("in words")},
-                 {"line", count("where it stands in the scenario")},
-                 {"passed", or_null(boolean("null: not judged, since firmware does not tell, or the script keeps the slave away"))},
-                 {"seen", text("what was seen")},
-                 {"implied", boolean("by a master that has the slave: data exchange, to the end")}},
-                "an expectation");
+  return object(
+      {{"text", text("in words")},
+       {"line", count("where it stands in the scenario")},
+       {"passed",
+        or_null(boolean("null: not judged, since firmware does not tell, or the script keeps the slave away"))},
+       {"seen", text("what was seen")},
+       {"implied", boolean("by a master that has the slave: data exchange, to the end")}},
+      "an expectation");
 }
 
 Json violation() {
@@ -160,12 +164,9 @@ Json check() {
 }
 
 std::vector<Member> repeated() {
-  return {{"slave", text("at which")},
-          {"code", text("of docs/reasons.md")},
-          {"count", count("how often")},
-          {"first_ns", number("the first time")},
-          {"last_ns", number("the last time")},
-          {"text", text("in words, of the first time")}};
+  return {{"slave", text("at which")},          {"code", text("of docs/reasons.md")},
+          {"count", count("how often")},        {"first_ns", number("the first time")},
+          {"last_ns", number("the last time")}, {"text", text("in words, of the first time")}};
 }
 
 Json refused() { return object(repeated(), "what was refused for one reason"); }
@@ -194,9 +195,10 @@ Json root() {
        {"scenario", text("its name")},
        {"file", text("where it was read")},
        {"passed", boolean("`verdict` is passed")},
-       {"verdict", one_of({"passed", "failed", "nothing_judged", "interrupted"},
-                          "passed: all expectations were met, nothing was violated that is not allowed, no RTL differed; "
-                          "nothing_judged: no data exchange, and nothing was expected")},
+       {"verdict",
+        one_of({"passed", "failed", "nothing_judged", "interrupted"},
+               "passed: all expectations were met, nothing was violated that is not allowed, no RTL differed; "
+               "nothing_judged: no data exchange, and nothing was expected")},
        {"verdict_text", text("the last line of the table: the verdict, and what was not judged")},
        {"interrupted", boolean("it was ended by a signal before its time")},
        {"engine", text("step, skip, rtl, lockstep")},

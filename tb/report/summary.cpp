@@ -120,9 +120,11 @@ std::string expectations(const RunResult& result) {
 
 /// By an expectation that is not met.
 bool is_said(const RunResult& result, const SlaveResult& slave) {
-  return std::any_of(result.expectations.begin(), result.expectations.end(), [&slave](const ExpectationResult& each) {
-    return each.implied && !each.passed && !each.left_out && each.text.rfind(slave.name + " ", 0) == 0;
-  });
+  return std::any_of(
+      result.expectations.begin(), result.expectations.end(),
+      [&slave](const ExpectationResult& each) {
+        return each.implied && !each.passed && !each.left_out && each.text.rfind(slave.name + " ", 0) == 0;
+      });
 }
 
 /// Of each other slave that is not in data exchange: why not, as its master and its chip have it.
@@ -171,10 +173,9 @@ std::string boards(const RunResult& result) {
 }  // namespace
 
 std::string summary(const RunResult& result) {
-  std::string text =
-      fmt::format("\n{}\n\n", bus::printable(result.scenario)) + steps(result) + repeated("violated by", result.violated) +
-      repeated("refused by", result.refused) + slaves(result) +
-      waiting(result);
+  std::string text = fmt::format("\n{}\n\n", bus::printable(result.scenario)) + steps(result) +
+                     repeated("violated by", result.violated) + repeated("refused by", result.refused) +
+                     slaves(result) + waiting(result);
   text += masters(result);
   text += fmt::format("  telegrams      {} ({} wrong)\n", result.telegrams, result.wrong_telegrams);
   text +=

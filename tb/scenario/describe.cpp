@@ -106,7 +106,8 @@ ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
   o.list("script", &Scenario::script, action_keys(kind), kItems, "What happens during the run.");
   o.list_or("expect", &Scenario::expect, expectation_keys(), kItems, {"none", "not even data exchange"},
             &Scenario::expects_exchange,
-            "What must be true, else the run fails (exit 1). Besides, each slave that a master of class 1 has must come to data "
+            "What must be true, else the run fails (exit 1). Besides, each slave that a master of class 1 has must "
+            "come to data "
             "exchange and stay there (docs/verdicts.md).");
   o.list("allow", &Scenario::allow, allow_keys(), kItems,
          "Violations that are expected. Every other one fails the run.");

@@ -75,12 +75,15 @@ keys::Field field_of(const checks::Rule& rule, checks::CheckId check) {
 }
 
 ObjectOf<Checks> describe_checks(const ChipKind& kind) {
-  ObjectOf<Checks> o("checks", "The checks on the user's side, see docs/checks.md: what comes of a violation, and a key a check for other limits.");
+  ObjectOf<Checks> o("checks",
+                     "The checks on the user's side, see docs/checks.md: what comes of a violation, and a key a check "
+                     "for other limits.");
   const checks::RuleTable& rules = kind.rules();
   o.word("mode", &Checks::mode,
-         std::vector<WordFor<ChecksMode>>{{ChecksMode::kFail, "fail", "the run fails"},
-                                          {ChecksMode::kReport, "report", "listed; the verdict says how many were not judged"},
-                                          {ChecksMode::kOff, "off", "nothing is checked, and the verdict says so"}},
+         std::vector<WordFor<ChecksMode>>{
+             {ChecksMode::kFail, "fail", "the run fails"},
+             {ChecksMode::kReport, "report", "listed; the verdict says how many were not judged"},
+             {ChecksMode::kOff, "off", "nothing is checked, and the verdict says so"}},
          "What comes of a violation that `allow` does not list. The option `--checks` comes before it.");
   for (std::size_t i = 0; i < rules.size(); ++i) o.fields.push_back(field_of(rules[i], checks::CheckId(i)));
   return o;

@@ -59,13 +59,19 @@ TEST(Summary, ListsWhatWasRefused) {
 TEST(Summary, HasEqualViolationsInOneRow) {
   tb::Repetitions repetitions;
   for (tb::Tick at = 1; at <= 6000; ++at)
-    repetitions.count({at * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "B31A is accessed", "B31A"});
-  repetitions.count({7 * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "B31B is accessed", "B31B"});
+    repetitions.count(
+        {at * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "B31A is accessed", "B31A"});
+  repetitions.count(
+      {7 * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "B31B is accessed", "B31B"});
   tb::RunResult result;
   result.violated = repetitions.list();
   const std::string text = tb::summary(result);
-  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (B31A)  6000   1.000       6000.000   B31A is accessed\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (B31B)  1      7.000       7.000      B31B is accessed\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (B31A)  6000   1.000       6000.000   B31A is accessed\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (B31B)  1      7.000       7.000      B31B is accessed\n"),
+            std::string::npos)
+      << text;
 }
 
 }  // namespace

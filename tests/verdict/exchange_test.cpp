@@ -13,18 +13,20 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A slave that comes to data exchange at 2 ms, `more`: of the scenario, `master_slave` and `user_cpu`: more of their keys.
+/// A slave that comes to data exchange at 2 ms, `more`: of the scenario, `master_slave` and `user_cpu`: more of their
+/// keys.
 struct Given {
   std::string more = {}, master_slave = {}, user_cpu = {}, init = {};
   std::string end = "8ms";
 };
 
 tb::RunResult run(const Given& given) {
-  const std::string text = "name: x\nbaud: 12M\nend: " + given.end +
-                           "\nslaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: \"31\"" +
-                           given.init + "}, user_cpu: {" + given.user_cpu +
-                           "}}\nmasters:\n  - {name: plc, address: 2, slaves: [{slave: io, outputs: \"01 02\"" +
-                           given.master_slave + "}]}\n" + given.more;
+  const std::string text =
+      "name: x\nbaud: 12M\nend: " + given.end +
+      "\nslaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: \"31\"" +
+      given.init + "}, user_cpu: {" + given.user_cpu +
+      "}}\nmasters:\n  - {name: plc, address: 2, slaves: [{slave: io, outputs: \"01 02\"" + given.master_slave +
+      "}]}\n" + given.more;
   const tb::scenario::Scenario scenario = tb::scenario::parse(text, "x.yaml");
   tb::Bench bench(scenario, {}, tb::make_pin_execution());
   return bench.run([](tb::Tick) { return true; });
@@ -97,8 +99,10 @@ TEST(ImpliedExchange, StaysExpectedBesideOtherExpectations) {
 const std::string kCut = "allow:\n  - {event: BUS_CHARACTER_ERROR}\n  - {event: BUS_TELEGRAM_ERROR}\n";
 
 TEST(ImpliedExchange, IsNotJudgedToTheEndWhenTheScriptKeepsTheSlaveAway) {
-  for (const char* action : {"do: unplug, slave: io", "do: stop_master", "do: reset_chip, slave: io, for: 100ms", "do: pause_user, slave: io, for: 1s"}) {
-    const tb::RunResult result = run({std::string("script:\n  - {at: 4ms, ") + action + "}\n" + kCut, ", watchdog: 1ms"});
+  for (const char* action : {"do: unplug, slave: io", "do: stop_master", "do: reset_chip, slave: io, for: 100ms",
+                             "do: pause_user, slave: io, for: 1s"}) {
+    const tb::RunResult result =
+        run({std::string("script:\n  - {at: 4ms, ") + action + "}\n" + kCut, ", watchdog: 1ms"});
     EXPECT_EQ(tb::verdict(result), tb::Verdict::kPassed) << action << implied(result).seen;
     EXPECT_TRUE(implied(result).left_out || implied(result).passed) << action;
   }
@@ -116,8 +120,12 @@ TEST(ImpliedExchange, MustComeBackAfterAReinitialisation) {
 
 TEST(ImpliedExchange, OfASlaveThatIsListedByItsAddressIsExpectedToo) {
   const auto listed = [](const char* more) {
-    tb::scenario::Scenario scenario = tb::scenario::parse(std::string("name: x\nbaud: 12M\nend: 8ms\nslaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: \"31\"}}\n"
-                                                                      "masters:\n  - {name: plc, address: 2, slaves: [{address: 5, cfg: \"31\", ident: ") + more + "}, {address: 9, cfg: \"31\", ident: 1}]}\n", "x.yaml");
+    tb::scenario::Scenario scenario = tb::scenario::parse(
+        std::string("name: x\nbaud: 12M\nend: 8ms\nslaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, "
+                    "max_inputs: 2, max_outputs: 2, cfg: \"31\"}}\n"
+                    "masters:\n  - {name: plc, address: 2, slaves: [{address: 5, cfg: \"31\", ident: ") +
+            more + "}, {address: 9, cfg: \"31\", ident: 1}]}\n",
+        "x.yaml");
     tb::Bench bench(scenario, {}, tb::make_pin_execution());
     return bench.run([](tb::Tick) { return true; });
   };
@@ -126,8 +134,11 @@ TEST(ImpliedExchange, OfASlaveThatIsListedByItsAddressIsExpectedToo) {
 }
 
 TEST(ImpliedExchange, IsNotSwitchedOffByAnExpectationThatAsksForMore) {
-  for (const char* more : {"event: WD_EXPIRED, count_at_most: 0", "dp_state: wait_prm, by: 5ms", "data_exchanges_at_most: 5"})
-    EXPECT_EQ(tb::verdict(run({std::string("expect:\n  - {slave: io, ") + more + "}\n", ", ident: 0xC90C"})), tb::Verdict::kFailed) << more;
+  for (const char* more :
+       {"event: WD_EXPIRED, count_at_most: 0", "dp_state: wait_prm, by: 5ms", "data_exchanges_at_most: 5"})
+    EXPECT_EQ(tb::verdict(run({std::string("expect:\n  - {slave: io, ") + more + "}\n", ", ident: 0xC90C"})),
+              tb::Verdict::kFailed)
+        << more;
 }
 
 TEST(ImpliedExchange, ComesBackWithTheMaster) {
@@ -171,7 +182,8 @@ TEST(ChecksOfAScenario, CannotBeExpectedWhenTheyAreNotMade) {
     }
   };
   EXPECT_THAT(refused("checks: {mode: off}\n"), HasSubstr("x.yaml:10: TIMING_TS is a check, which is off"));
-  EXPECT_THAT(refused("checks: {TIMING_TS: {enabled: false}}\n"), HasSubstr("x.yaml:10: TIMING_TS is a check, which is off"));
+  EXPECT_THAT(refused("checks: {TIMING_TS: {enabled: false}}\n"),
+              HasSubstr("x.yaml:10: TIMING_TS is a check, which is off"));
   EXPECT_EQ(refused("checks: {mode: report}\n"), "not refused");
 }
 

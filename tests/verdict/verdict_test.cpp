@@ -45,10 +45,12 @@ const Case kCases[] = {
     {"Nothing", [](RunResult&) {}, 3, "nothing_judged", kNothing},
     {"DataExchange", exchange, 0, "passed", "PASSED"},
     {"ExpectationMet", [](RunResult& r) { r.expectations = {expectation(true)}; }, 0, "passed", "PASSED"},
-    {"ExpectationNotMet", [](RunResult& r) { r.expectations = {expectation(true), expectation(false)}; }, 1, "failed",
-     "FAILED: 1 expectation not met"},
-    {"OnlyLeftOut", [](RunResult& r) { r.expectations = {expectation(false, true)}; }, 3, "nothing_judged",
-     kNothing},
+    {"ExpectationNotMet",
+     [](RunResult& r) {
+       r.expectations = {expectation(true), expectation(false)};
+     },
+     1, "failed", "FAILED: 1 expectation not met"},
+    {"OnlyLeftOut", [](RunResult& r) { r.expectations = {expectation(false, true)}; }, 3, "nothing_judged", kNothing},
     {"Violation",
      [](RunResult& r) {
        exchange(r);
@@ -61,7 +63,8 @@ const Case kCases[] = {
        r.allowed = 2;
      },
      0, "passed", "PASSED, 2 violations allowed"},
-    {"CheckViolated", [](RunResult& r) { violated_check(r, ChecksMode::kFail, 140, 0); }, 1, "failed", "FAILED: 140 violations"},
+    {"CheckViolated", [](RunResult& r) { violated_check(r, ChecksMode::kFail, 140, 0); }, 1, "failed",
+     "FAILED: 140 violations"},
     {"CheckAllowed", [](RunResult& r) { violated_check(r, ChecksMode::kFail, 140, 140); }, 0, "passed",
      "PASSED, 140 violations allowed"},
     {"CheckReported", [](RunResult& r) { violated_check(r, ChecksMode::kReport, 141, 1); }, 0, "passed",
@@ -91,9 +94,7 @@ const Case kCases[] = {
        r.lockstep->difference.emplace();
      },
      1, "failed", "FAILED: model and RTL differ"},
-    {"ModelAndRtlAreTheSame",
-     [](RunResult& r) { r.lockstep.emplace(); },
-     3, "nothing_judged", kNothing},
+    {"ModelAndRtlAreTheSame", [](RunResult& r) { r.lockstep.emplace(); }, 3, "nothing_judged", kNothing},
     {"ServeWithoutATelegram", [](RunResult& r) { r.pacing.emplace(); }, 3, "nothing_judged", kNothing},
     {"ServeWithATelegram",
      [](RunResult& r) {

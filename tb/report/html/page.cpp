@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "bus/printable.hpp"
-#include "tb/report/html/page_data.hpp"
 #include "tb/bench/verdict.hpp"
+#include "tb/report/html/page_data.hpp"
 #include "tb/report/markup.hpp"
 #include "tb/report/summary.hpp"
 
