@@ -9,6 +9,7 @@
 #include "io/input/units.hpp"
 #include "lab/replay/replay.hpp"
 #include "tb/bench/setup.hpp"
+#include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::tb::replay {
 namespace {
@@ -40,6 +41,12 @@ scenario::InitData init_of(const Firmware& firmware, bool has_gsd) {
   return init;
 }
 
+/// What the bus monitor flags is the recorded line's, on which the model's answers end in other bit times.
+void allow_flags(scenario::Scenario& scenario) {
+  for (std::size_t flag = 0; flag < bus::kFlagKinds; ++flag)
+    scenario.allow.push_back({{scenario::flag_code(static_cast<bus::FlagKind>(flag)), 0}, {"bus", 0}, 0});
+}
+
 }  // namespace
 
 scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd) {
@@ -59,6 +66,7 @@ scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmw
   slave.init = init_of(firmware, !gsd.empty());
   slave.user_cpu = user_of(firmware, kind);
   scenario.slaves.push_back(std::move(slave));
+  allow_flags(scenario);
   return scenario;
 }
 
@@ -82,6 +90,7 @@ scenario::Scenario alone(scenario::Scenario scenario, const Recording& recording
   scenario.masters2.clear();
   scenario.script.clear();
   scenario.expect.clear();
+  allow_flags(scenario);
   return scenario;
 }
 

@@ -168,7 +168,7 @@ ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult& s
                   entry.slave, entry.master);
   result.line = entry.line;
   result.implied = true;
-  const bool there = entry.in && slave.status.dp_state == profibus::DpState::kDataExch;
+  const bool there = entry.in && !entry.kept_away && slave.status.dp_state == profibus::DpState::kDataExch;
   result.left_out = entry.left == 0 && !there && entry.since && entry.kept_away;
   result.passed = entry.left == 0 && there;
   const std::string state = there ? "in data exchange"

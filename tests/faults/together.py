@@ -39,7 +39,7 @@ class Folder(unittest.TestCase):
     def setUpClass(cls):
         cls.kept = tempfile.mkdtemp(prefix="dsdpv1_together_")
         shutil.copy(os.path.join(ROOT, "scenarios", "dsdpv1.gsd"), os.path.join(cls.kept, "device.gsd"))
-        for name, end in (("short", "1ms"), ("other", "1ms")):
+        for name, end in (("short", "3ms"), ("other", "3ms")):
             with open(os.path.join(cls.kept, name + ".yaml"), "w", encoding="utf-8") as file:
                 file.write(SCENARIO % (name, end))
         subprocess.run([cls.program, "run", "short.yaml", "--quiet", "--log", "log", "--capture", "c.pcapng", "--wave", "w.vcd", "--trace", "trace"],

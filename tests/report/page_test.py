@@ -73,7 +73,7 @@ def opened(page, report):
 
 def facts(page, report):
     result, judged = report.result, [each for each in report.result["expectations"] if each["passed"] is not None]
-    verdict = "passed" if result["passed"] else "failed"
+    verdict = result["verdict_text"]
     check(page.run("return document.title").startswith("%s: %s (dsdpv1-sim " % (result["scenario"], verdict)), "title")
     same(page.run(TEXTS, ".verdict"), [verdict], "verdict")
     shown = dict(zip(page.run(TEXTS, "dt"), page.run(TEXTS, "dd")))

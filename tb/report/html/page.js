@@ -20,14 +20,10 @@ function table(parent, heads, rows, classOf = () => null) {
   return whole;
 }
 
-function verdict() {
-  return result.interrupted ? "interrupted" : result.passed ? "passed" : "failed";
-}
-
 function header() {
   const head = page.append("header");
   head.append("p").attr("class", "what").text(`${run.chip}, dsdpv1-sim ${run.version}`);
-  head.append("h1").text(result.scenario).append("span").attr("class", `verdict ${verdict()}`).text(verdict());
+  head.append("h1").text(result.scenario).append("span").attr("class", `verdict ${result.verdict}`).text(result.verdict_text);
   const met = result.expectations.filter(each => each.passed).length;
   const judged = result.expectations.filter(each => each.passed !== null).length;
   const broken = d3.sum(result.checks, each => each.violations), allowed = d3.sum(result.checks, each => each.allowed);
