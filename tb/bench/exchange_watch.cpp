@@ -139,7 +139,7 @@ void ExchangeWatch::master_state(Tick now, const std::string& master, const std:
   const bool in = state == bus::name(bus::SlaveState::kDataExchange);
   if (in) {
     entry->since = now;
-    entry->disturbed = false;
+    entry->disturbed = entry->kept_away = false;
   } else if (entry->in && !entry->disturbed && !entry->kept_away && !entry->may_leave && entry->left++ == 0) {
     entry->first_left = now;
     entry->why = stations_.master(master).slave(*stations_.listed_address(member)).step_reason;
