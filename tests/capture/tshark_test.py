@@ -58,6 +58,8 @@ script:
   - {at: 50ms, do: slave_diag, master: plc, slave: a}
 allow:
   - {event: BUS_COLLISION}
+expect:
+  - {slave: a, dp_state: wait_prm}
 """
 
 

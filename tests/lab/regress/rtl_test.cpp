@@ -18,7 +18,8 @@ class RegressRtl : public testing::Test {
   RegressRtl() {
     std::ofstream(folder_.file("s.yaml"))
         << "name: small\nbaud: 12M\nend: 600us\n"
-           "slaves: [{name: demo, address: 5, init: {ident: 1, max_inputs: 1, max_outputs: 1, cfg: \"30\"}}]\n";
+           "slaves: [{name: demo, address: 5, init: {ident: 1, max_inputs: 1, max_outputs: 1, cfg: \"30\"}}]\n"
+           "expect: [{slave: demo, event: INITIALISED}]\n";
   }
   Called regress(const std::string& arguments) const { return call("regress s.yaml " + arguments, folder_.path()); }
 

@@ -44,21 +44,22 @@ class ChecksOfTheProgram : public testing::Test {
 };
 
 TEST_F(ChecksOfTheProgram, ReportListsAndPasses) {
-  const app_test::Called called = run("");
+  const app_test::Called called = run("--checks report");
   EXPECT_EQ(called.status, 0) << called.out << called.err;
+  EXPECT_THAT(called.out, HasSubstr("PASSED, 1 violation not judged"));
   EXPECT_THAT(called.out, HasSubstr("OWNERSHIP_SYNC_WINDOW"));
   EXPECT_THAT(called.out, HasSubstr("pins: "));
   EXPECT_THAT(read(folder_.file("s.log")), HasSubstr("demo         check     OWNERSHIP_SYNC_WINDOW at "));
 }
 
 TEST_F(ChecksOfTheProgram, FailFailsTheRun) {
-  const app_test::Called called = run("--checks fail");
-  EXPECT_EQ(called.status, 1) << called.out << called.err;
+  for (const char* given : {"--checks fail", ""}) EXPECT_EQ(run(given).status, 1);
   EXPECT_THAT(read(folder_.file("s.log")), HasSubstr("demo         violation OWNERSHIP_SYNC_WINDOW at "));
 }
 
 TEST_F(ChecksOfTheProgram, OffChecksNothing) {
-  EXPECT_EQ(run("--checks off").status, 1) << "the violation that the scenario expects cannot be found";
+  EXPECT_EQ(run("--checks off").status, 2) << "the violation that the scenario expects cannot be found";
+  EXPECT_EQ(run("--checks off --set expect=none").status, 3);
   EXPECT_EQ(Json::parse(read(folder_.file("s.json")))["checks"], Json::array());
 }
 
@@ -83,7 +84,7 @@ TEST_F(ChecksOfTheProgram, ResultHasMarginTimeHistogramAndPinHistory) {
 TEST_F(ChecksOfTheProgram, UnknownWordIsRefusedInOneLine) {
   const app_test::Called called = run("--checks reprt");
   EXPECT_EQ(called.status, 2);
-  EXPECT_EQ(called.err, "dsdpv1-sim run: --checks is reprt (did you mean report?), allowed are report, fail, off\n");
+  EXPECT_EQ(called.err, "dsdpv1-sim run: --checks is reprt (did you mean report?), allowed are fail, report, off\n");
 }
 
 TEST(ChecksDocument, IsWhatTheTableSays) {
