@@ -27,7 +27,7 @@ class HandOver : public testing::Test {
  protected:
   HandOver() {
     write("s.yaml", std::string("{kind: arm, elf: \"") + FIRMWARE_WITHOUT_MAILBOX + "\"}",
-          "expect: [{slave: own, dp_state: offline}]\n");
+          "expect: [{slave: own, dp_state: wait_prm}]\n");
     write("native.yaml", "{}");
   }
   void write(const std::string& name, const std::string& user_cpu, const std::string& more = "") const {

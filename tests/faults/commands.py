@@ -5,7 +5,7 @@ import subprocess
 
 SCENARIO = """name: short
 baud: 12M
-end: 1ms
+end: 3ms
 slaves:
   - {name: demo, address: 5, gsd: device.gsd, modules: ["2 bytes in, 2 bytes out"]}
 masters:
@@ -80,7 +80,7 @@ class SaveFile(Output):
 
 
 class OfServe(Output):
-    finite, endless = ["--for", "1ms"], ["--for", "3000s"]
+    finite, endless = ["--for", "3ms"], ["--for", "3000s"]
     other_input = "device.gsd"
     simulates = True
     others = {"--wave": "--log", "--log": "--result", "--result": "--log", "--capture": "--log", "--report": "--log"}

@@ -161,7 +161,7 @@ class Regression(Folder):
                 self.assertEqual(code, 130)
                 self.assertRegex(lines[-1], "^regression: interrupted, [01] of 2 runs are kept; the same command goes on from there$")
                 self.assertFalse([name for name in self.found("out") if "PID" in name])
-        self.write("other.yaml", SCENARIO % ("other", "1ms"))
+        self.write("other.yaml", SCENARIO % ("other", "3ms"))
         self.assert_the_same_command_goes_on()
 
     def test_killed_it_leaves_no_half_file_under_its_name(self):
@@ -170,7 +170,7 @@ class Regression(Folder):
         process.communicate()
         self.assertNotIn("index.html", self.found("out"))
         self.assertNotIn("runs/other.skip.pins.json", self.found("out"))
-        self.write("other.yaml", SCENARIO % ("other", "1ms"))
+        self.write("other.yaml", SCENARIO % ("other", "3ms"))
         self.assert_the_same_command_goes_on()
 
     def test_a_scenario_that_vanishes_meanwhile_is_named(self):

@@ -223,7 +223,7 @@ def ends_after_its_time(program):
         try:
             serve.process.wait(timeout=DEADLINE)
             serve.end()
-            check(serve.status == 0 and serve.result["simulated_ns"] == 300e6, "ended at %s" % serve.result["simulated_ns"])
+            check(serve.status == 3 and serve.result["simulated_ns"] == 300e6, "ended at %s" % serve.result["simulated_ns"])
             check(serve.result["pacing"]["error_mean_us"] >= 0 and os.path.getsize(os.path.join(folder, "serve.vcd")) > 1000, "files")
         finally:
             serve.kill()

@@ -180,7 +180,7 @@ def main():
                 entrance(situation, folder)
     options()
     print(f"{len(entrances) * len(SITUATIONS)} cells")
-    sys.exit("\n".join(FAILURES))
+    sys.exit("\n".join(FAILURES) or 0)
 
 
 if __name__ == "__main__":

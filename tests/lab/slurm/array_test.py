@@ -18,6 +18,7 @@ SCENARIO = """name: small
 baud: 12M
 end: 60us
 slaves: [{name: demo, address: 5, init: {ident: 1, max_inputs: 1, max_outputs: 1, cfg: "30"}}]
+expect: [{slave: demo, dp_state: offline}]
 """
 POINTS = 200
 SWEEP = ["sweep", "s.yaml", "--param", "user_cpu.fsmc.datast=1..20", "--param", "user_cpu.fsmc.addset=0..9", "--no-progress"]
