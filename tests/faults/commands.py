@@ -83,10 +83,11 @@ class OfServe(Output):
     finite, endless = ["--for", "3ms"], ["--for", "3000s"]
     other_input = "device.gsd"
     simulates = True
+    usual = 1  # whenever it ends: the master of the scenario looks for the slave at another address
     others = {"--wave": "--log", "--log": "--result", "--result": "--log", "--capture": "--log", "--report": "--log"}
 
     def __init__(self, kind, file, option):
-        super().__init__(kind, file, "serve", "s.yaml", "--tcp", "0", "--quiet", option)
+        super().__init__(kind, file, "serve", "s.yaml", "--tcp", "0", "--quiet", "--set", "masters.0.slaves.0.address=9", option)
 
     def held(self, name):
         return ["--wave", name, "--result", "held.json"] if self.kind in ("log", "capture") else ["--log", name]

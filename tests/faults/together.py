@@ -189,7 +189,7 @@ class Goldens(Folder):
     def setUp(self):
         super().setUp()
         os.mkdir(self.file("goldens"))
-        self.write("short.yaml", SCENARIO % ("short", "30us"))
+        self.write("short.yaml", SCENARIO % ("short", "30us") + "expect: [{slave: demo, dp_state: offline}]\n")
         self.assertEqual(self.do(*self.WORDS), (0, []))
 
     def contents(self):
