@@ -189,8 +189,11 @@ class Goldens(Folder):
     def setUp(self):
         super().setUp()
         os.mkdir(self.file("goldens"))
-        self.write("short.yaml", SCENARIO % ("short", "30us") + "expect: [{slave: demo, dp_state: offline}]\n")
+        self.shorten("30us")
         self.assertEqual(self.do(*self.WORDS), (0, []))
+
+    def shorten(self, end):
+        self.write("short.yaml", SCENARIO % ("short", end) + "expect: [{slave: demo, dp_state: offline}]\n")
 
     def contents(self):
         self.assertEqual(self.found("goldens"), list(self.FILES))
@@ -202,7 +205,7 @@ class Goldens(Folder):
 
     def test_on_a_full_disk_both_files_stay_as_they_are(self):
         before = self.contents()
-        self.write("short.yaml", SCENARIO % ("short", "60us"))
+        self.shorten("60us")
         self.assertEqual(self.do(*self.WORDS), (0, []))
         manifest, trace = self.contents()
         self.assertTrue(manifest != before[0] and trace != before[1])
