@@ -99,7 +99,9 @@ def sweep(situation, folder):
 
 def serve(situation, folder):
     """With the scenario's own master, and no host."""
-    by_command("serve", situation, folder, SIM, "serve", "x.yaml", "--tcp", "0", "--for", "8ms")
+    by_command("serve", situation, folder, SIM, "serve", "x.yaml", "--tcp", "0", "--for", "8ms", "--junit", "junit.xml")
+    failed = xml.parse(folder / "junit.xml").getroot().findall(".//failure")
+    compare("serve --junit", situation, bool(failed), SITUATIONS[situation][2] != 0)
 
 
 def traces(situation, folder):

@@ -80,6 +80,15 @@ TEST(ImpliedExchange, IsNotExpectedWithExpectNone) {
   EXPECT_EQ(tb::verdict(result), tb::Verdict::kNothingJudged);
 }
 
+TEST(ImpliedExchange, ExpectIsAListOrNone) {
+  try {
+    run({"expect: nothing\n"});
+    FAIL() << "not refused";
+  } catch (const tb::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("x.yaml:8: expect is nothing, allowed is a list or none"));
+  }
+}
+
 TEST(ImpliedExchange, IsNotExpectedWhereTheScenarioSaysOtherwise) {
   const tb::RunResult result = run({"expect:\n  - {slave: io, dp_state: wait_prm}\n", ", ident: 0xC90C"});
   ASSERT_EQ(result.expectations.size(), 1U);
