@@ -306,10 +306,12 @@ class ObjectOf : public Object {
     field.type.words = {word};
     const auto read_list = field.read;
     return on_read(field, [flag, read_list](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
-      if (is_word_of(self, node))
+      if (is_word_of(self, node)) {
         owner.*flag = false;
-      else
-        read_list(&owner, node, source);
+        return;
+      }
+      check_list(self, node, source);  // which knows of the word
+      read_list(&owner, node, source);
     });
   }
 
