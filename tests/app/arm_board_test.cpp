@@ -247,9 +247,10 @@ TEST_P(ForeignFirmware, RunsWithTheDemandsLeftOutAndWhatIsNotKnownIsNull) {
     EXPECT_GT(slave.at("handshake").at("user_holds"), 0);  // from the pins
   }
   for (const Json& check : result.at("checks")) EXPECT_EQ(check.at("violations"), check.at("allowed")) << check;
-  for (const Json& each : result.at("expectations"))
-    if (each.at("implied") == false)
-      EXPECT_EQ(each.at("passed").is_null(), is_of_the_program(each.at("text"))) << each;
+  for (const Json& each : result.at("expectations")) {
+    if (each.at("implied") == true) continue;
+    EXPECT_EQ(each.at("passed").is_null(), is_of_the_program(each.at("text"))) << each;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ForeignFirmware, testing::ValuesIn(parallel_scenarios()),
