@@ -28,7 +28,7 @@ class OwnWaves : public testing::Test {
                   "name: short\nbaud: 12M\nend: 1300us\nslaves:\n  - {name: io, address: 5, gsd: " DSDPV1_SOURCE_DIR
                   "/scenarios/dsdpv1.gsd, modules: [\"8 bytes in, 8 bytes out\"], user_cpu: {behaviour: loop_back, "
                   "cycle: 40us}, release_reset: 20us}\nmasters:\n  - {name: plc, address: 2, start: 150us, slaves: "
-                  "[{slave: io}]}\n");
+                  "[{slave: io}]}\nexpect: [{slave: io, dp_state: wait_prm}]\n");
     for (const char* run : {"a.vcd", "b.fst --engine step"})
       ASSERT_EQ(call(std::string("run short.yaml -q --wave ") + run, waves_->folder()).status, 0) << run;
   }
