@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -66,8 +67,11 @@ std::string scenario_file(const std::string& word) {
                                    tb::did_you_mean(word, names), tb::join(names)));
 }
 
-/// Exit codes of several scenarios: wrong input before a difference.
-int worse(int a, int b) { return std::max(a, b); }
+/// Exit codes of several scenarios: wrong input before a difference, and that before one that judged nothing.
+int worse(int a, int b) {
+  static constexpr std::array<int, 4> kFromBest = {kPassed, kNothingJudged, kFailed, kWrongInput};
+  return *std::max(std::find(kFromBest.begin(), kFromBest.end(), a), std::find(kFromBest.begin(), kFromBest.end(), b));
+}
 
 /// Each scenario by itself: what is wrong with one is said, and the others are looked at.
 int for_each(const std::vector<std::string>& files, const std::function<int(const std::string& file)>& work) {

@@ -164,6 +164,10 @@ def options():
             for mode in ("report", "off"):
                 done = call(SIM, *words, "--checks", mode, cwd=folder)
                 compare(words[0] + " --checks", mode, (last_line(done), done.returncode), (SITUATIONS[mode][1], 0))
+        (folder / "goldens").mkdir()
+        (folder / "nothing.yaml").write_text(SITUATIONS["nothing judged"][0])
+        done = call(SIM, "traces", "regenerate", "nothing.yaml", "x.yaml", "--folder", "goldens", cwd=folder)
+        compare("traces regenerate", "one that fails beside one that judges nothing", done.returncode, 1, done.stdout)
         done = call(SIM, "run", "event.yaml", "--checks", "off", cwd=folder)
         compare("run --checks off", "an expectation on a check", (done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
         (folder / "x.yaml").write_text(SITUATIONS["no data exchange"][0])
