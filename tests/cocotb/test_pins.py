@@ -1,4 +1,6 @@
 """Host port, names of ports and checks of cocotbext.profibus on a chip that answers nothing."""
+import re
+
 import cocotb
 
 import dsdpv1
@@ -79,7 +81,7 @@ async def margin(dut, ticks):
     try:
         checker.finish()
     except AssertionError as error:
-        assert "violation" in str(error) and ", the first" in str(error)
+        assert re.match(r"\d+ violations?, the first \w+ at ", str(error)), error
     return [each.margin for each in checker.violations if each.rule == "TIMING_TS"], checker.results["TIMING_TS"].worst_margin
 
 

@@ -241,7 +241,7 @@ def chip_block(folder):
     block = (folder / "chip.yaml").read_text(encoding="utf-8")
     scenario = FAST_SCENARIO.format(chip="CHIP", root=ROOT, script=TWO_PULSES).replace("chip: CHIP\n", block)
     (folder / "board.yaml").write_text(scenario, encoding="utf-8")
-    done = sim("run", "board.yaml", "-q", "--checks", "off", "--wave", "again.vcd", "--wave-signals", "board.*", folder=folder)
+    done = sim("run", "board.yaml", "-q", "--checks", "report", "--wave", "again.vcd", "--wave-signals", "board.*", folder=folder)
     assert done.returncode == 0, done.stderr + done.stdout
     again, _ = analyser.read_wave(folder / "again.vcd", "board")
     for pin in ("PBRTS", "INTR0", "PBTXD"):
