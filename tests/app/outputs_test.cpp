@@ -91,9 +91,10 @@ TEST_F(Outputs, ViolationThatIsNotAllowedFailsTheRun) {
   text.erase(text.find("expect:"));
   write("s.yaml", text);
   EXPECT_EQ(run("").status, 1);
-  write("s.yaml", text +
-                      "expect: none\nallow: [{event: HOST_TS}, {event: HOST_TD_SETUP}, {event: HOST_READ_UNKNOWN}, {event: "
-                      "HOST_READ_IN_FLIGHT}]\n");
+  write("s.yaml",
+        text +
+            "expect: none\nallow: [{event: HOST_TS}, {event: HOST_TD_SETUP}, {event: HOST_READ_UNKNOWN}, {event: "
+            "HOST_READ_IN_FLIGHT}]\n");
   EXPECT_EQ(run("--checks report").status, 0);
 }
 
