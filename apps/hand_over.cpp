@@ -14,7 +14,7 @@
 #include "apps/command_line.hpp"
 #include "bus/printable.hpp"
 #include "io/input/read_file.hpp"
-#include "tb/bench/chip_maker.hpp"
+#include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::app {
 namespace {
@@ -43,9 +43,9 @@ std::string find_program(const std::string& name) {
 }
 
 std::string name_of_other(const tb::scenario::Scenario& scenario) {
-  const tb::ChipMaker& maker = tb::chip_maker(scenario);
+  const tb::ChipKind& kind = *scenario.kind;
   for (const tb::scenario::Slave& slave : scenario.slaves) {
-    std::string name = maker.other_program(slave);
+    std::string name = kind.other_program(slave);
     if (!name.empty()) return name;
   }
   return "";

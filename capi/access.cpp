@@ -36,15 +36,25 @@ AccessTiming timing_of(const dpsim_access_timing* given) {
           own.data_setup,    own.data_hold, own.address_hold, own.cs_trail,  own.recovery};
 }
 
+/// Whether the chip has the pins of HostAccess, with their numbers.
+bool has_host_bus(const tb::PinTable& pins) {
+  const auto is = [&pins](dsdpv1::Pin pin) {
+    return number(pin) < pins.size() && std::string(pins[number(pin)].name) == name(pin);
+  };
+  using dsdpv1::Pin;
+  return is(Pin::kCsr) && is(Pin::kRd) && is(Pin::kWr) && is(Pin::kA) && is(Pin::kDIn) && is(Pin::kDOut);
+}
+
 /// What was sampled; of a write nothing.
 tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& access, std::uint64_t* end) {
-  if (!chip.kind.has_host_bus()) capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
+  if (!has_host_bus(chip.kind.chip.pins()))
+    capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
   const Tick begin = capi::tick_from(tick, chip.clock.now);
   const capi::Running running(chip.clock);
   tb::Level sampled = DPSIM_X;
   for (const HostAccess::Edge& edge : access)
     if (edge.pin == dsdpv1::Pin::kDOut)
-      sampled = chip.sample(begin + edge.at);
+      sampled = chip.device().sample(begin + edge.at);
     else
       chip.set(begin + edge.at, static_cast<tb::PinNumber>(edge.pin), edge.level);
   chip.advance(begin + access.duration());
@@ -83,7 +93,7 @@ dpsim_status dpsim_chip_read(dpsim_chip* chip, uint64_t tick, uint16_t address, 
       [&] {
         need(chip, "chip");
         need(value, "value");
-        capi::need_range("address", address, 0, chip->kind.cells() - 1);
+        capi::need_range("address", address, 0, chip->kind.chip.cells() - 1);
         *value = carry_out(*chip, tick, HostAccess::read(address, timing_of(timing)), end);
       });
 }
@@ -94,7 +104,7 @@ dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_t address,
       __func__,
       [&] {
         need(chip, "chip");
-        capi::need_range("address", address, 0, chip->kind.cells() - 1);
+        capi::need_range("address", address, 0, chip->kind.chip.cells() - 1);
         carry_out(*chip, tick, HostAccess::write(address, value, timing_of(timing)), end);
       });
 }

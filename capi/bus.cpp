@@ -163,7 +163,7 @@ dpsim_status dpsim_bus_add_chip(dpsim_bus* bus, const dpsim_chip_options* option
         const dpsim_chip_options given = capi::options_of(options, "options");
         const capi::Kind& kind = capi::kind_of(given.kind);
         const auto plan = capi::plan_of(given, kind, "chip" + std::to_string(bus->next_station()));
-        bus->chips.push_back(kind.make_on_bus(plan, *bus));
+        bus->chips.push_back(std::make_unique<dpsim_chip>(kind, plan, *bus));
         *chip = bus->chips.back().get();
       });
 }

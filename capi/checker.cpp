@@ -17,7 +17,7 @@ using capi::Tick;
 
 struct dpsim_checker {
   explicit dpsim_checker(const capi::Kind& its_kind, const checks::Limits& limits)
-      : kind(its_kind), checks(its_kind.maker().make_checks(limits, nullptr)) {
+      : kind(its_kind), checks(its_kind.chip.make_checks(limits, nullptr)) {
     checks->on_violation([this](const checks::Violation& violation) { tell(violation); });
   }
   void tell(const checks::Violation& violation);
@@ -37,7 +37,7 @@ struct dpsim_checker {
 
 void dpsim_checker::tell(const checks::Violation& violation) {
   if (fn == nullptr) return;
-  const checks::Rule& rule = kind.maker().rules()[violation.check.index];
+  const checks::Rule& rule = kind.chip.rules()[violation.check.index];
   const std::string pins = checks::history_text(violation);
   dpsim_violation told{};
   told.tick = static_cast<std::uint64_t>(violation.at);
@@ -54,7 +54,7 @@ void dpsim_checker::tell(const checks::Violation& violation) {
 
 namespace {
 
-const checks::RuleTable& rules_of(const char* kind) { return capi::kind_of(kind).maker().rules(); }
+const checks::RuleTable& rules_of(const char* kind) { return capi::kind_of(kind).chip.rules(); }
 
 const checks::Rule& rule_at(const checks::RuleTable& rules, std::size_t number) {
   if (number >= rules.size())
@@ -83,7 +83,7 @@ checks::Limits limits_of(const dpsim_checker_options& options, const checks::Rul
 }
 
 void feed(dpsim_checker& checker, std::uint64_t tick, std::uint16_t pin, dpsim_level level) {
-  const tb::PinTable& pins = checker.kind.maker().pins();
+  const tb::PinTable& pins = checker.kind.chip.pins();
   if (pin >= pins.size())
     fail(DPSIM_ERR_NOT_FOUND,
          "pin is " + std::to_string(pin) + ", allowed are 0 to " + std::to_string(pins.size() - 1));
@@ -132,7 +132,7 @@ dpsim_check_result result_of(const checks::Record& record) {
 
 size_t dpsim_rule_count(const char* kind) {
   const capi::Kind* found = capi::find_kind(kind);
-  return found == nullptr ? 0 : found->maker().rules().size();
+  return found == nullptr ? 0 : found->chip.rules().size();
 }
 
 dpsim_status dpsim_rule_get(const char* kind, size_t rule, dpsim_rule_info* info) {
@@ -156,7 +156,7 @@ dpsim_status dpsim_checker_create(const dpsim_checker_options* options, dpsim_ch
         need(checker, "checker");
         const dpsim_checker_options given = capi::options_of(options, "options");
         const capi::Kind& kind = capi::kind_of(given.kind);
-        *checker = std::make_unique<dpsim_checker>(kind, limits_of(given, kind.maker().rules())).release();
+        *checker = std::make_unique<dpsim_checker>(kind, limits_of(given, kind.chip.rules())).release();
       });
 }
 
@@ -168,7 +168,7 @@ dpsim_status dpsim_checker_wants(const dpsim_checker* checker, uint64_t* pins) {
       [&] {
         need(checker, "checker");
         need(pins, "pins");
-        *pins = checker->kind.maker().checked_pins();
+        *pins = checker->kind.chip.checked_pins();
       });
 }
 
@@ -244,7 +244,7 @@ dpsim_status dpsim_checker_get_result(const dpsim_checker* checker, size_t rule,
       __func__,
       [&] {
         need(checker, "checker");
-        rule_at(checker->kind.maker().rules(), rule);
+        rule_at(checker->kind.chip.rules(), rule);
         capi::give(result_of(checker->checks->record(checks::CheckId(rule))), result, "result");
       });
 }

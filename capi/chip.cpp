@@ -4,6 +4,7 @@
 
 #include "bus/wire/character_run.hpp"
 #include "capi/bus.hpp"
+#include "capi/bus_device.hpp"
 #include "capi/names.hpp"
 #include "capi/sized.hpp"
 #include "io/keys/keys.hpp"
@@ -20,7 +21,7 @@ ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std:
   need_buffer(options.parameters, options.parameter_count, "parameters");
   ChipPlan plan;
   plan.name = options.name != nullptr ? options.name : usual_name;
-  plan.settings = kind.maker().make_chip_settings();
+  plan.settings = kind.chip.make_chip_settings();
   plan.engine = options.engine == DPSIM_ENGINE_STEP ? tb::Engine::kStep : tb::Engine::kSkip;
   set_parameters(options.parameters, options.parameter_count, kind, *plan.settings);
   return plan;
@@ -28,7 +29,7 @@ ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std:
 
 void ChipEvents::add(const profibus::Event& event) const {
   if (fn_ == nullptr) return;
-  const auto& reasons = kind_.reasons();
+  const auto& reasons = kind_.chip.reasons();
   const auto place = std::find(reasons.begin(), reasons.end(), event.reason) - reasons.begin();
   const dpsim_chip_event told = {
       static_cast<std::uint64_t>(event.at), station_, static_cast<std::uint16_t>(place), event.a, event.b, event.c, {}};
@@ -40,9 +41,11 @@ void ChipEvents::add(const profibus::Event& event) const {
 
 namespace {
 
+constexpr std::size_t kTooLong = 1 << 20;  // longer than any run that a core takes
+
 /// The pin's row of the table; throws for a number that there is not.
 const tb::PinInfo& pin_of(const capi::Kind& kind, std::uint16_t number) {
-  const tb::PinTable& pins = kind.maker().pins();
+  const tb::PinTable& pins = kind.chip.pins();
   if (number >= pins.size())
     fail(DPSIM_ERR_NOT_FOUND,
          "pin is " + std::to_string(number) + ", allowed are 0 to " + std::to_string(pins.size() - 1));
@@ -53,12 +56,12 @@ bool may_float(const tb::PinInfo& pin) { return pin.bus != nullptr; }
 Level highest_of(const tb::PinInfo& pin) { return static_cast<Level>((1 << pin.width) - 1); }
 
 void check_address(const dpsim_chip& chip, std::uint16_t address) {
-  capi::need_range("address", address, 0, chip.kind.cells() - 1);
+  capi::need_range("address", address, 0, chip.kind.chip.cells() - 1);
 }
 
 /// The changes of the line that the characters are, those after `heard`.
 void spell_out(dpsim_chip& chip, const bus::CharacterRun& run, Tick heard) {
-  const tb::PinNumber line = chip.kind.line_pin();
+  const tb::PinNumber line = chip.line_pin();
   bus::for_each_change(run, [&](Tick at, bool level) {
     if (at > heard) chip.set(at, line, level ? 1 : 0);
   });
@@ -68,6 +71,18 @@ void receive(dpsim_chip& chip, const bus::CharacterRun& run) {
   const Tick heard = chip.hear(run);
   if (heard < run.end()) spell_out(chip, run, heard);
   chip.advance(run.end());
+}
+
+[[noreturn]] void refuse_state(const std::string& what) {
+  fail(DPSIM_ERR_STATE, "the chip is on a bus, allowed is that one alone is " + what);
+}
+
+void restore(dpsim_chip& chip, const std::uint8_t* bytes, std::size_t size) {
+  try {
+    chip.device().restore(bytes, size);
+  } catch (const std::runtime_error& error) {
+    fail(DPSIM_ERR_INPUT, error.what());
+  }
 }
 
 dpsim_chip_status status_of(const tb::ChipStatus& own) {
@@ -91,29 +106,79 @@ dpsim_chip_status status_of(const tb::ChipStatus& own) {
 
 }  // namespace
 
-dpsim_chip::dpsim_chip(const capi::Kind& its_kind)
-    : kind(its_kind),
-      bus(nullptr),
-      station(0),
-      clock(own_),
-      changes(clock),
-      events(its_kind, station, clock),
-      levels_(levels_of(its_kind)) {}
+dpsim_chip::dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan)
+    : dpsim_chip(its_kind, nullptr, its_kind.chip.make_device(plan.request())) {}
 
-dpsim_chip::dpsim_chip(const capi::Kind& its_kind, dpsim_bus& its_bus)
+dpsim_chip::dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan, dpsim_bus& its_bus)
+    : dpsim_chip(its_kind, &its_bus, std::make_unique<capi::BusDevice>(its_kind, plan, its_bus)) {}
+
+dpsim_chip::dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, std::unique_ptr<tb::PinDevice> device)
     : kind(its_kind),
-      bus(&its_bus),
-      station(its_bus.next_station()),
-      clock(its_bus.clock),
+      bus(its_bus),
+      station(its_bus == nullptr ? 0 : static_cast<std::uint16_t>(its_bus->next_station() - 1)),
+      clock(its_bus == nullptr ? own_ : its_bus->clock),
       changes(clock),
       events(its_kind, station, clock),
-      levels_(levels_of(its_kind)) {}
+      levels_(levels_of(its_kind)),
+      device_(std::move(device)) {
+  told_.station = station;
+  device_->on_event(
+      {[](void* self, const profibus::Event& event) { static_cast<dpsim_chip*>(self)->events.add(event); }, this});
+}
+
+void dpsim_chip::watch(tb::PinMask pins) {
+  watched_ = pins;
+  const bool directly = bus == nullptr && changes.are_told();
+  sink_ = {directly ? tell : keep, this};
+  device_->watch(sink_, pins);
+}
+
+// From the core straight on to the caller's function, which nothing comes after: all that this library adds to a
+// change.
+void dpsim_chip::tell(void* self, Tick at, PinNumber pin, Level level) {
+  auto* own = static_cast<dpsim_chip*>(self);
+  own->told_.tick = static_cast<std::uint64_t>(at);
+  own->told_.pin = pin;
+  own->told_.level = level;
+  own->changes.tell_running(own->told_);
+}
+
+void dpsim_chip::keep(void* self, Tick at, PinNumber pin, Level level) {
+  auto* own = static_cast<dpsim_chip*>(self);
+  own->changes.add({static_cast<std::uint64_t>(at), own->station, pin, level, 0});
+}
+
+[[gnu::noinline]] void dpsim_chip::set_watched(Tick at, PinNumber pin, Level level) {
+  const Level before = device_->level(pin);
+  device_->set(at, pin, level);
+  if (level != before) sink_.call(sink_.self, at, pin, level);
+}
+
+Tick dpsim_chip::hear(const bus::CharacterRun& run) {
+  const tb::PinNumber line = line_pin();
+  const profibus::CharacterRun told{run.start, run.bit / profibus::kTicksPerCycle, run.bytes,
+                                    static_cast<int>(std::min(run.size, kTooLong))};
+  const bool silent = (watched_ & tb::mask_of(line)) == 0 && device_->level(line) == 1;
+  if (run.size == 0 || run.bit % profibus::kTicksPerCycle != 0 || !silent || !device_->hear(run.start, told))
+    return kNotHeard;
+  heard_ = &run;
+  device_->advance_in_run(run.end());
+  heard_ = nullptr;
+  if (device_->left_run()) device_->leave_run(device_->now());
+  return device_->now();
+}
+
+/// In a callback: of the line before what changes at its own tick.
+Level dpsim_chip::heard_level() const {
+  const Tick before = device_->now() - 1;
+  return before < heard_->start || heard_->level(before) ? 1 : 0;
+}
 
 std::array<dpsim_chip::Levels, dpsim_chip::kMostPins> dpsim_chip::levels_of(const capi::Kind& its_kind) const {
   std::array<Levels, kMostPins> levels{};
-  const tb::PinTable& pins = its_kind.maker().pins();
+  const tb::PinTable& pins = its_kind.chip.pins();
   for (std::size_t i = 0; i < pins.size(); ++i) {
-    if (!pins[i].input || (bus != nullptr && i == its_kind.line_pin())) continue;
+    if (!pins[i].input || (bus != nullptr && i == its_kind.chip.board_pins().rxd)) continue;
     const Level low = may_float(pins[i]) ? DPSIM_Z : Level{0};
     levels[i] = {low, static_cast<std::uint16_t>(highest_of(pins[i]) - low + 1)};
   }
@@ -123,7 +188,7 @@ std::array<dpsim_chip::Levels, dpsim_chip::kMostPins> dpsim_chip::levels_of(cons
 void dpsim_chip::refuse(std::uint16_t number, Level level) const {
   const tb::PinInfo& pin = pin_of(kind, number);
   if (!pin.input) fail(DPSIM_ERR_ARGUMENT, std::string(pin.name) + " is an output");
-  if (bus != nullptr && number == kind.line_pin())
+  if (bus != nullptr && number == line_pin())
     fail(DPSIM_ERR_STATE, std::string(pin.name) + " of a chip on a bus is the line");
   fail(DPSIM_ERR_ARGUMENT, "the level of " + std::string(pin.name) + " is " + std::to_string(level) +
                                ", allowed are 0 to " + std::to_string(highest_of(pin)) +
@@ -137,7 +202,7 @@ dpsim_status dpsim_chip_create(const dpsim_chip_options* options, dpsim_chip** c
         need(chip, "chip");
         const dpsim_chip_options given = capi::options_of(options, "options");
         const capi::Kind& kind = capi::kind_of(given.kind);
-        *chip = kind.make_alone(capi::plan_of(given, kind, "chip")).release();
+        *chip = std::make_unique<dpsim_chip>(kind, capi::plan_of(given, kind, "chip")).release();
       });
 }
 
@@ -208,7 +273,7 @@ dpsim_status dpsim_chip_next(dpsim_chip* chip, uint64_t* tick) {
         need(chip, "chip");
         need(tick, "tick");
         capi::need_outside(chip->clock);
-        *tick = capi::tick_out(chip->next());
+        *tick = capi::tick_out(chip->device().next_event());
       });
 }
 
@@ -218,7 +283,7 @@ dpsim_status dpsim_chip_now(const dpsim_chip* chip, uint64_t* tick) {
       [&] {
         need(chip, "chip");
         need(tick, "tick");
-        *tick = capi::tick_out(chip->now());
+        *tick = capi::tick_out(chip->device().now());
       });
 }
 
@@ -241,7 +306,7 @@ dpsim_status dpsim_chip_sample(dpsim_chip* chip, uint64_t tick, dpsim_level* lev
         need(level, "level");
         const capi::Running running(chip->clock);
         const Tick at = capi::tick_from(tick, chip->clock.now);
-        *level = chip->sample(at);
+        *level = chip->device().sample(at);
         chip->clock.now = at;
         chip->changes.check();
       });
@@ -254,7 +319,7 @@ dpsim_status dpsim_chip_watch(dpsim_chip* chip, uint64_t pins, dpsim_change_fn f
         need(chip, "chip");
         capi::need_outside(chip->clock);
         chip->changes.tell(fn, user);
-        chip->watch(static_cast<tb::PinMask>(pins & tb::all_of(chip->kind.maker().pins())));
+        chip->watch(static_cast<tb::PinMask>(pins & tb::all_of(chip->kind.chip.pins())));
       });
 }
 
@@ -286,12 +351,12 @@ dpsim_status dpsim_chip_event_text(const char* kind, const dpsim_chip_event* eve
         need(text, "text");
         capi::need_range("capacity", static_cast<long long>(capacity), 1, INT64_MAX);
         const capi::Kind& own = capi::kind_of(kind);
-        const auto& reasons = own.reasons();
+        const auto& reasons = own.chip.reasons();
         if (event->reason >= reasons.size())
           fail(DPSIM_ERR_NOT_FOUND, "reason is " + std::to_string(event->reason) + ", allowed are 0 to " +
                                         std::to_string(reasons.size() - 1));
-        const std::string words = own.maker().describe(
-            {static_cast<Tick>(event->tick), reasons[event->reason], event->a, event->b, event->c});
+        const std::string words =
+            own.chip.describe({static_cast<Tick>(event->tick), reasons[event->reason], event->a, event->b, event->c});
         text[words.copy(text, capacity - 1)] = '\0';
         if (words.size() >= capacity)
           fail(DPSIM_ERR_SPACE, "the text has " + std::to_string(words.size()) + " bytes, capacity is " +
@@ -304,7 +369,7 @@ dpsim_status dpsim_chip_get_status(const dpsim_chip* chip, dpsim_chip_status* st
       __func__,
       [&] {
         need(chip, "chip");
-        capi::give(status_of(chip->status()), status, "status");
+        capi::give(status_of(chip->device().status()), status, "status");
       });
 }
 
@@ -315,7 +380,7 @@ dpsim_status dpsim_chip_peek(const dpsim_chip* chip, uint16_t address, uint8_t* 
         need(chip, "chip");
         need(value, "value");
         check_address(*chip, address);
-        *value = chip->peek(address);
+        *value = chip->device().peek(address);
       });
 }
 
@@ -327,7 +392,8 @@ dpsim_status dpsim_chip_save(const dpsim_chip* chip, uint8_t* bytes, size_t capa
         need(size, "size");
         capi::need_buffer(bytes, capacity, "bytes");
         capi::need_outside(chip->clock);
-        const std::vector<std::uint8_t> state = chip->save();
+        if (chip->bus != nullptr) refuse_state("saved");
+        const std::vector<std::uint8_t> state = chip->device().save();
         *size = state.size();
         if (state.size() > capacity)
           fail(DPSIM_ERR_SPACE,
@@ -343,8 +409,9 @@ dpsim_status dpsim_chip_restore(dpsim_chip* chip, const uint8_t* bytes, size_t s
         need(chip, "chip");
         capi::need_buffer(bytes, size, "bytes");
         capi::need_outside(chip->clock);
-        chip->restore(bytes, size);
-        chip->clock.now = chip->now();
+        if (chip->bus != nullptr) refuse_state("restored");
+        restore(*chip, bytes, size);
+        chip->clock.now = chip->device().now();
         chip->changes.forget();
       });
 }
@@ -356,6 +423,6 @@ dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value) 
         need(chip, "chip");
         check_address(*chip, address);
         capi::need_outside(chip->clock);
-        chip->poke(address, value);
+        chip->device().poke(address, value);
       });
 }

@@ -2,8 +2,8 @@
 // A chip behind the header's handle, alone or on a bus.
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "bus/wire/character_run.hpp"
 #include "capi/changes.hpp"
@@ -11,7 +11,7 @@
 #include "capi/kind.hpp"
 #include "capi/names.hpp"
 #include "model/profibus/event.hpp"
-#include "tb/chip/chip_view.hpp"
+#include "tb/chip/pin_device.hpp"
 
 namespace dsdpv1::capi {
 
@@ -38,38 +38,39 @@ ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std:
 
 }  // namespace dsdpv1::capi
 
+struct dpsim_bus;
+
 struct dpsim_chip {
   using Tick = capi::Tick;
   using Level = tb::Level;
   using PinNumber = tb::PinNumber;
   static constexpr Tick kNotHeard = -1;
 
-  /// Alone.
-  explicit dpsim_chip(const capi::Kind& its_kind);
-  /// The next station of a bus.
-  dpsim_chip(const capi::Kind& its_kind, dpsim_bus& its_bus);
-  virtual ~dpsim_chip() = default;
+  /// Alone: the core and nothing round it.
+  dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan);
+  /// The next station of a bus, whose user is the caller.
+  dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan, dpsim_bus& its_bus);
   dpsim_chip(const dpsim_chip&) = delete;
   dpsim_chip& operator=(const dpsim_chip&) = delete;
 
   // All values are right, and no tick is before clock.now.
-  virtual void set(Tick at, PinNumber pin, Level level) = 0;
-  virtual void advance(Tick to) = 0;
+  void set(Tick at, PinNumber pin, Level level) {
+    if ((watched_ & tb::mask_of(pin)) == 0) return device_->set(at, pin, level);
+    set_watched(at, pin, level);
+  }
+  void advance(Tick to) { device_->advance(to); }
   /// Hears characters as a whole, from their start on: the tick up to which it needs none of their changes, kNotHeard:
-  /// it needs all.
-  virtual Tick hear(const dsdpv1::bus::CharacterRun& /*run*/) { return kNotHeard; }
-  virtual Level sample(Tick at) = 0;
-  virtual Tick next() = 0;
-  virtual Tick now() const = 0;
-  virtual Level level(PinNumber pin) const = 0;
-  virtual void watch(tb::PinMask pins) = 0;
-  virtual tb::ChipStatus status() const = 0;
-  virtual std::uint8_t peek(std::uint16_t address) const = 0;
-  virtual void poke(std::uint16_t address, std::uint8_t value) = 0;
-  // Of a chip alone.
-  virtual std::vector<std::uint8_t> save() const = 0;
-  /// Throws for bytes that are no state of this chip.
-  virtual void restore(const std::uint8_t* bytes, std::size_t size) = 0;
+  /// it needs all. Of a chip alone.
+  Tick hear(const dsdpv1::bus::CharacterRun& run);
+  Level level(PinNumber pin) const {
+    if (heard_ != nullptr && pin == line_pin()) return heard_level();
+    return device_->level(pin);
+  }
+  void watch(tb::PinMask pins);
+  tb::PinDevice& device() { return *device_; }
+  const tb::PinDevice& device() const { return *device_; }
+  /// The input that is the line when the chip is on a bus.
+  PinNumber line_pin() const { return kind.chip.board_pins().rxd; }
 
   /// Sets a pin if it is an input and has such a level at a time that is not over; else throws.
   void set_checked(std::uint64_t tick, std::uint16_t pin, Level level) {
@@ -91,10 +92,6 @@ struct dpsim_chip {
   capi::Changes changes;
   capi::ChipEvents events;
 
-  dpsim_change change_of(Tick at, PinNumber pin, Level level) const {
-    return {static_cast<std::uint64_t>(at), station, pin, level, 0};
-  }
-
  private:
   static constexpr std::size_t kMostPins = 64;
   struct Levels {
@@ -102,8 +99,18 @@ struct dpsim_chip {
     std::uint16_t count = 0;  ///< from `low` on; 0: it is not to be set
     bool has(Level level) const { return static_cast<std::uint16_t>(level - low) < count; }
   };
+  dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, std::unique_ptr<tb::PinDevice> device);
   std::array<Levels, kMostPins> levels_of(const capi::Kind& kind) const;
   [[noreturn]] void refuse(std::uint16_t number, Level level) const;
+  void set_watched(Tick at, PinNumber pin, Level level);
+  Level heard_level() const;
+  static void tell(void* self, Tick at, PinNumber pin, Level level);
+  static void keep(void* self, Tick at, PinNumber pin, Level level);
 
   std::array<Levels, kMostPins> levels_;  ///< by pin
+  const std::unique_ptr<tb::PinDevice> device_;
+  tb::PinMask watched_ = 0;
+  tb::PinSink sink_;
+  dpsim_change told_{};
+  const dsdpv1::bus::CharacterRun* heard_ = nullptr;  ///< while it is
 };

@@ -41,17 +41,17 @@ const Parameter& find(const std::vector<Parameter>& all, const char* name) {
 
 }  // namespace
 
-std::vector<Parameter> parameters_of(const Kind& kind) {
+std::vector<Parameter> parameters_of(const tb::ChipKind& chip) {
   std::vector<Parameter> all;
-  for (const Field& field : kind.maker().chip_keys().fields)
-    if (!kind.is_strap(field.name)) add(all, field);
+  for (const Field& field : chip.chip_keys().fields)
+    if (!chip.is_strap(field.name)) add(all, field);
   return all;
 }
 
 void set_parameters(const dpsim_parameter* values, std::size_t count, const Kind& kind, tb::OwnSettings& settings) {
   std::map<const Field*, std::vector<std::int64_t>> lists;
   for (std::size_t i = 0; i < count; ++i) {
-    const Parameter& parameter = find(kind.parameters(), values[i].name);
+    const Parameter& parameter = find(kind.parameters, values[i].name);
     need_range(values[i].name, values[i].value, parameter.range.min, parameter.range.max);
     if (!parameter.element) {
       parameter.field->read(&settings, YAML::Node(std::to_string(values[i].value)), {});

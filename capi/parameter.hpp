@@ -7,11 +7,11 @@
 
 #include "capi/names.hpp"
 #include "dsdpv1/chip.h"
-#include "tb/bench/chip_maker.hpp"
+#include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::capi {
 
-class Kind;
+struct Kind;
 
 struct Parameter {
   std::string name;              ///< the key; of a list each number for itself: "uart_gaps[3]"
@@ -22,7 +22,7 @@ struct Parameter {
 };
 
 /// All integers, and those of lists of them, but for straps: their levels are set at the pins.
-std::vector<Parameter> parameters_of(const Kind& kind);
+std::vector<Parameter> parameters_of(const tb::ChipKind& chip);
 
 /// Throws for a name that there is not and for a value out of range.
 void set_parameters(const dpsim_parameter* values, std::size_t count, const Kind& kind, tb::OwnSettings& settings);

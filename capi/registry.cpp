@@ -16,8 +16,8 @@ void need_number(const char* what, std::size_t number, std::size_t count) {
          std::string(what) + " is " + std::to_string(number) + ", allowed are 0 to " + std::to_string(count - 1));
 }
 
-const tb::PinTable& pins_of(const char* kind) { return kind_of(kind).maker().pins(); }
-const std::vector<capi::Parameter>& parameters_of(const char* kind) { return kind_of(kind).parameters(); }
+const tb::PinTable& pins_of(const char* kind) { return kind_of(kind).chip.pins(); }
+const std::vector<capi::Parameter>& parameters_of(const char* kind) { return kind_of(kind).parameters; }
 
 template <class Count>
 std::size_t count_of(const char* kind, const Count& count) noexcept {
@@ -26,14 +26,14 @@ std::size_t count_of(const char* kind, const Count& count) noexcept {
 }
 
 dpsim_pin_info pin_info(const capi::Kind& kind, std::size_t number) {
-  const tb::PinInfo& pin = kind.maker().pins()[number];
+  const tb::PinInfo& pin = kind.chip.pins()[number];
   dpsim_pin_info info{};
   info.number = static_cast<std::uint16_t>(number);
   info.width = static_cast<std::uint8_t>(pin.width);
   info.input = pin.input ? 1 : 0;
   info.name = pin.name;
   info.bus = pin.bus;
-  info.reset_level = kind.reset_levels()[number];
+  info.reset_level = kind.reset_levels[number];
   return info;
 }
 
@@ -52,12 +52,12 @@ dpsim_parameter_info parameter_info(const capi::Parameter& parameter) {
 
 size_t dpsim_kind_count() { return capi::kinds().size(); }
 const char* dpsim_kind_name(size_t index) {
-  return index < capi::kinds().size() ? capi::kinds()[index]->maker().name() : nullptr;
+  return index < capi::kinds().size() ? capi::kinds()[index].chip.name() : nullptr;
 }
 
 size_t dpsim_pin_count(const char* kind) {
   return count_of(
-      kind, [](const capi::Kind& each) { return each.maker().pins().size(); });
+      kind, [](const capi::Kind& each) { return each.chip.pins().size(); });
 }
 
 dpsim_status dpsim_pin_get(const char* kind, size_t number, dpsim_pin_info* info) {
@@ -87,7 +87,7 @@ dpsim_status dpsim_pin_find(const char* kind, const char* name, uint16_t* number
 
 size_t dpsim_parameter_count(const char* kind) {
   return count_of(
-      kind, [](const capi::Kind& each) { return each.parameters().size(); });
+      kind, [](const capi::Kind& each) { return each.parameters.size(); });
 }
 
 dpsim_status dpsim_parameter_get(const char* kind, size_t index, dpsim_parameter_info* info) {
@@ -101,14 +101,14 @@ dpsim_status dpsim_parameter_get(const char* kind, size_t index, dpsim_parameter
 
 size_t dpsim_reason_count(const char* kind) {
   return count_of(
-      kind, [](const capi::Kind& each) { return each.reasons().size(); });
+      kind, [](const capi::Kind& each) { return each.chip.reasons().size(); });
 }
 
 dpsim_status dpsim_reason_get(const char* kind, size_t reason, dpsim_reason_info* info) {
   return guarded(
       __func__,
       [&] {
-        const auto& reasons = kind_of(kind).reasons();
+        const auto& reasons = kind_of(kind).chip.reasons();
         need_number("reason", reason, reasons.size());
         dpsim_reason_info filled{};
         filled.severity = static_cast<dpsim_severity>(profibus::severity(reasons[reason]));

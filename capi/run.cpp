@@ -38,9 +38,9 @@ std::string text_of(const char* text) { return text == nullptr ? "" : text; }
 
 // Its emulator is under a licence of its own, and not a part of this library.
 void refuse_boards(const Scenario& scenario) {
-  const tb::ChipMaker& maker = tb::chip_maker(scenario);
+  const tb::ChipKind& kind = *scenario.kind;
   for (const tb::scenario::Slave& slave : scenario.slaves)
-    if (maker.has_debugger(slave))
+    if (kind.has_debugger(slave))
       fail(DPSIM_ERR_UNSUPPORTED, scenario.file + ":" + std::to_string(slave.user_cpu.line) + ": slave " +
                                       slave.name.text +
                                       " has an ARM board, allowed in this library is kind: native; dsdpv1-sim runs it");

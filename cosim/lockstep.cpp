@@ -10,6 +10,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
+constexpr int kNoRate = -1;
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: nothing was due, B006 := 01 is all
 constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is on its way
@@ -34,8 +35,9 @@ std::string describe(const Difference& difference) {
       difference.dpram_accesses);
 }
 
-Lockstep::Lockstep(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options)
-    : model_(config),
+Lockstep::Lockstep(std::unique_ptr<tb::PinDevice> model, const dsdpv1::Config& config, std::unique_ptr<RtlTop> top,
+                   const LockstepOptions& options)
+    : model_(std::move(model)),
       part_(config.part),
       rtl_(std::move(top), config, config.part == Part::kRsu ? TickEnds::kLater : TickEnds::kAtOnce),
       options_(options),
@@ -43,32 +45,35 @@ Lockstep::Lockstep(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, co
       history_(options.history_cycles, dsdpv1::pin_count(config.part)) {
   for (int i = 0; i < dsdpv1::pin_count(part_); ++i) {
     const Pin pin = static_cast<Pin>(i);
-    history_.begin(Side::kInput, pin, model_.level(pin));
-    history_.begin(Side::kModel, pin, model_.level(pin));
+    const Level level = model_->level(number(pin));
+    history_.begin(Side::kInput, pin, level);
+    history_.begin(Side::kModel, pin, level);
     history_.begin(Side::kRtl, pin, rtl_.level(pin));
-    if (!dsdpv1::is_input(pin)) comparator_.begin(pin, model_.level(pin), rtl_.level(pin));
+    if (!dsdpv1::is_input(pin)) comparator_.begin(pin, level, rtl_.level(pin));
   }
-  model_.watch(
-      {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->model_changed(at, pin, level); },
-       this},
-      dsdpv1::outputs_of(part_));
+  model_->watch({[](void* self, Tick at, tb::PinNumber pin, Level level) {
+                   static_cast<Lockstep*>(self)->model_changed(at, static_cast<Pin>(pin), level);
+                 },
+                 this},
+                dsdpv1::outputs_of(part_));
   rtl_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->rtl_changed(at, pin, level); },
        this},
       dsdpv1::outputs_of(part_));
 }
 
-void Lockstep::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
+void Lockstep::watch(const tb::PinSink& sink, tb::PinMask pins) {
   sink_ = sink;
   watched_ = pins;
 }
 
-void Lockstep::set(Tick at, Pin pin, Level level) {
+void Lockstep::set(Tick at, tb::PinNumber changed, Level level) {
   advance(at);
-  if (model_.level(pin) == level) return;
+  if (model_->level(changed) == level) return;
+  const Pin pin = static_cast<Pin>(changed);
   note(at, Side::kInput, pin, level);
   note_input(at, pin, level);
-  model_.set(at, pin, level);
+  model_->set(at, changed, level);
   rtl_.set(at, pin, level);
 }
 
@@ -87,11 +92,13 @@ void Lockstep::note_input(Tick at, Pin pin, Level level) {
 
 /// With a serial port the DPRAM is the same in every cycle, so it may be compared at any.
 void Lockstep::note_serial(Tick at, Pin pin) {
-  if (pin == Pin::kReset) image_at_ = at + kStartsUp;
+  if (pin == Pin::kReset) {
+    image_at_ = at + kStartsUp;
+    const auto mode = static_cast<HostMode>(model_->level(number(Pin::kMode)));  // R11: at the end of the reset
+    serial_ = mode == HostMode::kSpi || mode == HostMode::kUart;
+  }
   const bool moves = pin == Pin::kXss || pin == Pin::kRxd || pin == Pin::kTxd || pin == Pin::kPbrts;
-  if (!moves || model_.level(Pin::kReset) == 0 || model_.mode() == dsdpv1::HostMode::kParallel ||
-      at < image_at_ + kImageGap)
-    return;
+  if (!moves || model_->level(number(Pin::kReset)) == 0 || !serial_ || at < image_at_ + kImageGap) return;
   ended_ = image_at_ = at;
 }
 
@@ -99,15 +106,15 @@ void Lockstep::note_serial(Tick at, Pin pin) {
 /// only.
 void Lockstep::advance(Tick to) {
   if (part_ == Part::kRsu) look_at_dpram(to);
-  for (Tick next = model_.next_event(); next <= to && !difference_; next = model_.next_event()) {
-    model_.advance(next);
+  for (Tick next = model_->next_event(); next <= to && !difference_; next = model_->next_event()) {
+    model_->advance(next);
     if (!ended_) continue;
     if (part_ == Part::kRsu)
       look_at_dpram(to);
     else
       access_ended(*std::exchange(ended_, std::nullopt));
   }
-  model_.advance(to);
+  model_->advance(to);
   rtl_.advance(to);
   settle(to);
 }
@@ -121,9 +128,9 @@ void Lockstep::model_changed(Tick at, Pin pin, Level level) {
   note(at, Side::kModel, pin, level);
   if (!difference_) comparator_.model_changed(at, pin, level);
   watch_.change(at, pin, level);
-  if (pin == Pin::kLReq && level == 0 && model_.level(Pin::kReset) != 0) ended_ = at;
+  if (pin == Pin::kLReq && level == 0 && model_->level(number(Pin::kReset)) != 0) ended_ = at;
   if (part_ == Part::kRsu) note_serial(at, pin);
-  if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
+  if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, number(pin), level);
 }
 
 void Lockstep::rtl_changed(Tick at, Pin pin, Level level) {
@@ -150,7 +157,7 @@ void Lockstep::compare_dpram(Tick at) {
   ++counts_.dpram_images;
   for (std::size_t i = 0; i < image.size(); ++i) {
     const auto address = static_cast<std::uint16_t>(i);
-    const std::uint8_t model = model_.peek(address);
+    const std::uint8_t model = model_->peek(address);
     if (model == image[i]) continue;
     return found(at, fmt::format("DPRAM B{:03X}: model {:02X}, RTL {:02X}", address, model, image[i]));
   }
@@ -167,7 +174,7 @@ void Lockstep::settle(Tick horizon) {
 }
 
 void Lockstep::found(Tick at, std::string what) {
-  const LineTelegram telegram = history_.last_telegram(model_.status().baud_index.code());
+  const LineTelegram telegram = history_.last_telegram(model_->status().baud.value_or(kNoRate));
   difference_ = Difference{
       at, std::move(what),
       telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, tb::cycle_text(telegram.start)),
@@ -182,11 +189,11 @@ const MatchCounts& Lockstep::counts() const {
 
 void Lockstep::write_wave(const std::string& path) {
   constexpr Tick kAfterwards = 200 * kCycle;
-  const Tick end = std::max(model_.now(), rtl_.now()) + kAfterwards;
+  const Tick end = std::max(model_->now(), rtl_.now()) + kAfterwards;
   sink_ = {};
   on_pin_ = {};
-  model_.on_event({});
-  model_.advance(end);
+  model_->on_event({});
+  model_->advance(end);
   rtl_.advance(end);
   history_.write_wave(path, end);
 }

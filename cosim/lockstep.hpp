@@ -11,7 +11,8 @@
 #include "cosim/pin_comparator.hpp"
 #include "cosim/rtl_chip.hpp"
 #include "kinds/dsdpv1/random/access_watch.hpp"
-#include "model/dsdpv1/chip.hpp"
+#include "model/dsdpv1/config.hpp"
+#include "tb/chip/pin_device.hpp"
 
 namespace dsdpv1::cosim {
 
@@ -51,26 +52,35 @@ struct MatchCounts {
   }
 };
 
-class Lockstep {
+class Lockstep : public tb::PinDevice {
  public:
-  Lockstep(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options = {});
+  /// `model` with the parameters of `config`.
+  Lockstep(std::unique_ptr<tb::PinDevice> model, const dsdpv1::Config& config, std::unique_ptr<RtlTop> top,
+           const LockstepOptions& options = {});
 
-  // The pins, as dsdpv1::Chip has them; outputs are the model's.
-  void set(Tick at, Pin pin, Level level);
-  void advance(Tick to);
-  Tick next_event() const { return model_.next_event(); }
-  Level level(Pin pin) const { return model_.level(pin); }
-  Level sample(Tick at) {
+  // Outputs, events and what no pin shows are the model's.
+  void set(Tick at, tb::PinNumber pin, Level level) override;
+  void advance(Tick to) override;
+  Tick now() const override { return model_->now(); }
+  Tick next_event() const override { return model_->next_event(); }
+  Level level(tb::PinNumber pin) const override { return model_->level(pin); }
+  Level sample(Tick at) override {
     advance(at);
-    return model_.sample(at);
+    return model_->sample(at);
   }
-  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins);
-  void on_event(const profibus::EventSink& sink) { model_.on_event(sink); }
+  void watch(const tb::PinSink& sink, tb::PinMask pins) override;
+  void on_event(const profibus::EventSink& sink) override { model_->on_event(sink); }
+  tb::ChipStatus status() const override { return model_->status(); }
+  std::uint8_t address() const override { return model_->address(); }
+  std::uint8_t peek(std::uint16_t address) const override { return model_->peek(address); }
+  void poke(std::uint16_t address, std::uint8_t value) override { model_->poke(address, value); }
+  void look_inside(Tick now, const tb::TellInside& tell) override { model_->look_inside(now, tell); }
+  const char* works_on() const override { return model_->works_on(); }
+
   /// Told each change at the pins of all sides: of each side in order of time, the sides in turns.
   using PinListener = std::function<void(Tick at, Side side, Pin pin, Level level)>;
   void on_pin(PinListener listener) { on_pin_ = std::move(listener); }
 
-  const dsdpv1::Chip& model() const { return model_; }
   /// The first difference; nothing is compared after it.
   const std::optional<Difference>& difference() const { return difference_; }
   const MatchCounts& counts() const;
@@ -91,19 +101,20 @@ class Lockstep {
   void settle(Tick horizon);
   void found(Tick at, std::string what);
 
-  dsdpv1::Chip model_;
+  std::unique_ptr<tb::PinDevice> model_;
   const dsdpv1::Part part_;
   RtlChip rtl_;
   LockstepOptions options_;
   PinComparator comparator_;
   History history_;
-  dsdpv1::PinSink sink_;
+  tb::PinSink sink_;
   PinListener on_pin_;
   std::uint32_t watched_ = 0;
   AccessWatch watch_;
   Tick last_write_ = -1;
   std::optional<Tick> ended_;  ///< an access of the model has ended, the DPRAM is not compared yet
   Tick image_at_ = 0;          ///< with a serial port
+  bool serial_ = false;        ///< the port that is live
   bool user_wrote_ = true;     ///< since the DPRAM was compared
   unsigned accesses_ = 0;
   std::optional<Difference> difference_;

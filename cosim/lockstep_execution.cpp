@@ -7,7 +7,6 @@
 #include "cosim/reference_rtl.hpp"
 #include "cosim/rtl_device.hpp"
 #include "io/input/input_error.hpp"
-#include "kinds/dsdpv1/chip/pin_chip.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/kind.hpp"
 
@@ -16,44 +15,22 @@ namespace {
 
 /// The parameters of the chip; other kinds than the DSDPV1, the DSDPV1-R, which is the same, and the DSDPV1-RSU have no
 /// RTL here.
-dsdpv1::Config config_with_rtl(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
-  if (!tb::is_dsdpv1(maker) && &maker != &tb::dsdpv1_rsu_kind())
+dsdpv1::Config config_with_rtl(const tb::ChipKind& kind, const tb::ChipRequest& request) {
+  if (!tb::is_dsdpv1(kind) && &kind != &tb::dsdpv1_rsu_kind())
     throw tb::InputError(
         fmt::format("--engine rtl and lockstep are for chips of the kinds {}, {} and {}, the scenario has {}",
-                    tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), tb::dsdpv1_rsu_kind().name(), maker.name()));
+                    tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), tb::dsdpv1_rsu_kind().name(), kind.name()));
   return tb::config_of(request);
 }
-
-class LockstepDevice : public tb::PinDevice {
- public:
-  LockstepDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options)
-      : lockstep_(config, std::move(top), options) {}
-
-  void set(Tick at, Pin pin, Level level) override { lockstep_.set(at, pin, level); }
-  void advance(Tick to) override { lockstep_.advance(to); }
-  Level level(Pin pin) const override { return lockstep_.level(pin); }
-  Level sample(Tick at) override { return lockstep_.sample(at); }
-  Tick next_event() const override { return lockstep_.next_event(); }
-  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { lockstep_.watch(sink, pins); }
-  void on_event(const profibus::EventSink& sink) override { lockstep_.on_event(sink); }
-  const dsdpv1::Chip& core() const override { return lockstep_.model(); }
-  Lockstep& lockstep() { return lockstep_; }
-
- private:
-  Lockstep lockstep_;
-};
 
 class RtlExecution : public tb::Execution {
  public:
   explicit RtlExecution(MakeRtl make) : make_(std::move(make)) {}
 
-  std::unique_ptr<tb::ChipView> make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) override {
-    const dsdpv1::Config config = config_with_rtl(maker, request);
-    auto chip = std::make_unique<tb::PinChip>(
-        request.name, std::make_unique<RtlDevice>(config, make_(request.name, config)), request.watched, segment_);
-    if (config.part == Part::kRsu) chip->strap(tb::straps_of(request.settings));
-    timeline_.add(*chip);
-    return chip;
+  std::unique_ptr<tb::ChipView> make_chip(const tb::ChipKind& kind, const tb::ChipRequest& request) override {
+    const dsdpv1::Config config = config_with_rtl(kind, request);
+    return add_chip(kind, request,
+                    std::make_unique<RtlDevice>(kind.make_device(request), config, make_(request.name, config)));
   }
   void run(tb::Tick end, const std::function<bool()>& stopped) override {
     while (!stopped() && timeline_.step(end)) {
@@ -77,15 +54,11 @@ std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
   return std::make_unique<RtlExecution>(std::move(make));
 }
 
-std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
-  const dsdpv1::Config config = config_with_rtl(maker, request);
-  auto device = std::make_unique<LockstepDevice>(config, make_(request.name, config), options_);
-  chips_.push_back({request.name, &device->lockstep()});
-  auto chip = std::make_unique<tb::PinChip>(request.name, std::move(device), request.watched, segment_);
-  if (config.part == Part::kRsu) chip->strap(tb::straps_of(request.settings));
-  if (request.inside) chip->watch_inside();
-  timeline_.add(*chip);
-  return chip;
+std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const tb::ChipKind& kind, const tb::ChipRequest& request) {
+  const dsdpv1::Config config = config_with_rtl(kind, request);
+  auto device = std::make_unique<Lockstep>(kind.make_device(request), config, make_(request.name, config), options_);
+  chips_.push_back({request.name, device.get()});
+  return add_chip(kind, request, std::move(device));
 }
 
 void LockstepExecution::run(tb::Tick end, const std::function<bool()>& stopped) {

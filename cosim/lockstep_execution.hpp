@@ -29,7 +29,7 @@ class LockstepExecution : public tb::Execution {
  public:
   LockstepExecution(MakeRtl make, const LockstepOptions& options) : make_(std::move(make)), options_(options) {}
 
-  std::unique_ptr<tb::ChipView> make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) override;
+  std::unique_ptr<tb::ChipView> make_chip(const tb::ChipKind& kind, const tb::ChipRequest& request) override;
   void run(tb::Tick end, const std::function<bool()>& stopped) override;
 
   bool broken_off() override { return different() != nullptr; }

@@ -5,13 +5,13 @@
 
 namespace dsdpv1::cosim {
 
-RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top)
-    : core_(config), rtl_(std::move(top), config) {
-  core_.watch({[](void* self, Tick at, Pin pin, Level level) {
-                 static_cast<RtlDevice*>(self)->core_changes_.push_back({at, pin, level});
-               },
-               this},
-              dsdpv1::mask(Pin::kDOut));
+RtlDevice::RtlDevice(std::unique_ptr<tb::PinDevice> core, const dsdpv1::Config& config, std::unique_ptr<RtlTop> top)
+    : core_(std::move(core)), rtl_(std::move(top), config) {
+  core_->watch({[](void* self, Tick at, tb::PinNumber pin, Level level) {
+                  static_cast<RtlDevice*>(self)->core_changes_.push_back({at, static_cast<Pin>(pin), level});
+                },
+                this},
+               dsdpv1::mask(Pin::kDOut));
   rtl_.watch({[](void* self, Tick at, Pin pin, Level level) {
                 static_cast<RtlDevice*>(self)->rtl_changes_.push_back({at, pin, level});
               },
@@ -19,20 +19,20 @@ RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top)
              dsdpv1::outputs_of(config.part));
 }
 
-void RtlDevice::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
+void RtlDevice::watch(const tb::PinSink& sink, tb::PinMask pins) {
   sink_ = sink;
   watched_ = pins;
 }
 
-void RtlDevice::set(Tick at, Pin pin, Level level) {
+void RtlDevice::set(Tick at, tb::PinNumber pin, Level level) {
   advance(at);
-  core_.set(at, pin, level);
-  rtl_.set(at, pin, level);
+  core_->set(at, pin, level);
+  rtl_.set(at, static_cast<Pin>(pin), level);
   pass_on();
 }
 
 void RtlDevice::advance(Tick to) {
-  core_.advance(to);
+  core_->advance(to);
   rtl_.advance(to);
   pass_on();
 }
@@ -40,7 +40,7 @@ void RtlDevice::advance(Tick to) {
 /// The RTL does not know when the user looks: before Tw (P5) the core beside it says that D is unknown.
 Level RtlDevice::sample(Tick at) {
   advance(at);
-  return core_.sample(at) == dsdpv1::kLevelX ? dsdpv1::kLevelX : d_;
+  return core_->sample(at) == dsdpv1::kLevelX ? dsdpv1::kLevelX : d_;
 }
 
 /// Both sides have told their changes in order of time, one side after the other.
@@ -71,7 +71,7 @@ void RtlDevice::pass_on_tick(Tick at) {
 }
 
 void RtlDevice::tell(Tick at, Pin pin, Level level) {
-  if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
+  if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, number(pin), level);
 }
 
 }  // namespace dsdpv1::cosim

@@ -13,16 +13,23 @@ namespace dsdpv1::cosim {
 
 class RtlDevice : public tb::PinDevice {
  public:
-  RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top);
+  /// `core` with the parameters of `config`.
+  RtlDevice(std::unique_ptr<tb::PinDevice> core, const dsdpv1::Config& config, std::unique_ptr<RtlTop> top);
 
-  void set(Tick at, Pin pin, Level level) override;
+  void set(Tick at, tb::PinNumber pin, Level level) override;
   void advance(Tick to) override;
-  Level level(Pin pin) const override { return pin == Pin::kDOut ? d_ : rtl_.level(pin); }
+  Tick now() const override { return rtl_.now(); }
+  Level level(tb::PinNumber pin) const override {
+    return pin == number(Pin::kDOut) ? d_ : rtl_.level(static_cast<Pin>(pin));
+  }
   Level sample(Tick at) override;
-  Tick next_event() const override { return std::min(rtl_.next_event(), core_.next_event()); }
-  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override;
-  void on_event(const profibus::EventSink& sink) override { core_.on_event(sink); }
-  const dsdpv1::Chip& core() const override { return core_; }
+  Tick next_event() const override { return std::min(rtl_.next_event(), core_->next_event()); }
+  void watch(const tb::PinSink& sink, tb::PinMask pins) override;
+  void on_event(const profibus::EventSink& sink) override { core_->on_event(sink); }
+  tb::ChipStatus status() const override { return core_->status(); }
+  std::uint8_t address() const override { return core_->address(); }
+  std::uint8_t peek(std::uint16_t address) const override { return core_->peek(address); }
+  void poke(std::uint16_t address, std::uint8_t value) override { core_->poke(address, value); }
 
  private:
   struct Change {
@@ -34,9 +41,9 @@ class RtlDevice : public tb::PinDevice {
   void pass_on_tick(Tick at);
   void tell(Tick at, Pin pin, Level level);
 
-  dsdpv1::Chip core_;
+  std::unique_ptr<tb::PinDevice> core_;
   RtlChip rtl_;
-  dsdpv1::PinSink sink_;
+  tb::PinSink sink_;
   std::uint32_t watched_ = 0;
   std::vector<Change> core_changes_, rtl_changes_;  ///< since pass_on; of the core only D
   std::size_t core_next_ = 0, rtl_next_ = 0;

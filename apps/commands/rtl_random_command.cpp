@@ -93,7 +93,7 @@ class StimulusOutputs {
     if (log_) options.listeners.push_back(&*log_);
     if (arguments_.wave.empty()) return cosim::play(stimulus, bench.make, options);
     cosim::JoinedWave wave(arguments_.wave, arguments_.own.build);
-    cosim::PlayWave model(wave.model(), kChip);
+    cosim::PlayWave model(wave.model(), kChip, cosim::chip_kind(options.config.part));
     model.listen(options);
     const cosim::RtlTrace trace = wave.trace(kChip);
     const cosim::MakeTop traced = [&] { return bench.make_own(trace); };

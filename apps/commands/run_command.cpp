@@ -198,9 +198,9 @@ LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make,
 }
 
 void check_has_board(const tb::scenario::Scenario& scenario) {
-  const tb::ChipMaker& maker = tb::chip_maker(scenario);
+  const tb::ChipKind& kind = *scenario.kind;
   if (std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
-                  [&maker](const tb::scenario::Slave& slave) { return maker.has_debugger(slave); }))
+                  [&kind](const tb::scenario::Slave& slave) { return kind.has_debugger(slave); }))
     return;
   throw tb::InputError("dsdpv1-sim run: --gdb needs a slave whose user_cpu has kind: arm, " + scenario.file +
                        " has none");

@@ -31,13 +31,14 @@ bool Fsmc::refuses(bool write) const {
 
 bool Fsmc::is_wide() const { return written_[kBcr1 / 4] && (words_[kBcr1 / 4] & kMwid16) != 0; }
 
-user_cpu::FsmcBank Fsmc::bank() const {
+user_cpu::FsmcBank Fsmc::bank(std::int64_t hclk_hz) const {
   user_cpu::FsmcBank bank;
+  bank.hclk_hz = hclk_hz;
   if (written_[kBcr1 / 4] && (words_[kBcr1 / 4] & kExtmod) != 0) bank.mode = user_cpu::FsmcMode::kA;
   if (written_[kBtr1 / 4]) bank.read = bank.write = fields(words_[kBtr1 / 4]);
   if (bank.mode == user_cpu::FsmcMode::kA)
     bank.write = written_[kBwtr1 / 4] ? fields(words_[kBwtr1 / 4]) : user_cpu::FsmcTiming();
-  return bank;
+  return user_cpu::with(bank, given_);
 }
 
 }  // namespace dsdpv1::arm

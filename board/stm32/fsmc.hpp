@@ -1,6 +1,5 @@
 #pragma once
-// The FSMC of the STM32F103, bank 1 region 1 (NE1), where the chip is (RM0008, chapter FSMC): its registers and what
-// they make of an access.
+// The FSMC of the STM32F103, bank 1 region 1 (NE1), where the chip is (RM0008, chapter FSMC): its registers.
 #include <array>
 #include <cstdint>
 
@@ -20,18 +19,13 @@ class Fsmc {
 
   /// As the firmware's registers say, with the scenario's values on top. What the firmware never wrote is as FsmcBank's
   /// defaults.
-  user_cpu::FsmcAccess timing(std::int64_t hclk_hz) const {
-    user_cpu::FsmcBank made = bank();
-    made.hclk_hz = hclk_hz;
-    return user_cpu::access_timing(user_cpu::with(made, given_));
-  }
+  user_cpu::FsmcBank bank(std::int64_t hclk_hz) const;
   /// The firmware has switched the bank off (MBKEN), or writing to it (WREN).
   bool refuses(bool write) const;
   /// The firmware has chosen a bus of 16 bits (MWID); the chip has 8.
   bool is_wide() const;
 
  private:
-  user_cpu::FsmcBank bank() const;
   static constexpr std::size_t kWords = kSize / 4;
   user_cpu::FsmcOverride given_;
   std::array<std::uint32_t, kWords> words_{};

@@ -18,7 +18,7 @@ class PlayListener {
   /// A telegram has ended, heard at `now`.
   virtual void telegram(Tick /*now*/, const bus::WireTelegram& /*telegram*/) {}
   /// The model was evaluated up to `now`.
-  virtual void evaluated(Tick /*now*/, const dsdpv1::Chip& /*model*/) {}
+  virtual void evaluated(Tick /*now*/, tb::PinDevice& /*model*/) {}
   /// The run is over.
   virtual void ends(Tick /*end*/, const Lockstep& /*lockstep*/) {}
 };

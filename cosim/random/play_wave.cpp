@@ -12,7 +12,8 @@ std::string wave_name(Pin pin) {
 
 }  // namespace
 
-PlayWave::PlayWave(const std::string& path, const std::string& chip) : writer_(tb::open_wave(path)) {
+PlayWave::PlayWave(const std::string& path, const std::string& chip, const tb::ChipKind& kind)
+    : writer_(tb::open_wave(path)), signals_(kind.inner_signals()) {
   writer_->open_scope("bus");
   telegram_ = writer_->words("telegram");
   writer_->close_scope();
@@ -22,7 +23,7 @@ PlayWave::PlayWave(const std::string& path, const std::string& chip) : writer_(t
     pins_.at(i) = writer_->wire(wave_name(pin), dsdpv1::width(pin));
   }
   writer_->open_scope("inside");
-  for (const tb::InnerSignal& each : tb::InsideWatch::signals())
+  for (const tb::InnerSignal& each : signals_)
     inside_.push_back(each.width == 0 ? writer_->words(each.name) : writer_->wire(each.name, each.width));
   writer_->close_scope();
   writer_->close_scope();
@@ -35,7 +36,8 @@ void PlayWave::listen(PlayOptions& options) {
 
 void PlayWave::begins(const Lockstep& lockstep) {
   writer_->say(0, telegram_, "-");
-  for (std::size_t i = 0; i < pins_.size(); ++i) writer_->set(0, pins_.at(i), lockstep.level(static_cast<Pin>(i)));
+  for (std::size_t i = 0; i < pins_.size(); ++i)
+    writer_->set(0, pins_.at(i), lockstep.level(static_cast<tb::PinNumber>(i)));
 }
 
 void PlayWave::pin(Tick at, Side side, Pin pin, Level level) {
@@ -47,11 +49,11 @@ void PlayWave::telegram(Tick now, const bus::WireTelegram& telegram) {
   writer_->say(in_order(now), telegram_, decoded.readable ? bus::explain_line(decoded.telegram) : "not readable");
 }
 
-void PlayWave::evaluated(Tick now, const dsdpv1::Chip& model) {
-  watch_.look(
-      now, model,
+void PlayWave::evaluated(Tick now, tb::PinDevice& model) {
+  model.look_inside(
+      now,
       [this](Tick at, std::size_t signal, Level level, const std::string& word) {
-        if (tb::InsideWatch::signals()[signal].width == 0)
+        if (signals_[signal].width == 0)
           writer_->say(in_order(at), inside_[signal], word);
         else
           writer_->set(in_order(at), inside_[signal], level);

@@ -9,21 +9,21 @@
 
 #include "cosim/random/player.hpp"
 #include "io/waves/wave_writer.hpp"
-#include "kinds/dsdpv1/pins/inside_watch.hpp"
+#include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::cosim {
 
 class PlayWave : public PlayListener {
  public:
   /// Scopes `bus` and `chip`, as in the waves of scenarios; both directions of D by themselves. Throws tb::InputError.
-  PlayWave(const std::string& path, const std::string& chip);
+  PlayWave(const std::string& path, const std::string& chip, const tb::ChipKind& kind);
   /// From now on every cycle of the model is evaluated, and this listens.
   void listen(PlayOptions& options);
 
   void begins(const Lockstep& lockstep) override;
   void pin(Tick at, Side side, Pin pin, Level level) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
-  void evaluated(Tick now, const dsdpv1::Chip& model) override;
+  void evaluated(Tick now, tb::PinDevice& model) override;
   /// Gives the file its name; throws tb::InputError when it cannot be written.
   void ends(Tick end, const Lockstep& lockstep) override;
 
@@ -36,7 +36,7 @@ class PlayWave : public PlayListener {
   Signal telegram_ = 0;
   std::array<Signal, dsdpv1::kPinCount> pins_{};
   std::vector<Signal> inside_;
-  tb::InsideWatch watch_;
+  const std::vector<tb::InnerSignal>& signals_;
   Tick last_ = 0;
 };
 

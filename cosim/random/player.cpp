@@ -8,6 +8,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
+#include "kinds/dsdpv1/chip/core_device.hpp"
 #include "kinds/dsdpv1/random/serial_edges.hpp"
 #include "model/dpram/crc16.hpp"
 
@@ -77,29 +78,31 @@ class AimedLane : public Lane {
 class ChipAgent : public bus::Agent, private bus::Listener {
  public:
   ChipAgent(const PlayOptions& options, std::unique_ptr<RtlTop> top, bus::Segment& segment)
-      : lockstep_(options.config, std::move(top), options.lockstep),
+      : lockstep_(std::make_unique<tb::CoreDevice>(options.config), options.config, std::move(top), options.lockstep),
         listeners_(options.listeners),
         segment_(segment),
         station_(segment.attach("chip", this)) {
-    lockstep_.watch(
-        {[](void* self, Tick at, Pin pin, Level level) { static_cast<ChipAgent*>(self)->drive(at, pin, level); }, this},
-        dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts));
+    lockstep_.watch({[](void* self, Tick at, tb::PinNumber pin, Level level) {
+                       static_cast<ChipAgent*>(self)->drive(at, static_cast<Pin>(pin), level);
+                     },
+                     this},
+                    dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts));
   }
   Tick next() const override { return due_.empty() ? lockstep_.next_event() : due_.front().at; }
   void run(Tick now) override {
     lockstep_.advance(now);
     tell();
-    for (PlayListener* each : listeners_) each->evaluated(now, lockstep_.model());
+    for (PlayListener* each : listeners_) each->evaluated(now, lockstep_);
     if (aimed_.empty()) return;
-    const char* item = lockstep_.model().inside().access.item;
+    const char* item = lockstep_.works_on();
     for (AimedLane* each : aimed_) each->works_on(now, item);
   }
   /// `lane` wants to know what the chip's accesses work on.
   void tell_of_accesses(AimedLane& lane) { aimed_.push_back(&lane); }
   Lockstep& lockstep() { return lockstep_; }
-  Level level(Pin pin) const { return lockstep_.level(pin); }
+  Level level(Pin pin) const { return lockstep_.level(number(pin)); }
   void set(Tick at, Pin pin, Level level) {
-    lockstep_.set(at, pin, level);
+    lockstep_.set(at, number(pin), level);
     announce();
   }
 

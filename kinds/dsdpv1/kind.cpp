@@ -7,7 +7,8 @@
 #include "driver/dsdpv1.h"
 #include "io/input/units.hpp"
 #include "kinds/dsdpv1/checks/checks.hpp"
-#include "kinds/dsdpv1/chip/pin_chip.hpp"
+#include "kinds/dsdpv1/chip/core_device.hpp"
+#include "kinds/dsdpv1/chip/dsdpv1_pin_chip.hpp"
 #include "kinds/dsdpv1/chip/user_maker.hpp"
 #include "kinds/dsdpv1/keys/codes.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
@@ -45,13 +46,15 @@ class Dsdpv1AccessReader : public AccessReader {
   LastAccess last_;
 };
 
-class Dsdpv1Kind : public ChipMaker {
+class Dsdpv1Kind : public ChipKind {
  public:
   Dsdpv1Kind(Part part, const char* name, const char* title) : part_(part), name_(name), title_(title) {}
 
   const char* name() const override { return name_; }
   const char* title() const override { return title_; }
   const PinTable& pins() const override { return pins_of(part_); }
+  const BoardPins& board_pins() const override { return kDsdpv1BoardPins; }
+  int cells() const override { return 0x800; }  // P4
   int most_cfg() const override { return DSDPV1_MAX_CFG; }
 
   const keys::Object& chip_keys() const override { return chip_keys_of(part_); }
@@ -60,6 +63,7 @@ class Dsdpv1Kind : public ChipMaker {
     settings->part = part_;
     return settings;
   }
+  bool is_strap(const std::string& key) const override { return tb::is_strap(key); }
   void check_chip(const OwnSettings& settings, const keys::Source& source) const override {
     check_dsdpv1_chip(static_cast<const Dsdpv1Settings&>(settings), source.file);
   }
@@ -80,6 +84,10 @@ class Dsdpv1Kind : public ChipMaker {
   const std::vector<Order>& orders() const override;
   const std::vector<keys::Word>& blocks() const override;
 
+  const std::vector<profibus::Reason>& reasons() const override {
+    static const std::vector<profibus::Reason> all = dsdpv1::reasons();
+    return all;
+  }
   std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
   std::string cell_of(const profibus::Event& event) const override {
     const bool has_cell = dsdpv1::text_template(event.reason).find("B{a:3x}") != std::string::npos;
@@ -117,12 +125,13 @@ class Dsdpv1Kind : public ChipMaker {
   const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }
   const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }
 
-  std::unique_ptr<ChipView> make_pin_chip(const ChipRequest& request, bus::Segment& segment,
-                                          bus::Timeline& timeline) const override {
-    auto chip = std::make_unique<PinChip>(request.name, config_of(request), request.watched, segment);
+  std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {
+    return std::make_unique<CoreDevice>(config_of(request));
+  }
+  std::unique_ptr<PinChip> make_pin_chip(const ChipRequest& request, std::unique_ptr<PinDevice> device,
+                                         bus::Segment& segment) const override {
+    auto chip = std::make_unique<Dsdpv1PinChip>(request.name, std::move(device), part_, request.watched, segment);
     chip->strap(straps_of(request.settings));
-    if (request.inside) chip->watch_inside();
-    timeline.add(*chip);
     return chip;
   }
   MakeUser make_user(const UserRequest& request) const override { return make_dsdpv1_user(request); }
@@ -233,21 +242,21 @@ const std::vector<keys::Word>& Dsdpv1Kind::blocks() const {
 
 }  // namespace
 
-const ChipMaker& dsdpv1_kind() {
+const ChipKind& dsdpv1_kind() {
   static const Dsdpv1Kind kind(Part::kDsdpv1, "dsdpv1", "DSDPV1");
   return kind;
 }
 
-const ChipMaker& dsdpv1_r_kind() {
+const ChipKind& dsdpv1_r_kind() {
   static const Dsdpv1Kind kind(Part::kR, "dsdpv1_r", "DSDPV1-R");
   return kind;
 }
 
-const ChipMaker& dsdpv1_rsu_kind() {
+const ChipKind& dsdpv1_rsu_kind() {
   static const Dsdpv1Kind kind(Part::kRsu, "dsdpv1_rsu", "DSDPV1-RSU");
   return kind;
 }
 
-bool is_dsdpv1(const ChipMaker& kind) { return &kind == &dsdpv1_kind() || &kind == &dsdpv1_r_kind(); }
+bool is_dsdpv1(const ChipKind& kind) { return &kind == &dsdpv1_kind() || &kind == &dsdpv1_r_kind(); }
 
 }  // namespace dsdpv1::tb

@@ -62,6 +62,8 @@ const char* name(Pin pin);
 /// Number of wires: 11 for A, 8 for D, 2 for MODE and ADR, 3 for UBR and UIV, else 1.
 int width(Pin pin);
 constexpr bool is_input(Pin pin) { return pin <= Pin::kPbrxd || (pin >= Pin::kXss && pin <= Pin::kUiv); }
+/// Its place in tables of pins.
+constexpr std::uint8_t number(Pin pin) { return static_cast<std::uint8_t>(pin); }
 constexpr std::uint32_t mask(Pin pin) { return std::uint32_t{1} << static_cast<unsigned>(pin); }
 /// Outputs of the DSDPV1 and the DSDPV1-R.
 constexpr std::uint32_t kOutputPins = ((1U << kPinCount) - 1) & ~(mask(Pin::kLReq) - 1);

@@ -49,7 +49,7 @@ class Bench::BaudFollower : private bus::Listener {
 
 Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std::unique_ptr<Execution> execution)
     : scenario_(scenario),
-      maker_(chip_maker(scenario)),
+      kind_(*scenario.kind),
       options_(options),
       execution_(std::move(execution)),
       setup_(scenario),
@@ -69,7 +69,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
     observers_.tell(&Observer::host_telegram, slave, telegram);
   };
   replies_.on_change = [this](const auto&, auto, const auto&) { changed(); };
-  if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline(), maker_);
+  if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline(), kind_);
   for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);
   baud_follower_ = std::make_unique<BaudFollower>(*this);
   add_monitor();
@@ -94,7 +94,7 @@ Bench::~Bench() = default;
 PinMask Bench::watched_pins() const {
   const bool wave = !options_.wave.path.empty() && !options_.wave.asleep;
   const bool all = wave || !options_.trace.empty() || !options_.observers.empty();
-  return all ? all_of(maker_.pins()) : checks_.pins() | hosts_.pins();
+  return all ? all_of(kind_.pins()) : checks_.pins() | hosts_.pins();
 }
 
 /// Nobody but the wave wants each change of each pin, or looks at each cycle.
@@ -103,8 +103,8 @@ bool Bench::takes_runs() const { return !options_.wave.inside && options_.trace.
 void Bench::add_slave(const scenario::Slave& slave) {
   user_cpu::StationConfig station = setup_.station(slave);
   std::unique_ptr<ChipView> chip = execution_->make_chip(
-      maker_, {slave.name.text, *scenario_.chip, options_.engine, options_.wave.inside, watched_pins()});
-  MakeUser make_user = maker_.make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
+      kind_, {slave.name.text, *scenario_.chip, options_.engine, options_.wave.inside, watched_pins()});
+  MakeUser make_user = kind_.make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
   auto& slaves = stations_.slaves;
   slaves.push_back(
       std::make_unique<SlaveStation>(slave, std::move(station), std::move(chip), std::move(make_user), *execution_));
@@ -114,7 +114,7 @@ void Bench::add_slave(const scenario::Slave& slave) {
 const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {
   const auto& slaves = scenario_.slaves;
   const auto first = std::find_if(slaves.begin(), slaves.end(),
-                                  [this](const scenario::Slave& each) { return maker_.has_debugger(each); });
+                                  [this](const scenario::Slave& each) { return kind_.has_debugger(each); });
   return options_.gdb && first != slaves.end() && &*first == &slave ? &*options_.gdb : nullptr;
 }
 
@@ -317,7 +317,7 @@ Tick Bench::sleeps_until() const {
 void Bench::wake_wave(Tick from, Tick to) {
   for (const auto& slave : stations_.slaves) {
     if (now() > 0) slave->chip().sync(now());
-    slave->chip().watch(now(), all_of(maker_.pins()));
+    slave->chip().watch(now(), all_of(kind_.pins()));
   }
   waves_->wake(now(), from, to, execution_->segment().level());
 }
@@ -346,8 +346,8 @@ std::uint64_t Bench::digest(Tick now) {
   hash.add(monitor_->statistics().wrong);
   for (const auto& slave : stations_.slaves) slave->chip().sync(now);
   for (const auto& slave : stations_.slaves) {
-    for (std::size_t pin = 0; pin < maker_.pins().size(); ++pin)
-      if (!maker_.pins()[pin].line)
+    for (std::size_t pin = 0; pin < kind_.pins().size(); ++pin)
+      if (!kind_.pins()[pin].line)
         hash.add(static_cast<std::uint64_t>(slave->chip().level(static_cast<PinNumber>(pin))));
     add(hash, slave->result());
   }

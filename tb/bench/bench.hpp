@@ -123,7 +123,7 @@ class Bench {
   void finish_outputs();
 
   const scenario::Scenario& scenario_;
-  const ChipMaker& maker_;
+  const ChipKind& kind_;
   RunOptions options_;
   std::unique_ptr<Execution> execution_;
   Setup setup_;

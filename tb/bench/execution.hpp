@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bus/timeline.hpp"
-#include "tb/bench/chip_maker.hpp"
+#include "tb/chip/chip_kind.hpp"
 #include "tb/chip/chip_view.hpp"
 
 namespace dsdpv1::tb {
@@ -13,8 +13,10 @@ namespace dsdpv1::tb {
 class Execution {
  public:
   virtual ~Execution() = default;
-  /// Chips are made before anything else is added to the timeline.
-  virtual std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) = 0;
+  /// By default by the pins of its core. Chips are made before anything else is added to the timeline.
+  virtual std::unique_ptr<ChipView> make_chip(const ChipKind& kind, const ChipRequest& request) {
+    return add_chip(kind, request, kind.make_device(request));
+  }
   /// Runs the timeline up to and including `end`, or until `stopped` says so.
   virtual void run(Tick end, const std::function<bool()>& stopped) = 0;
 
@@ -29,6 +31,10 @@ class Execution {
   bus::Timeline& timeline() { return timeline_; }
 
  protected:
+  /// The chip by the pins of `device`.
+  std::unique_ptr<ChipView> add_chip(const ChipKind& kind, const ChipRequest& request,
+                                     std::unique_ptr<PinDevice> device);
+
   bus::Segment segment_;
   bus::Timeline timeline_;
 };

@@ -1,4 +1,6 @@
 // Chips by the pins of their cores.
+#include <utility>
+
 #include "tb/bench/execution.hpp"
 
 namespace dsdpv1::tb {
@@ -6,10 +8,6 @@ namespace {
 
 class PinExecution : public Execution {
  public:
-  std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override {
-    return maker.make_pin_chip(request, segment_, timeline_);
-  }
-
   bool quiet(const bus::Agent& agent, Tick tick) override { return timeline_.quiet(agent, tick); }
   bool go_on(const bus::Agent& agent, Tick tick) override { return timeline_.go_on(agent, tick); }
 
@@ -20,6 +18,14 @@ class PinExecution : public Execution {
 };
 
 }  // namespace
+
+std::unique_ptr<ChipView> Execution::add_chip(const ChipKind& kind, const ChipRequest& request,
+                                              std::unique_ptr<PinDevice> device) {
+  std::unique_ptr<PinChip> chip = kind.make_pin_chip(request, std::move(device), segment_);
+  if (request.inside) chip->watch_inside();
+  timeline_.add(*chip);
+  return chip;
+}
 
 std::unique_ptr<Execution> make_pin_execution() { return std::make_unique<PinExecution>(); }
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "bus/timeline.hpp"
-#include "tb/bench/chip_maker.hpp"
 #include "tb/bench/execution.hpp"
 #include "tb/bench/record.hpp"
+#include "tb/chip/chip_kind.hpp"
 #include "tb/chip/chip_view.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 #include "tb/scenario/scenario.hpp"

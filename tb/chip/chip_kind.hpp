@@ -1,20 +1,32 @@
 #pragma once
-// A kind of slave chip as scenarios, logs and reports know it: what its pins, events, checks and keys are called. What
-// puts such a chip on the bench is tb/bench/chip_maker.hpp.
+// A kind of slave chip: what its pins, events, checks and keys are called, and what puts it on the bench with its user
+// CPU.
+#include <functional>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "io/keys/keys.hpp"
 #include "model/profibus/event.hpp"
+#include "model/profibus/reason.hpp"
 #include "tb/chip/checks/check.hpp"
 #include "tb/chip/checks/chip_checks.hpp"
 #include "tb/chip/host_reader.hpp"
+#include "tb/chip/pin_chip.hpp"
 #include "tb/chip/pins/pins.hpp"
 #include "tb/chip/timing_diagram.hpp"
+#include "tb/chip/user_cpu/debug_history.hpp"
 #include "tb/chip/user_cpu/program.hpp"
+#include "tb/chip/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::tb {
+
+namespace scenario {
+struct Scenario;
+struct Slave;
+}  // namespace scenario
 
 /// What a scenario says with the keys of one kind of chip. Each kind derives its own.
 struct OwnSettings {
@@ -57,6 +69,43 @@ class AccessReader {
   virtual std::string words() const = 0;
 };
 
+/// How the core evaluates time.
+enum class Engine : std::uint8_t {
+  kStep,  ///< every cycle
+  kSkip,  ///< from event to event
+};
+
+/// A chip for one slave.
+struct ChipRequest {
+  std::string name;
+  const OwnSettings& settings;  ///< of ChipKind::make_chip_settings
+  Engine engine = Engine::kSkip;
+  bool inside = false;  ///< inner signals are wanted; Engine::kStep
+  PinMask watched = 0;  ///< pins whose changes are wanted; of the inputs of the host bus all or none
+};
+
+/// `--gdb`: the debugger of a processor that runs firmware.
+struct GdbRequest {
+  std::optional<int> port;                      ///< absent: nobody can connect, only what was done before is done again
+  std::function<void(const std::string&)> say;  ///< a line for the user
+  std::function<bool()> stopped;                ///< whether the run is to end
+  std::shared_ptr<user_cpu::DebugHistory> history;
+};
+
+/// Makes the user CPU that starts at `start` with these initialisation data.
+using MakeUser =
+    std::function<std::unique_ptr<user_cpu::StationCpu>(const user_cpu::StationConfig& station, Tick start)>;
+
+/// A user CPU for one slave. All of it must outlive the result, but for `left_out`.
+struct UserRequest {
+  const scenario::Scenario& scenario;
+  const scenario::Slave& slave;
+  ChipView& chip;         ///< made by the same kind
+  const GdbRequest* gdb;  ///< null without a debugger
+  /// Gets the actions and expectations that the program cannot carry out or tell, by address.
+  std::set<const void*>& left_out;
+};
+
 class ChipKind {
  public:
   virtual ~ChipKind() = default;
@@ -66,6 +115,9 @@ class ChipKind {
   /// As documents call it.
   virtual const char* title() const = 0;
   virtual const PinTable& pins() const = 0;
+  virtual const BoardPins& board_pins() const = 0;
+  /// Cells of the memory that chip and user share.
+  virtual int cells() const { return 0; }
   /// Bytes of the longest configuration that it holds; by default all that the protocol has.
   virtual int most_cfg() const { return 244; }
 
@@ -73,6 +125,8 @@ class ChipKind {
   /// Parameters of the chip itself, under `chip`.
   virtual const keys::Object& chip_keys() const = 0;
   virtual std::unique_ptr<OwnSettings> make_chip_settings() const = 0;
+  /// Whether a key of the chip is the level of pins, which a program that has no scenario sets.
+  virtual bool is_strap(const std::string& /*key*/) const { return false; }
   /// Throws InputError for settings that do not fit each other, or that this program does not have.
   virtual void check_chip(const OwnSettings& /*settings*/, const keys::Source& /*source*/) const {}
   /// The processor and its bus to the chip, under `user_cpu`.
@@ -92,7 +146,24 @@ class ChipKind {
   /// Words of command::OfChip::block, for the key `area`.
   virtual const std::vector<keys::Word>& blocks() const;
 
+  // --- On the bench.
+  /// Its core behind pins.
+  virtual std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const = 0;
+  /// `device`, its core or RTL, as the next station of the segment, its straps as the settings say. To be added to the
+  /// timeline.
+  virtual std::unique_ptr<PinChip> make_pin_chip(const ChipRequest& request, std::unique_ptr<PinDevice> device,
+                                                 bus::Segment& segment) const = 0;
+  /// What makes the slave's user CPU at each release of its reset. Throws InputError where the scenario's settings for
+  /// it are no use.
+  virtual MakeUser make_user(const UserRequest& request) const = 0;
+  /// Whether the slave's user CPU is one that a debugger can be connected to.
+  virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
+  /// The name of the program that has the slave's user CPU, where this one has not; empty: this one has.
+  virtual const char* other_program(const scenario::Slave& /*slave*/) const { return ""; }
+
   // --- What happens.
+  /// Of its events.
+  virtual const std::vector<profibus::Reason>& reasons() const = 0;
   /// In words.
   virtual std::string describe(const profibus::Event& event) const = 0;
   /// The cell that it is about, as its documents write it; empty: none.

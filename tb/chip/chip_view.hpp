@@ -11,6 +11,7 @@
 #include "model/profibus/event.hpp"
 #include "model/profibus/rm_registry.hpp"
 #include "tb/chip/pins/pins.hpp"
+#include "tb/chip/user_cpu/user_side.hpp"
 
 namespace dsdpv1::tb {
 
@@ -46,6 +47,9 @@ ChipStatus common_status(const Status& own) {
   return status;
 }
 
+/// An inner signal (ChipKind::inner_signals) has changed; one of words has no level, any other no word.
+using TellInside = std::function<void(Tick at, std::size_t signal, Level level, const std::string& word)>;
+
 class ChipView {
  public:
   virtual ~ChipView() = default;
@@ -59,7 +63,12 @@ class ChipView {
   /// Of the station, as in `status`.
   virtual std::uint8_t address() const = 0;
   virtual Level level(PinNumber pin) const = 0;
+  /// A cell of the memory that chip and user share, without side effects.
+  virtual std::uint8_t peek(std::uint16_t address) const = 0;
   virtual void sync(Tick now) = 0;
+
+  /// What the user CPU of this kind has hold of; null: no user CPU of the bench can.
+  virtual user_cpu::UserSide* user_side() { return nullptr; }
 
   /// Whether `on_run` is told.
   virtual bool tells_runs() const { return false; }
@@ -82,8 +91,8 @@ class ChipView {
   /// The user CPU begins a read, whose first edge is still to come, and samples the data at `sample`: no pin shows
   /// that.
   std::function<void(Tick sample)> on_read;
-  /// An inner signal (ChipKind::inner_signals) has changed; told when ChipRequest::inside wants it.
-  std::function<void(Tick at, std::size_t signal, Level level, const std::string& word)> on_inside;
+  /// Told when ChipRequest::inside wants it.
+  TellInside on_inside;
   /// What the user CPU does at the chip's pins, in words: an access, a pin that it moves.
   std::function<void(Tick at, const std::string& words)> on_action;
 };

@@ -1,66 +1,88 @@
 #pragma once
-// What stands behind a chip's pins on the bench: the core, or RTL (cosim/).
-#include "model/dsdpv1/chip.hpp"
-#include "tb/chip/host_pins.hpp"
+// What stands behind a chip's pins on the bench: its core, RTL, or both side by side (cosim/). Pins by their numbers in
+// the PinTable of the chip's kind.
+#include <cstdint>
+#include <vector>
+
+#include "model/profibus/addressee.hpp"
+#include "model/profibus/event.hpp"
+#include "model/profibus/uart_rx.hpp"
+#include "tb/chip/chip_view.hpp"
+#include "tb/chip/pins/pins.hpp"
 
 namespace dsdpv1::tb {
 
-class PinDevice : public user_cpu::HostPins {
- public:
-  virtual dsdpv1::Tick next_event() const = 0;
-  /// See dsdpv1::Chip::unheard.
-  virtual profibus::Unheard unheard() const { return {}; }
-  /// See dsdpv1::Chip::hear; of a device that hears all, a change as any other.
-  virtual void hear(dsdpv1::Tick at, bool level) { set(at, dsdpv1::Pin::kPbrxd, level ? 1 : 0); }
-  /// See dsdpv1::Chip::hear, leave_run and left_run; a device that hears all takes no run.
-  virtual bool hear(dsdpv1::Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
-  virtual void leave_run(dsdpv1::Tick /*at*/) {}
-  /// See dsdpv1::Chip::unconcerned and pass; a device that hears all is concerned by each run.
-  virtual profibus::Unconcerned unconcerned() const { return {}; }
-  virtual void pass(std::uint64_t /*count*/) {}
-  virtual bool left_run() const { return false; }
-  /// See dsdpv1::Chip::begins_to_send, hide_txd and show_txd; a device that shows all never says that it begins.
-  virtual bool begins_to_send() const { return false; }
-  virtual profibus::CharacterRun hide_txd() { return {}; }
-  virtual void show_txd(dsdpv1::Tick /*at*/) {}
-  virtual void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) = 0;
-  virtual void on_event(const profibus::EventSink& sink) = 0;
-  /// The core that tells states, counters and events; the device itself, or one beside it on the same inputs.
-  virtual const dsdpv1::Chip& core() const = 0;
+/// Receives the changes of output pins, in order of time. `call` is never null while attached.
+struct PinSink {
+  void (*call)(void* self, Tick at, PinNumber pin, Level level) = nullptr;
+  void* self = nullptr;
 };
 
-/// The core itself.
-class CoreDevice : public PinDevice {
+class PinDevice {
  public:
-  explicit CoreDevice(const dsdpv1::Config& config) : chip_(config) {}
-  void set(dsdpv1::Tick at, dsdpv1::Pin pin, dsdpv1::Level level) override { chip_.set(at, pin, level); }
-  void advance(dsdpv1::Tick to) override { chip_.advance(to); }
-  dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
-  dsdpv1::Level sample(dsdpv1::Tick at) override { return chip_.sample(at); }
-  dsdpv1::Tick next_event() const override { return chip_.next_seen(); }
-  profibus::Unheard unheard() const override { return chip_.unheard(); }
-  void hear(dsdpv1::Tick at, bool level) override { chip_.hear(at, level); }
-  bool hear(dsdpv1::Tick at, const profibus::CharacterRun& run) override { return chip_.hear(at, run); }
-  void leave_run(dsdpv1::Tick at) override { chip_.leave_run(at); }
-  profibus::Unconcerned unconcerned() const override { return chip_.unconcerned(); }
-  void pass(std::uint64_t count) override { chip_.pass(count); }
-  bool left_run() const override { return chip_.left_run(); }
-  bool carry_out(dsdpv1::Tick begin, const dsdpv1::HostAccess& access, dsdpv1::Level& sampled) override {
-    return chip_.carry_out(begin, access, sampled);
-  }
-  bool is_private(dsdpv1::Tick begin, const dsdpv1::HostAccess& access) override {
-    return chip_.is_private(begin, access);
-  }
-  bool begins_to_send() const override { return chip_.begins_to_send(); }
-  profibus::CharacterRun hide_txd() override { return chip_.hide_txd(); }
-  void show_txd(dsdpv1::Tick at) override { chip_.show_txd(at); }
-  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { chip_.watch(sink, pins); }
-  void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
-  const dsdpv1::Chip& core() const override { return chip_; }
-  dsdpv1::Chip& chip() { return chip_; }
+  virtual ~PinDevice() = default;
 
- private:
-  dsdpv1::Chip chip_;
+  // --- Pins. Calls come in order of time.
+  /// An input has this level from tick `at` on; the device first does what it does up to then. The level that it has
+  /// already: nothing.
+  virtual void set(Tick at, PinNumber pin, Level level) = 0;
+  /// Does everything up to and including tick `to`; changes and events leave through the sinks on the way.
+  virtual void advance(Tick to) = 0;
+  virtual Tick now() const = 0;
+  /// The tick of the next thing that it does by itself, never before now().
+  virtual Tick next_event() const = 0;
+  /// The same without what neither a pin nor an event shows; peek() wants it to be advanced then.
+  virtual Tick next_seen() const { return next_event(); }
+  /// The present level, of inputs and outputs.
+  virtual Level level(PinNumber pin) const = 0;
+  /// The user samples the data bus at tick `at`: the level then; kLevelX when that is not certain yet.
+  virtual Level sample(Tick at) = 0;
+  /// Tells changes of the outputs in `pins`. One sink; a second call replaces it.
+  virtual void watch(const PinSink& sink, PinMask pins) = 0;
+  virtual void on_event(const profibus::EventSink& sink) = 0;
+
+  // --- Telegrams as a whole. A device that hears and shows each change leaves all of it alone.
+  /// Changes of the line from `from` on and before `until` need not be set at once: hear() in their order, before the
+  /// device is advanced to its next_event() or another pin is set, is early enough.
+  virtual profibus::Unheard unheard() const { return {}; }
+  virtual void hear(Tick /*at*/, bool /*level*/) {}
+  /// In the place of the changes that `run` comes to: called at tick `at`, at the run's start or in the idle time
+  /// before it. False: it wants the changes. True: the line is not set until the end of the run, unless it is left
+  /// before. By leave_run(): changes up to `at` have happened, those after it are set as ever. By the device, which
+  /// wants the changes from this tick on: left_run() says so until leave_run() is called, at that tick.
+  virtual bool hear(Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
+  virtual void leave_run(Tick /*at*/) {}
+  virtual bool left_run() const { return false; }
+  /// As advance(), but it stops at the tick at which it leaves the run that it hears.
+  virtual void advance_in_run(Tick to) { advance(to); }
+  /// Runs that it need not hear: of those that come one after the other the last one, before anything else happens to
+  /// it or advance() goes beyond its start, is enough. pass() counts those of the others that were for stations.
+  virtual profibus::Unconcerned unconcerned() const { return {}; }
+  virtual void pass(std::uint64_t /*count*/) {}
+  /// At now() the first start bit of an answer falls. Then hide_txd() gives its characters in the place of the changes
+  /// of the pin, which stays where it is until the line's driver is disabled, unless show_txd() is called before: at
+  /// tick `at` it has, without a report, the level of then, and goes on as ever.
+  virtual bool begins_to_send() const { return false; }
+  virtual profibus::CharacterRun hide_txd() { return {}; }
+  virtual void show_txd(Tick /*at*/) {}
+
+  // --- What no pin shows. RTL has it from a core beside it, on the same inputs.
+  virtual ChipStatus status() const = 0;
+  /// The station's present address, 0 before the initialisation.
+  virtual std::uint8_t address() const = 0;
+  /// A cell of the memory that chip and user share, without time or side effects; ChipKind::cells() of them.
+  virtual std::uint8_t peek(std::uint16_t address) const = 0;
+  virtual void poke(std::uint16_t address, std::uint8_t value) = 0;
+  /// Tells the inner signals that have changed since the last look; of a core with Engine::kStep.
+  virtual void look_inside(Tick /*now*/, const TellInside& /*tell*/) {}
+  /// What its access to that memory works on, as its documents call it; empty: nothing, or not known.
+  virtual const char* works_on() const { return ""; }
+
+  // --- All that a core is at now(), as bytes for restore() of one with the same parameters, in this process or
+  // another.
+  virtual std::vector<std::uint8_t> save() const { return {}; }
+  /// Throws std::runtime_error, and the device is as before, when the bytes are not what save() gave.
+  virtual void restore(const std::uint8_t* /*bytes*/, std::size_t /*size*/) {}
 };
 
 }  // namespace dsdpv1::tb

@@ -24,10 +24,6 @@ RealTimeExecution::RealTimeExecution(std::unique_ptr<HostConnection> port, int b
   };
 }
 
-std::unique_ptr<ChipView> RealTimeExecution::make_chip(const ChipMaker& maker, const ChipRequest& request) {
-  return maker.make_pin_chip(request, segment_, timeline_);
-}
-
 void RealTimeExecution::join() { timeline_.add(line_); }
 
 void RealTimeExecution::run(Tick end, const std::function<bool()>& stopped) {

@@ -32,7 +32,6 @@ class RealTimeExecution : public Execution {
   /// `baud` as in bus/baud.hpp.
   RealTimeExecution(std::unique_ptr<HostConnection> port, int baud);
 
-  std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override;
   /// Call after the last make_chip and before `run`: the host acts behind the chips.
   void join();
   void run(Tick end, const std::function<bool()>& stopped) override;

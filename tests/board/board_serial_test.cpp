@@ -8,6 +8,7 @@
 
 #include "kinds/dsdpv1/board/board.hpp"
 #include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
+#include "tests/kinds/quiet_device.hpp"
 
 namespace dsdpv1 {
 namespace {
@@ -39,15 +40,15 @@ constexpr Tick kHclk9 = 1500;  // nine periods of 72 MHz
 constexpr Tick cycles(Tick count) { return count * kHclk9 / 9; }
 
 /// The memory bus: only what firmware writes into the chip.
-class Memory : public user_cpu::HostPins {
+class Memory : public QuietDevice {
  public:
-  void set(Tick, Pin pin, Level level) override {
+  void set(Tick, tb::PinNumber moved, Level level) override {
+    const Pin pin = static_cast<Pin>(moved);
     if (pin == Pin::kA) address_ = level;
     if (pin == Pin::kDIn) data_ = level;
     if (pin == Pin::kWr && level == 1) cells[address_].push_back(data_);
   }
-  void advance(Tick) override {}
-  Level level(Pin) const override { return 0; }
+  Level level(tb::PinNumber) const override { return 0; }
   Level sample(Tick) override { return 0; }
   std::map<int, std::vector<int>> cells;  ///< what was written, by address
 

@@ -9,7 +9,10 @@
 #include <optional>
 #include <utility>
 
+#include "kinds/dsdpv1/chip/core_device.hpp"
+#include "kinds/dsdpv1/chip/dsdpv1_pin_chip.hpp"
 #include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
+#include "tests/kinds/quiet_device.hpp"
 
 namespace dsdpv1 {
 namespace {
@@ -37,27 +40,28 @@ enum Program {
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
-class Pins : public user_cpu::HostPins {
+class Pins : public QuietDevice {
  public:
   struct Change {
     Tick at;
     Pin pin;
     Level level;
   };
-  void set(Tick at, Pin pin, Level level) override {
+  void set(Tick at, tb::PinNumber moved, Level level) override {
+    const Pin pin = static_cast<Pin>(moved);
     changes.push_back({at, pin, level});
     if (pin == Pin::kA) address_ = level;
     if (pin == Pin::kDIn) data_ = level;
     if (pin == Pin::kWr && level == 1) written.emplace_back(address_, data_);
   }
-  void advance(Tick) override {}
-  Level level(Pin pin) const override {
+  Level level(tb::PinNumber of) const override {
+    const Pin pin = static_cast<Pin>(of);
     if (pin == Pin::kLReq) return l_req;
     if (pin == Pin::kLSta) return l_sta;
     if (pin == Pin::kPbf || pin == Pin::kReady) return 1;
     return static_cast<Level>(pin == Pin::kDOut ? address_ & 0xFF : 0);
   }
-  Level sample(Tick) override { return level(Pin::kDOut); }
+  Level sample(Tick) override { return level(number(Pin::kDOut)); }
   std::vector<Change> of(Pin pin) const {
     std::vector<Change> found;
     for (const Change& each : changes)
@@ -287,13 +291,14 @@ class Looker : public arm::Debugger {
 };
 
 TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
-  dsdpv1::Chip chip;
-  chip.poke(0x123, 0xA5);
+  bus::Segment segment;
+  tb::Dsdpv1PinChip chip("chip", std::make_unique<tb::CoreDevice>(dsdpv1::Config()), Part::kDsdpv1, 0, segment);
+  chip.poke(0, 0x123, 0xA5);
   arm::BoardOptions options;
   options.firmware = with(kAccesses);
   options.fsmc = at_72_mhz();
   Tick asked_at = -1;
-  options.chip = [&](Tick now) -> const dsdpv1::Chip& {
+  options.chip = [&](Tick now) -> const tb::ChipView& {
     asked_at = now;
     return chip;
   };

@@ -6,18 +6,19 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <utility>
 
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
 #include "cosim/lockstep.hpp"
+#include "kinds/dsdpv1/chip/core_device.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
 namespace dsdpv1 {
 namespace {
 
-using cosim::Lockstep;
 using cosim_test::MadeUpTop;
 using testing::HasSubstr;
 
@@ -26,14 +27,19 @@ constexpr Tick kEnd = 10'000 * kCycle;
 
 std::unique_ptr<MadeUpTop> spoiled(MadeUpTop::Spoil spoil) { return std::make_unique<MadeUpTop>(std::move(spoil)); }
 
+struct Lockstep : cosim::Lockstep {
+  explicit Lockstep(std::unique_ptr<MadeUpTop> top, const cosim::LockstepOptions& options = {})
+      : cosim::Lockstep(std::make_unique<tb::CoreDevice>(dsdpv1::Config()), {}, std::move(top), options) {}
+};
+
 /// Out of RESET after 10 us, then to kEnd.
 void run(Lockstep& lockstep) {
-  lockstep.set(480 * kCycle + 40, Pin::kReset, 1);
+  lockstep.set(480 * kCycle + 40, number(Pin::kReset), 1);
   lockstep.advance(kEnd);
 }
 
 TEST(Lockstep, ModelAgainstItselfIsTheSame) {
-  Lockstep lockstep({}, std::make_unique<MadeUpTop>());
+  Lockstep lockstep(std::make_unique<MadeUpTop>());
   run(lockstep);
   ASSERT_FALSE(lockstep.difference()) << describe(*lockstep.difference());
   EXPECT_EQ(lockstep.counts().cycles, 10'000U);
@@ -50,9 +56,9 @@ class EachPin : public testing::TestWithParam<WireOfPin> {};
 
 TEST_P(EachPin, ThatDiffersIsNamedWithCycleAndBothLevels) {
   const auto [pin, wire] = GetParam();
-  Lockstep lockstep({}, spoiled([wire = wire](cosim::RtlOutputs& out, long cycle) {
-                      if (cycle >= 5000) out.word ^= 1U << wire;
-                    }));
+  Lockstep lockstep(spoiled([wire = wire](cosim::RtlOutputs& out, long cycle) {
+    if (cycle >= 5000) out.word ^= 1U << wire;
+  }));
   run(lockstep);
   ASSERT_TRUE(lockstep.difference());
   EXPECT_EQ(lockstep.difference()->at, 5000 * kCycle);
@@ -72,27 +78,27 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return std::string(dsdpv1::name(each.param.pin)); });
 
 TEST(Lockstep, ADifferenceOfOneCycleIsFound) {
-  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
-                      if (cycle == 7777) out.word ^= 1U << cosim::kWireIntr0;
-                    }));
+  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
+    if (cycle == 7777) out.word ^= 1U << cosim::kWireIntr0;
+  }));
   run(lockstep);
   ASSERT_TRUE(lockstep.difference());
   EXPECT_EQ(lockstep.difference()->at, 7777 * kCycle);
 }
 
 TEST(Lockstep, DDrivenWithoutAReadIsFound) {
-  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
-                      if (cycle >= 6000) out.word |= 1U << cosim::kWireDriven | 0x3CU;
-                    }));
+  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
+    if (cycle >= 6000) out.word |= 1U << cosim::kWireDriven | 0x3CU;
+  }));
   run(lockstep);
   ASSERT_TRUE(lockstep.difference());
   EXPECT_EQ(lockstep.difference()->what, "pin D_OUT: model Z, RTL 3C");
 }
 
 TEST(Lockstep, AnOutputThatIsUnknownIsADifference) {
-  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
-                      if (cycle >= 4000) out.unknown = 1U << cosim::kWirePbrts;
-                    }));
+  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
+    if (cycle >= 4000) out.unknown = 1U << cosim::kWirePbrts;
+  }));
   run(lockstep);
   ASSERT_TRUE(lockstep.difference());
   EXPECT_EQ(lockstep.difference()->what, "pin PBRTS: model 0, RTL X");
@@ -101,8 +107,8 @@ TEST(Lockstep, AnOutputThatIsUnknownIsADifference) {
 TEST(Lockstep, AnotherContentOfTheDpramIsFoundAtTheEndOfAnAccess) {
   auto top = std::make_unique<MadeUpTop>();
   top->spoil_cell(0x123);
-  Lockstep lockstep({}, std::move(top));
-  lockstep.set(480 * kCycle, Pin::kReset, 1);
+  Lockstep lockstep(std::move(top));
+  lockstep.set(480 * kCycle, number(Pin::kReset), 1);
   lockstep.advance(10 * kEnd);  // nobody writes: compared from time to time
   ASSERT_TRUE(lockstep.difference());
   EXPECT_EQ(lockstep.difference()->what, "DPRAM B123: model 00, RTL 5A");
@@ -117,20 +123,20 @@ TEST(Lockstep, ToleranceLetsAPinBeLater) {
     const std::uint32_t now = out.word & 1U << cosim::kWireLReq;
     out.word = (out.word & ~(1U << cosim::kWireLReq)) | std::exchange(before, now);
   };
-  Lockstep tolerant({}, spoiled(late), options);
+  Lockstep tolerant(spoiled(late), options);
   run(tolerant);
   EXPECT_FALSE(tolerant.difference()) << describe(*tolerant.difference());
   before = 0;
-  Lockstep exact({}, spoiled(late));
+  Lockstep exact(spoiled(late));
   run(exact);
   ASSERT_TRUE(exact.difference());
   EXPECT_EQ(exact.difference()->what, "pin L_REQ: model 1, RTL 0");
 }
 
 TEST(Lockstep, WaveShowsBothSidesAroundTheDifference) {
-  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
-                      if (cycle >= 5000) out.word |= 1U << cosim::kWireReady;
-                    }));
+  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
+    if (cycle >= 5000) out.word |= 1U << cosim::kWireReady;
+  }));
   run(lockstep);
   const auto file = std::filesystem::path(testing::TempDir()) / "lockstep_both_sides.vcd";
   lockstep.write_wave(file.string());
@@ -148,14 +154,14 @@ TEST(Lockstep, WaveShowsBothSidesAroundTheDifference) {
 }
 
 TEST(Lockstep, LastTelegramAndAccessAreTold) {
-  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
-                      if (cycle >= 9000) out.word ^= 1U << cosim::kWireBr;
-                    }));
-  lockstep.set(480 * kCycle, Pin::kReset, 1);
+  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
+    if (cycle >= 9000) out.word ^= 1U << cosim::kWireBr;
+  }));
+  lockstep.set(480 * kCycle, number(Pin::kReset), 1);
   bus::Segment segment;
   struct Line : bus::Listener {
     explicit Line(Lockstep& lockstep) : chip(lockstep) {}
-    void line_changed(bus::Tick at, bool level) override { chip.set(at, Pin::kPbrxd, level ? 1 : 0); }
+    void line_changed(bus::Tick at, bool level) override { chip.set(at, number(Pin::kPbrxd), level ? 1 : 0); }
     Lockstep& chip;
   } line(lockstep);
   segment.attach("chip", &line);

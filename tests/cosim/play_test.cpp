@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cosim/random/play_log.hpp"
+#include "cosim/random/play_options.hpp"
 #include "cosim/random/play_wave.hpp"
 #include "cosim/random/player.hpp"
 #include "cosim/random/stimulus_result.hpp"
@@ -72,7 +73,7 @@ TEST_F(PlayedStimulus, LogHasPinsOfAllSidesEventsTelegramsAndTheDifferenceInOrde
 }
 
 TEST_F(PlayedStimulus, WaveHasPinsInsideAndTelegramsOfTheModel) {
-  cosim::PlayWave wave(path("case.vcd"), "chip");
+  cosim::PlayWave wave(path("case.vcd"), "chip", cosim::chip_kind());
   const cosim::PlayResult result = play(nullptr, &wave);
   ASSERT_TRUE(result.difference);
   const std::string text = read("case.vcd");
@@ -84,7 +85,7 @@ TEST_F(PlayedStimulus, WaveHasPinsInsideAndTelegramsOfTheModel) {
 TEST_F(PlayedStimulus, FirstDifferenceIsTheSameWhoeverListens) {
   const cosim::PlayResult alone = play(nullptr, nullptr);
   cosim::PlayLog log(path("case.log"));
-  cosim::PlayWave wave(path("case.vcd"), "chip");
+  cosim::PlayWave wave(path("case.vcd"), "chip", cosim::chip_kind());
   const cosim::PlayResult heard = play(&log, &wave);
   ASSERT_TRUE(alone.difference && heard.difference);
   EXPECT_EQ(alone.difference->at, heard.difference->at);

@@ -37,9 +37,6 @@ NAME_A_CHIP = {
     "the mailbox is the kind's": """
         board/firmware/mailbox.h
     """.split(),
-    "pins by number": """
-        board/stm32/fsmc_timing.cpp board/stm32/fsmc_timing.hpp tb/chip/host_pins.hpp tb/chip/pin_device.hpp
-    """.split(),
     "for good: RCC_CSR is a register of the STM32": """
         board/stm32/rcc.cpp board/stm32/rcc.hpp
     """.split(),
@@ -47,7 +44,7 @@ NAME_A_CHIP = {
         cosim/history.cpp cosim/history.hpp cosim/line_history.hpp cosim/lockstep.cpp cosim/lockstep.hpp cosim/lockstep_execution.cpp
         cosim/lockstep_execution.hpp cosim/pin_comparator.cpp cosim/pin_comparator.hpp cosim/pin_map.cpp cosim/pin_map.hpp
         cosim/random/campaign.cpp cosim/random/campaign.hpp cosim/random/campaign_record.cpp cosim/random/coverage.cpp
-        cosim/random/play_listener.hpp cosim/random/play_log.cpp cosim/random/play_options.cpp cosim/random/play_wave.cpp
+        cosim/random/play_log.cpp cosim/random/play_options.cpp cosim/random/play_wave.cpp
         cosim/random/play_wave.hpp cosim/random/player.cpp cosim/random/player.hpp cosim/random/random_master.cpp
         cosim/random/random_master.hpp cosim/random/random_setup.hpp cosim/random/stimulus.hpp cosim/random/stimulus_result.cpp
         cosim/reference_rtl.cpp cosim/reference_rtl.hpp cosim/rtl_chip.cpp cosim/rtl_chip.hpp cosim/rtl_device.cpp cosim/rtl_device.hpp

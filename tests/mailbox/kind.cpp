@@ -6,7 +6,8 @@
 #include <variant>
 
 #include "tb/bench/record.hpp"
-#include "tb/chip/line_driver.hpp"
+#include "tb/chip/pin_chip.hpp"
+#include "tb/scenario/scenario.hpp"
 #include "tests/mailbox/chip.hpp"
 #include "tests/mailbox/reasons.hpp"
 #include "tests/mailbox/spi_port.hpp"
@@ -27,66 +28,55 @@ struct UserSettings : tb::OwnSettings {
 
 // --- the chip on the segment -----------------------------------------------------------------------------------------
 
-class View : public tb::ChipView, public bus::Agent, public SpiPins, private bus::Listener {
- public:
-  View(const tb::ChipRequest& request, bus::Segment& segment)
-      : chip_({request.engine == tb::Engine::kStep ? Engine::kStep : Engine::kSkip}),
-        watched_(request.watched),
-        station_(segment.attach(request.name, this)),
-        line_(segment, station_) {
-    chip_.watch(
-        {[](void* self, Tick at, Pin pin, Level level) { static_cast<View*>(self)->changed(at, pin, level); }, this},
-        kOutputPins);
-    chip_.on_event({[](void* self, const profibus::Event& event) {
-                      const auto& view = *static_cast<View*>(self);
-                      if (view.on_event) view.on_event(event);
-                    },
-                    this});
-  }
+constexpr PinNumber number(Pin pin) { return static_cast<PinNumber>(pin); }
 
-  // tb::ChipView
-  void set_reset(Tick at, bool level) override { set(at, Pin::kReset, level ? 1 : 0); }
+class Device : public tb::PinDevice {
+ public:
+  explicit Device(tb::Engine engine) : chip_({engine == tb::Engine::kStep ? Engine::kStep : Engine::kSkip}) {}
+
+  void set(Tick at, PinNumber pin, Level level) override { chip_.set(at, static_cast<Pin>(pin), level); }
+  void advance(Tick to) override { chip_.advance(to); }
+  Tick now() const override { return chip_.now(); }
+  Tick next_event() const override { return chip_.next_event(); }
+  Level level(PinNumber pin) const override { return chip_.level(static_cast<Pin>(pin)); }
+  Level sample(Tick /*at*/) override { return tb::kLevelZ; }
+  void watch(const tb::PinSink& sink, tb::PinMask pins) override {
+    sink_ = sink;
+    chip_.watch({[](void* self, Tick at, Pin pin, Level level) {
+                   const tb::PinSink& to = static_cast<Device*>(self)->sink_;
+                   to.call(to.self, at, number(pin), level);
+                 },
+                 this},
+                pins);
+  }
+  void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
+  tb::ChipStatus status() const override { return tb::common_status(chip_.status()); }
+  std::uint8_t address() const override { return chip_.status().address; }
+  std::uint8_t peek(std::uint16_t /*address*/) const override { return 0; }
+  void poke(std::uint16_t /*address*/, std::uint8_t /*value*/) override {}
+
+ private:
+  Chip chip_;
+  tb::PinSink sink_;
+};
+
+constexpr tb::BoardPins kBoardPins = {number(Pin::kReset), number(Pin::kPbrxd), number(Pin::kPbtxd),
+                                      number(Pin::kPbrts), number(Pin::kInt)};
+
+class View : public tb::PinChip, private SpiPins {
+ public:
+  using PinChip::PinChip;
+
   void reset_host(Tick at) override {
     set(at, Pin::kXss, 1);
     set(at, Pin::kSck, 0);
     set(at, Pin::kMosi, 0);
   }
-  bus::StationId station() const override { return station_; }
-  tb::ChipStatus status() const override { return tb::common_status(chip_.status()); }
-  std::uint8_t address() const override { return chip_.status().address; }
-  tb::Level level(PinNumber pin) const override { return chip_.level(static_cast<Pin>(pin)); }
-  void sync(Tick now) override { run(now); }
-
-  // SpiPins
-  void set(Tick at, Pin pin, Level level) override {
-    announce();
-    const Level before = chip_.level(pin);
-    chip_.set(at, pin, level);
-    const auto number = static_cast<PinNumber>(pin);
-    if (before != level && (watched_ & tb::mask_of(number)) != 0 && on_pin) on_pin(at, number, level);
-  }
-  Level level(Pin pin) const override { return chip_.level(pin); }
-
-  // bus::Agent
-  Tick next() const override { return line_.waits() ? line_.since() : chip_.next_event(); }
-  void run(Tick now) override {
-    chip_.advance(now);
-    line_.pass_on();
-  }
+  user_cpu::UserSide* user_side() override { return static_cast<SpiPins*>(this); }
 
  private:
-  void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? 1 : 0); }
-  void changed(Tick at, Pin pin, Level level) {
-    if (pin == Pin::kInt && on_interrupt) on_interrupt(at, level != 0);
-    if (on_pin) on_pin(at, static_cast<PinNumber>(pin), level);
-    if (pin == Pin::kPbtxd) line_.drive(at, level != 0);
-    if (pin == Pin::kPbrts) line_.enable(at, level != 0);
-  }
-
-  Chip chip_;
-  tb::PinMask watched_;
-  bus::StationId station_;
-  tb::LineDriver line_;
+  void set(Tick at, Pin pin, Level level) override { set_pin(at, number(pin), level); }
+  Level level(Pin pin) const override { return PinChip::level(number(pin)); }
 };
 
 // --- the user CPU ----------------------------------------------------------------------------------------------------
@@ -125,7 +115,7 @@ class Cpu : public user_cpu::StationCpu {
 
 // --- the kind --------------------------------------------------------------------------------------------------------
 
-class Kind : public tb::ChipMaker {
+class Kind : public tb::ChipKind {
  public:
   const char* name() const override { return "mailbox"; }
   const char* title() const override { return "8-byte mailbox"; }
@@ -142,6 +132,8 @@ class Kind : public tb::ChipMaker {
     return table;
   }
 
+  const tb::BoardPins& board_pins() const override { return kBoardPins; }
+
   const tb::keys::Object& chip_keys() const override {
     static const tb::keys::ObjectOf<ChipSettings> keys("chip", "The mailbox has no parameters.");
     return keys;
@@ -157,11 +149,15 @@ class Kind : public tb::ChipMaker {
   }
   std::unique_ptr<tb::OwnSettings> make_user_settings() const override { return std::make_unique<UserSettings>(); }
 
+  const std::vector<profibus::Reason>& reasons() const override {
+    static const std::vector<profibus::Reason> all = mailbox::reasons();
+    return all;
+  }
   std::string describe(const profibus::Event& event) const override { return mailbox::describe(event); }
   const std::vector<tb::CodeTable>& codes() const override {
     static const std::vector<tb::CodeTable> tables = [] {
       tb::CodeTable chip{"The chip", "", {}};
-      for (const profibus::Reason reason : reasons())
+      for (const profibus::Reason reason : mailbox::reasons())
         chip.codes.push_back(
             {profibus::code(reason), tb::name(profibus::severity(reason)), text_template(reason), advice(reason)});
       return std::vector<tb::CodeTable>{chip};
@@ -169,29 +165,31 @@ class Kind : public tb::ChipMaker {
     return tables;
   }
 
-  std::unique_ptr<tb::ChipView> make_pin_chip(const tb::ChipRequest& request, bus::Segment& segment,
-                                              bus::Timeline& timeline) const override {
-    auto chip = std::make_unique<View>(request, segment);
-    timeline.add(*chip);
-    return chip;
+  std::unique_ptr<tb::PinDevice> make_device(const tb::ChipRequest& request) const override {
+    return std::make_unique<Device>(request.engine);
+  }
+  std::unique_ptr<tb::PinChip> make_pin_chip(const tb::ChipRequest& request, std::unique_ptr<tb::PinDevice> device,
+                                             bus::Segment& segment) const override {
+    return std::make_unique<View>(request.name, std::move(device), pins(), kBoardPins, request.watched, segment);
   }
   tb::MakeUser make_user(const tb::UserRequest& request) const override {
     UserConfig config;
     config.period = request.slave.user_cpu.cycle;
     config.sck_period = static_cast<const UserSettings&>(*request.slave.user_cpu.own).sck_period;
-    return [config, &view = static_cast<View&>(request.chip)](const user_cpu::StationConfig& station, Tick start) {
+    return [config, &spi = static_cast<SpiPins&>(*request.chip.user_side())](const user_cpu::StationConfig& station,
+                                                                             Tick start) {
       UserConfig now = config;
       now.start = start + 10 * bus::kTicksPerUs;
       now.address = station.address;
       now.ident = station.ident;
-      return std::make_unique<Cpu>(view, now);
+      return std::make_unique<Cpu>(spi, now);
     };
   }
 };
 
 }  // namespace
 
-const tb::ChipMaker& kind() {
+const tb::ChipKind& kind() {
   static const Kind kind;
   return kind;
 }

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "bus/timeline.hpp"
+#include "tb/chip/user_cpu/user_side.hpp"
 #include "tests/mailbox/pins.hpp"
 
 namespace dsdpv1::mailbox {
 
 /// The chip's pins as the user reaches them.
-class SpiPins {
+class SpiPins : public user_cpu::UserSide {
  public:
-  virtual ~SpiPins() = default;
   virtual void set(Tick at, Pin pin, Level level) = 0;
   virtual Level level(Pin pin) const = 0;
 };

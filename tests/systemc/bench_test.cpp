@@ -69,8 +69,8 @@ class RecordedCore : public ChipAgent {
 struct PinRun {
   bus::Timeline timeline;
   RecordedCore core;
-  Once reset{kReset, [this] { core.set(kReset, Pin::kReset, 1); }};
-  user_cpu::PinHostBus host{core};
+  Once reset{kReset, [this] { core.set(kReset, number(Pin::kReset), 1); }};
+  user_cpu::PinHostBus host{core, &core.chip()};
   UserProgram program{options()};
   NativeCpu cpu{host, {}, program.entry()};
 

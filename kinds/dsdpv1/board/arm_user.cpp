@@ -10,9 +10,9 @@
 #include "io/input/input_error.hpp"
 #include "kinds/dsdpv1/board/board.hpp"
 #include "kinds/dsdpv1/board/untold.hpp"
-#include "kinds/dsdpv1/chip/dsdpv1_view.hpp"
 #include "kinds/dsdpv1/chip/user_maker.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
+#include "tb/bench/program_options.hpp"
 
 namespace dsdpv1::tb {
 namespace {
@@ -63,7 +63,8 @@ std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTa
   return std::make_unique<arm::HistoryPlayer>(target, *gdb.history, server);
 }
 
-MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
+MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
+  ChipView& chip = request.chip;
   const scenario::UserCpu& user = request.slave.user_cpu;
   const Dsdpv1User& own = tb::own(user);
   arm::BoardOptions options;
@@ -86,15 +87,15 @@ MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
   }
   if (const GdbRequest* gdb = request.gdb)
     options.make_debugger = [gdb](arm::DebugTarget& target) { return make_debugger(*gdb, target); };
-  return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
+  return [&user, &chip, &host, options](const user_cpu::StationConfig& station, Tick start) {
     arm::BoardOptions now = options;
     now.program = program_options(user, station);
-    now.chip = [&chip](Tick at) -> const dsdpv1::Chip& {
+    now.chip = [&chip](Tick at) -> const ChipView& {
       chip.sync(at);
-      return chip.core();
+      return chip;
     };
     const auto set_chip_reset = [&chip](Tick at, bool level) { chip.set_reset(at, level); };
-    return std::make_unique<arm::Board>(chip.host_bus(), std::move(now), set_chip_reset, start);
+    return std::make_unique<arm::Board>(host, std::move(now), set_chip_reset, start);
   };
 }
 

@@ -34,7 +34,7 @@
 #include "kinds/dsdpv1/board/serial_side.hpp"
 #include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/programs.hpp"
-#include "model/dsdpv1/chip.hpp"
+#include "tb/chip/chip_view.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::arm {
@@ -55,7 +55,7 @@ struct BoardOptions {
   Switches switches;
   unsigned card = 1;                                  ///< 1 or 2: where RESET, INTR0 and SPI are wired to
   bool serial = false;                                ///< the chip has the pins of SPI and UART
-  std::function<const dsdpv1::Chip&(Tick now)> chip;  ///< as it is `now`, for a debugger; null: that sees none
+  std::function<const tb::ChipView&(Tick now)> chip;  ///< as it is `now`, for a debugger; null: that sees none
   std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
   std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };

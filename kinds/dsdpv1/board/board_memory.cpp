@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "kinds/dsdpv1/board/board.hpp"
+#include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
 
 namespace dsdpv1::arm {
 namespace {
@@ -63,7 +64,7 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
 }
 
 void Board::set_access_timing() {
-  const user_cpu::FsmcAccess made = fsmc_.timing(hclk_hz());
+  const user_cpu::FsmcAccess made = user_cpu::access_timing(fsmc_.bank(hclk_hz()));
   pins_->set_access_timing(options_.access.value_or(made.read), options_.access.value_or(made.write));
 }
 
@@ -142,7 +143,7 @@ std::vector<MemoryRegion> Board::regions() const {
 
 std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
   if (options_.chip && address - kBank1 < kRegionSize) {
-    const dsdpv1::Chip& chip = options_.chip(pins_->now());
+    const tb::ChipView& chip = options_.chip(pins_->now());
     std::uint32_t word = 0;
     for (unsigned i = 0; i < 4; ++i)
       word |= std::uint32_t{chip.peek(static_cast<std::uint16_t>((address + i) & kChipMask))} << i * 8;
@@ -160,13 +161,13 @@ std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
 }
 
 std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
-  const dsdpv1::Chip* const chip = options_.chip ? &options_.chip(pins_->now()) : nullptr;
+  const tb::ChipView* const chip = options_.chip ? &options_.chip(pins_->now()) : nullptr;
   const auto level = [chip](dsdpv1::Pin pin) {
-    return static_cast<unsigned>(chip != nullptr && chip->level(pin) == 1);
+    return static_cast<unsigned>(chip != nullptr && chip->level(number(pin)) == 1);
   };
   const Outputs outputs = {level(Pin::kLReq) | level(Pin::kLSta) << 1U,
                            level(Pin::kPbf) | level(Pin::kBr) << 1U | level(Pin::kReady) << 2U,
-                           chip == nullptr || chip->level(Pin::kMiso) != 0};
+                           chip == nullptr || chip->level(number(Pin::kMiso)) != 0};
   const Levels there = wired(port, outputs);
   return ports_.at(port).read(offset, there.driven, there.levels);
 }

@@ -3,16 +3,16 @@
 #include <memory>
 #include <string>
 
-#include "board/stm32/fsmc_timing.hpp"
 #include "io/input/input_error.hpp"
-#include "kinds/dsdpv1/chip/dsdpv1_view.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
 #include "kinds/dsdpv1/user_cpu/native_user.hpp"
+#include "tb/bench/program_options.hpp"
 
 namespace dsdpv1::tb {
 namespace {
 
-MakeUser native_user(const scenario::UserCpu& user, const Dsdpv1Settings& settings, Dsdpv1View& chip) {
+MakeUser native_user(const scenario::UserCpu& user, const Dsdpv1Settings& settings, user_cpu::HostBus& host) {
   const Dsdpv1User& own = tb::own(user);
   user_cpu::CpuTiming timing;
   if (own.timing) timing = static_cast<const user_cpu::CpuTiming&>(*own.timing);
@@ -23,8 +23,8 @@ MakeUser native_user(const scenario::UserCpu& user, const Dsdpv1Settings& settin
     timing.write_access = fsmc.write;
   }
   const user_cpu::HostPort port = host_port_of(own, settings);
-  return [&user, &chip, timing, port](const user_cpu::StationConfig& station, Tick start) {
-    return std::make_unique<user_cpu::NativeUser>(chip.host_bus(), timing, program_options(user, station), start, port);
+  return [&user, &host, timing, port](const user_cpu::StationConfig& station, Tick start) {
+    return std::make_unique<user_cpu::NativeUser>(host, timing, program_options(user, station), start, port);
   };
 }
 
@@ -37,10 +37,10 @@ void set_arm_maker(MakeArmUser make) { arm_maker = make; }
 bool has_arm_maker() { return arm_maker != nullptr; }
 
 MakeUser make_dsdpv1_user(const UserRequest& request) {
-  auto& chip = static_cast<Dsdpv1View&>(request.chip);
+  auto& host = static_cast<user_cpu::HostBus&>(*request.chip.user_side());
   if (own(request.slave.user_cpu).kind != CpuKind::kArm)
-    return native_user(request.slave.user_cpu, static_cast<const Dsdpv1Settings&>(*request.scenario.chip), chip);
-  if (has_arm_maker()) return arm_maker(request, chip);
+    return native_user(request.slave.user_cpu, static_cast<const Dsdpv1Settings&>(*request.scenario.chip), host);
+  if (has_arm_maker()) return arm_maker(request, host);
   throw InputError(request.scenario.file, request.slave.user_cpu.line,
                    std::string("kind is arm, which ") + kBoardProgram +
                        " carries out, and that is neither beside this program nor in PATH: it is built where Unicorn "

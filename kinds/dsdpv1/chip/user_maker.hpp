@@ -1,21 +1,21 @@
 #pragma once
 // The user CPU that a scenario asks for beside a DSDPV1: a C++ program, or firmware on the ARM board, which not every
 // program has.
-#include "kinds/dsdpv1/chip/dsdpv1_view.hpp"
-#include "tb/bench/chip_maker.hpp"
+#include "kinds/dsdpv1/user_cpu/host_bus.hpp"
+#include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::tb {
 
 /// The program that has the ARM board: its emulator and SystemC must not be in one (docs/licences.md).
 constexpr const char* kBoardProgram = "dsdpv1-board";
 
-using MakeArmUser = MakeUser (*)(const UserRequest& request, Dsdpv1View& chip);
+using MakeArmUser = MakeUser (*)(const UserRequest& request, user_cpu::HostBus& host);
 
 /// Said by a program that has the ARM board, before the first scenario is read.
 void set_arm_maker(MakeArmUser make);
 bool has_arm_maker();
 
-/// ChipMaker::make_user. Throws InputError for an ARM board in a program without.
+/// ChipKind::make_user. Throws InputError for an ARM board in a program without.
 MakeUser make_dsdpv1_user(const UserRequest& request);
 
 }  // namespace dsdpv1::tb

@@ -11,8 +11,8 @@
 #include "kinds/dsdpv1/user_cpu/cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_port.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "tb/bench/chip_maker.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb {
 

@@ -8,7 +8,6 @@ namespace {
 
 using Edges = std::vector<DiagramEdge>;
 
-constexpr PinNumber number(Pin pin) { return static_cast<PinNumber>(pin); }
 DiagramEdge rise(Pin pin) { return {number(pin), Turn::kRise}; }
 DiagramEdge fall(Pin pin) { return {number(pin), Turn::kFall}; }
 DiagramEdge change(Pin pin) { return {number(pin), Turn::kChange}; }

@@ -86,7 +86,7 @@ std::vector<InsideWatch::Value> InsideWatch::values(const Seen& seen) {
   return values;
 }
 
-void InsideWatch::look(bus::Tick at, const dsdpv1::Chip& chip, const Tell& tell) {
+void InsideWatch::look(bus::Tick at, const dsdpv1::Chip& chip, const TellInside& tell) {
   const Seen seen = see(chip);
   if (!told_.empty() && same(seen, last_)) return;
   last_ = seen;

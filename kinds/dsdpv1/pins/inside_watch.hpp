@@ -1,24 +1,22 @@
 #pragma once
 // The inner signals of a DSDPV1: what waves show beside the pins.
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/chip/chip_view.hpp"
 
 namespace dsdpv1::tb {
 
 /// Looks at a chip after each of its rising edges, and tells what has changed.
 class InsideWatch {
  public:
-  /// In the order of `signals()`; a signal of words has no level, any other no word.
-  using Tell = std::function<void(bus::Tick at, std::size_t signal, Level level, const std::string& word)>;
-
   static const std::vector<InnerSignal>& signals();
-  void look(bus::Tick at, const dsdpv1::Chip& chip, const Tell& tell);
+  /// `tell` in the order of `signals()`.
+  void look(bus::Tick at, const dsdpv1::Chip& chip, const TellInside& tell);
 
  private:
   /// What the signals are made of; cheap to compare, as it is done in every cycle.

@@ -53,9 +53,9 @@ const char* answer_of(const bus::Telegram& answer) {
 }  // namespace
 
 void SituationWatch::begins(const Lockstep& lockstep) {
-  model_ = &lockstep.model();
+  model_ = &lockstep;
   for (int pin = 0; pin < pin_count(config_.part); ++pin)
-    levels_.at(static_cast<std::size_t>(pin)) = lockstep.level(static_cast<Pin>(pin));
+    levels_.at(static_cast<std::size_t>(pin)) = lockstep.level(static_cast<tb::PinNumber>(pin));
 }
 
 // --- pins ------------------------------------------------------------------------------------------------------------
@@ -70,7 +70,7 @@ void SituationWatch::pin(Tick at, Side side, Pin pin, Level level) {
   if (side == Side::kInput) input_changed(at, pin, level);
 }
 
-std::string SituationWatch::phase() const { return model_->inside().access.item; }
+std::string SituationWatch::phase() const { return model_->works_on(); }
 
 void SituationWatch::input_changed(Tick at, Pin pin, Level level) {
   const bool parallel = mode_ == HostMode::kParallel;
@@ -115,8 +115,8 @@ void SituationWatch::released(Tick at) {
   reader_->run(at);
 }
 
-void SituationWatch::evaluated(Tick /*now*/, const dsdpv1::Chip& model) {
-  const char* item = model.inside().access.item;
+void SituationWatch::evaluated(Tick /*now*/, tb::PinDevice& model) {
+  const char* item = model.works_on();
   if (item == item_) return;
   item_ = item;
   if (std::strcmp(item, "-") != 0) situations_.count("transfers", item);

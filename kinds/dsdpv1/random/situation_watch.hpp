@@ -18,7 +18,7 @@ class SituationWatch : public PlayListener {
   void pin(Tick at, Side side, Pin pin, Level level) override;
   void event(const profibus::Event& event) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
-  void evaluated(Tick now, const dsdpv1::Chip& model) override;
+  void evaluated(Tick now, tb::PinDevice& model) override;
 
   const Situations& situations() const { return situations_; }
 
@@ -37,7 +37,7 @@ class SituationWatch : public PlayListener {
   const dsdpv1::Config& config_;
   HostMode mode_;
   Situations situations_;
-  const dsdpv1::Chip* model_ = nullptr;
+  const tb::PinDevice* model_ = nullptr;
   std::array<Level, kRsuPinCount> levels_{};
   const char* item_ = nullptr;  ///< of the access under way, counted
   unsigned state_ = 0;

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "io/input/input_error.hpp"
-#include "kinds/dsdpv1/chip/dsdpv1_view.hpp"
+#include "kinds/dsdpv1/chip/core_device.hpp"
+#include "kinds/dsdpv1/chip/dsdpv1_pin_chip.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/kind.hpp"
 #include "kinds/dsdpv1/pins/pin_table.hpp"
@@ -26,7 +27,7 @@ namespace {
 constexpr std::uint32_t kPlannedBy =
     dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kTxd) | dsdpv1::mask(Pin::kRxd) | dsdpv1::mask(Pin::kXss);
 
-class TlmChipView : public Dsdpv1View {
+class TlmChipView : public ChipView {
  public:
   template <class Options>
   TlmChipView(const std::string& name, const Options& options, std::uint32_t watched, bus::Segment& segment,
@@ -42,32 +43,43 @@ class TlmChipView : public Dsdpv1View {
       timeline.wake();  // the script may have waited for it
     };
     bus_.on_begin = [this](Tick at, const user_cpu::Access& access, Tick sample) {
-      tell_action(at, access);
+      if (on_action) on_action(at, words_of(access));
       if (!access.write && on_read) on_read(sample);
     };
-    bus_.on_handshake = [this](Tick at, const char* pin, bool level) { tell_action(at, pin, level); };
+    bus_.on_handshake = [this](Tick at, const char* pin, bool level) {
+      if (on_action) on_action(at, words_of(pin, level));
+    };
   }
 
   void set_reset(Tick, bool level) override { chip_.set_reset(level); }
   void reset_host(Tick) override { bus_.reset(); }
-  user_cpu::HostBus& host_bus() override { return bus_; }
+  user_cpu::UserSide* user_side() override { return &bus_; }
   bus::StationId station() const override { return chip_.station(); }
-  const dsdpv1::Chip& core() const override { return chip_.module().chip(); }
+  ChipStatus status() const override { return status_of(core()); }
+  std::uint8_t address() const override { return core().address(); }
+  Level level(PinNumber pin) const override { return core().level(static_cast<Pin>(pin)); }
+  std::uint8_t peek(std::uint16_t address) const override { return core().peek(address); }
   void sync(Tick now) override { chip_.module().sync(dsdpv1::systemc::time_until(now)); }
 
  private:
+  const dsdpv1::Chip& core() const { return chip_.module().chip(); }
+  void tell(Tick at, Pin pin, Level level) const {
+    if (pin == Pin::kIntr0 && on_interrupt) on_interrupt(at, level != 0);
+    if (on_pin) on_pin(at, number(pin), level);
+  }
+
   systemc_bench::TlmChip chip_;
   user_cpu::TlmHostBus bus_;
 };
 
 class TlmExecution : public Execution {
  public:
-  std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override {
-    if (!is_dsdpv1(maker) && &maker != &dsdpv1_rsu_kind())
+  std::unique_ptr<ChipView> make_chip(const ChipKind& kind, const ChipRequest& request) override {
+    if (!is_dsdpv1(kind) && &kind != &dsdpv1_rsu_kind())
       throw InputError(fmt::format("--view tlm is for chips of the kinds {}, {} and {}, the scenario has {}",
                                    dsdpv1_kind().name(), dsdpv1_r_kind().name(), dsdpv1_rsu_kind().name(),
-                                   maker.name()));
-    if (&maker != &dsdpv1_rsu_kind()) return make_view(request, dsdpv1::systemc::TlmOptions());
+                                   kind.name()));
+    if (&kind != &dsdpv1_rsu_kind()) return make_view(request, dsdpv1::systemc::TlmOptions());
     dsdpv1::systemc::RsuTlmOptions options;
     const auto& settings = static_cast<const Dsdpv1Settings&>(request.settings);
     options.straps = {settings.mode, settings.address, settings.uart_rate, settings.interval};

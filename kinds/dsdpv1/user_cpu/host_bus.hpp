@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "bus/time.hpp"
-#include "kinds/dsdpv1/user_cpu/access_timing.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_pins.hpp"
+#include "model/dsdpv1/host_access.hpp"
 
 namespace dsdpv1::user_cpu {
 

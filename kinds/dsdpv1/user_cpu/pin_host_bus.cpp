@@ -2,9 +2,9 @@
 
 namespace dsdpv1::user_cpu {
 
-void PinHostBus::set_r_req(Tick at, bool level) { chip_.set(at, Pin::kRReq, level ? 1 : 0); }
+void PinHostBus::set_r_req(Tick at, bool level) { chip_.set(at, number(Pin::kRReq), level ? 1 : 0); }
 
-void PinHostBus::set_r_sta(Tick at, bool level) { chip_.set(at, Pin::kRSta, level ? 1 : 0); }
+void PinHostBus::set_r_sta(Tick at, bool level) { chip_.set(at, number(Pin::kRSta), level ? 1 : 0); }
 
 bool PinHostBus::l_req(Tick at) { return is_high(at, Pin::kLReq); }
 
@@ -19,7 +19,7 @@ unsigned PinHostBus::lamps(Tick at) {
 
 bool PinHostBus::is_high(Tick at, Pin pin) {
   chip_.advance(at);
-  return chip_.level(pin) == 1;
+  return chip_.level(number(pin)) == 1;
 }
 
 void PinHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
@@ -36,13 +36,13 @@ void PinHostBus::run_edges(Tick until) {
     if (edge.pin == Pin::kDOut)
       sample(begin_ + edge.at);
     else
-      chip_.set(begin_ + edge.at, edge.pin, edge.level);
+      chip_.set(begin_ + edge.at, number(edge.pin), edge.level);
   }
 }
 
 bool PinHostBus::run_whole() {
   Level sampled = 0;
-  if (edge_ > 0 || !chip_.carry_out(begin_, *access_, sampled)) return false;
+  if (edge_ > 0 || core_ == nullptr || !core_->carry_out(begin_, *access_, sampled)) return false;
   edge_ = access_->size();
   if (!access_->is_write()) take(sampled);
   return true;

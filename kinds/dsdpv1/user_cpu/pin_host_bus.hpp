@@ -1,20 +1,19 @@
 #pragma once
 // The HostBus on the pins of a chip: A, D, CSR, RD, WR with exact edges.
 #include <cstddef>
-#include <optional>
 
 #include "kinds/dsdpv1/user_cpu/host_bus.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/host_access.hpp"
-#include "tb/chip/host_pins.hpp"
+#include "tb/chip/pin_device.hpp"
 
 namespace dsdpv1::user_cpu {
 
 /// Drives a chip, which must outlive it. Between accesses CSR, RD and WR are high, D and A as HostAccess leaves them.
+/// `core`: that behind these pins, which takes accesses as a whole; null: each edge is set.
 class PinHostBus : public HostBus {
  public:
-  explicit PinHostBus(dsdpv1::Chip& chip) : core_(std::in_place, chip), chip_(*core_) {}
-  explicit PinHostBus(HostPins& pins) : chip_(pins) {}
+  explicit PinHostBus(tb::PinDevice& pins, dsdpv1::Chip* core = nullptr) : chip_(pins), core_(core) {}
   PinHostBus(const PinHostBus&) = delete;
   PinHostBus& operator=(const PinHostBus&) = delete;
 
@@ -26,7 +25,7 @@ class PinHostBus : public HostBus {
   unsigned lamps(Tick at) override;
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return edge_ < access_->size() ? begin_ + (*access_)[edge_].at : bus::kNever; }
-  bool put_off() override { return edge_ == 0 && chip_.is_private(begin_, *access_); }
+  bool put_off() override { return edge_ == 0 && core_ != nullptr && core_->is_private(begin_, *access_); }
   void run_edges(Tick until) override;
   /// The running access at once, if that comes to the same and it has not begun.
   bool run_whole();
@@ -42,8 +41,8 @@ class PinHostBus : public HostBus {
   void take(dsdpv1::Level level);
   bool is_high(Tick at, dsdpv1::Pin pin);
 
-  std::optional<CoreHostPins> core_;
-  HostPins& chip_;
+  tb::PinDevice& chip_;
+  dsdpv1::Chip* const core_;
   dsdpv1::HostAccessMaker maker_;
   const dsdpv1::HostAccess* access_ = &maker_.make(false, 0, 0, {});  ///< the one that runs or ran last
   Tick begin_ = 0;                                                    ///< of its first edge

@@ -5,6 +5,7 @@
 
 #include "bus/time.hpp"
 #include "model/dsdpv1/serial_host.hpp"
+#include "tb/chip/user_cpu/user_side.hpp"
 
 namespace dsdpv1::user_cpu {
 
@@ -13,9 +14,8 @@ using bus::Tick;
 class SpiMaster;
 class UartSender;
 
-class SerialPins {
+class SerialPins : public UserSide {
  public:
-  virtual ~SerialPins() = default;
   /// XSS, SCK, MOSI, RXD. Calls come in order of time. A chip without them: nothing.
   virtual void set_serial(Tick /*at*/, dsdpv1::Pin /*pin*/, bool /*level*/) {}
   /// MISO as it is strictly before what is set at `at`; true where nobody drives it.

@@ -1,31 +1,29 @@
 #pragma once
 // The core as an agent of a timeline, for tests that have no bench.
 #include "bus/timeline.hpp"
-#include "model/dsdpv1/chip.hpp"
-#include "tb/chip/host_pins.hpp"
+#include "kinds/dsdpv1/chip/core_device.hpp"
 
 namespace dsdpv1 {
 
-class ChipAgent : public bus::Agent, public user_cpu::HostPins {
+class ChipAgent : public bus::Agent, public tb::CoreDevice {
  public:
-  explicit ChipAgent(const dsdpv1::Config& config = {}) : chip_(config) {}
+  explicit ChipAgent(const dsdpv1::Config& config = {}) : CoreDevice(config) {}
 
-  bus::Tick next() const override { return chip_.next_event(); }
-  void run(bus::Tick now) override { chip_.advance(now); }
+  bus::Tick next() const override { return next_event(); }
+  void run(bus::Tick now) override { CoreDevice::advance(now); }
 
-  void set(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level) override { chip().set(at, pin, level); }
-  void advance(bus::Tick to) override { chip().advance(to); }
-  dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
-  dsdpv1::Level sample(bus::Tick at) override { return chip().sample(at); }
-  dsdpv1::Status status() const { return chip_.status(); }
-
-  dsdpv1::Chip& chip() {
+  void set(bus::Tick at, tb::PinNumber pin, Level level) override {
     announce();
-    return chip_;
+    CoreDevice::set(at, pin, level);
   }
-
- private:
-  dsdpv1::Chip chip_;
+  void advance(bus::Tick to) override {
+    announce();
+    CoreDevice::advance(to);
+  }
+  Level sample(bus::Tick at) override {
+    announce();
+    return CoreDevice::sample(at);
+  }
 };
 
 }  // namespace dsdpv1

@@ -1,12 +1,15 @@
 // A host access on a chip of the bench: all of its edges in one turn, but for those behind one that somebody hears of.
-#include "kinds/dsdpv1/chip/pin_chip.hpp"
+#include "kinds/dsdpv1/chip/dsdpv1_pin_chip.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "kinds/dsdpv1/chip/core_device.hpp"
 #include "tests/bench/saturated_bus.hpp"
 
 namespace dsdpv1 {
@@ -16,6 +19,19 @@ using bus::Tick;
 using user_cpu::Access;
 
 constexpr Access kWrite = {true, 0x130, 0x5A};
+
+/// A chip of the bench and its core.
+struct WithCore {
+  WithCore(const char* name, bus::Segment& segment)
+      : device(std::make_unique<tb::CoreDevice>(dsdpv1::Config())),
+        core(device->chip()),
+        chip(name, std::move(device), Part::kDsdpv1, 0, segment) {}
+
+  std::unique_ptr<tb::CoreDevice> device;  ///< until the chip has it
+  const dsdpv1::Chip& core;
+  tb::Dsdpv1PinChip chip;
+  user_cpu::HostBus& host = static_cast<user_cpu::HostBus&>(*chip.user_side());
+};
 
 /// The user has the DPRAM.
 struct PinChipTest : testing::Test {
@@ -32,8 +48,10 @@ struct PinChipTest : testing::Test {
   static constexpr Tick kStart = 203 * bus::kTicksPerUs;
 
   bus::Segment segment;
-  tb::PinChip chip{"chip", dsdpv1::Config(), 0, segment};
-  user_cpu::HostBus& host = chip.host_bus();
+  WithCore with_core{"chip", segment};
+  tb::PinChip& chip = with_core.chip;
+  const dsdpv1::Chip& core = with_core.core;
+  user_cpu::HostBus& host = with_core.host;
   std::vector<Tick> events;
 };
 
@@ -42,7 +60,7 @@ TEST_F(PinChipTest, AnAccessThatNobodyHearsOfIsOneTurn) {
   host.run_edges(host.end());
   EXPECT_EQ(host.next_edge(), bus::kNever);
   EXPECT_TRUE(events.empty());
-  EXPECT_LE(chip.core().now(), host.end());
+  EXPECT_LE(core.now(), host.end());
 }
 
 TEST_F(PinChipTest, EdgesBehindAViolationHaveTheirOwnTurn) {
@@ -51,7 +69,7 @@ TEST_F(PinChipTest, EdgesBehindAViolationHaveTheirOwnTurn) {
   host.begin(kStart, kWrite, late);
   host.run_edges(host.end());
   ASSERT_EQ(events.size(), 1U);
-  EXPECT_EQ(chip.core().now(), events[0]);
+  EXPECT_EQ(core.now(), events[0]);
   EXPECT_GT(host.next_edge(), events[0]);
   host.run_edges(host.end());
   EXPECT_EQ(host.next_edge(), bus::kNever);
@@ -71,8 +89,8 @@ TEST_F(PinChipTest, AReadInOneTurnBringsTheByte) {
 
 /// Two users with a chip each on one line make the same accesses; the second sets each edge at its time.
 struct PutOffTest : testing::Test {
-  struct User {
-    User(const char* name, bus::Segment& segment) : chip(name, dsdpv1::Config(), 0, segment) {
+  struct User : WithCore {
+    User(const char* name, bus::Segment& segment) : WithCore(name, segment) {
       chip.on_event = [this](const profibus::Event& event) { events.push_back(event.at); };
       chip.set_reset(1000, true);
       chip.run(200 * bus::kTicksPerUs);
@@ -80,8 +98,6 @@ struct PutOffTest : testing::Test {
       chip.run(202 * bus::kTicksPerUs);
       host.set_r_sta(202 * bus::kTicksPerUs, true);
     }
-    tb::PinChip chip;
-    user_cpu::HostBus& host = chip.host_bus();
     std::vector<Tick> events;
   };
 
@@ -151,8 +167,8 @@ TEST_F(PutOffTest, AResetInTheMiddleForgetsTheRest) {
   late.host.begin(at, kWrite, AccessTiming());
   ASSERT_TRUE(late.host.put_off());
   late.chip.reset_host(at + 400);
-  EXPECT_EQ(late.chip.level(static_cast<tb::PinNumber>(dsdpv1::Pin::kWr)), 1);
-  EXPECT_EQ(late.chip.core().now(), at + 400);
+  EXPECT_EQ(late.chip.level(number(Pin::kWr)), 1);
+  EXPECT_EQ(late.core.now(), at + 400);
 }
 
 // --- telegrams of others ---------------------------------------------------------------------------------------------
@@ -193,12 +209,12 @@ struct ForeignTelegramsTest : PinChipTest, bus::Listener {
 };
 
 TEST_F(ForeignTelegramsTest, AreCountedThoughTheChipHasNoTurn) {
-  ASSERT_TRUE(chip.core().status().baud_index.known());
-  const auto before = chip.core().status().telegrams_received;
+  ASSERT_TRUE(core.status().baud_index.known());
+  const auto before = core.status().telegrams_received;
   for (int i = 0; i < 3; ++i) send_to_others(i);
-  EXPECT_EQ(chip.core().status().telegrams_received, before);  // it has not been told
+  EXPECT_EQ(core.status().telegrams_received, before);  // it has not been told
   chip.sync(begin_of(3));
-  EXPECT_EQ(chip.core().status().telegrams_received, before + 3);
+  EXPECT_EQ(core.status().telegrams_received, before + 3);
 }
 
 TEST_F(ForeignTelegramsTest, AskedInTheMiddleOfOneTheChipHasThoseBefore) {

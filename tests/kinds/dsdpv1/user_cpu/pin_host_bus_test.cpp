@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "kinds/dsdpv1/user_cpu/cpu.hpp"
-#include "tests/kinds/dsdpv1/user_cpu/fake_pins.hpp"
+#include "tests/kinds/quiet_device.hpp"
 
 namespace dsdpv1 {
 namespace {
@@ -16,11 +18,32 @@ namespace {
 using bus::Tick;
 using testing::ElementsAre;
 
+struct PinChange {
+  Tick at;
+  Pin pin;
+  Level level;
+  bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
+};
+
+/// Records its inputs and drives D as it is told.
+struct FakePins : QuietDevice {
+  void set(Tick at, tb::PinNumber pin, Level level) override { changes.push_back({at, static_cast<Pin>(pin), level}); }
+  void advance(Tick to) override { reached = to; }
+  Level level(tb::PinNumber pin) const override { return pin == number(Pin::kDOut) ? data(reached) : high; }
+  Level sample(Tick at) override {
+    advance(at);
+    return level(number(Pin::kDOut));
+  }
+
+  std::vector<PinChange> changes;
+  Tick reached = 0;
+  Level high = 0;  ///< level of every single pin
+  std::function<Level(Tick)> data = [](Tick) { return Level{0x5A}; };
+};
+
 class PinHostBus : public testing::Test {
  protected:
   PinHostBus() {
-    fake_pins() = {};
-    fake_pins().data = [](Tick) { return Level{0x5A}; };
     timing.address_setup = 30;
     timing.cs_lead = 20;
     timing.rd_low = 500;
@@ -38,21 +61,21 @@ class PinHostBus : public testing::Test {
     while (host.next_edge() != bus::kNever) host.run_edges(host.next_edge());
   }
 
-  dsdpv1::Chip chip;
-  user_cpu::PinHostBus host{chip};
+  FakePins pins;
+  user_cpu::PinHostBus host{pins};
   AccessTiming timing;
 };
 
 TEST_F(PinHostBus, ReadHasItsEdgesAtTheirTicks) {
   Tick sampled = 0;
-  fake_pins().data = [&](Tick at) {
+  pins.data = [&](Tick at) {
     sampled = at;
     return Level{0x5A};
   };
   run(false);
-  EXPECT_THAT(fake_pins().changes, ElementsAre(PinChange{1000, Pin::kA, 0x123}, PinChange{1010, Pin::kCsr, 0},
-                                               PinChange{1030, Pin::kRd, 0}, PinChange{1530, Pin::kRd, 1},
-                                               PinChange{1540, Pin::kCsr, 1}, PinChange{1690, Pin::kA, 0x7FF}));
+  EXPECT_THAT(pins.changes, ElementsAre(PinChange{1000, Pin::kA, 0x123}, PinChange{1010, Pin::kCsr, 0},
+                                        PinChange{1030, Pin::kRd, 0}, PinChange{1530, Pin::kRd, 1},
+                                        PinChange{1540, Pin::kCsr, 1}, PinChange{1690, Pin::kA, 0x7FF}));
   EXPECT_EQ(sampled, 1430);
   EXPECT_EQ(host.sample_tick(), sampled);
   EXPECT_EQ(host.read_value(), 0x5A);
@@ -62,7 +85,7 @@ TEST_F(PinHostBus, ReadHasItsEdgesAtTheirTicks) {
 
 TEST_F(PinHostBus, NothingIsSampledBeforeTheReadBegins) {
   Tick sampled = 0;
-  fake_pins().data = [&](Tick at) {
+  pins.data = [&](Tick at) {
     sampled = at;
     return dsdpv1::kLevelX;
   };
@@ -77,7 +100,7 @@ TEST_F(PinHostBus, NothingIsSampledBeforeTheReadBegins) {
 
 TEST_F(PinHostBus, WriteHasItsEdgesAtTheirTicks) {
   run(true);
-  EXPECT_THAT(fake_pins().changes,
+  EXPECT_THAT(pins.changes,
               ElementsAre(PinChange{1000, Pin::kA, 0x123}, PinChange{1010, Pin::kCsr, 0}, PinChange{1030, Pin::kWr, 0},
                           PinChange{1130, Pin::kDIn, 0xA5}, PinChange{1330, Pin::kWr, 1}, PinChange{1340, Pin::kCsr, 1},
                           PinChange{1480, Pin::kDIn, dsdpv1::kLevelZ}, PinChange{1490, Pin::kA, 0x7FF}));
@@ -87,47 +110,47 @@ TEST_F(PinHostBus, WriteHasItsEdgesAtTheirTicks) {
 TEST_F(PinHostBus, AddressMayComeTooLate) {
   timing.address_setup = -5;
   run(false);
-  EXPECT_THAT(fake_pins().changes[0], (PinChange{1000, Pin::kCsr, 0}));
-  EXPECT_THAT(fake_pins().changes[1], (PinChange{1020, Pin::kRd, 0}));
-  EXPECT_THAT(fake_pins().changes[2], (PinChange{1025, Pin::kA, 0x123}));
+  EXPECT_THAT(pins.changes[0], (PinChange{1000, Pin::kCsr, 0}));
+  EXPECT_THAT(pins.changes[1], (PinChange{1020, Pin::kRd, 0}));
+  EXPECT_THAT(pins.changes[2], (PinChange{1025, Pin::kA, 0x123}));
 }
 
 TEST_F(PinHostBus, DataMayComeTooLateAndGoTooEarly) {
   timing.data_setup = -10;
   timing.data_hold = 20;
   run(true);
-  EXPECT_THAT(fake_pins().changes[3], (PinChange{1330, Pin::kWr, 1}));
-  EXPECT_THAT(fake_pins().changes[4], (PinChange{1340, Pin::kDIn, 0xA5}));
+  EXPECT_THAT(pins.changes[3], (PinChange{1330, Pin::kWr, 1}));
+  EXPECT_THAT(pins.changes[4], (PinChange{1340, Pin::kDIn, 0xA5}));
 }
 
 TEST_F(PinHostBus, UnknownAndFloatingDataAreBadReads) {
   for (const Level level : {dsdpv1::kLevelX, dsdpv1::kLevelZ}) {
-    fake_pins().data = [level](Tick) { return level; };
+    pins.data = [level](Tick) { return level; };
     run(false);
     EXPECT_TRUE(host.last_read_was_bad());
     EXPECT_EQ(host.read_value(), 0xFF);
   }
-  fake_pins().data = [](Tick) { return Level{0}; };
+  pins.data = [](Tick) { return Level{0}; };
   run(false);
   EXPECT_FALSE(host.last_read_was_bad());
   EXPECT_EQ(host.read_value(), 0);
 }
 
 TEST_F(PinHostBus, SampledFFIsNotBad) {
-  fake_pins().data = [](Tick) { return Level{0xFF}; };
+  pins.data = [](Tick) { return Level{0xFF}; };
   run(false);
   EXPECT_FALSE(host.last_read_was_bad());
 }
 
 TEST_F(PinHostBus, PinsAreLookedAtAtTheirTick) {
-  fake_pins().high = 1;
+  pins.high = 1;
   EXPECT_TRUE(host.l_req(77));
-  EXPECT_EQ(fake_pins().now, 77);
+  EXPECT_EQ(pins.reached, 77);
   EXPECT_TRUE(host.l_sta(78));
   EXPECT_TRUE(host.intr0(79));
   host.set_r_req(80, true);
   host.set_r_sta(81, true);
-  EXPECT_THAT(fake_pins().changes, ElementsAre(PinChange{80, Pin::kRReq, 1}, PinChange{81, Pin::kRSta, 1}));
+  EXPECT_THAT(pins.changes, ElementsAre(PinChange{80, Pin::kRReq, 1}, PinChange{81, Pin::kRSta, 1}));
 }
 
 TEST_F(PinHostBus, DefaultsKeepTable15) {

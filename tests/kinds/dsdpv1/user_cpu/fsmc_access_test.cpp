@@ -1,5 +1,5 @@
 // The FSMC's edges against the figures of the STM32F103xE datasheet and against its own HCLK counts.
-#include "board/stm32/fsmc_timing.hpp"
+#include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
 
 #include "bus/time.hpp"
 

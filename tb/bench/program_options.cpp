@@ -1,8 +1,4 @@
-#include "tb/bench/chip_maker.hpp"
-
-#include <fmt/format.h>
-
-#include "io/input/input_error.hpp"
+#include "tb/bench/program_options.hpp"
 
 namespace dsdpv1::tb {
 namespace {
@@ -28,12 +24,6 @@ user_cpu::AcyclicOptions acyclic_options(const scenario::Dpv1User& user) {
 }
 
 }  // namespace
-
-const ChipMaker& chip_maker(const scenario::Scenario& scenario) {
-  const std::string name = scenario.kind->name();
-  if (const auto* maker = dynamic_cast<const ChipMaker*>(scenario.kind)) return *maker;
-  throw InputError(scenario.file, scenario.chip->line, fmt::format("kind is {}, which the bench cannot make", name));
-}
 
 user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const user_cpu::StationConfig& station) {
   user_cpu::ProgramOptions options;

@@ -1,4 +1,4 @@
-#include "board/stm32/fsmc_timing.hpp"
+#include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
 
 #include "bus/time.hpp"
 
@@ -48,17 +48,6 @@ AccessTiming write_timing(const FsmcTiming& timing, FsmcMode mode, const Hclk& a
 FsmcAccess access_timing(const FsmcBank& bank) {
   const Hclk at(bank.hclk_hz);
   return {read_timing(bank.read, bank.mode, at), write_timing(bank.write, bank.mode, at)};
-}
-
-FsmcBank with(FsmcBank bank, const FsmcOverride& given) {
-  for (FsmcTiming* timing : {&bank.read, &bank.write}) {
-    timing->addset = given.addset.value_or(timing->addset);
-    timing->datast = given.datast.value_or(timing->datast);
-    timing->busturn = given.busturn.value_or(timing->busturn);
-  }
-  if (given.hclk_mhz) bank.hclk_hz = std::int64_t{1'000'000} * *given.hclk_mhz;
-  bank.mode = given.mode.value_or(bank.mode);
-  return bank;
 }
 
 }  // namespace dsdpv1::user_cpu

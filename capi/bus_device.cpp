@@ -1,0 +1,50 @@
+#include "capi/bus_device.hpp"
+
+namespace dsdpv1::capi {
+
+BusDevice::BusDevice(const Kind& kind, const ChipPlan& plan, dpsim_bus& bus)
+    : bus_(bus),
+      chip_(plan.name, kind.chip.make_device(plan.request()), kind.chip.pins(), kind.chip.board_pins(), 0, bus.segment),
+      inputs_(tb::inputs_of(kind.chip.pins()) & ~tb::mask_of(kind.chip.board_pins().rxd)) {
+  bus.timeline.add(chip_);
+  bus.add_station({chip_.station(), Station::Kind::kChip});
+}
+
+void BusDevice::set(Tick at, tb::PinNumber pin, tb::Level level) {
+  bus_.run(at);
+  chip_.set_pin(at, pin, level);
+}
+
+tb::Level BusDevice::sample(Tick at) {
+  bus_.run(at);
+  return chip_.sample(at);
+}
+
+void BusDevice::watch(const tb::PinSink& sink, tb::PinMask pins) {
+  const tb::PinMask told = pins & ~inputs_;
+  chip_.on_pin = [sink, told](Tick at, tb::PinNumber pin, tb::Level level) {
+    if ((told & tb::mask_of(pin)) != 0) sink.call(sink.self, at, pin, level);
+  };
+  chip_.watch(now(), told);
+}
+
+void BusDevice::on_event(const profibus::EventSink& sink) {
+  chip_.on_event = [sink](const profibus::Event& event) { sink.call(sink.self, event); };
+}
+
+tb::ChipStatus BusDevice::status() const {
+  catch_up();
+  return chip_.status();
+}
+
+std::uint8_t BusDevice::peek(std::uint16_t address) const {
+  catch_up();
+  return chip_.peek(address);
+}
+
+/// Inside of a callback it is not to be moved.
+void BusDevice::catch_up() const {
+  if (!bus_.clock.calling) chip_.sync(now());
+}
+
+}  // namespace dsdpv1::capi

@@ -1,0 +1,193 @@
+#include "tb/chip/pin_chip.hpp"
+
+#include <utility>
+
+#include "model/profibus/addressee.hpp"
+#include "model/profibus/time.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+// So that profibus::addressee is a bus::RunReader.
+static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody == bus::kForNobody &&
+              profibus::kBroadcast == bus::kBroadcast);
+
+PinMask data_of(const PinTable& pins) {
+  PinMask mask = 0;
+  for (std::size_t pin = 0; pin < pins.size(); ++pin)
+    if (pins[pin].bus != nullptr) mask |= mask_of(static_cast<PinNumber>(pin));
+  return mask;
+}
+
+}  // namespace
+
+PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, const PinTable& pins,
+                 const BoardPins& places, PinMask watched, bus::Segment& segment)
+    : device_(std::move(device)),
+      pins_(pins),
+      places_(places),
+      data_(data_of(pins)),
+      segment_(segment),
+      station_(segment.attach(name, this)),
+      line_(segment, station_),
+      inputs_(pins.size()) {
+  begin_watch(watched);
+  device_->on_event({[](void* self, const profibus::Event& event) {
+                       auto& chip = *static_cast<PinChip*>(self);
+                       chip.pause_access();
+                       if (chip.on_event) chip.on_event(event);
+                     },
+                     this});
+}
+
+void PinChip::begin_watch(PinMask pins) {
+  const PinMask inputs = inputs_of(pins_),
+                needed = mask_of(places_.txd) | mask_of(places_.rts) | mask_of(places_.interrupt) | places_.told;
+  reports_host_ = (pins & inputs & ~mask_of(places_.rxd)) != 0;
+  reports_rxd_ = (pins & mask_of(places_.rxd)) != 0;
+  reports_txd_ = (pins & mask_of(places_.txd)) != 0;
+  device_->watch({[](void* self, Tick at, PinNumber pin, Level level) {
+                    static_cast<PinChip*>(self)->pin_changed(at, pin, level);
+                  },
+                  this},
+                 (pins & ~inputs) | needed);
+  for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_[pin] = device_->level(static_cast<PinNumber>(pin));
+}
+
+// A telegram under way is told by its changes from here on.
+void PinChip::watch(Tick now, PinMask pins) {
+  segment_.cut_run(now);
+  device();
+  begin_watch(pins);
+  segment_.set_deafness(station_, {});
+  segment_.set_filter(station_, {});
+  update_hearing();
+}
+
+ChipStatus PinChip::status() const {
+  segment_.hear_runs(station_);
+  return device_->status();
+}
+
+Tick PinChip::next() const {
+  if (line_.waits()) return line_.since();
+  return device_->left_run() ? device_->now() : device_->next_seen();
+}
+
+void PinChip::run(Tick now) {
+  PinDevice& chip = device();
+  catch_up(now);
+  chip.advance(now);
+  if (tells_inside_ && on_inside) chip.look_inside(now, on_inside);
+  if (chip.left_run()) {
+    segment_.cut_run(now);
+    chip.leave_run(now);
+  }
+  send_run();
+  line_.pass_on();
+  update_hearing();
+}
+
+// An answer begins: its first start bit waits to be told, or the whole of it is told in its place.
+void PinChip::send_run() {
+  if ((reports_txd_ && !on_run) || !line_.only_level_waits() || !device_->begins_to_send()) return;
+  const profibus::CharacterRun run = device_->hide_txd();
+  own_run_ = true;
+  hides_txd_ = segment_.send_run(
+      station_, {run.start, run.bit * bus::kTicksPerCycle, run.bytes, static_cast<std::size_t>(run.size)});
+  if (hides_txd_)
+    line_.forget_level();
+  else
+    device_->show_txd(run.start);
+}
+
+void PinChip::pin_changed(Tick at, PinNumber pin, Level level) {
+  const PinMask changed = mask_of(pin);
+  if ((changed & data_) == 0) pause_access();  // data are recorded and checked, nobody else looks at them
+  tell(at, pin, level);
+  if ((changed & places_.told) != 0) host_pin_changed(at, pin, level);
+  if (pin == places_.txd) line_.drive(at, level != 0);
+  if (pin == places_.rts) {
+    line_.enable(at, level != 0);
+    own_run_ = hides_txd_ = false;
+  }
+}
+
+void PinChip::tell(Tick at, PinNumber pin, Level level) {
+  if (pin == places_.interrupt && on_interrupt) on_interrupt(at, level != 0);
+  if (on_pin) on_pin(at, pin, level);
+}
+
+void PinChip::line_changed(Tick at, bool level) {
+  if (catching_up_) return device_->hear(at, level);
+  catch_up(at);
+  device_->set(at, places_.rxd, level ? 1 : 0);
+  announce(next());
+  if (reports_rxd_) report_inputs(at, places_.rxd, places_.rxd);
+  update_hearing();
+}
+
+bool PinChip::run_begins(const bus::CharacterRun& run) {
+  if (reports_rxd_) {
+    if (!on_run) return false;
+    on_run(places_.rxd);
+  }
+  if (own_run_ && reports_txd_) on_run(places_.txd);
+  if (own_run_) return true;  // while it sends, it does not listen
+  if (run.bit % bus::kTicksPerCycle != 0) return false;
+  catch_up(run.start);
+  const bool taken =
+      device_->hear(run.start, {run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+  announce(next());  // the same as before, as long as the telegram is not for this station
+  update_hearing();
+  return taken;
+}
+
+void PinChip::runs_passed(std::uint64_t for_stations) { device_->pass(for_stations); }
+
+void PinChip::run_cut(Tick at, bool level) {
+  announce();
+  catch_up(at);
+  if (std::exchange(hides_txd_, false)) {
+    device_->show_txd(at);
+    line_.resume(level);
+  }
+  if (std::exchange(own_run_, false))
+    device_->set(at, places_.rxd, level ? 1 : 0);
+  else
+    device_->leave_run(at);
+  begin_input(places_.rxd, level ? 1 : 0);
+  update_hearing();
+}
+
+// Who shows the pin wants each change of it in time.
+void PinChip::update_hearing() {
+  if (reports_rxd_) return;
+  const profibus::Unheard unheard = device_->unheard();
+  segment_.set_deafness(station_, {unheard.from, unheard.until});
+  const profibus::Unconcerned unconcerned = device_->unconcerned();
+  segment_.set_filter(
+      station_, {&profibus::addressee, unconcerned.from, unconcerned.bit * bus::kTicksPerCycle, unconcerned.address});
+}
+
+void PinChip::set_reset(Tick at, bool level) { set_pin(at, places_.reset, level ? 1 : 0); }
+
+void PinChip::set_pin(Tick at, PinNumber pin, Level level) {
+  device().set(at, pin, level);
+  update_hearing();
+  report_host(at, pin, pin);
+}
+
+void PinChip::poke(Tick now, std::uint16_t address, std::uint8_t value) {
+  sync(now);
+  device_->poke(address, value);
+}
+
+void PinChip::report_inputs(Tick at, PinNumber first, PinNumber last) {
+  for (PinNumber pin = first; pin <= last; ++pin) {
+    const Level level = device_->level(pin);
+    if (std::exchange(inputs_[pin], level) != level) tell(at, pin, level);
+  }
+}
+
+}  // namespace dsdpv1::tb
