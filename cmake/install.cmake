@@ -190,12 +190,12 @@ function(dsdpv1_install_dpi)
     list(APPEND targets dsdpv1_vpi)
   endif()
   dsdpv1_install_targets(dpi dpi ${targets})
-  install(DIRECTORY bindings/systemverilog DESTINATION ${DSDPV1_INSTALL_DATADIR}/bindings COMPONENT dpi)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/bindings/systemverilog DESTINATION ${DSDPV1_INSTALL_DATADIR}/bindings COMPONENT dpi)
 endfunction()
 
 # The packages of Python where Debian's are. They load the library of the component capi, by a link that names it from there.
 function(dsdpv1_install_python)
-  install(DIRECTORY bindings/python/dsdpv1 bindings/cocotb/cocotbext DESTINATION ${DSDPV1_INSTALL_PYTHONDIR} COMPONENT python
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/bindings/python/dsdpv1 bindings/cocotb/cocotbext DESTINATION ${DSDPV1_INSTALL_PYTHONDIR} COMPONENT python
           PATTERN "__pycache__" EXCLUDE)
   set(folder ${DSDPV1_INSTALL_PYTHONDIR}/dsdpv1/lib)
   get_target_property(number dsdpv1_capi SOVERSION)
@@ -250,7 +250,7 @@ endfunction()
 # Builds what is installed, and no tests: `./run examples`.
 function(dsdpv1_installed_target)
   add_custom_target(dsdpv1_installed)
-  foreach(target core driver bus checks systemc driver_systemc systemc_bus capi dpi vpi pages rtl_libraries firmware)
+  foreach(target core driver bus checks systemc driver_systemc systemc_bus capi dpi vpi modules python pages rtl_libraries firmware)
     if(TARGET dsdpv1_${target})
       add_dependencies(dsdpv1_installed dsdpv1_${target})
     endif()

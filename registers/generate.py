@@ -18,14 +18,14 @@ from systemrdl.node import RegfileNode
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "registers" / "dsdpv1.rdl"
 # REUSE-IgnoreStart
-LICENCE = ("SPDX-FileCopyrightText: 2026 the dsdpv1 authors", "SPDX-License-Identifier: ")
+LICENCE = ("SPDX-FileCopyrightText: 2026 the dsdpv1 authors", "SPDX-License-Identifier: Apache-2.0 OR MIT")
 # REUSE-IgnoreEnd
 ORIGIN = "Generated from registers/dsdpv1.rdl by registers/generate.py. Do not edit."
 
 
-def licence(comment, identifier="Apache-2.0 OR MIT"):
+def licence(comment):
     """The first lines of a file that is copied on its own."""
-    return [comment.format(LICENCE[0]), comment.format(LICENCE[1] + identifier)]
+    return [comment.format(text) for text in LICENCE]
 
 
 # ------------------------------------------------------------------------------------------------- what the map says
@@ -350,18 +350,6 @@ def render_sv(areas):
     return "\n".join(head + render_groups(areas, line) + ["", "/* verilator lint_on UNUSED */", "`endif"]) + "\n"
 
 
-def render_python(areas):
-    def line(constant):
-        text = f"  # {constant.text}" if constant.text else ""
-        return f"{constant.key.upper()} = {hexadecimal(constant)}{text}"
-
-    head = [*licence("# {}", "Apache-2.0"), f'"""Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows.\n\n{ORIGIN}\n"""']
-    lines = []
-    for heading, constants in constant_groups(areas):
-        lines += ["", f"# {heading}", *map(line, constants)]
-    return "\n".join(head + lines) + "\n"
-
-
 def table(header, rows):
     return ["| " + " | ".join(header) + " |", "|" + " --- |" * len(header)] + ["| " + " | ".join(row) + " |" for row in rows]
 
@@ -451,7 +439,6 @@ def outputs(areas):
         ROOT / "registers" / "dsdpv1_regs.hpp": render_cpp(areas),
         ROOT / "registers" / "dsdpv1_regs.h": render_c(areas),
         ROOT / "registers" / "dsdpv1_regs.svh": render_sv(areas),
-        ROOT / "bindings" / "python" / "dsdpv1" / "registers.py": render_python(areas),
         ROOT / "docs" / "registers.md": render_doc(areas),
     }
 

@@ -1,22 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes dsdpv1/_c.py, the C API as ctypes has it, from the headers of include/dsdpv1/.
+"""Writes into FOLDER what the package dsdpv1 has from C: _c.py, the C API as ctypes has it, from the headers of include/dsdpv1/; registers.py from
+registers/dsdpv1_regs.h.
 
-    generate.py           writes it
-    generate.py --check   exit 1, and one line, when it is not what it should be
+    generate.py FOLDER
 
 The headers keep to a small part of C99, and that is all that is read: constants, enums, integer types, structs, opaque structs, types of
 functions, functions. What is anything else is an error, so that nothing is left out silently. Python's standard library only.
 """
-import argparse
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADERS = ("types", "chip", "gsd", "telegram", "bus", "master", "checks", "run")  # in the order of their #include
-TARGET = ROOT / "bindings" / "python" / "dsdpv1" / "_c.py"
 # REUSE-IgnoreStart
 HEAD = '''# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
@@ -25,6 +23,13 @@ HEAD = '''# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int16, c_int32, c_int64, c_size_t, c_uint8, c_uint16, c_uint32,
                     c_uint64, c_void_p)
 
+'''
+REGISTERS = '''# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows.
+
+Generated from registers/dsdpv1_regs.h by bindings/python/generate.py. Do not edit.
+"""
 '''
 # REUSE-IgnoreEnd
 SCALARS = {"int16_t": "c_int16", "int32_t": "c_int32", "int64_t": "c_int64", "uint8_t": "c_uint8", "uint16_t": "c_uint16",
@@ -165,7 +170,7 @@ class Writer:
         raise Unknown(f"the statement {text.splitlines()[0]}")
 
 
-def written():
+def declarations():
     writer = Writer()
     for name in HEADERS:
         path = ROOT / "include" / "dsdpv1" / f"{name}.h"
@@ -177,17 +182,17 @@ def written():
     return re.sub(r"\n{4,}", "\n\n\n", text)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="write nothing; exit 1 when it is stale")
-    text = written()
-    if not parser.parse_args().check:
-        TARGET.write_text(text, encoding="utf-8")
-    elif not TARGET.is_file() or TARGET.read_text(encoding="utf-8") != text:
-        print(f"{TARGET.relative_to(ROOT)}: stale, call ./run generate")
-        return 1
-    return 0
+def registers():
+    """The constants of the DPRAM under their headings."""
+    text = (ROOT / "registers" / "dsdpv1_regs.h").read_text(encoding="utf-8")
+    body = text[text.index("\n// "):text.index("\n#endif")]
+    return REGISTERS + re.sub(r"^#define DSDPV1_REG_(\w+) (\w+?)U?\b", r"\1 = \2", body, flags=re.M).replace("// ", "# ")
+
+
+def main(folder):
+    for name, text in (("_c.py", declarations()), ("registers.py", registers())):
+        (pathlib.Path(folder) / name).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main(*sys.argv[1:])

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the modules of bindings/systemverilog that have a chip's pins: model, scoreboard and checker of each kind that the library has, from its lists
+"""Writes into FOLDER the modules of SystemVerilog that have a chip's pins: model, scoreboard and checker of each kind that the library has, from its lists
 of pins and parameters (dpsim_pin_get, dpsim_parameter_get), and how a top's inputs and outputs are packed, which they include. What they do is in
-dsdpv1_model.svh, dsdpv1_scoreboard.svh and dsdpv1_checker.svh.
+dsdpv1_model.svh, dsdpv1_scoreboard.svh and dsdpv1_checker.svh. Last of all files.txt, the order of all modules.
 
-    generate.py           writes them
-    generate.py --check   exit 1, and a line for each, when they are not what they should be
+    generate.py FOLDER PACKAGE    PACKAGE: the folder of the Python package dsdpv1, with what its generate.py writes
 
 Pins are packed as bindings/simulator/pins.hpp has it. Ports have the names and the order of the reference RTL's top, so that either may stand in
 the place of the other; what it has not comes after them.
@@ -14,11 +13,14 @@ the place of the other; what it has not comes after them.
 import pathlib
 import re
 import sys
+import types
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TARGET = ROOT / "bindings" / "systemverilog"
-sys.path.insert(0, str(ROOT / "bindings" / "python"))
-import dsdpv1  # noqa: E402  pylint: disable=wrong-import-position
+FOLDER, PACKAGE = map(pathlib.Path, sys.argv[1:])
+sys.modules["dsdpv1"] = types.ModuleType("dsdpv1")  # without its __init__: that needs NumPy, which a build does not
+sys.modules["dsdpv1"].__path__ = [str(PACKAGE)]
+from dsdpv1.kinds import kind_names, kind_of  # noqa: E402  pylint: disable=wrong-import-position
+from dsdpv1.units import Z  # noqa: E402  pylint: disable=wrong-import-position
 
 # REUSE-IgnoreStart
 GENERATED = """// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
@@ -57,7 +59,7 @@ OWN = {
 
 
 def releasable(pin):
-    return pin.reset_level == dsdpv1.Z
+    return pin.reset_level == Z
 
 
 def base(pin):
@@ -215,23 +217,13 @@ def packing(kinds):
 
 
 def files():
-    """What is to be there: text by path."""
-    kinds = [dsdpv1.kind_of(name) for name in dsdpv1.kind_names()]
-    modules = {TARGET / f"{kind.name}_{role}.sv": module(kind, role) for kind in kinds for role in WHAT}
-    names = ["dsdpv1_pkg", "dsdpv1_clock", *[path.stem for path in modules], "dsdpv1_user", "profibus_segment", "profibus_master", "dsdpv1_assertions"]
-    headers = {TARGET / name: text for name, text in packing(kinds).items()}
-    return {**modules, **headers, TARGET / "files.txt": "".join(f"{name}.sv\n" for name in names)}
-
-
-def main(arguments):
-    different = [(path, text) for path, text in files().items() if not path.exists() or path.read_text(encoding="utf-8") != text]
-    for path, text in different:
-        if arguments == ["--check"]:
-            print(f"{path.relative_to(ROOT)} is not what the library's lists say: ./run generate")
-        else:
-            path.write_text(text, encoding="utf-8")
-    return 1 if different and arguments == ["--check"] else 0
+    """What is to be there: text by name."""
+    kinds = [kind_of(name) for name in kind_names()]
+    modules = {f"{kind.name}_{role}.sv": module(kind, role) for kind in kinds for role in WHAT}
+    order = ["dsdpv1_pkg.sv", "dsdpv1_clock.sv", *modules, "dsdpv1_user.sv", "profibus_segment.sv", "profibus_master.sv", "dsdpv1_assertions.sv"]
+    return {**modules, **packing(kinds), "files.txt": "".join(f"{name}\n" for name in order)}
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    for file, text in files().items():
+        (FOLDER / file).write_text(text, encoding="utf-8")

@@ -56,7 +56,7 @@ def row_of(program, name, *words):
 
 def row_of_python(program, name, *words):
     """... that one of the Python programs beside this file prints, which use the module dsdpv1 with the library of the build."""
-    folders = os.pathsep.join(str(ROOT / "bindings" / each) for each in ("python", "cocotb"))
+    folders = os.pathsep.join(map(str, (BUILD / "bindings" / "python", ROOT / "bindings" / "cocotb")))
     printed = call([ROOT / ".venv" / "bin" / "python", "-B", ROOT / "tests" / "bench" / program, *words], PYTHONPATH=folders,
                    DSDPV1_LIBRARY=str(BUILD / "capi" / "libdsdpv1.so"))
     return number_in(printed, program, name)

@@ -117,7 +117,7 @@ class Icarus(Benches, unittest.TestCase):
 
     def compile(self, name, top):
         rtl = {"replay": self.rtl("files.txt"), "serial_rtl": self.rtl("files_rsu.txt")}.get(name, [])
-        bindings = ROOT / "bindings/systemverilog"
+        bindings = VPI.parent / "systemverilog"
         sources = [bindings / line for line in (bindings / "files.txt").read_text(encoding="ascii").split()]
         status, said = call(["iverilog", "-g2012", "-DDSDPV1_VPI", "-DDSDPV1_IMMEDIATE", "-I", bindings, "-I", ROOT / "rtl_ref", "-I", ROOT / "registers",
                              "-s", top, "-o", f"{name}.vvp", VPI, *sources, *rtl, ROOT / f"tests/bindings_sv/{top}.sv"], self.folder)

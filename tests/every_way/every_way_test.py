@@ -22,7 +22,7 @@ import dsdpv1  # noqa: E402  pylint: disable=wrong-import-position
 
 PS, FS = 1000, 1_000_000  # units a ns, of which a tick is a twelfth
 TICK = 12
-BINDINGS = ROOT / "bindings" / "systemverilog"
+BINDINGS = pathlib.Path(sys.argv[1]).resolve() / "bindings" / "systemverilog"
 PINS = {pin.name: pin.number for pin in dsdpv1.kind_of("dsdpv1").pins}
 NAMES = {number: name for name, number in PINS.items()}
 POWER_ON = {pin.number: pin.reset_level for pin in dsdpv1.kind_of("dsdpv1").pins if pin.name in OUTPUTS}

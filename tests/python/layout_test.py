@@ -8,9 +8,9 @@ import subprocess
 import sys
 import tempfile
 
+from dsdpv1 import _c
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "bindings" / "python" / "dsdpv1"))
-import _c  # noqa: E402  pylint: disable=import-error,wrong-import-position
 
 
 def expectations():

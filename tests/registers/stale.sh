@@ -4,10 +4,9 @@ set -euo pipefail
 python=$1 root=$2
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-mkdir -p "$copy/registers" "$copy/docs" "$copy/bindings/python/dsdpv1"
+mkdir -p "$copy/registers" "$copy/docs"
 cp "$root"/registers/{generate.py,dsdpv1.rdl,dsdpv1_regs.*} "$copy/registers"
 cp "$root/docs/registers.md" "$copy/docs"
-cp "$root/bindings/python/dsdpv1/registers.py" "$copy/bindings/python/dsdpv1"
 
 check() { "$python" "$copy/registers/generate.py" --check; }
 
@@ -22,7 +21,7 @@ finds_stale() {
 }
 
 check
-for file in registers/dsdpv1_regs.hpp registers/dsdpv1_regs.h registers/dsdpv1_regs.svh bindings/python/dsdpv1/registers.py docs/registers.md; do
+for file in registers/dsdpv1_regs.hpp registers/dsdpv1_regs.h registers/dsdpv1_regs.svh docs/registers.md; do
   sed -i 's/Generated from/Made from/' "$copy/$file"
   finds_stale "$file"
   "$python" "$copy/registers/generate.py" >/dev/null
