@@ -190,7 +190,9 @@ function(dsdpv1_install_dpi)
     list(APPEND targets dsdpv1_vpi)
   endif()
   dsdpv1_install_targets(dpi dpi ${targets})
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/bindings/systemverilog DESTINATION ${DSDPV1_INSTALL_DATADIR}/bindings COMPONENT dpi)
+  if(TARGET dsdpv1_modules)  # not with a sanitizer
+    install(DIRECTORY ${PROJECT_BINARY_DIR}/bindings/systemverilog DESTINATION ${DSDPV1_INSTALL_DATADIR}/bindings COMPONENT dpi)
+  endif()
 endfunction()
 
 # The packages of Python where Debian's are. They load the library of the component capi, by a link that names it from there.
