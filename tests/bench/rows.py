@@ -118,11 +118,11 @@ ROWS = (
         lambda turn: turn.replayed_pin_changes(*DPI), ("bench_dpi",)),
     Row("vpi", None, "million/s", "The same by VPI in Icarus, which takes 98 % of the time by itself.", lambda turn: turn.pin_changes("vvp", programs.FOLDER / "vpi" / "binding_speed.vvp"), ("bench_vpi",)),
     Row("python", 10, "million/s", "Changes of all pins that come into numpy arrays through the Python module, on the same stimulus, given to the chip in one call "
-        "each 9 ms; in CPU time.", lambda turn: turn.once("python", lambda: programs.row_of_python("python_speed.py", "python")), ("dsdpv1_capi",),
+        "each 9 ms; in CPU time.", lambda turn: turn.once("python", lambda: programs.row_of_python("python_speed.py", "python")), ("dsdpv1_capi", "dsdpv1_python"),
         limit="What the core takes to make them."),
     Row("cocotb", 20, "%", "What `cocotbext.profibus` adds to the CPU time of a simulation of the reference RTL in Icarus: a master brings it up, host port "
         "and model as scoreboard are at its pins; against cocotb alone, which plays the same inputs from a recording.",
-        lambda turn: turn.once("cocotb", lambda: programs.row_of_python("cocotb_speed.py", "cocotb", programs.FOLDER / "cocotb")), ("dsdpv1_capi",),
+        lambda turn: turn.once("cocotb", lambda: programs.row_of_python("cocotb_speed.py", "cocotb", programs.FOLDER / "cocotb")), ("dsdpv1_capi", "dsdpv1_python"),
         at_most=True, limit="Each change of a pin is a call into Python."),
     of_sim("demo", 3, "The scenario power_on_12m, checks off, no files.", real_time(DEMO, *OFF),
            limit="A saturated bus and a user CPU that exchanges data every 40 us: half of the time goes to its accesses, one a turn of a coroutine "
