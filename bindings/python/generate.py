@@ -186,7 +186,10 @@ def registers():
     """The constants of the DPRAM under their headings."""
     text = (ROOT / "registers" / "dsdpv1_regs.h").read_text(encoding="utf-8")
     body = text[text.index("\n// "):text.index("\n#endif")]
-    return REGISTERS + re.sub(r"^#define DSDPV1_REG_(\w+) (\w+?)U?\b", r"\1 = \2", body, flags=re.M).replace("// ", "# ")
+    lines = re.sub(r"^#define DSDPV1_REG_(\w+) (\w+?)U?\b", r"\1 = \2", body, flags=re.M).replace("// ", "# ")
+    if "#define" in lines:
+        sys.exit("registers/dsdpv1_regs.h:1: has a constant that bindings/python/generate.py does not know")
+    return REGISTERS + lines
 
 
 def main(folder):
