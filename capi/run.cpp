@@ -12,7 +12,7 @@
 #include "capi/sized.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/verdict.hpp"
-#include "tb/report/result_json.hpp"
+#include "tb/report/result_fields.hpp"
 #include "tb/report/summary.hpp"
 
 using capi::fail;

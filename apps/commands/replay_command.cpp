@@ -25,7 +25,7 @@
 #include "lab/replay/replay.hpp"
 #include "lab/replay/report.hpp"
 #include "tb/report/progress.hpp"
-#include "tb/report/result_json.hpp"
+#include "tb/report/result_fields.hpp"
 
 namespace dsdpv1::app {
 namespace {

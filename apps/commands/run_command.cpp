@@ -27,7 +27,7 @@
 #include "tb/bench/bench.hpp"
 #include "tb/report/html/report_file.hpp"
 #include "tb/report/progress.hpp"
-#include "tb/report/result_json.hpp"
+#include "tb/report/result_fields.hpp"
 #include "tb/report/run_junit.hpp"
 #include "tb/report/summary.hpp"
 

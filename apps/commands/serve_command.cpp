@@ -21,7 +21,7 @@
 #include "io/output/output_file.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/html/report_file.hpp"
-#include "tb/report/result_json.hpp"
+#include "tb/report/result_fields.hpp"
 #include "tb/report/run_junit.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/serve/ports.hpp"

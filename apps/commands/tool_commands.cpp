@@ -6,10 +6,10 @@
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
 #include "bus/gsd/report.hpp"
-#include "cosim/random/stimulus_schema.hpp"
+#include "cosim/random/stimulus_result.hpp"
 #include "io/input/read_file.hpp"
 #include "io/output/write_file.hpp"
-#include "tb/report/result_schema.hpp"
+#include "tb/report/result_fields.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::app {

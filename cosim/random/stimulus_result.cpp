@@ -1,33 +1,46 @@
 #include "cosim/random/stimulus_result.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "model/dsdpv1/reasons.hpp"
+#include "tb/report/fields.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tb::Fields;
+using tb::only_if;
+using Json = Fields::Json;
 
-Json difference_of(const Difference& difference) {
-  return {{"cycle", difference.at / profibus::kTicksPerCycle},
-          {"time_ns", static_cast<double>(difference.at) / static_cast<double>(bus::kTicksPerNs)},
-          {"what", difference.what},
-          {"last_telegram", difference.last_telegram},
-          {"last_access", difference.last_access},
-          {"dpram", difference.dpram_accesses}};
+constexpr const char* kSchema = "dsdpv1-sim rtl-random";
+
+bool is_random(const StimulusResult& result) { return result.replayed.empty(); }
+
+void case_fields(Fields& out, const StimulusResult& result) {
+  out.field("number", result.cases, "which one, from 1");
+  out.field("seed", result.case_seed, "that it alone is made from");
+  out.field("stimulus", result.stimulus, "the file that it was written to, made shorter");
+  out.field("actions", result.actions, "that it has there");
 }
 
-Json case_of(const StimulusResult& result) {
-  return {
-      {"number", result.cases}, {"seed", result.case_seed}, {"stimulus", result.stimulus}, {"actions", result.actions}};
+void difference_fields(Fields& out, const Difference& difference) {
+  const double ns = static_cast<double>(difference.at) / static_cast<double>(bus::kTicksPerNs);
+  out.field("cycle", difference.at / profibus::kTicksPerCycle, "of 48 MHz, when");
+  out.field("time_ns", ns, "when");
+  out.field("what", difference.what, "pin or cell of the DPRAM, and both values");
+  out.field("last_telegram", difference.last_telegram, "on the line");
+  out.field("last_access", difference.last_access, "of the user");
+  out.field("dpram", difference.dpram_accesses, "the chip's last access");
 }
 
-Json coverage_of(const Coverage& coverage) {
-  Json telegrams = Json::object(), codes = Json::object();
+Json telegrams_of(const Coverage& coverage) {
+  Json telegrams = Json::object();
   for (const auto& [name, count] : coverage.telegrams()) telegrams[name] = count;
+  return telegrams;
+}
+
+Json codes_of(const Coverage& coverage) {
+  Json codes = Json::object();
   for (const profibus::Reason reason : dsdpv1::reasons()) codes[profibus::code(reason)] = coverage.count(reason);
-  return {{"telegrams", telegrams}, {"codes", codes}};
+  return codes;
 }
 
 /// Each group with its situations, those that did not occur, too.
@@ -39,25 +52,47 @@ Json situations_of(const StimulusResult& result) {
   return groups;
 }
 
+void coverage_fields(Fields& out, const StimulusResult& result) {
+  out.counts("telegrams", telegrams_of(result.coverage), "how many", "each kind, with its count");
+  out.counts("codes", codes_of(result.coverage), "how often", "each code of docs/reasons.md, with its count");
+  out.groups("situations", is_random(result) ? situations_of(result) : Json(), "how often",
+             "each situation, with its count",
+             "each group: states, services, events, situations at the host port; null: `--replay`");
+}
+
+void stimulus_fields(Fields& out, const StimulusResult& result) {
+  const bool random = is_random(result);
+  out.constant("schema", kSchema, "what this file is");
+  out.constant("version", "1.1", "of what it holds");
+  out.word("verdict", result.difference ? "different" : "same", {"same", "different"}, "of model and RTL");
+  out.field("rtl", only_if(!result.rtl.empty(), result.rtl), "the folder of `--rtl`; null: the reference RTL");
+  out.field("fault", only_if(result.fault != 0, result.fault), "the number of `--fault`; null: none");
+  out.field("seed", result.seed, "of the random cases, and of what the reference RTL begins with");
+  out.field("replayed", only_if(!random, result.replayed), "the stimulus of `--replay`; null: random cases");
+  out.field("cases", only_if(random, result.cases),
+            "random cases, up to and including the one that differs; null: `--replay`");
+  out.field("cycles", result.counts.cycles, "that were compared and are the same");
+  out.field("pin_changes", result.counts.pin_changes, "likewise");
+  out.field("dpram_images", result.counts.dpram_images, "likewise");
+  out.object_or_null("case", random && result.difference ? &result : nullptr, case_fields,
+                     "the random case that differs; null: none, or `--replay`");
+  out.object_or_null("difference", result.difference, difference_fields,
+                     "the first one of what the stimulus file says; null: none");
+  out.object("coverage", result, coverage_fields, "what occurred");
+}
+
+Json described() {
+  return Fields::described(stimulus_fields, "what came of random cases, or of a stimulus that was played");
+}
+
 }  // namespace
 
 std::string result_json(const StimulusResult& result) {
-  const bool random = result.replayed.empty();
-  Json json = {{"schema", kStimulusResultSchema}, {"version", kStimulusResultVersion}};
-  json["verdict"] = result.difference ? "different" : "same";
-  json["rtl"] = result.rtl.empty() ? Json() : Json(result.rtl);
-  json["fault"] = result.fault == 0 ? Json() : Json(result.fault);
-  json["seed"] = result.seed;
-  json["replayed"] = random ? Json() : Json(result.replayed);
-  json["cases"] = random ? Json(result.cases) : Json();
-  json["cycles"] = result.counts.cycles;
-  json["pin_changes"] = result.counts.pin_changes;
-  json["dpram_images"] = result.counts.dpram_images;
-  json["case"] = random && result.difference ? case_of(result) : Json();
-  json["difference"] = result.difference ? difference_of(*result.difference) : Json();
-  json["coverage"] = coverage_of(result.coverage);
-  json["coverage"]["situations"] = random ? situations_of(result) : Json();
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return tb::json_file(Fields::written(result, stimulus_fields));
 }
+
+std::string stimulus_result_schema() { return tb::schema_file(kSchema, described()); }
+
+std::string stimulus_result_table() { return tb::schema_table(described()); }
 
 }  // namespace dsdpv1::cosim

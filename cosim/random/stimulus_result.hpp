@@ -10,9 +10,6 @@
 
 namespace dsdpv1::cosim {
 
-constexpr const char* kStimulusResultSchema = "dsdpv1-sim rtl-random";
-constexpr const char* kStimulusResultVersion = "1.1";
-
 struct StimulusResult {
   std::string rtl;     ///< folder of the user's RTL; empty: the reference RTL
   unsigned fault = 0;  ///< of the reference RTL
@@ -31,5 +28,9 @@ struct StimulusResult {
 
 /// Indented, with a line end.
 std::string result_json(const StimulusResult& result);
+/// Its JSON Schema (draft 2020-12): exact, what it does not name is wrong.
+std::string stimulus_result_schema();
+/// The table of docs/cosim.md.
+std::string stimulus_result_table();
 
 }  // namespace dsdpv1::cosim

@@ -12,7 +12,6 @@
 #include "cosim/random/play_wave.hpp"
 #include "cosim/random/player.hpp"
 #include "cosim/random/stimulus_result.hpp"
-#include "cosim/random/stimulus_schema.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
 namespace dsdpv1 {

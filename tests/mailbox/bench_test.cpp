@@ -11,7 +11,7 @@
 #include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/verdict.hpp"
-#include "tb/report/result_json.hpp"
+#include "tb/report/result_fields.hpp"
 #include "tb/report/summary.hpp"
 #include "tests/mailbox/kind.hpp"
 

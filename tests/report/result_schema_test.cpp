@@ -1,5 +1,5 @@
 // The page about results is the one that the program prints.
-#include "tb/report/result_schema.hpp"
+#include "tb/report/result_fields.hpp"
 
 #include <gtest/gtest.h>
 

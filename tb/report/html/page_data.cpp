@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tb/report/result_json.hpp"
+#include "tb/report/result_fields.hpp"
 
 namespace dsdpv1::tb::html {
 namespace {

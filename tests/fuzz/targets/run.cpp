@@ -2,7 +2,7 @@
 #include "tb/bench/bench.hpp"
 
 #include "io/input/input_error.hpp"
-#include "tb/report/result_json.hpp"
+#include "tb/report/result_fields.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tests/fuzz/input.hpp"

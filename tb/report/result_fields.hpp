@@ -1,4 +1,5 @@
 #pragma once
+// What the result file of a run holds, for programs and people.
 #include <string>
 
 #include "tb/bench/record.hpp"
@@ -7,5 +8,9 @@ namespace dsdpv1::tb {
 
 /// The result file: one JSON object, indented, with a line end.
 std::string result_json(const RunResult& result);
+/// Its JSON Schema (draft 2020-12): exact, what it does not name is wrong.
+std::string result_schema();
+/// docs/result.md.
+std::string result_markdown();
 
 }  // namespace dsdpv1::tb
