@@ -29,7 +29,7 @@ std::optional<V> only_if(bool there, V value) {
 class Fields {
  public:
   using Json = nlohmann::ordered_json;
-  /// Says the fields of a value. That of a fresh V is visited where only the schema is wanted.
+  /// Says the fields of a value; also of a fresh V, from which the schema is made.
   template <class V>
   using Visit = void (*)(Fields& out, const V& value);
 
@@ -105,6 +105,7 @@ class Fields {
     if constexpr (std::is_same_v<V, bool>) return "boolean";
     if constexpr (std::is_integral_v<V>) return "integer";
     if constexpr (std::is_floating_point_v<V> || std::is_same_v<V, Nanoseconds>) return "number";
+    static_assert(std::is_arithmetic_v<V> || std::is_same_v<V, Nanoseconds> || std::is_convertible_v<V, std::string>);
     return "string";
   }
   static Json plain(const char* type, const char* doc);
