@@ -103,15 +103,30 @@ struct ExpectationResult {
   bool implied = false;   ///< by a master that has the slave; `line`: of the slave in the master's list
 };
 
-/// How a run against a host outside kept to real time (serve).
+/// What a host outside has sent and heard (serve).
+struct HostLineStatistics {
+  std::uint64_t telegrams = 0;    ///< handed over by the host
+  std::uint64_t sent_bytes = 0;   ///< by the host
+  std::uint64_t heard_bytes = 0;  ///< by the host
+  std::uint64_t held_back = 0;    ///< its telegrams that came before T_SYN or the slot time had ended
+  Tick longest_held_back = 0;
+};
+
+/// How simulated time kept to real time (serve).
+struct PaceStatistics {
+  std::uint64_t samples = 0;
+  double error_sum_us = 0, error_max_us = 0;  ///< how long after its simulated time an instant was carried out
+  std::uint64_t losses = 0;                   ///< how often the computer was too slow, and time was given up
+  Tick lost = 0;                              ///< simulated time given up in total
+
+  double error_mean_us() const { return samples == 0 ? 0 : error_sum_us / static_cast<double>(samples); }
+};
+
+/// A run against a host outside (serve).
 struct Pacing {
   std::string port;
-  std::uint64_t telegrams_from_host = 0, bytes_from_host = 0, bytes_to_host = 0;
-  std::uint64_t held_back = 0;  ///< telegrams of the host that came before T_SYN or the slot time had ended
-  Tick longest_held_back = 0;
-  double error_mean_us = 0, error_max_us = 0;  ///< real minus simulated time
-  std::uint64_t losses = 0;                    ///< how often the computer was too slow
-  Tick lost = 0;                               ///< simulated time given up because of that
+  HostLineStatistics line;
+  PaceStatistics pace;
 };
 
 /// Model and RTL side by side: what was the same, and where they first differ.

@@ -15,7 +15,7 @@ bool failed(const RunResult& result) {
 }
 
 bool judged(const RunResult& result) {
-  if (result.pacing && result.pacing->telegrams_from_host != 0) return true;
+  if (result.pacing && result.pacing->line.telegrams != 0) return true;
   const auto is_judged = [](const ExpectationResult& each) { return !each.left_out || each.implied; };
   const auto exchanges = [](const SlaveResult& each) { return each.status.data_exchanges != 0; };
   return std::any_of(result.expectations.begin(), result.expectations.end(), is_judged) ||

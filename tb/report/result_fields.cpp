@@ -16,16 +16,17 @@ constexpr const char* kSchema = "dsdpv1-sim result";  // the member "schema"
 constexpr const char* kVersion = "1.2";               // "version": when it changes says docs/result.md
 
 void pacing_fields(Fields& out, const Pacing& pacing) {
-  out.field("port", pacing.port, "where the host was: the pseudo-terminal, TCP port or serial port");
-  out.field("telegrams_from_host", pacing.telegrams_from_host, "telegrams that came from it");
-  out.field("bytes_from_host", pacing.bytes_from_host, "bytes that came from it");
-  out.field("bytes_to_host", pacing.bytes_to_host, "bytes that went to it");
-  out.field("held_back", pacing.held_back, "its telegrams that came before T_SYN or the slot time had ended");
-  out.time("longest_held_back_ns", pacing.longest_held_back, "for how long at most");
-  out.field("error_mean_us", pacing.error_mean_us, "real minus simulated time, on average");
-  out.field("error_max_us", pacing.error_max_us, "real minus simulated time at most");
-  out.field("times_too_slow", pacing.losses, "how often the computer was too slow");
-  out.time("time_lost_ns", pacing.lost, "simulated time given up because of that");
+  const auto& [port, line, pace] = pacing;
+  out.field("port", port, "where the host was: the pseudo-terminal, TCP port or serial port");
+  out.field("telegrams_from_host", line.telegrams, "telegrams that came from it");
+  out.field("bytes_from_host", line.sent_bytes, "bytes that came from it");
+  out.field("bytes_to_host", line.heard_bytes, "bytes that went to it");
+  out.field("held_back", line.held_back, "its telegrams that came before T_SYN or the slot time had ended");
+  out.time("longest_held_back_ns", line.longest_held_back, "for how long at most");
+  out.field("error_mean_us", pace.error_mean_us(), "real minus simulated time, on average");
+  out.field("error_max_us", pace.error_max_us, "real minus simulated time at most");
+  out.field("times_too_slow", pace.losses, "how often the computer was too slow");
+  out.time("time_lost_ns", pace.lost, "simulated time given up because of that");
 }
 
 void difference_fields(Fields& out, const LockstepResult::Difference& difference) {

@@ -140,19 +140,19 @@ std::string waiting(const RunResult& result) {
   return text.empty() ? "" : text + "\n";
 }
 
-std::string pacing(const Pacing& pacing) {
+std::string pacing(const HostLineStatistics& line, const PaceStatistics& pace) {
   const auto ms = [](double us) { return us / 1000; };
   std::string text = fmt::format(
       "  host           {} telegrams, {} bytes from it, {} bytes to it; {} telegrams held back for T_SYN or the slot "
       "time, {} at most\n",
-      pacing.telegrams_from_host, pacing.bytes_from_host, pacing.bytes_to_host, pacing.held_back,
+      line.telegrams, line.sent_bytes, line.heard_bytes, line.held_back,
       fmt::format("{:.2f} ms",
-                  ms(static_cast<double>(pacing.longest_held_back) / static_cast<double>(bus::kTicksPerUs))));
+                  ms(static_cast<double>(line.longest_held_back) / static_cast<double>(bus::kTicksPerUs))));
   text += fmt::format("  pacing         simulated behind real time by {:.2f} ms in the mean, {:.2f} ms at most\n",
-                      ms(pacing.error_mean_us), ms(pacing.error_max_us));
-  if (pacing.losses != 0)
-    text += fmt::format("  too slow       {} times, simulated time lost {} in total\n", pacing.losses,
-                        time_text(pacing.lost / bus::kTicksPerMs * bus::kTicksPerMs));
+                      ms(pace.error_mean_us()), ms(pace.error_max_us));
+  if (pace.losses != 0)
+    text += fmt::format("  too slow       {} times, simulated time lost {} in total\n", pace.losses,
+                        time_text(pace.lost / bus::kTicksPerMs * bus::kTicksPerMs));
   return text;
 }
 
@@ -181,7 +181,7 @@ std::string summary(const RunResult& result) {
   text +=
       fmt::format("  simulated      {} in {:.2f} s: {:.2f} times real time (engine {}, view {})\n",
                   time_text(result.simulated), result.wall_s, result.real_time_factor(), result.engine, result.view);
-  if (result.pacing) text += pacing(*result.pacing);
+  if (result.pacing) text += pacing(result.pacing->line, result.pacing->pace);
   text += boards(result);
   if (result.violations != 0)
     text += fmt::format("  violations     {} that the scenario does not allow{}\n", result.violations,

@@ -1,6 +1,5 @@
 #pragma once
 // The host as a station of the simulated segment: what it writes becomes characters, what others send becomes bytes.
-#include <cstdint>
 #include <deque>
 #include <optional>
 
@@ -8,18 +7,11 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
+#include "tb/bench/record.hpp"
 
 namespace dsdpv1::tb::serve {
 
 using bus::Tick;
-
-struct HostLineStatistics {
-  std::uint64_t telegrams = 0;    ///< handed over by the host
-  std::uint64_t sent_bytes = 0;   ///< by the host
-  std::uint64_t heard_bytes = 0;  ///< by the host
-  std::uint64_t held_back = 0;    ///< telegrams that came too soon
-  Tick longest_held_back = 0;
-};
 
 /// A host cannot keep bus times, so they are kept here: a telegram starts when the line has been idle for T_SYN (33 bit
 /// times; an answer of the host: min_TSDR, 11), and a request after one that wants an answer when the answer or the

@@ -1,25 +1,16 @@
 #pragma once
 // Simulated time held to real time. The computer is never ahead on purpose; when it is behind it catches up, and what
 // it cannot catch up is given up: simulated time then lags for good, by an amount that is reported.
-#include <cstdint>
 #include <functional>
 #include <optional>
 
 #include "bus/time.hpp"
+#include "tb/bench/record.hpp"
 #include "tb/serve/framing.hpp"
 
 namespace dsdpv1::tb::serve {
 
 using bus::Tick;
-
-struct PaceStatistics {
-  std::uint64_t samples = 0;
-  double error_sum_us = 0, error_max_us = 0;  ///< how long after its simulated time an instant was carried out
-  std::uint64_t losses = 0;                   ///< how often time was given up
-  Tick lost = 0;                              ///< simulated time given up in total
-
-  double error_mean_us() const { return samples == 0 ? 0 : error_sum_us / static_cast<double>(samples); }
-};
 
 class Pace {
  public:

@@ -122,20 +122,7 @@ void RealTimeExecution::tell(const Pace::Loss& loss) {
 }
 
 Pacing RealTimeExecution::pacing() const {
-  const HostLineStatistics& line = line_.statistics();
-  Pacing pacing;
-  pacing.port = port_->name();
-  pacing.telegrams_from_host = line.telegrams;
-  pacing.bytes_from_host = line.sent_bytes;
-  pacing.bytes_to_host = line.heard_bytes;
-  pacing.held_back = line.held_back;
-  pacing.longest_held_back = line.longest_held_back;
-  if (!pace_) return pacing;
-  pacing.error_mean_us = pace_->statistics().error_mean_us();
-  pacing.error_max_us = pace_->statistics().error_max_us;
-  pacing.losses = pace_->statistics().losses;
-  pacing.lost = pace_->statistics().lost;
-  return pacing;
+  return {port_->name(), line_.statistics(), pace_ ? pace_->statistics() : PaceStatistics()};
 }
 
 }  // namespace dsdpv1::tb::serve

@@ -99,7 +99,7 @@ const Case kCases[] = {
     {"ServeWithATelegram",
      [](RunResult& r) {
        r.pacing.emplace();
-       r.pacing->telegrams_from_host = 1;
+       r.pacing->line.telegrams = 1;
      },
      0, "passed", "PASSED"},
     {"Interrupted",
