@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "apps/command_line.hpp"
+#include "apps/exit_codes.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/printable_output.hpp"
 #include "apps/stack.hpp"

@@ -4,11 +4,12 @@
 #include <iostream>
 #include <string>
 
-#include "apps/command_line.hpp"
 #include "apps/commands/capture_file.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/telegram_files.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/words.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"
@@ -25,8 +26,7 @@ namespace capture = bus::capture;
 class CapturePrinter {
  public:
   /// `packets`: the telegrams are packets of a file, and numbered as such.
-  CapturePrinter(bool packets, const DecodeArguments& arguments)
-      : packets_(packets), quiet_(arguments.quiet), files_(arguments.table, arguments.json) {}
+  CapturePrinter(bool packets, bool quiet, TelegramFiles& files) : packets_(packets), quiet_(quiet), files_(files) {}
 
   void take(const capture::CapturedTelegram& telegram) {
     ++count_;
@@ -69,17 +69,9 @@ class CapturePrinter {
 
   bus::TelegramPrinter printer_{std::cout};
   bool packets_, quiet_, right_ = true;
-  TelegramFiles files_;
+  TelegramFiles& files_;
   std::uint64_t count_ = 0;
 };
-
-capture::LogicSettings logic_settings(const DecodeArguments& arguments) {
-  capture::LogicSettings settings;
-  settings.signal = arguments.signal;
-  settings.inverted = arguments.inverted;
-  if (!arguments.baud.empty()) settings.baud = baud_index("decode: --baud", arguments.baud);
-  return settings;
-}
 
 void say_source(const capture::LogicSource& source) {
   std::cout << fmt::format("signal {} at {}\n", bus::printable(source.signal), bus::baud(source.baud).name);
@@ -92,27 +84,64 @@ int decode_text(std::istream& in, const std::string& name) {
   return status;
 }
 
-int decode_capture(CaptureFile& file, const DecodeArguments& arguments) {
-  leave_nothing_on_signals();
-  check_outputs("dsdpv1-sim decode", {{"the capture", file.path()}},
-                {{"--table", arguments.table}, {"--json", arguments.json}});
-  CapturePrinter printer(file.packets(), arguments);
-  const auto source = file.read(logic_settings(arguments),
-                                [&printer](const capture::CapturedTelegram& telegram) { printer.take(telegram); });
-  if (source && !arguments.quiet) say_source(*source);
-  return printer.finish();
-}
+class Decode : public Command {
+ public:
+  Decode() : Command("decode", "Explains every byte of telegrams: text, logs, captures, recordings of the line") {}
+
+  void options(CLI::App& app) override {
+    app.add_option("FILE", file_,
+                   "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session "
+                   "of sigrok, CSV of a logic "
+                   "analyser, known by what is in it; left out or -: standard input");
+    app.add_option("--baud", baud_, "Baud rate of a recording of the line; left out: it is found");
+    app.add_option("--signal", settings_.signal,
+                   "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
+    app.add_flag("--invert", settings_.inverted, "The recording's idle level is low");
+    app.add_option("--table", table_, "Of a capture or recording: a line a telegram, separated by tabs");
+    app.add_option("--json", json_, "The same as JSON, with words");
+    app.add_flag("--quiet,-q", quiet_, "Nothing is printed");
+    app.footer(
+        "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
+        "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
+        "(--log-whole).\n"
+        "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
+        "dsdpv1-sim decode logic.sr --signal D2 --invert\n  dsdpv1-sim decode my.pcapng --quiet --table my.tsv\n  echo "
+        "68 05 05 68 85 82 6D 3C 3E "
+        "EE 16 | dsdpv1-sim decode\n"
+        "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
+  }
+
+  int carry_out() override {
+    CaptureFile file(file_);
+    if (file.form() != CaptureForm::kText) return decode_capture(file);
+    if (!table_.empty() || !json_.empty() || quiet_)
+      throw tb::InputError(file.name(), 0,
+                           "is text, allowed with --table, --json and --quiet are captures and recordings of the line");
+    return decode_text(file.stream(), file.name());
+  }
+
+ private:
+  int decode_capture(CaptureFile& file) {
+    leave_nothing_on_signals();
+    check_outputs("dsdpv1-sim decode", {{"the capture", file.path()}}, {{"--table", table_}, {"--json", json_}});
+    TelegramFiles files(table_, json_);
+    CapturePrinter printer(file.packets(), quiet_, files);
+    if (!baud_.empty()) settings_.baud = baud_index("dsdpv1-sim decode: --baud", baud_);
+    const auto source =
+        file.read(settings_, [&printer](const capture::CapturedTelegram& telegram) { printer.take(telegram); });
+    if (source && !quiet_) say_source(*source);
+    return printer.finish();
+  }
+
+  std::string file_;  ///< empty or "-": standard input
+  std::string baud_;  ///< of levels; empty: found
+  capture::LogicSettings settings_;
+  std::string table_, json_;  ///< files for programs, of captures
+  bool quiet_ = false;
+};
 
 }  // namespace
 
-int decode(const DecodeArguments& arguments) {
-  CaptureFile file(arguments.file);
-  const bool wants_files = !arguments.table.empty() || !arguments.json.empty() || arguments.quiet;
-  if (file.form() == CaptureForm::kText && wants_files)
-    throw tb::InputError(file.name(), 0,
-                         "is text, allowed with --table, --json and --quiet are captures and recordings of the line");
-  if (file.form() == CaptureForm::kText) return decode_text(file.stream(), file.name());
-  return decode_capture(file, arguments);
-}
+std::unique_ptr<Command> make_decode() { return std::make_unique<Decode>(); }
 
 }  // namespace dsdpv1::app

@@ -1,18 +1,14 @@
-#include "apps/commands/reasons_command.hpp"
-
+// reasons: every code that logs, scenarios and result files may hold, with what to do about it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <iostream>
 
-#include "apps/command_line.hpp"
-#include "apps/interrupt.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/options/outputs.hpp"
 #include "bus/monitor/monitor.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
-#include "io/output/write_file.hpp"
 #include "kinds/dsdpv1/checks/markdown.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/scenario/event_codes.hpp"
@@ -164,21 +160,32 @@ std::string as_text(const tb::ChipKind& kind, const std::string& code) {
   return text;
 }
 
+class Reasons : public Command {
+ public:
+  Reasons() : Command("reasons", "Explains the codes of logs and results: what happened, what to do") {}
+
+  void options(CLI::App& app) override {
+    app.add_option("CODE", code_, "Only this one, in capitals or not");
+    CLI::Option* markdown = app.add_flag("--markdown", markdown_, "Prints docs/reasons.md instead");
+    app.add_flag("--checks", checks_, "Prints docs/checks.md instead")->excludes(markdown);
+    app.add_option("--output,-o", output_, "Into this file");
+    app.footer("\nExamples:\n  dsdpv1-sim reasons prm_ident\n  dsdpv1-sim reasons | less\n");
+  }
+
+  int carry_out() override {
+    const tb::ChipKind& kind = *tb::chip_kinds().front();
+    const std::string text = checks_ ? checks::markdown() : markdown_ ? as_markdown(kind) : as_text(kind, code_);
+    return print_or_write("dsdpv1-sim reasons", text, output_);
+  }
+
+ private:
+  std::string code_;  ///< only this one; empty: all
+  bool markdown_ = false, checks_ = false;
+  std::string output_;
+};
+
 }  // namespace
 
-int reasons(const ReasonsArguments& arguments) {
-  const tb::ChipKind& kind = *tb::chip_kinds().front();
-  const std::string text = arguments.checks     ? checks::markdown()
-                           : arguments.markdown ? as_markdown(kind)
-                                                : as_text(kind, arguments.code);
-  if (arguments.output.empty()) {
-    std::cout << text << std::flush;
-    return kPassed;
-  }
-  leave_nothing_on_signals();
-  check_outputs("dsdpv1-sim reasons", {}, {{"--output", arguments.output}});
-  tb::write_file(arguments.output, text);
-  return kPassed;
-}
+std::unique_ptr<Command> make_reasons() { return std::make_unique<Reasons>(); }
 
 }  // namespace dsdpv1::app

@@ -1,20 +1,18 @@
 // regress: many runs in child processes or on a cluster, then the tables and the page.
-#include "apps/commands/regress_command.hpp"
-
 #include <fmt/format.h>
 
 #include <iostream>
 #include <set>
 
-#include "apps/command_line.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/regress_jobs.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/options/checks.hpp"
-#include "apps/options/outputs.hpp"
+#include "apps/options/campaign.hpp"
+#include "apps/options/common.hpp"
+#include "apps/options/words.hpp"
 #include "apps/terminal.hpp"
 #include "io/input/input_error.hpp"
-#include "io/output/output_file.hpp"
 #include "io/output/write_file.hpp"
 #include "lab/campaign/fingerprint.hpp"
 #include "lab/regress/page.hpp"
@@ -37,7 +35,7 @@ std::vector<std::string> words_of(const std::string& option, const std::vector<s
   if (given.empty()) return {usual};
   std::set<std::string> seen;
   for (const std::string& word : given) {
-    check_word("regress: " + option, word, allowed);
+    check_word("dsdpv1-sim regress: " + option, word, allowed);
     if (!seen.insert(word).second)
       throw tb::InputError(fmt::format("dsdpv1-sim regress: {} has {} twice, allowed is once", option, word));
   }
@@ -51,31 +49,6 @@ bool pins_only(const Run& run) {
   } catch (const tb::InputError&) {  // the run says what is wrong
     return false;
   }
-}
-
-tb::regress::Request request_of(const RegressArguments& arguments) {
-  tb::regress::Request request;
-  request.scenarios = arguments.scenarios.empty() ? std::vector<std::string>{"scenarios"} : arguments.scenarios;
-  request.engines = words_of("--engine", arguments.engines, {"step", "skip", "rtl", "lockstep"}, "skip");
-  request.views = words_of("--view", arguments.views, {"pins", "tlm"}, "pins");
-  if (!arguments.seeds.empty()) request.seeds = tb::regress::parse_seeds(arguments.seeds);
-  for (const std::string& text : arguments.set) request.parameters.push_back(tb::sweep::parse_parameter(text, "--set"));
-  request.pins_only = pins_only;
-  return request;
-}
-
-Description new_description(const RegressArguments& arguments) {
-  checks_mode("regress", arguments.checks);
-  if (!arguments.wave.empty()) check_word("regress: --wave", arguments.wave, {"vcd", "fst"});
-  if (!arguments.keep.empty()) check_word("regress: --keep", arguments.keep, tb::regress::keep_words());
-  const tb::regress::Shard shard =
-      arguments.shard.empty() ? tb::regress::Shard() : tb::regress::parse_shard(arguments.shard);
-  return {plan_of(request_of(arguments), shard), arguments.checks, arguments.wave,
-          tb::regress::keep_named(arguments.keep).value_or(tb::regress::Keep::kFailed), arguments.report};
-}
-
-std::string folder_of(const RegressArguments& arguments) {
-  return arguments.campaign.out.empty() ? "regression" : arguments.campaign.out;
 }
 
 /// What is known and is to be found out again: with --failed all that has not passed; else what may have been the
@@ -92,31 +65,6 @@ void remove_stale(const Folder& folder, const Description& description, bool fai
   }
 }
 
-void check_files(const RegressArguments& arguments, const RegressInputs& inputs) {
-  std::vector<NamedFile> read;
-  for (const auto& file : inputs.contents().all().items()) read.push_back({"a file of a scenario", file.key()});
-  std::vector<NamedFile> written = outputs_in(folder_of(arguments), tb::regress::kind());
-  written.push_back({"--junit", arguments.junit});
-  check_outputs("dsdpv1-sim regress", read, written);
-}
-
-void write_report(const RegressArguments& arguments, const Report& report, const Folder& folder,
-                  std::optional<tb::OutputFile>& junit) {
-  const std::string index = folder.base().file("index.html");
-  tb::write_file(index, tb::regress::page(report));
-  if (junit) {
-    junit->write(tb::regress::junit(report));
-    junit->commit();
-  }
-  const bool to_terminal = terminal_columns() != tb::TableWidth::kUnlimited;
-  if (!arguments.campaign.quiet)
-    std::cout << (arguments.json ? tb::regress::json(report)
-                  : to_terminal  ? tb::regress::table(report)
-                                 : tb::regress::tsv(report))
-              << std::flush;
-  std::cerr << "regression: " << tb::regress::summary(report) << "; " << index << "\n";
-}
-
 int status_of(const Report& report) {
   const auto any = [&report](const auto& is) {
     return std::any_of(report.outcomes.begin(), report.outcomes.end(), is);
@@ -128,30 +76,136 @@ int status_of(const Report& report) {
   return any(judged_nothing) ? kNothingJudged : kPassed;
 }
 
+class Regress : public Command {
+ public:
+  Regress() : Command("regress", "Runs scenarios by engines, views and settings, and judges each run") {}
+
+  void options(CLI::App& app) override {
+    const std::vector<CLI::Option*> of_plan = add_plan_options(app);
+    CLI::Option* failed = app.add_flag("--failed", failed_, "Again what has not passed the last time in --out");
+    for (CLI::Option* other : of_plan) failed->excludes(other);
+    app.add_option("--time-limit", time_limit_, "Seconds after which a run is killed and has failed; 0: none")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    app.add_option("--junit", junit_, "The report for CI as JUnit's XML");
+    app.add_flag("--json", json_, "The table as JSON");
+    add_campaign_options(app, campaign_, "regression");
+    app.footer(
+        "\nExamples:\n"
+        "  dsdpv1-sim regress\n"
+        "  dsdpv1-sim regress scenarios my.yaml --engine step,skip,lockstep --view pins,tlm --junit report.xml\n"
+        "  dsdpv1-sim regress my.yaml --set user_cpu.fsmc.datast=2..5 --set baud=12M,6M --wave fst --report\n"
+        "  dsdpv1-sim regress --engine rtl --seed 1..8 --shard 2/5 --out part_2\n"
+        "  dsdpv1-sim regress --failed\n"
+        "The same command again goes on with an interrupted regression. docs/regress.md explains the results.\n"
+        "\nExit codes: 0 all runs passed, 1 some did not, 2 wrong input, 3 none failed, but some judged nothing, 130 "
+        "interrupted.\n");
+  }
+
+  int carry_out() override {
+    leave_nothing_on_signals();
+    campaign_.words = words;
+    if (campaign_.out.empty()) campaign_.out = "regression";
+    const Description description = failed_ ? tb::regress::last_description(campaign_.out) : new_description();
+    const std::string program = tb::campaign::program_identity(DSDPV1_VERSION);
+    const RegressInputs inputs(description, program);
+    if (!campaign_.is_task()) check_files(inputs);
+    WantedFile junit(campaign_.is_task() ? "" : junit_);
+    catch_signals();
+    const Folder folder(campaign_.out, description, campaign_.access());
+    if (!campaign_.is_task()) remove_stale(folder, description, failed_);
+    RegressJobs jobs(description.plan, inputs, folder, failed_);
+    const std::string identity = tb::campaign::fingerprint(program + tb::campaign::text_of(json_of(description)) +
+                                                           tb::campaign::text_of(inputs.contents().all()));
+    std::optional<std::chrono::duration<double>> limit;
+    if (time_limit_ > 0) limit.emplace(time_limit_);
+    if (!carry_out_jobs(campaign_, tb::regress::kind(), jobs, folder.base(), identity, limit)) return kInterrupted;
+    if (campaign_.is_task()) return kPassed;
+    const Report report{description.plan, jobs.outcomes()};
+    write_report(report, folder, junit);
+    return status_of(report);
+  }
+
+ private:
+  /// Those that say what is run.
+  std::vector<CLI::Option*> add_plan_options(CLI::App& app) {
+    CLI::Option* scenarios =
+        app.add_option("SCENARIO", scenarios_, "Scenarios, and folders of them (.yaml, .yml); left out: ./scenarios");
+    CLI::Option* engine =
+        app.add_option("--engine", engines_, "Of run, several with commas; left out: skip")->delimiter(',');
+    CLI::Option* view = app.add_option("--view", views_, "Of run, several with commas; left out: pins")->delimiter(',');
+    CLI::Option* seed = app.add_option("--seed", seeds_, "Of run with RTL: 1..4,7; left out: the usual one");
+    CLI::Option* set = app.add_option("--set", set_,
+                                      "PATH=VALUES, once for each key, lists and ranges as --param of sweep: "
+                                      "user_cpu.fsmc.datast=2..5")
+                           ->allow_extra_args(false);
+    CLI::Option* checks = app.add_option("--checks", checks_, "As of run");
+    CLI::Option* shard = app.add_option("--shard", shard_, "2/5: the second fifth of the runs, always the same");
+    CLI::Option* wave = app.add_option("--wave", wave_, "Each run writes waves: vcd, fst; left out: none");
+    CLI::Option* report =
+        app.add_flag("--report", report_, "Each run writes its page of charts and timing diagrams (docs/report.md)");
+    CLI::Option* keep = app.add_option(
+        "--keep", keep_, "Of which runs log, result, wave and report are kept: none, failed, all; left out: failed");
+    return {scenarios, engine, view, seed, set, checks, shard, wave, report, keep};
+  }
+
+  tb::regress::Request request() const {
+    tb::regress::Request request;
+    request.scenarios = scenarios_;
+    if (scenarios_.empty()) request.scenarios = {"scenarios"};
+    request.engines = words_of("--engine", engines_, {"step", "skip", "rtl", "lockstep"}, "skip");
+    request.views = words_of("--view", views_, {"pins", "tlm"}, "pins");
+    if (!seeds_.empty()) request.seeds = tb::regress::parse_seeds(seeds_);
+    for (const std::string& text : set_) request.parameters.push_back(tb::sweep::parse_parameter(text, "--set"));
+    request.pins_only = pins_only;
+    return request;
+  }
+
+  Description new_description() const {
+    checks_mode("dsdpv1-sim regress", checks_);
+    if (!wave_.empty()) check_word("dsdpv1-sim regress: --wave", wave_, {"vcd", "fst"});
+    if (!keep_.empty()) check_word("dsdpv1-sim regress: --keep", keep_, tb::regress::keep_words());
+    const tb::regress::Shard shard = shard_.empty() ? tb::regress::Shard() : tb::regress::parse_shard(shard_);
+    return {plan_of(request(), shard), checks_, wave_,
+            tb::regress::keep_named(keep_).value_or(tb::regress::Keep::kFailed), report_};
+  }
+
+  void check_files(const RegressInputs& inputs) const {
+    std::vector<NamedFile> read;
+    for (const auto& file : inputs.contents().all().items()) read.push_back({"a file of a scenario", file.key()});
+    std::vector<NamedFile> written = outputs_in(campaign_.out, tb::regress::kind());
+    written.push_back({"--junit", junit_});
+    check_outputs("dsdpv1-sim regress", read, written);
+  }
+
+  void write_report(const Report& report, const Folder& folder, WantedFile& junit) const {
+    const std::string index = folder.base().file("index.html");
+    tb::write_file(index, tb::regress::page(report));
+    junit.write(tb::regress::junit(report));
+    const bool to_terminal = terminal_columns() != tb::TableWidth::kUnlimited;
+    if (!campaign_.quiet)
+      std::cout << (json_         ? tb::regress::json(report)
+                    : to_terminal ? tb::regress::table(report)
+                                  : tb::regress::tsv(report))
+                << std::flush;
+    std::cerr << "regression: " << tb::regress::summary(report) << "; " << index << "\n";
+  }
+
+  std::vector<std::string> scenarios_;        ///< files and folders; none: scenarios
+  std::vector<std::string> engines_, views_;  ///< none: skip, pins
+  std::string seeds_;                         ///< a range; empty: the usual one
+  std::vector<std::string> set_;              ///< PATH=VALUES
+  std::string checks_, wave_, keep_, shard_;  ///< empty: as run does, none, failed, all of it
+  bool report_ = false;                       ///< each run writes run --report
+  bool failed_ = false;                       ///< what has not passed the last time
+  double time_limit_ = 600;                   ///< seconds for a run; 0: none
+  std::string junit_;                         ///< file; empty: none
+  bool json_ = false;                         ///< the table as JSON
+  CampaignArguments campaign_;
+};
+
 }  // namespace
 
-int regress(const RegressArguments& arguments) {
-  leave_nothing_on_signals();
-  const std::string out = folder_of(arguments);
-  const Description description = arguments.failed ? tb::regress::last_description(out) : new_description(arguments);
-  const std::string program = tb::campaign::program_identity(DSDPV1_VERSION);
-  const RegressInputs inputs(description, program);
-  if (!arguments.campaign.is_task()) check_files(arguments, inputs);
-  std::optional<tb::OutputFile> junit;
-  if (!arguments.junit.empty() && !arguments.campaign.is_task()) junit.emplace(arguments.junit);
-  catch_signals();
-  const Folder folder(out, description, arguments.campaign.access());
-  if (!arguments.campaign.is_task()) remove_stale(folder, description, arguments.failed);
-  RegressJobs jobs(description.plan, inputs, folder, arguments.failed);
-  const std::string identity = tb::campaign::fingerprint(program + tb::campaign::text_of(json_of(description)) +
-                                                         tb::campaign::text_of(inputs.contents().all()));
-  std::optional<std::chrono::duration<double>> limit;
-  if (arguments.time_limit > 0) limit.emplace(arguments.time_limit);
-  if (!carry_out(arguments.campaign, tb::regress::kind(), jobs, folder.base(), identity, limit)) return kInterrupted;
-  if (arguments.campaign.is_task()) return kPassed;
-  const Report report{description.plan, jobs.outcomes()};
-  write_report(arguments, report, folder, junit);
-  return status_of(report);
-}
+std::unique_ptr<Command> make_regress() { return std::make_unique<Regress>(); }
 
 }  // namespace dsdpv1::app

@@ -1,6 +1,6 @@
 #include "apps/commands/regress_jobs.hpp"
 
-#include "apps/command_line.hpp"
+#include "apps/exit_codes.hpp"
 #include "apps/hand_over.hpp"
 #include "io/input/input_error.hpp"
 #include "lab/campaign/fingerprint.hpp"

@@ -1,15 +1,15 @@
 // sweep: the points of a plan in child processes, then the tables and pictures.
-#include "apps/commands/sweep_command.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 
-#include "apps/command_line.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/commands/sweep_jobs.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/options/outputs.hpp"
+#include "apps/options/campaign.hpp"
+#include "apps/options/common.hpp"
+#include "apps/options/words.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "io/output/write_file.hpp"
@@ -28,20 +28,6 @@ namespace {
 using tb::sweep::Folder;
 using tb::sweep::Plan;
 using tb::sweep::Point;
-
-Plan plan_of(const SweepArguments& arguments) {
-  if (!arguments.checks.empty()) check_word("sweep: --checks", arguments.checks, {"report", "fail"});
-  Plan plan{arguments.scenario, arguments.set, arguments.checks, {}};
-  for (const tb::scenario::Setting& setting : tb::scenario::parse_settings(arguments.set)) tb::scenario::check(setting);
-  for (const std::string& text : arguments.parameters) plan.parameters.push_back(tb::sweep::parse_parameter(text));
-  tb::sweep::check(plan);
-  return plan;
-}
-
-std::string folder_of(const SweepArguments& arguments) {
-  if (!arguments.campaign.out.empty()) return arguments.campaign.out;
-  return "sweep_" + std::filesystem::path(arguments.scenario).stem().string();
-}
 
 std::vector<NamedFile> inputs_of(const Plan& plan, const tb::sweep::Inputs& inputs) {
   std::vector<std::string> named;
@@ -91,35 +77,86 @@ int status_of(const std::vector<Point>& points) {
   return any([](const Point& point) { return point.exit == kNothingJudged; }) ? kNothingJudged : kPassed;
 }
 
+class Sweep : public Command {
+ public:
+  Sweep() : Command("sweep", "Runs a scenario at every combination of some keys' values") {}
+
+  void options(CLI::App& app) override {
+    app.add_option("SCENARIO", plan_.scenario, "Scenario in YAML")->required();
+    app.add_option("--param", parameters_,
+                   "PATH=VALUES, once for each key that varies: user_cpu.fsmc.datast=0..15, "
+                   "user_cpu.cycle=40us..100us/20us, baud=12M,6M,500k")
+        ->allow_extra_args(false);
+    add_set_option(app, plan_.settings);
+    app.add_option("--checks", plan_.checks, "As of run, report or fail; left out: as run does");
+    app.add_flag("--strict", strict_, "Exit 1 when a point does not hold, 3 when one judged nothing");
+    app.add_option("--map", map_, "Check whose margin the pictures show; left out: the worst of all");
+    add_campaign_options(app, campaign_, "sweep_ and the scenario's name");
+    app.footer(
+        "\nExamples:\n"
+        "  dsdpv1-sim sweep scenarios/power_on_12m.yaml --param user_cpu.fsmc.datast=0..15 --param "
+        "user_cpu.fsmc.addset=0..3\n"
+        "  dsdpv1-sim sweep my.yaml --set user_cpu.fsmc.mode=A --param user_cpu.fsmc.datast=1..8 --out mode_a\n"
+        "  dsdpv1-sim sweep my.yaml --param baud=12M,6M,500k --param slaves.plant.user_cpu.cycle=40us..200us/20us "
+        "--jobs "
+        "4\n"
+        "The same command again goes on with an interrupted sweep. docs/sweep.md explains the results.\n"
+        "\nExit codes: 0 all points were run, whatever they showed (--strict: and hold, else 1 or 3), 2 wrong input, "
+        "130 "
+        "interrupted.\n");
+  }
+
+  int carry_out() override {
+    leave_nothing_on_signals();
+    take_words();
+    tb::campaign::fingerprint_of_file(plan_.scenario);  // refuses what can be read only once, before it is read
+    check_loads(plan_);
+    const tb::sweep::Inputs inputs(plan_);
+    if (!campaign_.is_task())  // its own output is in the folder
+      check_outputs("dsdpv1-sim sweep", inputs_of(plan_, inputs), outputs_in(campaign_.out, tb::sweep::kind()));
+    catch_signals();
+    const tb::campaign::Json identity =
+        tb::sweep::identity(plan_, inputs, tb::campaign::program_identity(DSDPV1_VERSION));
+    const Folder folder(campaign_.out, identity, campaign_.access());
+    if (!folder.started_anew().empty())
+      std::cerr << "sweep: " << campaign_.out << " is about " << folder.started_anew()
+                << ": its points are removed, the sweep starts again\n";
+    SweepJobs jobs(plan_, inputs, folder);
+    const std::string all_inputs = tb::campaign::fingerprint(tb::campaign::text_of(identity));
+    if (!carry_out_jobs(campaign_, tb::sweep::kind(), jobs, folder.base(), all_inputs)) return kInterrupted;
+    return campaign_.is_task() ? kPassed : show(jobs.points(), folder);
+  }
+
+ private:
+  void take_words() {
+    if (!plan_.checks.empty()) check_word("dsdpv1-sim sweep: --checks", plan_.checks, {"report", "fail"});
+    for (const tb::scenario::Setting& setting : tb::scenario::parse_settings(plan_.settings))
+      tb::scenario::check(setting);
+    for (const std::string& text : parameters_) plan_.parameters.push_back(tb::sweep::parse_parameter(text));
+    tb::sweep::check(plan_);
+    if (campaign_.out.empty()) campaign_.out = "sweep_" + std::filesystem::path(plan_.scenario).stem().string();
+    campaign_.words = words;
+  }
+
+  int show(const std::vector<Point>& points, const Folder& folder) const {
+    check_possible(points);
+    check_map(map_, points);
+    write_results(plan_, points, folder, map_);
+    if (!campaign_.quiet)
+      std::cout << tb::sweep::summary(plan_, points) << "  written: " << folder.file("results.csv") << " and map*.svg\n"
+                << std::flush;
+    return strict_ ? status_of(points) : kPassed;
+  }
+
+  Plan plan_;
+  std::vector<std::string> parameters_;  ///< PATH=VALUES
+  bool strict_ = false;                  ///< the exit code follows the points
+  std::string map_;                      ///< the check whose margin the pictures show; empty: the worst
+  CampaignArguments campaign_;
+};
+
 }  // namespace
 
-int sweep(const SweepArguments& arguments) {
-  leave_nothing_on_signals();
-  const Plan plan = plan_of(arguments);
-  tb::campaign::fingerprint_of_file(plan.scenario);  // refuses what can be read only once, before it is read
-  check_loads(plan);
-  const tb::sweep::Inputs inputs(plan);
-  const std::string out = folder_of(arguments);
-  if (!arguments.campaign.is_task())  // its own output is in the folder
-    check_outputs("dsdpv1-sim sweep", inputs_of(plan, inputs), outputs_in(out, tb::sweep::kind()));
-  catch_signals();
-  const tb::campaign::Json identity = tb::sweep::identity(plan, inputs, tb::campaign::program_identity(DSDPV1_VERSION));
-  const Folder folder(out, identity, arguments.campaign.access());
-  if (!folder.started_anew().empty())
-    std::cerr << "sweep: " << out << " is about " << folder.started_anew()
-              << ": its points are removed, the sweep starts again\n";
-  SweepJobs jobs(plan, inputs, folder);
-  const std::string all_inputs = tb::campaign::fingerprint(tb::campaign::text_of(identity));
-  if (!carry_out(arguments.campaign, tb::sweep::kind(), jobs, folder.base(), all_inputs)) return kInterrupted;
-  if (arguments.campaign.is_task()) return kPassed;
-  const std::vector<Point> points = jobs.points();
-  check_possible(points);
-  check_map(arguments.map, points);
-  write_results(plan, points, folder, arguments.map);
-  if (!arguments.campaign.quiet)
-    std::cout << tb::sweep::summary(plan, points) << "  written: " << folder.file("results.csv") << " and map*.svg\n"
-              << std::flush;
-  return arguments.strict ? status_of(points) : kPassed;
-}
+std::unique_ptr<Command> make_sweep() { return std::make_unique<Sweep>(); }
 
 }  // namespace dsdpv1::app

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/command_line.hpp"
-#include "apps/options/checks.hpp"
+#include "apps/exit_codes.hpp"
+#include "apps/options/common.hpp"
 #include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/scenario/scenario.hpp"
@@ -24,7 +24,7 @@ std::string refusal(const Plan& plan, std::size_t point) {
     const tb::scenario::Scenario scenario =
         tb::scenario::load(plan.scenario, tb::scenario::parse_settings(plan.settings_of(point)));
     tb::RunOptions options;
-    options.checks = checks_mode("sweep", plan.checks);
+    options.checks = checks_mode("dsdpv1-sim sweep", plan.checks);
     const tb::Bench bench(scenario, options, tb::make_pin_execution());
     return "";
   } catch (const tb::InputError& error) {

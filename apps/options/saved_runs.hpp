@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/command_line.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/run_arguments.hpp"
 #include "io/output/output_file.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/saved/saved_run.hpp"
