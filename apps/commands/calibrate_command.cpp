@@ -65,8 +65,7 @@ class Calibrate : public Command {
         ->required();
     app.add_option("--signal", signals_,
                    "PIN=NAME: the pin of table 1 (A0 to A10, D0 to D7, or A and D as vectors) is called NAME, "
-                   "PIN=!NAME when it is inverted; left "
-                   "out: as the pin")
+                   "PIN=!NAME when it is inverted; left out: as the pin")
         ->allow_extra_args(false);
     app.add_option("--map", map_, "The same as a map of pins (docs/cosim.md)");
     app.add_option("--scope", names_.scope, "Only signals in this scope of a wave: the station of a wave of run");

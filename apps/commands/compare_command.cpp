@@ -78,8 +78,8 @@ class Compare : public Command {
     app.add_option("--scope-a", given_.scope_a, "The same for A alone");
     app.add_option("--scope-b", given_.scope_b, "The same for B alone");
     app.add_option("--pins", pins_,
-                   "The pins of the chip, B's by this map (docs/cosim.md) or, with rtl_ref, as the reference RTL "
-                   "calls them; left out: all signals of one name");
+                   "The pins of the chip, B's by this map (docs/cosim.md) or, with rtl_ref, as the reference RTL calls "
+                   "them; left out: all signals of one name");
     app.add_option("--signal", signals_, "A=B: this signal of A and that of B, A=!B when B has the other level")
         ->allow_extra_args(false);
     app.add_option("--from", from_, "Compare from this time on, such as 100us; left out: what both have");
@@ -89,8 +89,8 @@ class Compare : public Command {
   void add_how_it_is_compared(CLI::App& app) {
     app.add_option("--shift", shift_, "Added to B's times: 20ns, -3cycles");
     app.add_option("--tolerance", tolerance_,
-                   "What differs for no longer is no difference; left out: the coarser time scale's unit where the "
-                   "two are not the same, else 0");
+                   "What differs for no longer is no difference; left out: the coarser time scale's unit where the two "
+                   "are not the same, else 0");
     app.add_option("--clock", clock_,
                    "SIGNAL, SIGNAL:fall: compare what there is just before its rising (falling) edges");
     app.add_option("--x", x_,

@@ -82,9 +82,7 @@ class Cosim : public Command {
     std::vector<NamedFile> inputs = scenario_inputs(run_.scenario, scenario.files);
     inputs.push_back({"--pins", own_.pins});
     std::vector<NamedFile> outputs = wave_files(kCosim, run_.wave.file, wave_save_);
-    outputs.push_back({"--difference", run_.difference});
-    outputs.push_back({"--log", run_.log});
-    outputs.push_back({"--result", run_.result});
+    outputs.insert(outputs.end(), {{"--difference", run_.difference}, {"--log", run_.log}, {"--result", run_.result}});
     check_outputs(kCosim, inputs, outputs);
   }
 

@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "apps/commands/capture_file.hpp"
 #include "apps/commands/command.hpp"
-#include "apps/commands/telegram_files.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
 #include "apps/options/words.hpp"
@@ -15,12 +16,107 @@
 #include "bus/telegram/explain.hpp"
 #include "bus/telegram/telegram_printer.hpp"
 #include "io/input/input_error.hpp"
+#include "io/input/units.hpp"
+#include "io/output/output_file.hpp"
 #include "tb/bench/run_log.hpp"
 
 namespace dsdpv1::app {
 namespace {
 
 namespace capture = bus::capture;
+using bus::TelegramKind;
+
+const char* kind_name(TelegramKind kind) {
+  switch (kind) {
+    case TelegramKind::kSd1: return "SD1";
+    case TelegramKind::kSd2: return "SD2";
+    case TelegramKind::kSd3: return "SD3";
+    case TelegramKind::kSd4: return "SD4";
+    case TelegramKind::kSc: return "SC";
+  }
+  return "";
+}
+
+bool has_addresses(const bus::Telegram& telegram) { return telegram.kind != TelegramKind::kSc; }
+bool has_fc(const bus::Telegram& telegram) { return has_addresses(telegram) && telegram.kind != TelegramKind::kSd4; }
+
+std::string baud_name(const capture::CapturedTelegram& telegram) {
+  return telegram.baud ? std::string(bus::baud(*telegram.baud).name) : "";
+}
+
+std::string cell(const std::optional<std::uint8_t>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+std::string row(std::uint64_t number, const capture::CapturedTelegram& telegram, const bus::Decoded& decoded,
+                const std::string& why) {
+  std::string text = fmt::format("{}\t{}\t{}", number, tb::nanoseconds(telegram.start), baud_name(telegram));
+  const bus::Telegram& fields = decoded.telegram;
+  if (decoded.readable)
+    text += fmt::format("\t{}\t{}\t{}\t{}\t{}\t{}\t{}", kind_name(fields.kind),
+                        has_addresses(fields) ? fmt::format("{}", fields.sa) : "",
+                        has_addresses(fields) ? fmt::format("{}", fields.da) : "",
+                        has_fc(fields) ? fmt::format("{:02X}", fields.fc) : "", cell(fields.dsap), cell(fields.ssap),
+                        has_fc(fields) ? bus::explain_service(fields) : "");
+  else
+    text += "\t\t\t\t\t\t\t";
+  return text + fmt::format("\t{}\t{}\n", why, tb::bytes_text(telegram.bytes, telegram.bytes.size()));
+}
+
+nlohmann::ordered_json object(std::uint64_t number, const capture::CapturedTelegram& telegram,
+                              const bus::Decoded& decoded, const std::string& why) {
+  nlohmann::ordered_json json;
+  json["number"] = number;
+  json["at_ns"] = static_cast<double>(telegram.start) / static_cast<double>(bus::kTicksPerNs);
+  if (telegram.baud) json["baud"] = baud_name(telegram);
+  if (decoded.readable) {
+    const bus::Telegram& fields = decoded.telegram;
+    json["type"] = kind_name(fields.kind);
+    if (has_addresses(fields)) json["sa"] = fields.sa;
+    if (has_addresses(fields)) json["da"] = fields.da;
+    if (has_fc(fields)) json["fc"] = fields.fc;
+    if (fields.dsap) json["dsap"] = *fields.dsap;
+    if (fields.ssap) json["ssap"] = *fields.ssap;
+    if (has_fc(fields)) json["service"] = bus::explain_service(fields);
+    json["words"] = bus::explain_line(fields);
+    json["data"] = tb::bytes_text(fields.data, fields.data.size());
+  }
+  if (!why.empty()) json["wrong"] = why;
+  for (const std::string& remark : telegram.remarks) json["remarks"].push_back(bus::printable(remark));
+  json["bytes"] = tb::bytes_text(telegram.bytes, telegram.bytes.size());
+  return json;
+}
+
+void open(std::optional<tb::OutputFile>& file, const std::string& path, const char* head) {
+  if (path.empty()) return;
+  file.emplace(path);
+  file->write(head);
+}
+
+/// --table and --json: a line for each telegram; nothing is kept.
+class TelegramFiles {
+ public:
+  /// Paths, empty: not wanted. Throws tb::InputError.
+  TelegramFiles(const std::string& table, const std::string& json) {
+    open(table_, table, "number\tat_ns\tbaud\ttype\tsa\tda\tfc\tdsap\tssap\tservice\twrong\tbytes\n");
+    open(json_, json, "[");
+  }
+
+  /// `why`: what is wrong with it, empty for a right one.
+  void take(const capture::CapturedTelegram& telegram, const bus::Decoded& decoded, const std::string& why) {
+    ++count_;
+    if (table_) table_->write(row(count_, telegram, decoded, why));
+    if (json_) json_->write((count_ == 1 ? "\n" : ",\n") + object(count_, telegram, decoded, why).dump());
+  }
+  /// Throws tb::InputError where something could not be written.
+  void finish() {
+    if (json_) json_->write(count_ == 0 ? "]\n" : "\n]\n");
+    if (table_) table_->commit();
+    if (json_) json_->commit();
+  }
+
+ private:
+  std::optional<tb::OutputFile> table_, json_;
+  std::uint64_t count_ = 0;
+};
 
 /// The telegrams of a capture, as those of a text are printed.
 class CapturePrinter {
@@ -90,9 +186,8 @@ class Decode : public Command {
 
   void options(CLI::App& app) override {
     app.add_option("FILE", file_,
-                   "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session "
-                   "of sigrok, CSV of a logic "
-                   "analyser, known by what is in it; left out or -: standard input");
+                   "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session of "
+                   "sigrok, CSV of a logic analyser, known by what is in it; left out or -: standard input");
     app.add_option("--baud", baud_, "Baud rate of a recording of the line; left out: it is found");
     app.add_option("--signal", settings_.signal,
                    "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
@@ -106,8 +201,7 @@ class Decode : public Command {
         "(--log-whole).\n"
         "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
         "dsdpv1-sim decode logic.sr --signal D2 --invert\n  dsdpv1-sim decode my.pcapng --quiet --table my.tsv\n  echo "
-        "68 05 05 68 85 82 6D 3C 3E "
-        "EE 16 | dsdpv1-sim decode\n"
+        "68 05 05 68 85 82 6D 3C 3E EE 16 | dsdpv1-sim decode\n"
         "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
   }
 

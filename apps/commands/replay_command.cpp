@@ -114,16 +114,16 @@ class Replay : public Command {
  private:
   void add_what_is_played(CLI::App& app) {
     app.add_option("CAPTURE", capture_,
-                   "pcapng, pcap, VCD or FST of any simulator, a session of sigrok, CSV of a logic analyser, a log "
-                   "of run or serve with all bytes")
+                   "pcapng, pcap, VCD or FST of any simulator, a session of sigrok, CSV of a logic analyser, a log of "
+                   "run or serve with all bytes")
         ->required();
     app.add_option("--as", slave_, "Address of the slave whose part the model takes")
         ->required()
         ->check(CLI::Range(0, 126));
     app.add_option("--gsd", gsd_, "The slave's GSD file: ident number and limits as it says");
-    app.add_option("--scenario", scenario_,
-                   "Take its slave with this address (or the only one), with its user CPU, in place of what the "
-                   "capture shows");
+    app.add_option(
+        "--scenario", scenario_,
+        "Take its slave with this address (or the only one), with its user CPU, in place of what the capture shows");
     app.add_option("--inputs", inputs_,
                    "What the user CPU gives: recorded (inputs and diagnoses as the slave answered them) or scenario; "
                    "left out: scenario with --scenario, else recorded");

@@ -33,18 +33,16 @@ class RtlFaults : public Command {
     add_chip_options(app, chip_);
     app.add_option("--list", list_,
                    "The list of faults; left out: rtl_ref/faults.txt or faults_rsu.txt of this source tree");
-    app.add_option(
-        "--directed", directed_,
-        "Folder of stimulus files that are played first; left out: tests/cosim/stimuli or stimuli_rsu of this "
-        "source tree");
+    app.add_option("--directed", directed_,
+                   "Folder of stimulus files that are played first; left out: tests/cosim/stimuli or stimuli_rsu of "
+                   "this source tree");
     app.add_option("--cycles", cycles_, "Random cycles for each fault at most")->capture_default_str();
     app.add_option("--seed", seed_, "Of the random cases")->capture_default_str();
     app.add_option("--jobs", jobs_, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
     app.add_option("--tsv", tsv_, "The table also as tab-separated text into this file");
     app.footer(
         "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --chip dsdpv1_rsu --mode spi\n  "
-        "dsdpv1-sim rtl-faults --list my_faults.txt --cycles "
-        "5000000\n"
+        "dsdpv1-sim rtl-faults --list my_faults.txt --cycles 5000000\n"
         "\nExit codes: 0 all found, 1 some not, 2 wrong input, 130 interrupted.\n");
   }
 

@@ -291,11 +291,11 @@ void check_files(const RtlRandomArguments& arguments) {
   tb::check_wave_name(arguments.difference);
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
   std::vector<NamedFile> outputs = wave_files(arguments.command, arguments.wave, arguments.wave_save);
-  outputs.push_back({"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""});
-  outputs.push_back({"--difference", arguments.difference});
-  outputs.push_back({"--log", arguments.log});
-  outputs.push_back({"--result", arguments.result});
-  outputs.push_back({"--tsv", arguments.tsv});
+  outputs.insert(outputs.end(), {{"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""},
+                                 {"--difference", arguments.difference},
+                                 {"--log", arguments.log},
+                                 {"--result", arguments.result},
+                                 {"--tsv", arguments.tsv}});
   check_outputs(arguments.command, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
 }
 

@@ -49,12 +49,10 @@ class Run : public Command {
  private:
   void add_what_to_run(CLI::App& app) {
     CLI::Option* scenario = app.add_option("SCENARIO", given_.scenario, "Scenario in YAML, see docs/scenarios.md");
-    CLI::Option* engine =
-        app.add_option(
-               "--engine", given_.engine,
-               "How the chips are executed: step (every cycle), skip (from event to event), rtl (the reference RTL), "
-               "lockstep (model and RTL side by side, compared)")
-            ->capture_default_str();
+    CLI::Option* engine = app.add_option("--engine", given_.engine,
+                                         "How the chips are executed: step (every cycle), skip (from event to event), "
+                                         "rtl (the reference RTL), lockstep (model and RTL side by side, compared)")
+                              ->capture_default_str();
     CLI::Option* view = app.add_option("--view", given_.view,
                                        "How the user CPUs reach them: pins, tlm (SystemC; not with an ARM board)")
                             ->capture_default_str();
@@ -67,10 +65,9 @@ class Run : public Command {
     app.add_option("--difference", given_.difference,
                    "Wave of both sides, written when --engine lockstep finds a difference")
         ->capture_default_str();
-    CLI::Option* golden =
-        app.add_option("--golden", given_.golden,
-                       "Folder of golden traces (traces): every change of every pin is compared, the first difference "
-                       "ends the run (docs/traces.md)");
+    CLI::Option* golden = app.add_option("--golden", given_.golden,
+                                         "Folder of golden traces (traces): every change of every pin is compared, the "
+                                         "first difference ends the run (docs/traces.md)");
     CLI::Option* fault =
         app.add_option("--fault", given_.fault,
                        "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
@@ -87,14 +84,12 @@ class Run : public Command {
                    "TIME FILE: saves the run as it is then, for --restore; once for each time (docs/save_restore.md)")
         ->type_name("TIME FILE")
         ->allow_extra_args(false);
-    CLI::Option* rewind =
-        app.add_option(
-               "--rewind-on", given_.rewind_on,
-               "CODE TIME: no wave until an event with this code of the log, or a violation, happens; then the run is "
-               "done again "
-               "from a snapshot, with the wave from so long before it to as long behind it (docs/save_restore.md)")
-            ->type_name("CODE TIME")
-            ->needs(app.get_option("--wave"));
+    CLI::Option* rewind = app.add_option("--rewind-on", given_.rewind_on,
+                                         "CODE TIME: no wave until an event with this code of the log, or a violation, "
+                                         "happens; then the run is done again from a snapshot, with the wave from so "
+                                         "long before it to as long behind it (docs/save_restore.md)")
+                              ->type_name("CODE TIME")
+                              ->needs(app.get_option("--wave"));
     for (const char* each : {"--wave-on", "--wave-from", "--wave-to", "--wave-inside"})
       rewind->excludes(app.get_option(each));
     CLI::Option* restore = app.add_option(

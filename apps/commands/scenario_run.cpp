@@ -189,13 +189,13 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
 
 void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
   std::vector<NamedFile> outputs = wave_files("dsdpv1-sim run", arguments.wave.file, arguments.wave.save);
-  outputs.push_back({"--log", arguments.log});
-  outputs.push_back({"--result", arguments.result});
-  outputs.push_back({"--report", arguments.report});
-  outputs.push_back({"--junit", arguments.junit});
-  outputs.push_back({"--trace", arguments.trace});
-  outputs.push_back({"--capture", arguments.capture.file});
-  outputs.push_back({"--difference", arguments.engine == "lockstep" ? arguments.difference : ""});
+  outputs.insert(outputs.end(), {{"--log", arguments.log},
+                                 {"--result", arguments.result},
+                                 {"--report", arguments.report},
+                                 {"--junit", arguments.junit},
+                                 {"--trace", arguments.trace},
+                                 {"--capture", arguments.capture.file},
+                                 {"--difference", arguments.engine == "lockstep" ? arguments.difference : ""}});
   for (NamedFile& file : save_files(arguments)) outputs.push_back(std::move(file));
   std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
   inputs.push_back({"the saved run", arguments.restore});

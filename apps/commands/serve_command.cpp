@@ -121,11 +121,11 @@ class Serve : public Command {
 
   void check_files(const tb::scenario::Scenario& scenario) const {
     std::vector<NamedFile> outputs = wave_files("dsdpv1-sim serve", wave_.file, wave_.save);
-    outputs.push_back({"--log", run_.log});
-    outputs.push_back({"--result", result_});
-    outputs.push_back({"--report", report_});
-    outputs.push_back({"--junit", junit_});
-    outputs.push_back({"--capture", capture_.file});
+    outputs.insert(outputs.end(), {{"--log", run_.log},
+                                   {"--result", result_},
+                                   {"--report", report_},
+                                   {"--junit", junit_},
+                                   {"--capture", capture_.file}});
     check_outputs("dsdpv1-sim serve", scenario_inputs(scenario_, scenario.files), outputs);
   }
 

@@ -1,10 +1,12 @@
 // sweep: the points of a plan in child processes, then the tables and pictures.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 
 #include "apps/commands/command.hpp"
-#include "apps/commands/sweep_jobs.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/campaign.hpp"
@@ -14,12 +16,14 @@
 #include "io/input/suggest.hpp"
 #include "io/output/write_file.hpp"
 #include "lab/campaign/fingerprint.hpp"
+#include "lab/campaign/jobs.hpp"
 #include "lab/sweep/folder.hpp"
 #include "lab/sweep/heat_map.hpp"
 #include "lab/sweep/inputs.hpp"
 #include "lab/sweep/plan.hpp"
 #include "lab/sweep/point.hpp"
 #include "lab/sweep/table.hpp"
+#include "tb/bench/bench.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::app {
@@ -28,6 +32,80 @@ namespace {
 using tb::sweep::Folder;
 using tb::sweep::Plan;
 using tb::sweep::Point;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// Why the scenario cannot be run with these settings, empty when it can. Exit code 2 of a run is no proof: a full disk
+/// has it too. Here everything is built as for the run, but nothing written.
+std::string refusal(const Plan& plan, std::size_t point) {
+  try {
+    const tb::scenario::Scenario scenario =
+        tb::scenario::load(plan.scenario, tb::scenario::parse_settings(plan.settings_of(point)));
+    tb::RunOptions options;
+    options.checks = checks_mode("dsdpv1-sim sweep", plan.checks);
+    const tb::Bench bench(scenario, options, tb::make_pin_execution());
+    return "";
+  } catch (const tb::InputError& error) {
+    return first_line(error.what());
+  } catch (const std::exception&) {  // no memory, for example
+    return "";
+  }
+}
+
+/// The points of a sweep as runs of this program.
+class SweepJobs : public tb::campaign::Jobs {
+ public:
+  SweepJobs(const Plan& plan, const tb::sweep::Inputs& inputs, const Folder& folder)
+      : plan_(plan), inputs_(inputs), folder_(folder), points_(plan.points()) {}
+
+  std::size_t size() const override { return points_.size(); }
+  bool finished(std::size_t job) const override { return points_[job].has_value(); }
+  bool look(std::size_t job) override {
+    points_[job] = folder_.finished(job, plan_);
+    return finished(job);
+  }
+  std::vector<std::string> begin(std::size_t job) override {
+    read_[job] = inputs_.look(job);
+    std::vector<std::string> words = {"run",           plan_.scenario, "--quiet",
+                                      "--no-progress", "--result",     folder_.result_file(job)};
+    for (const std::string& setting : plan_.settings_of(job)) words.insert(words.end(), {"--set", setting});
+    if (!plan_.checks.empty()) words.insert(words.end(), {"--checks", plan_.checks});
+    return words;
+  }
+  /// What the run says about the point, when it does, and has read what all others read.
+  std::string end(const tb::campaign::Ended& ended) override {
+    const auto read = read_.extract(ended.job);
+    if (ended.exit != kPassed && ended.exit != kFailed && ended.exit != kWrongInput && ended.exit != kNothingJudged)
+      return fate(ended);
+    const std::string refused = ended.exit == kWrongInput ? refusal(plan_, ended.job) : "";
+    if (inputs_.look(ended.job) != read.mapped())
+      return "one of its files was written while it ran";  // and has its old content again
+    points_[ended.job] = folder_.finish(ended.job, plan_, ended.exit, refused);
+    return finished(ended.job) ? "" : fate(ended);
+  }
+  void forget(std::size_t job) override { folder_.forget(job); }
+  std::string name(std::size_t job) const override {
+    const std::vector<std::string> values = plan_.values(job);
+    std::string name;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      name += (i == 0 ? "" : ", ") + plan_.short_name(i) + "=" + values[i];
+    return fmt::format("point {} ({})", job, name);
+  }
+
+  /// Of all points, when all are finished.
+  std::vector<Point> points() const {
+    std::vector<Point> all;
+    for (const std::optional<Point>& point : points_) all.push_back(*point);
+    return all;
+  }
+
+ private:
+  const Plan& plan_;
+  const tb::sweep::Inputs& inputs_;
+  const Folder& folder_;
+  std::vector<std::optional<Point>> points_;
+  std::map<std::size_t, tb::sweep::Inputs::Times> read_;  ///< of the runs under way: their files when they began
+};
 
 std::vector<NamedFile> inputs_of(const Plan& plan, const tb::sweep::Inputs& inputs) {
   std::vector<std::string> named;
@@ -98,12 +176,10 @@ class Sweep : public Command {
         "user_cpu.fsmc.addset=0..3\n"
         "  dsdpv1-sim sweep my.yaml --set user_cpu.fsmc.mode=A --param user_cpu.fsmc.datast=1..8 --out mode_a\n"
         "  dsdpv1-sim sweep my.yaml --param baud=12M,6M,500k --param slaves.plant.user_cpu.cycle=40us..200us/20us "
-        "--jobs "
-        "4\n"
+        "--jobs 4\n"
         "The same command again goes on with an interrupted sweep. docs/sweep.md explains the results.\n"
         "\nExit codes: 0 all points were run, whatever they showed (--strict: and hold, else 1 or 3), 2 wrong input, "
-        "130 "
-        "interrupted.\n");
+        "130 interrupted.\n");
   }
 
   int carry_out() override {

@@ -301,9 +301,9 @@ class Traces : public Command {
   CLI::App* add_action(CLI::App& traces, const char* name, const char* line, Action action) {
     CLI::App* app = traces.add_subcommand(name, line);
     app->callback([this, action] { action_ = action; });
-    app->add_option("--folder", given_.folder,
-                    "Folder of the golden traces; left out: traces of this source tree, whose scenarios are meant by "
-                    "names");
+    app->add_option(
+        "--folder", given_.folder,
+        "Folder of the golden traces; left out: traces of this source tree, whose scenarios are meant by names");
     app->footer(kTracesFooter);
     return app;
   }

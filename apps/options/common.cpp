@@ -21,11 +21,10 @@ CLI::Option* add_set_option(CLI::App& app, std::vector<std::string>& settings) {
 }
 
 CLI::Option* add_checks_option(CLI::App& app, std::string& word) {
-  return app.add_option(
-      "--checks", word,
-      "The checks of docs/checks.md on handshake, bus timing and DPRAM: fail (exit 1 on a violation that the scenario "
-      "does not allow), report (listed, and counted beside the verdict), off; left out: as the scenario says, else "
-      "fail");
+  return app.add_option("--checks", word,
+                        "The checks of docs/checks.md on handshake, bus timing and DPRAM: fail (exit 1 on a violation "
+                        "that the scenario does not allow), report (listed, and counted beside the verdict), off; left "
+                        "out: as the scenario says, else fail");
 }
 
 std::optional<tb::ChecksMode> checks_mode(const std::string& command, const std::string& word) {
