@@ -103,21 +103,22 @@ class Completion : public Command {
 
   void options(CLI::App& app) override {
     program_ = app.get_parent();
-    app.add_option("SHELL", shell_, "bash or zsh")->required();
+    shell_ = app.add_option("SHELL", "bash or zsh")->required();
     app.footer(
         "\nExamples:\n  source <(dsdpv1-sim completion bash)\n"
         "  dsdpv1-sim completion zsh > ~/.zfunc/_dsdpv1-sim\n");
   }
 
   int carry_out() override {
-    check_word("dsdpv1-sim completion: SHELL", shell_, {"bash", "zsh"});
-    std::cout << (shell_ == "bash" ? bash(*program_) : zsh(*program_)) << std::flush;
+    const auto shell = shell_->as<std::string>();
+    check_word("dsdpv1-sim completion: SHELL", shell, {"bash", "zsh"});
+    std::cout << (shell == "bash" ? bash(*program_) : zsh(*program_)) << std::flush;
     return kPassed;
   }
 
  private:
   const CLI::App* program_ = nullptr;
-  std::string shell_;
+  const CLI::Option* shell_ = nullptr;
 };
 
 }  // namespace
