@@ -32,6 +32,11 @@ tb::Tick time_in_run(const std::string& text, tb::Tick end) {
   return time;
 }
 
+/// By the pins of cores: their pins can be followed from any time on.
+bool is_of_cores(const tb::RunOptions& options) {
+  return options.view_name == "pins" && (options.engine_name == "step" || options.engine_name == "skip");
+}
+
 }  // namespace
 
 tb::SavedRun described_run(const RunArguments& arguments, const std::string& text,
@@ -79,10 +84,6 @@ void replay_debugger(tb::RunOptions& options, const tb::SavedRun& run) {
   if (!options.gdb) options.gdb = tb::GdbRequest{{}, {}, {}, std::make_shared<user_cpu::DebugHistory>()};
   options.gdb->history->inputs = run.inputs;
   options.gdb->history->live_from = run.at;
-}
-
-bool is_of_cores(const tb::RunOptions& options) {
-  return options.view_name == "pins" && (options.engine_name == "step" || options.engine_name == "skip");
 }
 
 std::vector<NamedFile> save_files(const RunArguments& arguments) {

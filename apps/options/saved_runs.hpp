@@ -62,9 +62,6 @@ class SavedRuns {
   std::exception_ptr error_;
 };
 
-/// By the pins of cores: their pins can be followed from any time on.
-bool is_of_cores(const tb::RunOptions& options);
-
 /// The files of --save-at, for check_outputs.
 std::vector<NamedFile> save_files(const RunArguments& arguments);
 
