@@ -292,7 +292,7 @@ class Regress : public Command {
   void write_report(const Report& report, const Folder& folder, WantedFile& junit) const {
     const std::string index = folder.base().file("index.html");
     tb::write_file(index, tb::regress::page(report));
-    junit.write(tb::regress::junit(report));
+    junit.write([&] { return tb::regress::junit(report); });
     const bool to_terminal = terminal_columns() != tb::TableWidth::kUnlimited;
     if (!campaign_.quiet)
       std::cout << (json_         ? tb::regress::json(report)

@@ -67,7 +67,7 @@ class RtlFaults : public Command {
     }
     const std::vector<cosim::Kill> kills = cosim::hunt_all(
         faults, directed, options, [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
-    tsv.write(cosim::to_tsv(kills));
+    tsv.write([&] { return cosim::to_tsv(kills); });
     const auto found = std::count_if(kills.begin(), kills.end(), [](const cosim::Kill& kill) { return kill.found; });
     std::cout << fmt::format("{} of {} faults found\n", found, faults.size());
     return found == static_cast<std::ptrdiff_t>(faults.size()) ? kPassed : kFailed;

@@ -101,7 +101,9 @@ class StimulusOutputs {
     if (arguments_.wave_save) write_save_files(arguments_.wave, cosim::chip_kind(options.config.part));
     return result;
   }
-  void finish(const cosim::StimulusResult& result) { result_.write(cosim::result_json(result)); }
+  void finish(const cosim::StimulusResult& result) {
+    result_.write([&] { return cosim::result_json(result); });
+  }
 
  private:
   const RtlRandomArguments& arguments_;

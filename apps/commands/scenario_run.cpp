@@ -107,11 +107,11 @@ class ResultFiles {
   }
 
   void write(const tb::RunResult& result) {
-    result_.write(tb::result_json(result));
+    result_.write([&] { return tb::result_json(result); });
     if (report_) report_->write(result, DSDPV1_VERSION);
   }
   void write_junit(const tb::RunResult& result, const std::string& of_golden, bool same) {
-    junit_.write(junit_of(result, of_golden, same));
+    junit_.write([&] { return junit_of(result, of_golden, same); });
   }
 
  private:

@@ -86,8 +86,8 @@ class Serve : public Command {
     if (wave_.save) write_save_files(wave_.file, *scenario.kind);
     if (bench.wave_is_empty()) std::cerr << nothing_recorded(wave_) << '\n';
     result.pacing = execution.pacing();
-    result_file.write(tb::result_json(result));
-    junit_file.write(tb::junit("dsdpv1-sim serve", tb::run_cases(result)));
+    result_file.write([&] { return tb::result_json(result); });
+    junit_file.write([&] { return tb::junit("dsdpv1-sim serve", tb::run_cases(result)); });
     if (report_file) report_file->write(result, DSDPV1_VERSION);
     if (!quiet_) std::cout << tb::summary(result) << std::flush;
     return exit_code(verdict(result));

@@ -28,10 +28,12 @@ class WantedFile {
   explicit WantedFile(const std::string& path) {
     if (!path.empty()) file_.emplace(path);
   }
-  /// All of its text; nothing where it is not wanted. Throws tb::InputError when it cannot be written.
-  void write(const std::string& text) {
+  /// All that `text` returns, which is asked only where the file is wanted. Throws tb::InputError when it cannot be
+  /// written.
+  template <typename Text>
+  void write(const Text& text) {
     if (!file_) return;
-    file_->write(text);
+    file_->write(text());
     file_->commit();
   }
 
