@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "apps/command_line.hpp"
+#include "apps/exit_codes.hpp"
 #include "bus/printable.hpp"
 #include "io/input/read_file.hpp"
 #include "tb/chip/chip_kind.hpp"

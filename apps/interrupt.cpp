@@ -6,7 +6,7 @@
 #include <ctime>
 #include <initializer_list>
 
-#include "apps/command_line.hpp"
+#include "apps/exit_codes.hpp"
 #include "io/output/part_file.hpp"
 
 namespace dsdpv1::app {

@@ -5,54 +5,40 @@
 
 #include <cstdlib>
 #include <string_view>
-#include <utility>
 
 #include "tb/report/text_table.hpp"
 
 namespace dsdpv1::app {
 namespace {
 
-enum class Where : unsigned char { kWholeLine, kBeginning, kToTheEnd };
-
 struct Mark {
-  Where where;
+  bool whole_line;  ///< else its beginning
   std::string_view text;
   std::string_view colour;
 };
 
 constexpr std::string_view kGood = "\x1B[1;32m", kBad = "\x1B[1;31m", kOpen = "\x1B[1;33m", kNone = "\x1B[0m";
 
-constexpr Mark kMarks[] = {{Where::kBeginning, "PASSED", kGood},
-                           {Where::kBeginning, "FAILED", kBad},
-                           {Where::kBeginning, "NOTHING JUDGED", kOpen},
-                           {Where::kWholeLine, "EQUAL", kGood},
-                           {Where::kWholeLine, "DIFFERENT", kBad},
-                           {Where::kBeginning, "INTERRUPTED", kOpen},
-                           {Where::kBeginning, "  NOT MET  ", kBad},
-                           {Where::kBeginning, "  passed  ", kGood},
-                           {Where::kBeginning, "  failed  ", kBad},
-                           {Where::kBeginning, "  nothing_judged  ", kOpen},
-                           {Where::kBeginning, "  refused  ", kBad},
-                           {Where::kBeginning, "  crashed  ", kBad},
-                           {Where::kBeginning, "  hung  ", kBad},
+constexpr Mark kMarks[] = {{false, "PASSED", kGood},
+                           {false, "FAILED", kBad},
+                           {false, "NOTHING JUDGED", kOpen},
+                           {true, "EQUAL", kGood},
+                           {true, "DIFFERENT", kBad},
+                           {false, "INTERRUPTED", kOpen},
+                           {false, "  NOT MET  ", kBad},
+                           {false, "  passed  ", kGood},
+                           {false, "  failed  ", kBad},
+                           {false, "  nothing_judged  ", kOpen},
+                           {false, "  refused  ", kBad},
+                           {false, "  crashed  ", kBad},
+                           {false, "  hung  ", kBad},
                            // rows of regress as blocks, where the terminal is too narrow for its table
-                           {Where::kWholeLine, "  verdict   passed", kGood},
-                           {Where::kWholeLine, "  verdict   failed", kBad},
-                           {Where::kWholeLine, "  verdict   nothing_judged", kOpen},
-                           {Where::kWholeLine, "  verdict   refused", kBad},
-                           {Where::kWholeLine, "  verdict   crashed", kBad},
-                           {Where::kWholeLine, "  verdict   hung", kBad}};
-
-/// Where in the line the colour is, from and to; from is npos when the mark is not there.
-std::pair<std::size_t, std::size_t> place_of(const Mark& mark, std::string_view line) {
-  constexpr auto kNowhere = std::string_view::npos;
-  switch (mark.where) {
-    case Where::kWholeLine: return {line == mark.text ? 0 : kNowhere, line.size()};
-    case Where::kBeginning: return {line.substr(0, mark.text.size()) == mark.text ? 0 : kNowhere, mark.text.size()};
-    case Where::kToTheEnd: break;
-  }
-  return {line.find(mark.text), line.size()};
-}
+                           {true, "  verdict   passed", kGood},
+                           {true, "  verdict   failed", kBad},
+                           {true, "  verdict   nothing_judged", kOpen},
+                           {true, "  verdict   refused", kBad},
+                           {true, "  verdict   crashed", kBad},
+                           {true, "  verdict   hung", kBad}};
 
 }  // namespace
 
@@ -72,10 +58,9 @@ bool wants_colour(const std::string& word) {
 
 std::string painted(const std::string& line) {
   for (const Mark& mark : kMarks) {
-    const auto [from, to] = place_of(mark, line);
-    if (from == std::string_view::npos) continue;
-    return line.substr(0, from) + std::string(mark.colour) + line.substr(from, to - from) + std::string(kNone) +
-           line.substr(to);
+    const std::size_t size = mark.text.size();
+    if (line.compare(0, size, mark.text) != 0 || (mark.whole_line && line.size() != size)) continue;
+    return std::string(mark.colour) + line.substr(0, size) + std::string(kNone) + line.substr(size);
   }
   return line;
 }

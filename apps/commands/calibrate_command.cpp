@@ -1,15 +1,15 @@
-#include "apps/commands/calibrate_command.hpp"
-
+// calibrate: what a capture of a real chip's pins says of the rulings and their parameters.
 #include <iostream>
 
-#include "apps/command_line.hpp"
 #include "apps/commands/capture_file.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/words.hpp"
 #include "bus/capture/sample_clock.hpp"
 #include "cosim/pin_map.hpp"
 #include "io/input/input_error.hpp"
-#include "io/input/suggest.hpp"
 #include "lab/calibrate/calibration.hpp"
 #include "tb/report/text_table.hpp"
 
@@ -34,7 +34,7 @@ void take_signal(const std::string& text, calibrate::Names& names) {
   if (signal.empty())
     throw tb::InputError("dsdpv1-sim calibrate: --signal is " + text +
                          ", allowed is PIN=NAME, or PIN=!NAME for one that is inverted");
-  check_word("calibrate: --signal, the pin", pin, pin_names());
+  check_word("dsdpv1-sim calibrate: --signal, the pin", pin, pin_names());
   if (!names.given.emplace(pin, calibrate::Names::Given{signal, inverted}).second)
     throw tb::InputError("dsdpv1-sim calibrate: --signal has " + pin + " twice, allowed is once");
 }
@@ -50,49 +50,99 @@ void take_map(const std::string& path, calibrate::Names& names) {
   }
 }
 
-calibrate::Names names_of(const CalibrateArguments& arguments) {
-  calibrate::Names names;
-  names.scope = arguments.scope;
-  for (const std::string& text : arguments.signals) take_signal(text, names);
-  take_map(arguments.map, names);
-  return names;
-}
+class Calibrate : public Command {
+ public:
+  Calibrate()
+      : Command("calibrate",
+                "Holds a capture of a real chip's pins against the rulings and fits the chip's parameters") {}
 
-calibrate::Sampling sampling_of(const CalibrateArguments& arguments, const Sampling& file) {
-  calibrate::Sampling sampling;
-  sampling.unit = file.unit;
-  sampling.jitter_ns = arguments.jitter_ns;
-  sampling.clock_ppm = arguments.clock_ppm;
-  if (file.rate) sampling.rate = static_cast<double>(*file.rate);
-  if (arguments.rate.empty()) return sampling;
-  const auto rate = bus::capture::sample_rate(arguments.rate);
-  if (!rate)
-    throw tb::InputError("dsdpv1-sim calibrate: --rate is " + arguments.rate +
+  void options(CLI::App& app) override {
+    constexpr double kMostJitter = 1000, kMostPpm = 20'000;  // ns; 2 %
+    constexpr int kMostStation = 126;
+    app.add_option(
+           "CAPTURE", file_,
+           "Logic analyser's session (sigrok), CSV, VCD, FST with any of the chip's pins, known by what is in it")
+        ->required();
+    app.add_option("--signal", signals_,
+                   "PIN=NAME: the pin of table 1 (A0 to A10, D0 to D7, or A and D as vectors) is called NAME, "
+                   "PIN=!NAME when it is inverted; left out: as the pin")
+        ->allow_extra_args(false);
+    app.add_option("--map", map_, "The same as a map of pins (docs/cosim.md)");
+    app.add_option("--scope", names_.scope, "Only signals in this scope of a wave: the station of a wave of run");
+    app.add_option("--station", station_, "The chip's address; left out: the one that is answered")
+        ->check(CLI::Range(0, kMostStation));
+    app.add_option("--rate", rate_,
+                   "Samples a second, such as 24MHz; left out: what the file says, or its changes show");
+    app.add_option("--jitter", sampling_.jitter_ns,
+                   "How far an edge may be off besides the sampling, skew between channels included, ns")
+        ->check(CLI::Range(0.0, kMostJitter))
+        ->capture_default_str();
+    app.add_option("--ppm", sampling_.clock_ppm, "How far the clocks of chip and capture may differ")
+        ->check(CLI::Range(0.0, kMostPpm))
+        ->capture_default_str();
+    app.add_option("--chip", chip_, "The parameters as a chip: block for scenarios");
+    app.add_option("--json", json_, "The result for programs");
+    app.add_option("--table", table_, "What is printed with --all, into this file");
+    app.add_flag("--all", all_, "Also the claims that the capture does not show, and why");
+    add_quiet_option(app, quiet_);
+    app.footer(
+        "\nExamples:\n"
+        "  dsdpv1-sim calibrate board.sr --signal PBRXD=D0 --signal PBTXD=D1 --signal PBRTS=D2\n"
+        "  dsdpv1-sim calibrate board.csv --map pins.yaml --jitter 10 --chip chip.yaml --json board.json\n"
+        "  dsdpv1-sim calibrate model.fst --scope demo --all\n"
+        "docs/calibrate.md explains them.\n"
+        "\nExit codes: 0 all is confirmed or not shown, 1 something is contradicted, 2 wrong input, 130 "
+        "interrupted.\n");
+  }
+
+  int carry_out() override {
+    leave_nothing_on_signals();
+    check_outputs("dsdpv1-sim calibrate", {{"the capture", file_}, {"--map", map_}},
+                  {{"--chip", chip_}, {"--json", json_}, {"--table", table_}});
+    for (const std::string& text : signals_) take_signal(text, names_);
+    take_map(map_, names_);
+    const std::optional<double> rate = given_rate();
+    calibrate::RecordTaker taker(names_);
+    CaptureFile file(file_);
+    take_sampling(file.read_levels(taker));
+    if (rate) sampling_.rate = rate;
+    const calibrate::Result result = calibrate::calibrate(file.name(), taker.record(), sampling_, station_);
+    write_wanted(chip_, calibrate::chip_block(result));
+    write_wanted(json_, calibrate::json(result));
+    {
+      const tb::TableWidth as_wide_as_they_need(tb::TableWidth::kUnlimited);
+      write_wanted(table_, calibrate::text(result, true));
+    }
+    if (!quiet_) std::cout << calibrate::text(result, all_);
+    return result.agrees() ? kPassed : kFailed;
+  }
+
+ private:
+  std::optional<double> given_rate() const {
+    if (rate_.empty()) return std::nullopt;
+    const auto rate = bus::capture::sample_rate(rate_);
+    if (rate) return static_cast<double>(*rate);
+    throw tb::InputError("dsdpv1-sim calibrate: --rate is " + rate_ +
                          ", allowed is a number with Hz, kHz, MHz or GHz, like 24MHz");
-  sampling.rate = static_cast<double>(*rate);
-  return sampling;
-}
+  }
+
+  void take_sampling(const Sampling& file) {
+    sampling_.unit = file.unit;
+    if (file.rate) sampling_.rate = static_cast<double>(*file.rate);
+  }
+
+  std::string file_, map_;
+  std::vector<std::string> signals_;  ///< PIN=NAME, PIN=!NAME
+  calibrate::Names names_;            ///< its scope; the others by signals_ and map_
+  std::string rate_;                  ///< "24 MHz"; empty: the file's, else found
+  calibrate::Sampling sampling_;
+  std::optional<int> station_;
+  std::string chip_, json_, table_;
+  bool all_ = false, quiet_ = false;
+};
 
 }  // namespace
 
-int calibrate(const CalibrateArguments& arguments) {
-  leave_nothing_on_signals();
-  check_outputs("dsdpv1-sim calibrate", {{"the capture", arguments.file}, {"--map", arguments.map}},
-                {{"--chip", arguments.chip}, {"--json", arguments.json}, {"--table", arguments.table}});
-  calibrate::RecordTaker taker(names_of(arguments));
-  sampling_of(arguments, {});  // what is wrong with it is said before the capture is read
-  CaptureFile file(arguments.file);
-  const Sampling sampling = file.read_levels(taker);
-  const calibrate::Result result =
-      calibrate::calibrate(file.name(), taker.record(), sampling_of(arguments, sampling), arguments.station);
-  write_wanted(arguments.chip, calibrate::chip_block(result));
-  write_wanted(arguments.json, calibrate::json(result));
-  {
-    const tb::TableWidth as_wide_as_they_need(tb::TableWidth::kUnlimited);
-    write_wanted(arguments.table, calibrate::text(result, true));
-  }
-  if (!arguments.quiet) std::cout << calibrate::text(result, arguments.all);
-  return result.agrees() ? kPassed : kFailed;
-}
+std::unique_ptr<Command> make_calibrate() { return std::make_unique<Calibrate>(); }
 
 }  // namespace dsdpv1::app

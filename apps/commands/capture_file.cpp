@@ -6,13 +6,18 @@
 #include <cerrno>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <memory>
 #include <string_view>
+#include <vector>
 
-#include "apps/commands/wave_line.hpp"
+#include "bus/capture/byte_reader.hpp"
 #include "bus/capture/pcap_reader.hpp"
+#include "bus/capture/signal_decoder.hpp"
 #include "bus/capture/sigrok_reader.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
+#include "io/waves/wave_reader.hpp"
 
 namespace dsdpv1::app {
 namespace {
@@ -20,6 +25,153 @@ namespace {
 namespace capture = bus::capture;
 
 constexpr std::size_t kLongestArchive = 64U << 20U;
+
+/// Times of a wave as ticks of 1/12 ns, from the absolute count.
+class WaveClock {
+ public:
+  /// Times count 10^exponent seconds, -15 to 2.
+  explicit WaveClock(int exponent) {
+    constexpr int kNs = -9;
+    for (int i = kNs; i < exponent; ++i) ns_ *= 10;
+    for (int i = exponent; i < kNs; ++i) per_ns_ *= 10;
+  }
+  bus::Tick at(std::uint64_t time) const {
+    constexpr std::uint64_t kTicks = bus::kTicksPerNs, kMost = std::numeric_limits<bus::Tick>::max() / 2 / kTicks;
+    const std::uint64_t whole = time / per_ns_, part = time % per_ns_;
+    if (whole > kMost / ns_)
+      throw capture::CaptureError("lasts more than ten years, allowed is a recording of the line");
+    return static_cast<bus::Tick>(whole * ns_ * kTicks + (part * kTicks + per_ns_ / 2) / per_ns_);
+  }
+
+ private:
+  std::uint64_t ns_ = 1, per_ns_ = 1;
+};
+
+/// A bit of a signal of the wave.
+struct Wire {
+  std::uint32_t signal = 0;
+  std::size_t place = 0;  ///< in its value, the leftmost bit is 0
+};
+
+/// As declared, or counted down to 0.
+int index_of(const tb::WaveVariable& variable, const tb::WaveSignal& signal, std::uint32_t place) {
+  const int at = static_cast<int>(place);
+  if (!variable.range) return static_cast<int>(signal.width) - 1 - at;
+  const auto& [left, right] = *variable.range;
+  return left >= right ? left - at : left + at;
+}
+
+/// What can be chosen: signals of one bit and, with `vectors`, the bits of others.
+struct Wires {
+  std::vector<std::string> names;
+  std::vector<Wire> wires;
+
+  void add(const std::string& name, Wire wire) {
+    names.push_back(name);
+    wires.push_back(wire);
+  }
+};
+
+Wires wires_of(const tb::WaveDeclarations& declared, bool vectors) {
+  constexpr std::uint32_t kWidest = 64;
+  Wires wires;
+  for (const tb::WaveVariable& variable : declared.variables) {
+    const tb::WaveSignal& signal = declared.signals[variable.signal];
+    if (signal.kind != tb::WaveKind::kBits || signal.width > (vectors ? kWidest : 1)) continue;
+    const std::string& scope = declared.scopes[variable.scope];
+    const std::string name = scope.empty() ? variable.name : scope + "." + variable.name;
+    const bool one = signal.width == 1;
+    for (std::uint32_t bit = 0; bit < signal.width; ++bit)
+      wires.add(one && !(vectors && variable.range)
+                    ? name
+                    : name + "[" + std::to_string(index_of(variable, signal, bit)) + "]",
+                {variable.signal, bit});
+  }
+  return wires;
+}
+
+/// Tells a wave's chosen wires.
+class WaveLevels {
+ public:
+  WaveLevels(const std::string& path, capture::LevelTaker& taker, bool vectors)
+      : wave_(tb::read_wave(path)),
+        taker_(taker),
+        clock_(wave_->declarations().exponent),
+        wires_(wires_of(wave_->declarations(), vectors)) {
+    const std::size_t count = wave_->declarations().signals.size();
+    by_signal_.resize(count);
+    std::vector<bool> selected(count);
+    std::size_t which = 0;
+    for (const std::size_t chosen : taker_.choose(wires_.names)) {
+      const Wire& wire = wires_.wires[chosen];
+      selected[wire.signal] = true;
+      by_signal_[wire.signal].push_back({wire.place, which++});
+    }
+    wave_->select(selected);
+  }
+
+  void tell() {
+    for (tb::WaveEvent event; wave_->next(event);)
+      if (event.kind == tb::WaveEvent::Kind::kChange) change(event);
+    taker_.finish(clock_.at(wave_->end()));
+  }
+  double unit() const {
+    auto unit = static_cast<double>(bus::kTicksPerSecond);
+    for (int i = wave_->declarations().exponent; i < 0; ++i) unit /= 10;
+    return unit;
+  }
+
+ private:
+  struct Chosen {
+    std::size_t place, which;
+  };
+  void change(const tb::WaveEvent& event) {
+    for (const Chosen& chosen : by_signal_[event.signal]) {
+      const char bit = chosen.place < event.value.size() ? event.value[chosen.place] : 'x';
+      if (bit == '0' || bit == '1') taker_.level(clock_.at(event.time), chosen.which, bit == '1');
+    }
+  }
+
+  std::unique_ptr<tb::WaveReader> wave_;
+  capture::LevelTaker& taker_;
+  WaveClock clock_;
+  Wires wires_;
+  std::vector<std::vector<Chosen>> by_signal_;
+};
+
+void check_is_file(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw capture::CaptureError("is a wave by a pipe or standard input, allowed for a wave is the name of a file");
+}
+
+bool begins_as_wave(std::string_view beginning) {
+  constexpr std::size_t kFstHeader = 9;  // the block's type, and its length
+  constexpr std::uint64_t kFstHeaderLength = 329;
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+  if (first != std::string_view::npos && beginning[first] == '$') return true;
+  if (beginning.size() < kFstHeader) return false;
+  const bool compressed = beginning[0] == '\xFE';
+  return compressed || (beginning[0] == 0 && capture::number_in(beginning.substr(1, 8), true) == kFstHeaderLength);
+}
+
+/// Gives `taker` the signals that it wants, the wires of a vector as "A[3]"; with x and z a level stays. Returns the
+/// wave's unit of time in ticks. `path` as below.
+double read_wave_levels(const std::string& path, capture::LevelTaker& taker) {
+  check_is_file(path);
+  WaveLevels levels(path, taker, true);
+  levels.tell();
+  return levels.unit();
+}
+
+/// The telegrams of one signal of a single bit. `path` is a file: a pipe has given its beginning away. Throws
+/// tb::InputError, and CaptureError as other readers.
+capture::LogicSource read_wave_line(const std::string& path, const capture::LogicSettings& settings,
+                                    const capture::TakeTelegram& take) {
+  check_is_file(path);
+  capture::SignalDecoder decoder(settings, take);
+  WaveLevels(path, decoder, false).tell();
+  return decoder.source();
+}
 
 std::ifstream open_file(const std::string& path) {
   const bool folder = std::filesystem::is_directory(path);

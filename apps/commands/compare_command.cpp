@@ -1,15 +1,13 @@
-#include "apps/commands/compare_command.hpp"
-
-#include <fmt/format.h>
-#include <unistd.h>
-
+// compare: two waves of any simulators held against each other.
 #include <algorithm>
-#include <array>
 #include <iostream>
+#include <optional>
 
-#include "apps/command_line.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/words.hpp"
 #include "cosim/wave_pins.hpp"
 #include "io/input/input_error.hpp"
 #include "io/waves/wave_writer.hpp"
@@ -22,98 +20,141 @@ namespace {
 
 using tb::compare::Femtoseconds;
 using tb::compare::NamedPair;
-using tb::compare::Options;
+using tb::compare::XRule;
+using tb::compare::ZRule;
 
-std::optional<Femtoseconds> duration(const std::string& option, const std::string& text, bool negative) {
+constexpr const char* kCompare = "dsdpv1-sim compare: ";
+constexpr const char* kOwnRtl = "rtl_ref";  // in the place of a map: the names of the reference RTL
+
+std::optional<Femtoseconds> duration(const std::string& option, const std::string& text, bool negative = false) {
   if (text.empty()) return std::nullopt;
   const std::optional<Femtoseconds> value = tb::compare::parse_duration(text);
   if (value && (negative || *value >= 0)) return value;
-  throw tb::InputError("dsdpv1-sim compare: " + option + " is " + text + ", allowed is " + tb::compare::kDurationForm);
+  throw tb::InputError(kCompare + option + " is " + text + ", allowed is " + tb::compare::kDurationForm);
 }
 
-/// Where an option's words stand for the values of a rule.
-template <class Rule, std::size_t N>
-Rule rule(const std::string& option, const std::string& word,
-          const std::array<std::pair<const char*, Rule>, N>& rules) {
-  std::vector<std::string> words;
-  for (const auto& [name, value] : rules) {
-    if (word == name) return value;
-    words.emplace_back(name);
+class Compare : public Command {
+ public:
+  Compare() : Command("compare", "Holds a simulator's wave against another's: VCD and FST of any") {}
+
+  void options(CLI::App& app) override {
+    app.add_option("A", a_, "Wave of what is expected, such as the model's")->required();
+    app.add_option("B", b_, "Wave that is held to it")->required();
+    add_what_is_compared(app);
+    add_how_it_is_compared(app);
+    app.add_option("--wave", wave_, "Both sides and where they differ: FILE.vcd or FILE.fst");
+    app.add_option("--json", json_, "The result for programs");
+    app.add_option("--junit", junit_, "The result in JUnit's XML, a case for each signal");
+    add_output_options(app, progress_, quiet_);
+    app.footer(
+        "\nExamples:\n"
+        "  dsdpv1-sim compare model.fst icarus.vcd --scope-a demo --scope-b bench.dut --pins rtl_ref\n"
+        "  dsdpv1-sim compare golden.vcd tonight.vcd --tolerance 10ns --mask 'tb.reset=0' --wave both.fst\n"
+        "  dsdpv1-sim compare a.fst b.vcd --clock tb.clk --from 100us --to 3ms --json result.json\n"
+        "  dsdpv1-sim compare a.vcd <(zcat b.vcd.gz) --signal bus.line=!tb.line_n\n"
+        "docs/compare.md explains them.\n"
+        "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
   }
-  check_word(option, word, words);
-  return rules[0].second;
-}
 
-tb::compare::XRule x_rule(const std::string& word) {
-  using Rule = tb::compare::XRule;
-  const std::array<std::pair<const char*, Rule>, 4> rules = {
-      {{"expected", Rule::kExpected}, {"any", Rule::kAny}, {"equal", Rule::kEqual}, {"never", Rule::kNever}}};
-  return rule("compare: --x", word, rules);
-}
-
-tb::compare::ZRule z_rule(const std::string& word) {
-  using Rule = tb::compare::ZRule;
-  const std::array<std::pair<const char*, Rule>, 3> rules = {
-      {{"equal", Rule::kEqual}, {"expected", Rule::kExpected}, {"any", Rule::kAny}}};
-  return rule("compare: --z", word, rules);
-}
-
-/// The pins of the map, and what --signal says instead or besides.
-std::vector<NamedPair> pairs_of(const CompareArguments& arguments) {
-  std::vector<NamedPair> pairs;
-  if (arguments.pins == kOwnRtl)
-    pairs = cosim::pairs_of(cosim::default_pin_map());
-  else if (!arguments.pins.empty())
-    pairs = cosim::pairs_of(cosim::load_pin_map(arguments.pins));
-  for (const std::string& text : arguments.signals) {
-    NamedPair pair = tb::compare::parse_pair(text);
-    const auto same = [&](const NamedPair& other) { return other.a == pair.a; };
-    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), same), pairs.end());
-    pairs.push_back(std::move(pair));
+  int carry_out() override {
+    leave_nothing_on_signals();
+    take_words();
+    check_files();
+    tb::compare::Comparison comparison(a_, b_, given_, [] { return std::make_unique<cosim::PinSurroundings>(); });
+    if (!wave_.empty()) comparison.write_wave(wave_);
+    tb::ShareProgress progress(shows_progress(progress_));
+    comparison.on_progress([&progress](double share) { progress.show(share); });
+    const tb::compare::Result result = comparison.run();
+    progress.clear();
+    write_wanted(json_, tb::compare::json(result));
+    write_wanted(junit_, tb::compare::junit(result));
+    if (!quiet_) std::cout << tb::compare::text(result);
+    return result.equal() ? kPassed : kFailed;
   }
-  return pairs;
-}
 
-Options options_of(const CompareArguments& arguments) {
-  Options options;
-  options.scope_a = arguments.scope_a.empty() ? arguments.scope : arguments.scope_a;
-  options.scope_b = arguments.scope_b.empty() ? arguments.scope : arguments.scope_b;
-  options.pairs = pairs_of(arguments);
-  options.from = duration("--from", arguments.from, false);
-  options.to = duration("--to", arguments.to, false);
-  options.shift = duration("--shift", arguments.shift, true).value_or(0);
-  options.tolerance = duration("--tolerance", arguments.tolerance, false);
-  if (!arguments.clock.empty()) options.clock = tb::compare::parse_clock(arguments.clock);
-  options.x = x_rule(arguments.x);
-  options.z = z_rule(arguments.z);
-  for (const std::string& mask : arguments.masks) options.masks.push_back(tb::compare::parse_mask(mask));
-  return options;
-}
+ private:
+  void add_what_is_compared(CLI::App& app) {
+    app.add_option("--scope", scope_, "Only signals in this scope and below it; left out: all");
+    app.add_option("--scope-a", given_.scope_a, "The same for A alone");
+    app.add_option("--scope-b", given_.scope_b, "The same for B alone");
+    app.add_option("--pins", pins_,
+                   "The pins of the chip, B's by this map (docs/cosim.md) or, with rtl_ref, as the reference RTL calls "
+                   "them; left out: all signals of one name");
+    app.add_option("--signal", signals_, "A=B: this signal of A and that of B, A=!B when B has the other level")
+        ->allow_extra_args(false);
+    app.add_option("--from", from_, "Compare from this time on, such as 100us; left out: what both have");
+    app.add_option("--to", to_, "... and up to this one, which both must reach");
+  }
 
-void check_files(const CompareArguments& arguments) {
-  if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
-  check_outputs("dsdpv1-sim compare",
-                {{"A", arguments.a}, {"B", arguments.b}, {"--pins", arguments.pins == kOwnRtl ? "" : arguments.pins}},
-                {{"--wave", arguments.wave}, {"--json", arguments.json}, {"--junit", arguments.junit}});
-}
+  void add_how_it_is_compared(CLI::App& app) {
+    app.add_option("--shift", shift_, "Added to B's times: 20ns, -3cycles");
+    app.add_option("--tolerance", tolerance_,
+                   "What differs for no longer is no difference; left out: the coarser time scale's unit where the two "
+                   "are not the same, else 0");
+    app.add_option("--clock", clock_,
+                   "SIGNAL, SIGNAL:fall: compare what there is just before its rising (falling) edges");
+    app.add_option("--x", x_,
+                   "What an unknown bit matches: expected (A's anything, B's only X), any (either side's anything), "
+                   "equal (X), never (nothing)")
+        ->capture_default_str();
+    app.add_option("--z", z_, "What a released bit matches: equal (Z), expected and any as of --x")
+        ->capture_default_str();
+    app.add_option(
+           "--mask", masks_,
+           "SIGNAL=VALUE or SIGNAL!=VALUE: nothing is compared while it is so; with @SIGNAL after it, that one is not")
+        ->allow_extra_args(false);
+  }
+
+  /// The pins of the map, and what --signal says instead or besides.
+  std::vector<NamedPair> pairs() const {
+    std::vector<NamedPair> pairs;
+    if (!pins_.empty())
+      pairs = cosim::pairs_of(pins_ == kOwnRtl ? cosim::default_pin_map() : cosim::load_pin_map(pins_));
+    for (const std::string& text : signals_) {
+      NamedPair pair = tb::compare::parse_pair(text);
+      const auto same = [&](const NamedPair& other) { return other.a == pair.a; };
+      pairs.erase(std::remove_if(pairs.begin(), pairs.end(), same), pairs.end());
+      pairs.push_back(std::move(pair));
+    }
+    return pairs;
+  }
+
+  void take_words() {
+    if (given_.scope_a.empty()) given_.scope_a = scope_;
+    if (given_.scope_b.empty()) given_.scope_b = scope_;
+    given_.pairs = pairs();
+    given_.from = duration("--from", from_);
+    given_.to = duration("--to", to_);
+    given_.shift = duration("--shift", shift_, true).value_or(0);
+    given_.tolerance = duration("--tolerance", tolerance_);
+    if (!clock_.empty()) given_.clock = tb::compare::parse_clock(clock_);
+    given_.x = value_of<XRule>(
+        kCompare + std::string("--x"), x_,
+        {{"expected", XRule::kExpected}, {"any", XRule::kAny}, {"equal", XRule::kEqual}, {"never", XRule::kNever}});
+    given_.z = value_of<ZRule>(kCompare + std::string("--z"), z_,
+                               {{"equal", ZRule::kEqual}, {"expected", ZRule::kExpected}, {"any", ZRule::kAny}});
+    for (const std::string& mask : masks_) given_.masks.push_back(tb::compare::parse_mask(mask));
+  }
+
+  void check_files() const {
+    if (!wave_.empty()) tb::check_wave_name(wave_);
+    check_outputs("dsdpv1-sim compare", {{"A", a_}, {"B", b_}, {"--pins", pins_ == kOwnRtl ? "" : pins_}},
+                  {{"--wave", wave_}, {"--json", json_}, {"--junit", junit_}});
+  }
+
+  std::string a_, b_;
+  tb::compare::Options given_;  ///< the scopes by CLI11, all else by take_words
+  std::string scope_;
+  std::string pins_;  ///< a map of pins, or kOwnRtl
+  std::vector<std::string> signals_, masks_;
+  std::string from_, to_, shift_, tolerance_, clock_, x_ = "expected", z_ = "equal";
+  std::string wave_, json_, junit_;
+  std::optional<bool> progress_;
+  bool quiet_ = false;
+};
 
 }  // namespace
 
-int compare(const CompareArguments& arguments) {
-  leave_nothing_on_signals();
-  const Options options = options_of(arguments);
-  check_files(arguments);
-  tb::compare::Comparison comparison(arguments.a, arguments.b, options,
-                                     [] { return std::make_unique<cosim::PinSurroundings>(); });
-  if (!arguments.wave.empty()) comparison.write_wave(arguments.wave);
-  tb::ShareProgress progress(arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
-  comparison.on_progress([&progress](double share) { progress.show(share); });
-  const tb::compare::Result result = comparison.run();
-  progress.clear();
-  write_wanted(arguments.json, tb::compare::json(result));
-  write_wanted(arguments.junit, tb::compare::junit(result));
-  if (!arguments.quiet) std::cout << tb::compare::text(result);
-  return result.equal() ? kPassed : kFailed;
-}
+std::unique_ptr<Command> make_compare() { return std::make_unique<Compare>(); }
 
 }  // namespace dsdpv1::app

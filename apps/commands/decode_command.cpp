@@ -2,31 +2,127 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
-#include "apps/command_line.hpp"
 #include "apps/commands/capture_file.hpp"
-#include "apps/commands/telegram_files.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/words.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"
 #include "bus/telegram/telegram_printer.hpp"
 #include "io/input/input_error.hpp"
+#include "io/input/units.hpp"
+#include "io/output/output_file.hpp"
 #include "tb/bench/run_log.hpp"
 
 namespace dsdpv1::app {
 namespace {
 
 namespace capture = bus::capture;
+using bus::TelegramKind;
+
+const char* kind_name(TelegramKind kind) {
+  switch (kind) {
+    case TelegramKind::kSd1: return "SD1";
+    case TelegramKind::kSd2: return "SD2";
+    case TelegramKind::kSd3: return "SD3";
+    case TelegramKind::kSd4: return "SD4";
+    case TelegramKind::kSc: return "SC";
+  }
+  return "";
+}
+
+bool has_addresses(const bus::Telegram& telegram) { return telegram.kind != TelegramKind::kSc; }
+bool has_fc(const bus::Telegram& telegram) { return has_addresses(telegram) && telegram.kind != TelegramKind::kSd4; }
+
+std::string baud_name(const capture::CapturedTelegram& telegram) {
+  return telegram.baud ? std::string(bus::baud(*telegram.baud).name) : "";
+}
+
+std::string cell(const std::optional<std::uint8_t>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+std::string row(std::uint64_t number, const capture::CapturedTelegram& telegram, const bus::Decoded& decoded,
+                const std::string& why) {
+  std::string text = fmt::format("{}\t{}\t{}", number, tb::nanoseconds(telegram.start), baud_name(telegram));
+  const bus::Telegram& fields = decoded.telegram;
+  if (decoded.readable)
+    text += fmt::format("\t{}\t{}\t{}\t{}\t{}\t{}\t{}", kind_name(fields.kind),
+                        has_addresses(fields) ? fmt::format("{}", fields.sa) : "",
+                        has_addresses(fields) ? fmt::format("{}", fields.da) : "",
+                        has_fc(fields) ? fmt::format("{:02X}", fields.fc) : "", cell(fields.dsap), cell(fields.ssap),
+                        has_fc(fields) ? bus::explain_service(fields) : "");
+  else
+    text += "\t\t\t\t\t\t\t";
+  return text + fmt::format("\t{}\t{}\n", why, tb::bytes_text(telegram.bytes, telegram.bytes.size()));
+}
+
+nlohmann::ordered_json object(std::uint64_t number, const capture::CapturedTelegram& telegram,
+                              const bus::Decoded& decoded, const std::string& why) {
+  nlohmann::ordered_json json;
+  json["number"] = number;
+  json["at_ns"] = static_cast<double>(telegram.start) / static_cast<double>(bus::kTicksPerNs);
+  if (telegram.baud) json["baud"] = baud_name(telegram);
+  if (decoded.readable) {
+    const bus::Telegram& fields = decoded.telegram;
+    json["type"] = kind_name(fields.kind);
+    if (has_addresses(fields)) json["sa"] = fields.sa;
+    if (has_addresses(fields)) json["da"] = fields.da;
+    if (has_fc(fields)) json["fc"] = fields.fc;
+    if (fields.dsap) json["dsap"] = *fields.dsap;
+    if (fields.ssap) json["ssap"] = *fields.ssap;
+    if (has_fc(fields)) json["service"] = bus::explain_service(fields);
+    json["words"] = bus::explain_line(fields);
+    json["data"] = tb::bytes_text(fields.data, fields.data.size());
+  }
+  if (!why.empty()) json["wrong"] = why;
+  for (const std::string& remark : telegram.remarks) json["remarks"].push_back(bus::printable(remark));
+  json["bytes"] = tb::bytes_text(telegram.bytes, telegram.bytes.size());
+  return json;
+}
+
+void open(std::optional<tb::OutputFile>& file, const std::string& path, const char* head) {
+  if (path.empty()) return;
+  file.emplace(path);
+  file->write(head);
+}
+
+/// --table and --json: a line for each telegram; nothing is kept.
+class TelegramFiles {
+ public:
+  /// Paths, empty: not wanted. Throws tb::InputError.
+  TelegramFiles(const std::string& table, const std::string& json) {
+    open(table_, table, "number\tat_ns\tbaud\ttype\tsa\tda\tfc\tdsap\tssap\tservice\twrong\tbytes\n");
+    open(json_, json, "[");
+  }
+
+  /// `why`: what is wrong with it, empty for a right one.
+  void take(const capture::CapturedTelegram& telegram, const bus::Decoded& decoded, const std::string& why) {
+    ++count_;
+    if (table_) table_->write(row(count_, telegram, decoded, why));
+    if (json_) json_->write((count_ == 1 ? "\n" : ",\n") + object(count_, telegram, decoded, why).dump());
+  }
+  /// Throws tb::InputError where something could not be written.
+  void finish() {
+    if (json_) json_->write(count_ == 0 ? "]\n" : "\n]\n");
+    if (table_) table_->commit();
+    if (json_) json_->commit();
+  }
+
+ private:
+  std::optional<tb::OutputFile> table_, json_;
+  std::uint64_t count_ = 0;
+};
 
 /// The telegrams of a capture, as those of a text are printed.
 class CapturePrinter {
  public:
   /// `packets`: the telegrams are packets of a file, and numbered as such.
-  CapturePrinter(bool packets, const DecodeArguments& arguments)
-      : packets_(packets), quiet_(arguments.quiet), files_(arguments.table, arguments.json) {}
+  CapturePrinter(bool packets, bool quiet, TelegramFiles& files) : packets_(packets), quiet_(quiet), files_(files) {}
 
   void take(const capture::CapturedTelegram& telegram) {
     ++count_;
@@ -69,17 +165,9 @@ class CapturePrinter {
 
   bus::TelegramPrinter printer_{std::cout};
   bool packets_, quiet_, right_ = true;
-  TelegramFiles files_;
+  TelegramFiles& files_;
   std::uint64_t count_ = 0;
 };
-
-capture::LogicSettings logic_settings(const DecodeArguments& arguments) {
-  capture::LogicSettings settings;
-  settings.signal = arguments.signal;
-  settings.inverted = arguments.inverted;
-  if (!arguments.baud.empty()) settings.baud = baud_index("decode: --baud", arguments.baud);
-  return settings;
-}
 
 void say_source(const capture::LogicSource& source) {
   std::cout << fmt::format("signal {} at {}\n", bus::printable(source.signal), bus::baud(source.baud).name);
@@ -92,27 +180,62 @@ int decode_text(std::istream& in, const std::string& name) {
   return status;
 }
 
-int decode_capture(CaptureFile& file, const DecodeArguments& arguments) {
-  leave_nothing_on_signals();
-  check_outputs("dsdpv1-sim decode", {{"the capture", file.path()}},
-                {{"--table", arguments.table}, {"--json", arguments.json}});
-  CapturePrinter printer(file.packets(), arguments);
-  const auto source = file.read(logic_settings(arguments),
-                                [&printer](const capture::CapturedTelegram& telegram) { printer.take(telegram); });
-  if (source && !arguments.quiet) say_source(*source);
-  return printer.finish();
-}
+class Decode : public Command {
+ public:
+  Decode() : Command("decode", "Explains every byte of telegrams: text, logs, captures, recordings of the line") {}
+
+  void options(CLI::App& app) override {
+    app.add_option("FILE", file_,
+                   "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session of "
+                   "sigrok, CSV of a logic analyser, known by what is in it; left out or -: standard input");
+    app.add_option("--baud", baud_, "Baud rate of a recording of the line; left out: it is found");
+    app.add_option("--signal", settings_.signal,
+                   "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
+    app.add_flag("--invert", settings_.inverted, "The recording's idle level is low");
+    app.add_option("--table", table_, "Of a capture or recording: a line a telegram, separated by tabs");
+    app.add_option("--json", json_, "The same as JSON, with words");
+    app.add_flag("--quiet,-q", quiet_, "Nothing is printed");
+    app.footer(
+        "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
+        "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
+        "(--log-whole).\n"
+        "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
+        "dsdpv1-sim decode logic.sr --signal D2 --invert\n  dsdpv1-sim decode my.pcapng --quiet --table my.tsv\n  echo "
+        "68 05 05 68 85 82 6D 3C 3E EE 16 | dsdpv1-sim decode\n"
+        "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
+  }
+
+  int carry_out() override {
+    CaptureFile file(file_);
+    if (file.form() != CaptureForm::kText) return decode_capture(file);
+    if (!table_.empty() || !json_.empty() || quiet_)
+      throw tb::InputError(file.name(), 0,
+                           "is text, allowed with --table, --json and --quiet are captures and recordings of the line");
+    return decode_text(file.stream(), file.name());
+  }
+
+ private:
+  int decode_capture(CaptureFile& file) {
+    leave_nothing_on_signals();
+    check_outputs("dsdpv1-sim decode", {{"the capture", file.path()}}, {{"--table", table_}, {"--json", json_}});
+    TelegramFiles files(table_, json_);
+    CapturePrinter printer(file.packets(), quiet_, files);
+    if (!baud_.empty()) settings_.baud = baud_index("dsdpv1-sim decode: --baud", baud_);
+    const auto source =
+        file.read(settings_, [&printer](const capture::CapturedTelegram& telegram) { printer.take(telegram); });
+    if (source && !quiet_) say_source(*source);
+    return printer.finish();
+  }
+
+  std::string file_;  ///< empty or "-": standard input
+  std::string baud_;  ///< of levels; empty: found
+  capture::LogicSettings settings_;
+  std::string table_, json_;  ///< files for programs, of captures
+  bool quiet_ = false;
+};
 
 }  // namespace
 
-int decode(const DecodeArguments& arguments) {
-  CaptureFile file(arguments.file);
-  const bool wants_files = !arguments.table.empty() || !arguments.json.empty() || arguments.quiet;
-  if (file.form() == CaptureForm::kText && wants_files)
-    throw tb::InputError(file.name(), 0,
-                         "is text, allowed with --table, --json and --quiet are captures and recordings of the line");
-  if (file.form() == CaptureForm::kText) return decode_text(file.stream(), file.name());
-  return decode_capture(file, arguments);
-}
+std::unique_ptr<Command> make_decode() { return std::make_unique<Decode>(); }
 
 }  // namespace dsdpv1::app

@@ -1,18 +1,15 @@
-#include "apps/commands/reasons_command.hpp"
-
+// reasons: every code that logs, scenarios and result files may hold, with what to do about it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <iostream>
+#include <iterator>
 
-#include "apps/command_line.hpp"
-#include "apps/interrupt.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/options/outputs.hpp"
 #include "bus/monitor/monitor.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
-#include "io/output/write_file.hpp"
 #include "kinds/dsdpv1/checks/markdown.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/scenario/event_codes.hpp"
@@ -20,60 +17,44 @@
 namespace dsdpv1::app {
 namespace {
 
-const char* meaning_of(bus::FlagKind kind) {
-  switch (kind) {
-    case bus::FlagKind::kCollision: return "two stations drive the line at once";
-    case bus::FlagKind::kGap: return "more than 1 bit time of idle inside a telegram";
-    case bus::FlagKind::kSynViolated: return "a request began less than T_SYN (33 bit times) after the last activity";
-    case bus::FlagKind::kTsdrEarly: return "an answer came before min_TSDR";
-    case bus::FlagKind::kTsdrLate: return "an answer came after max_TSDR";
-    case bus::FlagKind::kCharacterError: return "a character with wrong parity or a low stop bit";
-    case bus::FlagKind::kTelegramError:
-      return "a telegram with a wrong delimiter, length or FCS, or one that broke off";
-    case bus::FlagKind::kUnanswered: return "no answer within the slot time";
-    case bus::FlagKind::kUnexpectedAnswer: return "an answer that nobody asked for, or by the wrong station";
-    case bus::FlagKind::kGlitch: return "a low level shorter than half a bit";
-    case bus::FlagKind::kTwoMasters: return "a master sends while another has the token";
-  }
-  return "";
-}
-
-const char* advice_of(bus::FlagKind kind) {
-  switch (kind) {
-    case bus::FlagKind::kCollision:
-      return "Give each station an address of its own, run one master at a time, and let requests wait for the answer "
-             "or the slot time.";
-    case bus::FlagKind::kGap:
-      return "Send the characters of a telegram without a pause. Slaves ignore such a telegram.";
-    case bus::FlagKind::kSynViolated:
-      return "The master must leave 33 bit times of idle before a request. Slaves ignore it otherwise.";
-    case bus::FlagKind::kTsdrEarly: return "Look at min_TSDR of Set_Prm and at who answered.";
-    case bus::FlagKind::kTsdrLate: return "Look at who answered; MaxTsdr of the GSD file must hold at this baud rate.";
-    case bus::FlagKind::kCharacterError:
-      return "Disturbed line, a second sender, or another baud rate or parity than 8E1.";
-    case bus::FlagKind::kTelegramError:
-      return "Disturbed line, or a sender that builds telegrams wrongly: `dsdpv1-sim decode` explains the bytes.";
-    case bus::FlagKind::kUnanswered:
-      return "Nothing while masters look for stations or slaves search the baud rate. Else the slave's own reason "
-             "stands beside it in the log.";
-    case bus::FlagKind::kUnexpectedAnswer:
-      return "Two stations with the same address, or a master whose slot time is too short: its request and the late "
-             "answer overlap.";
-    case bus::FlagKind::kGlitch: return "Disturbed line. The chip ignores it while idle (S10).";
-    case bus::FlagKind::kTwoMasters:
-      return "Masters on one segment must share the token: each takes part in the ring, with an address of its own and "
-             "the same slot time.";
-  }
-  return "";
-}
+struct FlagText {
+  bus::FlagKind kind;
+  const char *meaning, *advice;
+};
+constexpr FlagText kFlags[] = {
+    {bus::FlagKind::kCollision, "two stations drive the line at once",
+     "Give each station an address of its own, run one master at a time, and let requests wait for the answer or the "
+     "slot time."},
+    {bus::FlagKind::kGap, "more than 1 bit time of idle inside a telegram",
+     "Send the characters of a telegram without a pause. Slaves ignore such a telegram."},
+    {bus::FlagKind::kSynViolated, "a request began less than T_SYN (33 bit times) after the last activity",
+     "The master must leave 33 bit times of idle before a request. Slaves ignore it otherwise."},
+    {bus::FlagKind::kTsdrEarly, "an answer came before min_TSDR", "Look at min_TSDR of Set_Prm and at who answered."},
+    {bus::FlagKind::kTsdrLate, "an answer came after max_TSDR",
+     "Look at who answered; MaxTsdr of the GSD file must hold at this baud rate."},
+    {bus::FlagKind::kCharacterError, "a character with wrong parity or a low stop bit",
+     "Disturbed line, a second sender, or another baud rate or parity than 8E1."},
+    {bus::FlagKind::kTelegramError, "a telegram with a wrong delimiter, length or FCS, or one that broke off",
+     "Disturbed line, or a sender that builds telegrams wrongly: `dsdpv1-sim decode` explains the bytes."},
+    {bus::FlagKind::kUnanswered, "no answer within the slot time",
+     "Nothing while masters look for stations or slaves search the baud rate. Else the slave's own reason stands "
+     "beside it in the log."},
+    {bus::FlagKind::kUnexpectedAnswer, "an answer that nobody asked for, or by the wrong station",
+     "Two stations with the same address, or a master whose slot time is too short: its request and the late answer "
+     "overlap."},
+    {bus::FlagKind::kGlitch, "a low level shorter than half a bit",
+     "Disturbed line. The chip ignores it while idle (S10)."},
+    {bus::FlagKind::kTwoMasters, "a master sends while another has the token",
+     "Masters on one segment must share the token: each takes part in the ring, with an address of its own and the "
+     "same slot time."},
+};
+static_assert(std::size(kFlags) == bus::kFlagKinds);
 
 std::vector<tb::CodeText> bus_codes() {
   std::vector<tb::CodeText> list;
-  for (std::size_t i = 0; i < bus::kFlagKinds; ++i) {
-    const auto kind = static_cast<bus::FlagKind>(i);
-    list.push_back({tb::scenario::flag_code(kind), kind == bus::FlagKind::kUnanswered ? "info" : "violation",
-                    meaning_of(kind), advice_of(kind)});
-  }
+  for (const FlagText& flag : kFlags)
+    list.push_back({tb::scenario::flag_code(flag.kind), flag.kind == bus::FlagKind::kUnanswered ? "info" : "violation",
+                    flag.meaning, flag.advice});
   return list;
 }
 
@@ -164,21 +145,32 @@ std::string as_text(const tb::ChipKind& kind, const std::string& code) {
   return text;
 }
 
+class Reasons : public Command {
+ public:
+  Reasons() : Command("reasons", "Explains the codes of logs and results: what happened, what to do") {}
+
+  void options(CLI::App& app) override {
+    app.add_option("CODE", code_, "Only this one, in capitals or not");
+    CLI::Option* markdown = app.add_flag("--markdown", markdown_, "Prints docs/reasons.md instead");
+    app.add_flag("--checks", checks_, "Prints docs/checks.md instead")->excludes(markdown);
+    app.add_option("--output,-o", output_, "Into this file");
+    app.footer("\nExamples:\n  dsdpv1-sim reasons prm_ident\n  dsdpv1-sim reasons | less\n");
+  }
+
+  int carry_out() override {
+    const tb::ChipKind& kind = *tb::chip_kinds().front();
+    const std::string text = checks_ ? checks::markdown() : markdown_ ? as_markdown(kind) : as_text(kind, code_);
+    return print_or_write("dsdpv1-sim reasons", text, output_);
+  }
+
+ private:
+  std::string code_;  ///< only this one; empty: all
+  bool markdown_ = false, checks_ = false;
+  std::string output_;
+};
+
 }  // namespace
 
-int reasons(const ReasonsArguments& arguments) {
-  const tb::ChipKind& kind = *tb::chip_kinds().front();
-  const std::string text = arguments.checks     ? checks::markdown()
-                           : arguments.markdown ? as_markdown(kind)
-                                                : as_text(kind, arguments.code);
-  if (arguments.output.empty()) {
-    std::cout << text << std::flush;
-    return kPassed;
-  }
-  leave_nothing_on_signals();
-  check_outputs("dsdpv1-sim reasons", {}, {{"--output", arguments.output}});
-  tb::write_file(arguments.output, text);
-  return kPassed;
-}
+std::unique_ptr<Command> make_reasons() { return std::make_unique<Reasons>(); }
 
 }  // namespace dsdpv1::app

@@ -1,11 +1,10 @@
-#include "apps/commands/recover_command.hpp"
-
+// recover: a complete wave from what a killed run has left.
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <iostream>
 
-#include "apps/command_line.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
 #include "io/input/input_error.hpp"
@@ -42,19 +41,39 @@ std::uint64_t recover_wave(tb::WaveFormat format, const std::string& part, const
   return tb::recover_vcd(part, output);
 }
 
+class Recover : public Command {
+ public:
+  Recover() : Command("recover", "Makes a complete wave of what a killed run (SIGKILL) has left of it") {}
+
+  void options(CLI::App& app) override {
+    app.add_option("FILE", part_, "The wave's temporary file, NAME.PID.part; FST needs FILE.hier beside it")
+        ->required();
+    app.add_option("--output,-o", output_, "The wave; left out: NAME, when there is none yet");
+    app.footer(
+        "\nIt says until when the wave is complete. The files that it reads stay.\n"
+        "\nExamples:\n  dsdpv1-sim recover out/demo.fst.4711.part\n"
+        "  dsdpv1-sim recover demo.vcd.4711.part --output killed.vcd\n"
+        "\nExit codes: 0 recovered, 2 wrong input or nothing to recover, 130 interrupted.\n");
+  }
+
+  int carry_out() override {
+    leave_nothing_on_signals();
+    const tb::WaveFormat format = tb::wave_format(part_);
+    const std::string output = output_.empty() ? name_without_part(part_) : output_;
+    check_ending(format, part_, output);
+    check_outputs("dsdpv1-sim recover", {{"what is recovered", part_}, {"what is recovered", part_ + ".hier"}},
+                  {{"--output", output}});
+    const std::uint64_t until = recover_wave(format, part_, output);
+    std::cout << fmt::format("{}: complete until {}.{:03} ns\n", output, until / 1000, until % 1000);
+    return kPassed;
+  }
+
+ private:
+  std::string part_, output_;
+};
+
 }  // namespace
 
-int recover(const RecoverArguments& arguments) {
-  leave_nothing_on_signals();
-  const tb::WaveFormat format = tb::wave_format(arguments.part);
-  const std::string output = arguments.output.empty() ? name_without_part(arguments.part) : arguments.output;
-  check_ending(format, arguments.part, output);
-  check_outputs("dsdpv1-sim recover",
-                {{"what is recovered", arguments.part}, {"what is recovered", arguments.part + ".hier"}},
-                {{"--output", output}});
-  const std::uint64_t until = recover_wave(format, arguments.part, output);
-  std::cout << fmt::format("{}: complete until {}.{:03} ns\n", output, until / 1000, until % 1000);
-  return kPassed;
-}
+std::unique_ptr<Command> make_recover() { return std::make_unique<Recover>(); }
 
 }  // namespace dsdpv1::app

@@ -1,27 +1,23 @@
 // replay: a capture played to the model in the place of one of its slaves.
-#include "apps/commands/replay_command.hpp"
-
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <memory>
-#include <utility>
+#include <limits>
 
-#include "apps/command_line.hpp"
 #include "apps/commands/capture_file.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/options/checks.hpp"
+#include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/wave_options.hpp"
+#include "apps/options/words.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/telegram_text.hpp"
 #include "cosim/lockstep_execution.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
-#include "io/input/units.hpp"
 #include "lab/replay/replay.hpp"
 #include "lab/replay/report.hpp"
 #include "tb/report/progress.hpp"
@@ -32,13 +28,8 @@ namespace {
 
 using tb::replay::Recording;
 
-constexpr const char* kCommand = "dsdpv1-sim replay";
-
-std::optional<bus::Tick> time_of(const std::string& option, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  if (const std::optional<bus::Tick> time = tb::parse_time(text)) return time;
-  throw tb::InputError(std::string(kCommand) + ": " + option + " is " + text + ", allowed is " + tb::kTimeForm);
-}
+const std::string kReplay = "dsdpv1-sim replay";
+constexpr bus::Tick kAnyTime = std::numeric_limits<bus::Tick>::min();
 
 /// The telegrams of a log, which tells each when it has ended.
 void read_log(CaptureFile& file, const bus::capture::TakeTelegram& take, std::optional<int> baud) {
@@ -66,125 +57,195 @@ void read_log(CaptureFile& file, const bus::capture::TakeTelegram& take, std::op
   }
 }
 
-Recording record(const ReplayArguments& arguments) {
-  CaptureFile file(arguments.capture);
-  std::optional<int> baud;
-  if (!arguments.baud.empty()) baud = baud_index("replay: --baud", arguments.baud);
-  tb::replay::Recorder recorder(file.name(), static_cast<std::uint8_t>(arguments.slave), baud);
-  bus::capture::LogicSettings settings;
-  settings.baud = baud;
-  settings.signal = arguments.signal;
-  settings.inverted = arguments.inverted;
-  const bus::Tick end = time_of("--to", arguments.to).value_or(bus::kNever);  // what is after it need not be kept
-  settings.on_change = [&recorder, end](bus::Tick at, bool level) {
-    if (at <= end) recorder.level(at, level);
-  };
-  const auto take = [&recorder, end](const bus::capture::CapturedTelegram& telegram) {
-    if (telegram.start <= end) recorder.telegram(telegram);
-  };
-  if (file.form() == CaptureForm::kText)
-    read_log(file, take, baud);
-  else
-    file.read(settings, take);
-  Recording recording = recorder.finish();
-  if (arguments.no_lead_in) tb::replay::check_comparable(recording);
-  return recording;
-}
-
-/// That of --scenario.
-std::optional<tb::scenario::Scenario> given_scenario(const ReplayArguments& arguments) {
-  if (arguments.scenario.empty()) return std::nullopt;
-  return load_scenario(arguments.scenario);
-}
-
-tb::scenario::Scenario scenario_of(const ReplayArguments& arguments, const std::optional<tb::scenario::Scenario>& given,
-                                   const Recording& recording, const tb::replay::Firmware& firmware) {
-  if (given) return tb::replay::alone(*given, recording);
-  if (arguments.gsd.empty()) return tb::replay::scenario_of(recording, firmware, "");
-  tb::read_file(arguments.gsd, tb::kGsdFile);  // says what is wrong with the name that was given
-  return tb::replay::scenario_of(recording, firmware, std::filesystem::absolute(arguments.gsd).string());
-}
-
-tb::replay::ReplayOptions options_of(const ReplayArguments& arguments) {
-  if (!arguments.inputs.empty()) check_word("replay: --inputs", arguments.inputs, {"recorded", "scenario"});
-  if (arguments.inputs == "scenario" && arguments.scenario.empty())
-    throw tb::InputError(std::string(kCommand) + ": --inputs scenario needs --scenario");
-  tb::replay::ReplayOptions options;
-  options.judge.tsdr.tolerance_bits = arguments.tolerance;
-  options.judge.from = time_of("--from", arguments.from);
-  options.judge.supplied = arguments.inputs.empty() ? arguments.scenario.empty() : arguments.inputs == "recorded";
-  options.lead_in = !arguments.no_lead_in;
-  return options;
-}
-
-tb::RunOptions run_options(const ReplayArguments& arguments, const tb::ChipKind& kind) {
-  check_word("replay: --engine", arguments.engine, {"step", "skip", "rtl"});
-  if (arguments.wave.inside && arguments.engine == "rtl")
-    throw tb::InputError(std::string(kCommand) +
-                         ": --wave-inside is about the model, allowed with it is --engine step or skip");
-  tb::RunOptions options;
-  options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
-  options.engine_name = arguments.engine;
-  options.wave = wave_options(kCommand, arguments.wave, kind);
-  options.log = arguments.log;
-  options.log_whole = arguments.log_whole;
-  options.checks = checks_mode("replay", arguments.checks);
-  options.capture = capture_request(kCommand, arguments.capture_out, arguments.capture_link);
-  return options;
-}
-
-std::unique_ptr<tb::Execution> execution_of(const ReplayArguments& arguments) {
-  if (arguments.engine == "rtl") return cosim::make_rtl_execution(cosim::reference_rtl());
-  return tb::make_pin_execution();
-}
-
-void check_files(const ReplayArguments& arguments, const tb::scenario::Scenario& scenario) {
-  std::vector<NamedFile> inputs =
-      arguments.scenario.empty() ? std::vector<NamedFile>() : scenario_inputs(arguments.scenario, scenario.files);
-  inputs.push_back({"the capture", arguments.capture == "-" ? "" : arguments.capture});
-  inputs.push_back({"--gsd", arguments.gsd});
-  std::vector<NamedFile> outputs = wave_files(kCommand, arguments.wave.file, arguments.wave.save);
-  outputs.insert(outputs.end(), {{"--log", arguments.log},
-                                 {"--result", arguments.result},
-                                 {"--capture", arguments.capture_out},
-                                 {"--json", arguments.json},
-                                 {"--table", arguments.table}});
-  check_outputs(kCommand, inputs, outputs);
-}
-
 int status_of(const tb::replay::Result& result, const tb::RunResult& run) {
   if (result.compared() == 0) return kNothingJudged;
   if (!result.equal() || verdict(run) == tb::Verdict::kFailed) return kFailed;
   return result.interrupted ? kInterrupted : kPassed;
 }
 
+class Replay : public Command {
+ public:
+  Replay() : Command("replay", "Plays a capture to the model as one of its slaves, and compares the answers") {}
+
+  void options(CLI::App& app) override {
+    add_what_is_played(app);
+    add_how_it_is_compared(app);
+    app.add_option("--table", table_, "Each request with both answers, separated by tabs");
+    app.add_option("--json", json_, "The result for programs");
+    add_wave_options(app, wave_);
+    add_log_options(app, run_.log, run_.log_whole);
+    app.add_option("--result", result_, "Measurements of the run as JSON, as of run");
+    add_checks_option(app, checks_);
+    add_capture_options(app, capture_out_);
+    add_output_options(app, progress_, quiet_);
+    app.footer(
+        "\nExamples:\n"
+        "  dsdpv1-sim replay plant.pcapng --as 5\n"
+        "  dsdpv1-sim replay plant.sr --signal D2 --as 5 --gsd my_device.gsd --table plant.tsv\n"
+        "  dsdpv1-sim replay board.csv --as 5 --tsdr-tolerance 1 --log board.log --wave board.fst\n"
+        "  dsdpv1-sim replay plant.pcapng --as 5 --scenario my.yaml --from 2s --to 3s --json plant.json\n"
+        "docs/replay.md explains them.\n"
+        "\nExit codes: 0 equal, 1 different or violated, 2 wrong input, 3 nothing could be compared, 130 "
+        "interrupted.\n");
+  }
+
+  int carry_out() override {
+    leave_nothing_on_signals();
+    take_words();
+    const auto given = given_scenario();  // before the capture, which may be a pipe and another program's to read
+    const Recording recording = record();
+    const tb::replay::Firmware firmware = tb::replay::firmware_of(recording);
+    const tb::scenario::Scenario scenario = scenario_of(given, recording, firmware);
+    take_run_words(*scenario.kind);
+    check_files(scenario);
+    tb::replay::Replay replay(recording, firmware, scenario, options_, run_, execution());
+    tb::ShareProgress progress(shows_progress(progress_));
+    catch_signals();
+    const tb::replay::Result result = replay.run([&progress](double share) {
+      progress.show(share);
+      return !interrupted();
+    });
+    progress.clear();
+    write_files(replay, result, *scenario.kind);
+    if (!quiet_) std::cout << tb::replay::text(result, replay.bench_result()) << std::flush;
+    return status_of(result, replay.bench_result());
+  }
+
+ private:
+  void add_what_is_played(CLI::App& app) {
+    app.add_option("CAPTURE", capture_,
+                   "pcapng, pcap, VCD or FST of any simulator, a session of sigrok, CSV of a logic analyser, a log of "
+                   "run or serve with all bytes")
+        ->required();
+    app.add_option("--as", slave_, "Address of the slave whose part the model takes")
+        ->required()
+        ->check(CLI::Range(0, 126));
+    app.add_option("--gsd", gsd_, "The slave's GSD file: ident number and limits as it says");
+    app.add_option(
+        "--scenario", scenario_,
+        "Take its slave with this address (or the only one), with its user CPU, in place of what the capture shows");
+    app.add_option("--inputs", inputs_,
+                   "What the user CPU gives: recorded (inputs and diagnoses as the slave answered them) or scenario; "
+                   "left out: scenario with --scenario, else recorded");
+  }
+
+  void add_how_it_is_compared(CLI::App& app) {
+    app.add_option("--tsdr-tolerance", options_.judge.tsdr.tolerance_bits,
+                   "TSDR of both at most so many bit times apart; left out: both from min_TSDR to max_TSDR")
+        ->check(CLI::Range(0.0, 10'000.0));
+    app.add_option("--from", from_, "Compare from this time of the capture on; what is before is played, too");
+    app.add_option("--to", to_, "End at this time of the capture");
+    app.add_option("--baud", baud_, "Baud rate; left out: the capture's, or found in a recording");
+    app.add_option("--signal", line_.signal, "As of decode");
+    app.add_flag("--invert", line_.inverted, "As of decode");
+    app.add_flag("--no-lead-in", no_lead_in_,
+                 "Nothing before the capture: the model has to find its baud rate and its parameters there");
+    app.add_option("--engine", run_.engine_name, "step, skip or rtl (the reference RTL), as of run")
+        ->capture_default_str();
+  }
+
+  void take_words() {
+    if (!inputs_.empty()) check_word(kReplay + ": --inputs", inputs_, {"recorded", "scenario"});
+    if (inputs_ == "scenario" && scenario_.empty())
+      throw tb::InputError(kReplay + ": --inputs scenario needs --scenario");
+    if (!from_.empty()) options_.judge.from = time_of(kReplay + ": --from", from_, kAnyTime);
+    options_.judge.supplied = inputs_.empty() ? scenario_.empty() : inputs_ == "recorded";
+    options_.lead_in = !no_lead_in_;
+  }
+
+  void take_run_words(const tb::ChipKind& kind) {
+    check_word(kReplay + ": --engine", run_.engine_name, {"step", "skip", "rtl"});
+    if (wave_.inside && run_.engine_name == "rtl")
+      throw tb::InputError(kReplay + ": --wave-inside is about the model, allowed with it is --engine step or skip");
+    run_.engine = run_.engine_name == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
+    run_.wave = wave_options(kReplay, wave_, kind);
+    run_.checks = checks_mode(kReplay, checks_);
+    run_.capture = capture_request(kReplay, capture_out_);
+  }
+
+  /// That of --scenario.
+  std::optional<tb::scenario::Scenario> given_scenario() const {
+    if (scenario_.empty()) return std::nullopt;
+    return load_scenario(scenario_);
+  }
+
+  Recording record() const {
+    CaptureFile file(capture_);
+    bus::capture::LogicSettings line = line_;
+    if (!baud_.empty()) line.baud = baud_index(kReplay + ": --baud", baud_);
+    tb::replay::Recorder recorder(file.name(), static_cast<std::uint8_t>(slave_), line.baud);
+    const bus::Tick end =  // what is after it need not be kept
+        to_.empty() ? bus::kNever : time_of(kReplay + ": --to", to_, kAnyTime);
+    line.on_change = [&recorder, end](bus::Tick at, bool level) {
+      if (at <= end) recorder.level(at, level);
+    };
+    const auto take = [&recorder, end](const bus::capture::CapturedTelegram& telegram) {
+      if (telegram.start <= end) recorder.telegram(telegram);
+    };
+    if (file.form() == CaptureForm::kText)
+      read_log(file, take, line.baud);
+    else
+      file.read(line, take);
+    Recording recording = recorder.finish();
+    if (no_lead_in_) tb::replay::check_comparable(recording);
+    return recording;
+  }
+
+  tb::scenario::Scenario scenario_of(const std::optional<tb::scenario::Scenario>& given, const Recording& recording,
+                                     const tb::replay::Firmware& firmware) const {
+    if (given) return tb::replay::alone(*given, recording);
+    if (gsd_.empty()) return tb::replay::scenario_of(recording, firmware, "");
+    tb::read_file(gsd_, tb::kGsdFile);  // says what is wrong with the name that was given
+    return tb::replay::scenario_of(recording, firmware, std::filesystem::absolute(gsd_).string());
+  }
+
+  std::unique_ptr<tb::Execution> execution() const {
+    if (run_.engine_name == "rtl") return cosim::make_rtl_execution(cosim::reference_rtl());
+    return tb::make_pin_execution();
+  }
+
+  void check_files(const tb::scenario::Scenario& scenario) const {
+    std::vector<NamedFile> inputs =
+        scenario_.empty() ? std::vector<NamedFile>() : scenario_inputs(scenario_, scenario.files);
+    inputs.push_back({"the capture", capture_ == "-" ? "" : capture_});
+    inputs.push_back({"--gsd", gsd_});
+    std::vector<NamedFile> outputs = wave_files(kReplay, wave_.file, wave_.save);
+    outputs.insert(outputs.end(), {{"--log", run_.log},
+                                   {"--result", result_},
+                                   {"--capture", capture_out_.file},
+                                   {"--json", json_},
+                                   {"--table", table_}});
+    check_outputs(kReplay, inputs, outputs);
+  }
+
+  void write_files(const tb::replay::Replay& replay, const tb::replay::Result& result, const tb::ChipKind& kind) const {
+    if (wave_.save) write_save_files(wave_.file, kind);
+    write_wanted(json_, tb::replay::json(result));
+    write_wanted(table_, tb::replay::table(result));
+    write_wanted(result_, tb::result_json(replay.bench_result()));
+    if (replay.wave_is_empty()) std::cerr << nothing_recorded(wave_) << '\n';
+  }
+
+  std::string capture_;
+  int slave_ = -1;  ///< address
+  std::string gsd_, scenario_;
+  std::string inputs_;                ///< recorded or scenario; empty: recorded without a scenario
+  std::string baud_;                  ///< empty: found
+  bus::capture::LogicSettings line_;  ///< as of decode
+  std::string from_, to_;             ///< times of the capture; empty: all of it
+  bool no_lead_in_ = false;
+  tb::replay::ReplayOptions options_;
+  std::string checks_;  ///< empty: as the scenario says
+  WaveArguments wave_;
+  CaptureArguments capture_out_;
+  tb::RunOptions run_;
+  std::string json_, table_, result_;  ///< files, empty: not wanted
+  std::optional<bool> progress_;
+  bool quiet_ = false;
+};
+
 }  // namespace
 
-int replay(const ReplayArguments& arguments) {
-  leave_nothing_on_signals();
-  const tb::replay::ReplayOptions options = options_of(arguments);
-  const auto given =
-      given_scenario(arguments);  // before the capture, which may be a pipe and another program's to read
-  const Recording recording = record(arguments);
-  const tb::replay::Firmware firmware = tb::replay::firmware_of(recording);
-  const tb::scenario::Scenario scenario = scenario_of(arguments, given, recording, firmware);
-  tb::RunOptions run = run_options(arguments, *scenario.kind);
-  check_files(arguments, scenario);
-  tb::replay::Replay replay(recording, firmware, scenario, options, std::move(run), execution_of(arguments));
-  tb::ShareProgress progress(arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
-  catch_signals();
-  const tb::replay::Result result = replay.run([&progress](double share) {
-    progress.show(share);
-    return !interrupted();
-  });
-  progress.clear();
-  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
-  write_wanted(arguments.json, tb::replay::json(result));
-  write_wanted(arguments.table, tb::replay::table(result));
-  write_wanted(arguments.result, tb::result_json(replay.bench_result()));
-  if (replay.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
-  if (!arguments.quiet) std::cout << tb::replay::text(result, replay.bench_result()) << std::flush;
-  return status_of(result, replay.bench_result());
-}
+std::unique_ptr<Command> make_replay() { return std::make_unique<Replay>(); }
 
 }  // namespace dsdpv1::app

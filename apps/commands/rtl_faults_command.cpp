@@ -1,20 +1,18 @@
 // rtl-faults: every single fault in the reference RTL must be found.
-#include "apps/commands/rtl_commands.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <optional>
-#include <vector>
 
-#include "apps/command_line.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/data_folder.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/rtl_options.hpp"
 #include "cosim/random/faults.hpp"
-#include "io/output/output_file.hpp"
 
 namespace dsdpv1::app {
 namespace {
@@ -25,42 +23,66 @@ std::vector<NamedFile> with_files_of(const std::string& folder, std::vector<Name
   return inputs;
 }
 
+std::string given_or_own(const std::string& path, const char* own) { return path.empty() ? data_folder() + own : path; }
+
+class RtlFaults : public Command {
+ public:
+  RtlFaults() : Command("rtl-faults", "Checks the lockstep itself: every single fault in the RTL must be found") {}
+
+  void options(CLI::App& app) override {
+    add_chip_options(app, chip_);
+    app.add_option("--list", list_,
+                   "The list of faults; left out: rtl_ref/faults.txt or faults_rsu.txt of this source tree");
+    app.add_option("--directed", directed_,
+                   "Folder of stimulus files that are played first; left out: tests/cosim/stimuli or stimuli_rsu of "
+                   "this source tree");
+    app.add_option("--cycles", cycles_, "Random cycles for each fault at most")->capture_default_str();
+    app.add_option("--seed", seed_, "Of the random cases")->capture_default_str();
+    app.add_option("--jobs", jobs_, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
+    app.add_option("--tsv", tsv_, "The table also as tab-separated text into this file");
+    app.footer(
+        "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --chip dsdpv1_rsu --mode spi\n  "
+        "dsdpv1-sim rtl-faults --list my_faults.txt --cycles 5000000\n"
+        "\nExit codes: 0 all found, 1 some not, 2 wrong input, 130 interrupted.\n");
+  }
+
+  int carry_out() override {
+    leave_nothing_on_signals();
+    const Part part = chip_.part();
+    const bool rsu = part == Part::kRsu;
+    const std::string list = given_or_own(list_, rsu ? "/rtl_ref/faults_rsu.txt" : "/rtl_ref/faults.txt");
+    const std::string folder = given_or_own(directed_, rsu ? "/tests/cosim/stimuli_rsu" : "/tests/cosim/stimuli");
+    const std::vector<cosim::Fault> faults = cosim::read_faults(list);
+    const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, part);
+    check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", tsv_}});
+    WantedFile tsv(tsv_);
+    cosim::CampaignOptions options{seed_, cycles_ / 10, at_a_time(jobs_), cosim::quick_options(part), chip_.host()};
+    const cosim::Kill none =
+        cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed, options);
+    options.cycles = cycles_;
+    std::cout << cosim::heading();
+    if (none.found) {
+      std::cout << cosim::line_of(none) << "model and RTL differ without a fault; find that out first\n";
+      return kFailed;
+    }
+    const std::vector<cosim::Kill> kills = cosim::hunt_all(
+        faults, directed, options, [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
+    tsv.write([&] { return cosim::to_tsv(kills); });
+    const auto found = std::count_if(kills.begin(), kills.end(), [](const cosim::Kill& kill) { return kill.found; });
+    std::cout << fmt::format("{} of {} faults found\n", found, faults.size());
+    return found == static_cast<std::ptrdiff_t>(faults.size()) ? kPassed : kFailed;
+  }
+
+ private:
+  RtlChip chip_;
+  std::string list_, directed_;  ///< empty: those of the program's own sources, wherever it is called
+  std::string tsv_;              ///< the kill table for other programs; empty: none
+  std::uint64_t cycles_ = 30'000'000, seed_ = 1;
+  unsigned jobs_ = 0;  ///< threads; 0: as many as there are processors
+};
+
 }  // namespace
 
-int rtl_faults(const RtlFaultsArguments& arguments) {
-  leave_nothing_on_signals();
-  const auto given_or_own = [](const std::string& path, const char* own) {
-    return path.empty() ? data_folder() + own : path;
-  };
-  const Part part = part_of(arguments.chip);
-  const bool rsu = part == Part::kRsu;
-  const std::string list = given_or_own(arguments.list, rsu ? "/rtl_ref/faults_rsu.txt" : "/rtl_ref/faults.txt");
-  const std::string folder =
-      given_or_own(arguments.directed, rsu ? "/tests/cosim/stimuli_rsu" : "/tests/cosim/stimuli");
-  const std::vector<cosim::Fault> faults = cosim::read_faults(list);
-  const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, part);
-  check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});
-  std::optional<tb::OutputFile> tsv;
-  if (!arguments.tsv.empty()) tsv.emplace(arguments.tsv);
-  cosim::CampaignOptions options{arguments.seed, arguments.cycles / 10, threads_of(arguments.jobs),
-                                 cosim::quick_options(part), mode_of(part, arguments.mode)};
-  const cosim::Kill none =
-      cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed, options);
-  options.cycles = arguments.cycles;
-  std::cout << cosim::heading();
-  if (none.found) {
-    std::cout << cosim::line_of(none) << "model and RTL differ without a fault; find that out first\n";
-    return kFailed;
-  }
-  const std::vector<cosim::Kill> kills = cosim::hunt_all(
-      faults, directed, options, [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
-  if (tsv) {
-    tsv->write(cosim::to_tsv(kills));
-    tsv->commit();
-  }
-  const auto found = std::count_if(kills.begin(), kills.end(), [](const cosim::Kill& kill) { return kill.found; });
-  std::cout << fmt::format("{} of {} faults found\n", found, faults.size());
-  return found == static_cast<std::ptrdiff_t>(faults.size()) ? kPassed : kFailed;
-}
+std::unique_ptr<Command> make_rtl_faults() { return std::make_unique<RtlFaults>(); }
 
 }  // namespace dsdpv1::app

@@ -2,18 +2,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "apps/command_line.hpp"
-#include "apps/commands/rtl_commands.hpp"
+#include "apps/commands/command.hpp"
+#include "apps/commands/rtl_random.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/wave_options.hpp"
 #include "bus/printable.hpp"
 #include "cosim/joined_wave.hpp"
 #include "cosim/random/campaign.hpp"
@@ -61,10 +61,10 @@ cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
 
 Bench bench_of(const RtlRandomArguments& arguments) {
   Bench bench;
-  if (!arguments.own.rtl.empty() && part_of(arguments.chip) == Part::kRsu)
+  if (!arguments.own.rtl.empty() && arguments.chip.part() == Part::kRsu)
     throw tb::InputError("--rtl: RTL of your own has the pins of table 1, allowed is without --chip dsdpv1_rsu");
   if (arguments.own.rtl.empty()) {
-    bench.options = cosim::quick_options(part_of(arguments.chip));
+    bench.options = cosim::quick_options(arguments.chip.part());
     cosim::set_parameters(bench.options, arguments.set);
     bench.make = reference_of(arguments)(bench.options);
     return bench;
@@ -81,9 +81,8 @@ Bench bench_of(const RtlRandomArguments& arguments) {
 /// there is none.
 class StimulusOutputs {
  public:
-  explicit StimulusOutputs(const RtlRandomArguments& arguments) : arguments_(arguments) {
+  explicit StimulusOutputs(const RtlRandomArguments& arguments) : arguments_(arguments), result_(arguments.result) {
     if (!arguments.log.empty()) log_.emplace(arguments.log);
-    if (!arguments.result.empty()) result_.emplace(arguments.result);
     if (!arguments.wave.empty() && !tb::find_place(arguments.wave).direct) const tb::OutputFile probe(arguments.wave);
   }
 
@@ -103,15 +102,13 @@ class StimulusOutputs {
     return result;
   }
   void finish(const cosim::StimulusResult& result) {
-    if (!result_) return;
-    result_->write(cosim::result_json(result));
-    result_->commit();
+    result_.write([&] { return cosim::result_json(result); });
   }
 
  private:
   const RtlRandomArguments& arguments_;
   std::optional<cosim::PlayLog> log_;
-  std::optional<tb::OutputFile> result_;
+  WantedFile result_;
 };
 
 /// Makes RTL for a case's own parameters, where nothing says which they are; empty: they are those of all cases.
@@ -184,7 +181,7 @@ std::string command_text(const RtlRandomArguments& arguments) {
     if (!value.empty()) text += fmt::format(" {} {}", option, word(value));
   };
   const bool own = !arguments.own.rtl.empty();
-  add("--chip", arguments.chip == RtlRandomArguments().chip ? "" : arguments.chip);
+  add("--chip", arguments.chip.chip == RtlChip().chip ? "" : arguments.chip.chip);
   add("--rtl", arguments.own.rtl);
   add("--top", arguments.own.top);
   add("--pins", arguments.own.pins);
@@ -196,7 +193,7 @@ std::string command_text(const RtlRandomArguments& arguments) {
 
 int shrink_and_play(RtlRandomArguments arguments, const cosim::CampaignResult& campaign, tb::OutputFile& file,
                     Bench bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
-  const HostMode mode = mode_of(bench.options.config.part, arguments.mode);
+  const HostMode mode = arguments.chip.host();
   take_case(campaign, arguments, bench);
   std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", campaign.cases, campaign.difference->what)
             << std::flush;
@@ -218,9 +215,9 @@ cosim::CampaignOptions options_of(const RtlRandomArguments& arguments, const Ben
   cosim::CampaignOptions options;
   options.seed = arguments.seed;
   options.cycles = arguments.cycles;
-  options.jobs = threads_of(arguments.jobs);
+  options.jobs = at_a_time(arguments.jobs);
   options.play = bench.options;
-  options.mode = mode_of(bench.options.config.part, arguments.mode);
+  options.mode = arguments.chip.host();
   options.make_for = make_for(arguments);
   options.counts_situations = true;
   return options;
@@ -259,8 +256,7 @@ std::string record_text(const cosim::CampaignRecord& record) {
 /// The next cases at one port, which are kept unless one differs.
 int play_round(const RtlRandomArguments& all, cosim::CampaignRecord& record, cosim::PortRecord& port) {
   RtlRandomArguments arguments = all;
-  arguments.chip = port.chip();
-  arguments.mode = port.mode();
+  arguments.chip = {port.chip(), port.mode()};
   arguments.cycles = kRound;
   const Bench bench = bench_of(arguments);
   tb::OutputFile stimulus(arguments.stimulus);
@@ -297,40 +293,23 @@ void check_files(const RtlRandomArguments& arguments) {
   tb::check_wave_name(arguments.difference);
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
   std::vector<NamedFile> outputs = wave_files(arguments.command, arguments.wave, arguments.wave_save);
-  outputs.push_back({"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""});
-  outputs.push_back({"--difference", arguments.difference});
-  outputs.push_back({"--log", arguments.log});
-  outputs.push_back({"--result", arguments.result});
-  outputs.push_back({"--tsv", arguments.tsv});
+  outputs.insert(outputs.end(), {{"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""},
+                                 {"--difference", arguments.difference},
+                                 {"--log", arguments.log},
+                                 {"--result", arguments.result},
+                                 {"--tsv", arguments.tsv}});
   check_outputs(arguments.command, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
 }
 
 }  // namespace
 
-Part part_of(const std::string& chip) {
-  check_word("--chip", chip, {"dsdpv1", "dsdpv1_r", "dsdpv1_rsu"});
-  if (chip == "dsdpv1_rsu") return Part::kRsu;
-  return chip == "dsdpv1_r" ? Part::kR : Part::kDsdpv1;
-}
-
-HostMode mode_of(Part part, const std::string& mode) {
-  check_word("--mode", mode, {"parallel", "spi", "uart"});
-  if (part != Part::kRsu && mode != "parallel")
-    throw tb::InputError("--mode " + mode +
-                         ": only the dsdpv1_rsu has that port, allowed is --chip dsdpv1_rsu with it");
-  if (mode == "spi") return HostMode::kSpi;
-  return mode == "uart" ? HostMode::kUart : HostMode::kParallel;
-}
-
-unsigned threads_of(unsigned jobs) { return jobs != 0 ? jobs : std::max(1U, std::thread::hardware_concurrency()); }
-
 int rtl_random(const RtlRandomArguments& arguments) {
   leave_nothing_on_signals();
   check_files(arguments);
-  mode_of(part_of(arguments.chip), arguments.mode);
+  arguments.chip.host();
   if (arguments.campaign) return campaign_of_all(arguments);
   cosim::Stimulus stimulus;
-  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, part_of(arguments.chip));
+  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, arguments.chip.part());
   const Bench bench = bench_of(arguments);
   StimulusOutputs outputs(arguments);
   cosim::StimulusResult result;
@@ -344,5 +323,75 @@ int rtl_random(const RtlRandomArguments& arguments) {
   outputs.finish(result);
   return status;
 }
+
+namespace {
+
+class RtlRandom : public Command {
+ public:
+  RtlRandom() : Command("rtl-random", "Random stimulus for model and RTL in lockstep, the reference RTL or your own") {}
+
+  void options(CLI::App& app) override {
+    add_what_is_played(app);
+    add_what_is_written(app);
+    app.footer(
+        "\n--wave and --log are written of the case that differs, and of a stimulus that --replay plays.\n"
+        "\nExamples:\n  dsdpv1-sim rtl-random --cycles 100000000 --seed 7\n"
+        "  dsdpv1-sim rtl-random --chip dsdpv1_rsu --mode spi --cycles 100000000\n"
+        "  dsdpv1-sim rtl-random --campaign --cycles 1000000000 --state nightly --tsv situations.tsv\n"
+        "  dsdpv1-sim rtl-random --replay lockstep.stimulus --difference both.fst --log case.log\n"
+        "  dsdpv1-sim rtl-random --rtl my_chip --top chip --pins pins.yaml --set chip.search_window_ms=1 --result "
+        "r.json\n"
+        "  dsdpv1-sim rtl-random --rtl my_chip --top chip --replay lockstep.stimulus --wave inside.fst\n"
+        "\nExit codes: 0 no difference, 1 a difference, 2 wrong input, 130 interrupted.\n");
+  }
+
+  int carry_out() override { return rtl_random(given_); }
+
+ private:
+  void add_what_is_played(CLI::App& app) {
+    add_chip_options(app, given_.chip);
+    app.add_option("--cycles", given_.cycles, "How many cycles to compare")->capture_default_str();
+    app.add_option("--seed", given_.seed, "The same cases for the same seed")->capture_default_str();
+    app.add_option("--jobs", given_.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
+    app.add_option("--replay", given_.replay, "This stimulus file instead of random cases");
+    add_own_rtl_options(app, given_.own, false);
+    add_fault_option(app, given_.fault)->excludes("--rtl");
+    campaign_ = app.add_flag("--campaign", given_.campaign,
+                             "At the DSDPV1 and at each port of the DSDPV1-RSU in turn; goes on where --state ends");
+    for (const char* each : {"--chip", "--mode", "--replay", "--rtl"}) campaign_->excludes(each);
+    app.add_option("--state", given_.state, "Folder that keeps what a campaign has compared")
+        ->capture_default_str()
+        ->needs(campaign_);
+    app.add_option("--set", given_.set,
+                   "chip.KEY=VALUE, once for each: a parameter of the model, as a scenario has it; left out: those of "
+                   "scenarios, with the reference RTL short times")
+        ->allow_extra_args(false);
+  }
+
+  void add_what_is_written(CLI::App& app) {
+    app.add_option("--stimulus", given_.stimulus, "File for a case that differs, shrunk")->capture_default_str();
+    app.add_option("--difference", given_.difference, "Wave of both sides' pins for it")->capture_default_str();
+    CLI::Option* wave =
+        app.add_option("--wave", given_.wave,
+                       "Wave of it with the inside of your RTL beside the model's: FILE.vcd or FILE.fst")
+            ->needs("--rtl");
+    add_wave_save_option(app, given_.wave_save, wave);
+    app.add_option("--log", given_.log,
+                   "Log of it: every change of every pin, events, telegrams; FILE.jsonl: for programs");
+    app.add_option("--result", given_.result, "The result as JSON, also when nothing differs (docs/cosim.md)")
+        ->excludes(campaign_);
+    app.add_option("--tsv", given_.tsv,
+                   "What occurred, and what did not: states, services, refusals, situations at the host port, with "
+                   "their counts")
+        ->excludes("--replay");
+  }
+
+  RtlRandomArguments given_;
+  CLI::Option* campaign_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_rtl_random() { return std::make_unique<RtlRandom>(); }
 
 }  // namespace dsdpv1::app

@@ -1,371 +1,115 @@
-// run: a scenario from its file to the verdict.
-#include <unistd.h>
-
-#include <algorithm>
-#include <functional>
-#include <iostream>
-#include <memory>
-#include <utility>
-#include <vector>
-
-#include "apps/command_line.hpp"
-#include "apps/commands/rtl_commands.hpp"
-#include "apps/hand_over.hpp"
-#include "apps/interrupt.hpp"
-#include "apps/options/checks.hpp"
-#include "apps/options/outputs.hpp"
-#include "apps/options/rewind.hpp"
-#include "apps/options/saved_runs.hpp"
-#include "apps/program.hpp"
-#include "bus/printable.hpp"
-#include "cosim/joined_wave.hpp"
-#include "cosim/lockstep_execution.hpp"
-#include "cosim/reference_rtl.hpp"
-#include "io/input/input_error.hpp"
-#include "io/output/output_file.hpp"
-#include "lab/traces/golden_run.hpp"
-#include "tb/bench/bench.hpp"
-#include "tb/report/html/report_file.hpp"
-#include "tb/report/progress.hpp"
-#include "tb/report/result_fields.hpp"
-#include "tb/report/run_junit.hpp"
-#include "tb/report/summary.hpp"
+#include "apps/commands/command.hpp"
+#include "apps/commands/scenario_run.hpp"
 
 namespace dsdpv1::app {
 namespace {
 
-void check_golden(const RunArguments& arguments) {
-  if (arguments.fault != 0 && arguments.engine != "rtl" && arguments.engine != "lockstep")
-    throw tb::InputError("dsdpv1-sim run: --fault is one of the RTL, allowed with it is --engine rtl or lockstep");
-  if (arguments.golden.empty()) return;
-  if (arguments.view != "pins")
-    throw tb::InputError("dsdpv1-sim run: --golden is about pins, allowed with it is --view pins");
-  if (!arguments.set.empty())
-    throw tb::InputError("dsdpv1-sim run: --golden is about the scenario as it stands, allowed with it is no --set");
-}
+constexpr const char* kRunExamples =
+    "\nExamples:\n"
+    "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
+    "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
+    "  dsdpv1-sim run my.yaml --wave bad.fst --wave-on violation --wave-around 50us --wave-clk\n"
+    "  dsdpv1-sim run my.yaml --wave my.fst --wave-inside --wave-save\n"
+    "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
+    "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
+    "  dsdpv1-sim run my.yaml --log my.jsonl\n"
+    "  dsdpv1-sim run my.yaml --report my.html --junit my.xml\n"
+    "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
+    "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
+    "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
+    "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
+    "  dsdpv1-sim run my.yaml --save-at 5ms at_5ms.run --save-at 20ms at_20ms.run\n"
+    "  dsdpv1-sim run my.yaml --wave bad.fst --rewind-on violation 100us\n"
+    "  dsdpv1-sim run --restore at_20ms.run --log rest.log --wave rest.fst\n"
+    "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n";
 
-tb::RunOptions options_of(const RunArguments& arguments) {
-  check_word("run: --engine", arguments.engine, {"step", "skip", "rtl", "lockstep"});
-  check_word("run: --view", arguments.view, {"pins", "tlm"});
-  if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
-    throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
-                         " is about pins, allowed with it is --view pins");
-  if (arguments.wave.inside && (arguments.view != "pins" || arguments.engine == "rtl"))
-    throw tb::InputError(
-        "dsdpv1-sim run: --wave-inside is about the model, allowed with it are --view pins and --engine step, skip or "
-        "lockstep");
-  check_golden(arguments);
-  if (arguments.seed && (arguments.engine == "step" || arguments.engine == "skip"))
-    throw tb::InputError("dsdpv1-sim run: --seed is for RTL, allowed with it is --engine rtl, lockstep");
-  if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
-  tb::RunOptions options;
-  options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
-  options.engine_name = arguments.engine;
-  options.view_name = arguments.view;
-  options.log = arguments.log;
-  options.log_whole = arguments.log_whole;
-  options.trace = arguments.trace;
-  options.capture = capture_request("dsdpv1-sim run", arguments.capture, arguments.capture_link);
-  const auto say = [](const std::string& line) { std::cerr << line << '\n'; };
-  if (arguments.gdb)
-    options.gdb = tb::GdbRequest{arguments.gdb, say, interrupted, std::make_shared<user_cpu::DebugHistory>()};
-  if (!arguments.quiet) {
-    options.on_text = [](const std::string& station, const std::string& line) {
-      std::cout << station << "| " << bus::printable(line) << '\n' << std::flush;
-    };
-  }
-  options.checks = checks_mode("run", arguments.checks);
-  return options;
-}
-
-/// What a run in lockstep has more than others.
-struct LockstepSteps {
-  std::function<void(tb::RunResult&)> judge;  ///< before the result is written
-  std::function<bool()> report;               ///< while the bench still stands; false: they differ
-};
-
-/// `of_golden`: what the comparison with a golden trace says; empty when there was none.
-std::string junit_of(const tb::RunResult& result, const std::string& of_golden, bool same) {
-  std::vector<tb::JunitCase> cases = tb::run_cases(result);
-  if (!of_golden.empty())
-    cases.push_back({result.file, "golden trace", 0, same ? std::nullopt : std::optional(of_golden), of_golden});
-  return tb::junit("dsdpv1-sim run", cases);
-}
-
-/// What is to be carried out.
-struct RunRequest {
-  RunArguments arguments;
-  tb::scenario::Scenario scenario;
-  tb::RunOptions options;
-  tb::SavedRun described;                ///< for --save-at
-  std::optional<tb::SavedRun> restored;  ///< of --restore
-};
-
-/// Of a run that a debugger takes back, see DebugHistory: it is to be done again.
-constexpr int kGoesBack = -1;
-
-bool goes_back(const RunRequest& request) {
-  return request.options.gdb && request.options.gdb->history->back.has_value();
-}
-
-/// What is written when a run has ended, each file complete or absent.
-class ResultFiles {
+class Run : public Command {
  public:
-  /// The report asks in `options` for what it shows.
-  ResultFiles(const RunArguments& arguments, const tb::scenario::Scenario& scenario, tb::RunOptions& options) {
-    if (!arguments.result.empty()) result_.emplace(arguments.result);
-    if (!arguments.junit.empty()) junit_.emplace(arguments.junit);
-    if (!arguments.report.empty()) report_.emplace(arguments.report, scenario, options);
+  Run() : Command("run", "Carries out a scenario and judges it") {}
+
+  void options(CLI::App& app) override {
+    add_what_to_run(app);
+    add_wave_options(app, given_.wave);
+    add_log_options(app, given_.log, given_.log_whole);
+    app.add_option("--result", given_.result, "Result and measurements as JSON");
+    add_report_option(app, given_.report);
+    app.add_option("--junit", given_.junit,
+                   "The verdict for CI as JUnit's XML: a case for the run, its violations, each check and expectation");
+    add_capture_options(app, given_.capture);
+    of_whole_run_.push_back(add_checks_option(app, given_.checks));
+    add_comparison_options(app);
+    of_whole_run_.push_back(add_set_option(app, given_.set));
+    add_ways_back(app);
+    add_output_options(app, given_.progress, given_.quiet);
+    app.footer(std::string(kRunExamples) + kExitCodes);
   }
 
-  void write(const tb::RunResult& result) {
-    if (result_) {
-      result_->write(tb::result_json(result));
-      result_->commit();
-    }
-    if (report_) report_->write(result, DSDPV1_VERSION);
-  }
-  void write_junit(const tb::RunResult& result, const std::string& of_golden, bool same) {
-    if (!junit_) return;
-    junit_->write(junit_of(result, of_golden, same));
-    junit_->commit();
-  }
+  int carry_out() override { return run(given_); }
 
  private:
-  std::optional<tb::OutputFile> result_, junit_;
-  std::optional<tb::html::ReportFile> report_;
-};
-
-int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execution,
-                 const LockstepSteps& lockstep = {}) {
-  const tb::scenario::Scenario& scenario = request.scenario;
-  const RunArguments& arguments = request.arguments;
-  tb::RunOptions options = request.options;
-  tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
-  ResultFiles files(arguments, scenario, options);
-  SavedRuns saved(arguments, request.described, request.restored ? &*request.restored : nullptr, scenario.end);
-  saved.ask(options);
-  Rewind rewind(arguments, *scenario.kind);
-  rewind.ask(options);
-  tb::Bench bench(scenario, options, std::move(execution));
-  tb::Progress progress(scenario.end, arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
-  catch_signals();
-  const auto goes_on = [&](tb::Tick now) {
-    if (!rewind.is_copy()) progress.show(now);
-    return !interrupted() && !golden.over(now) && rewind.look(now);
-  };
-  tb::RunResult result = rewind.carry_out(bench, goes_on);
-  progress.clear();
-  if (goes_back(request)) return kGoesBack;
-  saved.check(result.interrupted);
-  if (rewind.failed()) return kWrongInput;
-  if (lockstep.judge) lockstep.judge(result);
-  files.write(result);
-  if (arguments.wave.save && !(rewind.wanted() && !rewind.recorded()))
-    write_save_files(arguments.wave.file, *scenario.kind);
-  if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
-  const bool ran_through = !lockstep.report || lockstep.report();
-  if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << rewind.report() << std::flush;
-  const bool broken_off = result.interrupted && golden.same();
-  const std::string of_golden = ran_through && !broken_off ? golden.report() : "";
-  std::cout << of_golden << std::flush;
-  files.write_junit(result, of_golden, golden.same());
-  if (broken_off) return kInterrupted;
-  return golden.same() ? exit_code(verdict(result)) : kFailed;
-}
-
-struct LockstepOutcome {
-  int status = kPassed;
-  std::optional<cosim::Difference> difference;
-};
-
-LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make,
-                             const cosim::LockstepOptions& lockstep = {}) {
-  auto made = std::make_unique<cosim::LockstepExecution>(std::move(make), lockstep);
-  cosim::LockstepExecution& execution = *made;
-  LockstepOutcome outcome;
-  LockstepSteps steps;
-  steps.judge = [&](tb::RunResult& result) { result.lockstep = execution.result(); };
-  steps.report = [&] {
-    std::string text;
-    const bool same = cosim::report(execution, request.arguments.difference, text);
-    std::cout << text << std::flush;
-    if (!same) outcome.difference = execution.different()->difference();
-    return same;
-  };
-  outcome.status = run_scenario(request, std::move(made), steps);
-  return outcome;
-}
-
-void check_has_board(const tb::scenario::Scenario& scenario) {
-  const tb::ChipKind& kind = *scenario.kind;
-  if (std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
-                  [&kind](const tb::scenario::Slave& slave) { return kind.has_debugger(slave); }))
-    return;
-  throw tb::InputError("dsdpv1-sim run: --gdb needs a slave whose user_cpu has kind: arm, " + scenario.file +
-                       " has none");
-}
-
-void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
-  std::vector<NamedFile> outputs = wave_files("dsdpv1-sim run", arguments.wave.file, arguments.wave.save);
-  outputs.push_back({"--log", arguments.log});
-  outputs.push_back({"--result", arguments.result});
-  outputs.push_back({"--report", arguments.report});
-  outputs.push_back({"--junit", arguments.junit});
-  outputs.push_back({"--trace", arguments.trace});
-  outputs.push_back({"--capture", arguments.capture});
-  outputs.push_back({"--difference", arguments.engine == "lockstep" ? arguments.difference : ""});
-  for (NamedFile& file : save_files(arguments)) outputs.push_back(std::move(file));
-  std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
-  inputs.push_back({"the saved run", arguments.restore});
-  check_outputs("dsdpv1-sim run", inputs, outputs);
-}
-
-constexpr const char* kCosim = "dsdpv1-sim cosim";
-
-RunArguments run_arguments_of(const CosimArguments& arguments) {
-  RunArguments run;
-  run.scenario = arguments.scenario;
-  run.engine = "lockstep";
-  run.difference = arguments.difference;
-  run.log = arguments.log;
-  run.log_whole = arguments.log_whole;
-  run.result = arguments.result;
-  run.checks = arguments.checks;
-  run.set = arguments.set;
-  run.wave = arguments.wave;
-  run.wave.save = false;  // once it has both sides
-  return run;
-}
-
-/// The stimulus of --replay, as rtl-random plays it.
-RtlRandomArguments stimulus_arguments_of(const CosimArguments& arguments) {
-  RtlRandomArguments stimulus;
-  stimulus.command = kCosim;
-  stimulus.replay = arguments.replay;
-  stimulus.own = arguments.own;
-  stimulus.set = arguments.set;
-  stimulus.difference = arguments.difference;
-  stimulus.wave = arguments.wave.file;
-  stimulus.wave_save = arguments.wave.save;
-  stimulus.log = arguments.log;
-  stimulus.result = arguments.result;
-  return stimulus;
-}
-
-void check_outputs_of(const CosimArguments& arguments, const tb::scenario::Scenario& scenario) {
-  std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
-  inputs.push_back({"--pins", arguments.own.pins});
-  std::vector<NamedFile> outputs = wave_files(kCosim, arguments.wave.file, arguments.wave.save);
-  outputs.push_back({"--difference", arguments.difference});
-  outputs.push_back({"--log", arguments.log});
-  outputs.push_back({"--result", arguments.result});
-  check_outputs(kCosim, inputs, outputs);
-}
-
-/// In lockstep with the user's RTL; with a wave, its inside goes beside the model's.
-int run_own_rtl(RunRequest request, const CosimArguments& arguments, const OwnRtl& own) {
-  cosim::LockstepOptions lockstep;
-  lockstep.tolerances = own.map.tolerances;
-  if (arguments.wave.file.empty())
-    return run_lockstep(
-               request, [&own](auto&&...) { return own.make(std::nullopt); }, lockstep)
-        .status;
-  cosim::JoinedWave wave(arguments.wave.file, arguments.own.build);
-  const tb::WaveSelection window = request.options.wave.selection;
-  request.options.wave.path = wave.model();
-  const auto make = [&](const std::string& name, const auto& /*parameters*/) {
-    return own.make(wave.trace(name, window.from, window.to));
-  };
-  const LockstepOutcome outcome = run_lockstep(request, make, lockstep);
-  wave.finish(outcome.difference);
-  if (arguments.wave.save) write_save_files(arguments.wave.file, *request.scenario.kind);
-  std::cout << "with the inside   " << arguments.wave.file << '\n' << std::flush;
-  return outcome.status;
-}
-
-/// From the command line; throws tb::InputError.
-RunRequest scenario_request(const RunArguments& arguments) {
-  RunRequest request{arguments, {}, options_of(arguments), {}, {}};
-  const std::string text = load_text(arguments.scenario, tb::kScenarioFile);
-  request.scenario = parse_scenario(text, arguments.scenario, tb::scenario::parse_settings(arguments.set), text);
-  request.described = described_run(arguments, text, request.scenario);
-  return request;
-}
-
-/// From a saved run.
-RunRequest restored_request(const RunArguments& arguments) {
-  const std::string bytes = load_text(arguments.restore, tb::kSavedRunFile);
-  tb::SavedRun saved = tb::parse_saved_run(bytes, arguments.restore);
-  provide_files(saved, arguments.restore);
-  RunRequest request{arguments_of(arguments, saved), {}, {}, {}, {}};
-  request.options = options_of(request.arguments);
-  const std::string& text = saved.files.front().content;
-  request.scenario = parse_scenario(text, saved.scenario, tb::scenario::parse_settings(saved.settings), bytes);
-  request.described = described_run(request.arguments, text, request.scenario);
-  replay_debugger(request.options, saved);
-  request.restored = std::move(saved);
-  return request;
-}
-
-RunRequest request_of(const RunArguments& arguments) {
-  if (arguments.scenario.empty() == arguments.restore.empty())
-    throw tb::InputError("dsdpv1-sim run: allowed is one of SCENARIO and --restore");
-  return arguments.restore.empty() ? scenario_request(arguments) : restored_request(arguments);
-}
-
-/// As often as a debugger goes back. What user CPUs print is shown once.
-int forth_and_back(RunRequest& request, const std::function<int()>& carry_out) {
-  const auto show = request.options.on_text;
-  std::size_t shown = 0, line = 0;
-  if (show) {
-    request.options.on_text = [&](const std::string& station, const std::string& text) {
-      if (++line <= shown) return;
-      shown = line;
-      show(station, text);
-    };
+  void add_what_to_run(CLI::App& app) {
+    CLI::Option* scenario = app.add_option("SCENARIO", given_.scenario, "Scenario in YAML, see docs/scenarios.md");
+    CLI::Option* engine = app.add_option("--engine", given_.engine,
+                                         "How the chips are executed: step (every cycle), skip (from event to event), "
+                                         "rtl (the reference RTL), lockstep (model and RTL side by side, compared)")
+                              ->capture_default_str();
+    CLI::Option* view = app.add_option("--view", given_.view,
+                                       "How the user CPUs reach them: pins, tlm (SystemC; not with an ARM board)")
+                            ->capture_default_str();
+    of_whole_run_ = {scenario, engine, view};
   }
-  for (;;) {
-    const int status = carry_out();
-    if (!goes_back(request)) return status;
-    request.options.gdb->history->begin_again();
-    line = 0;
+
+  /// What a run is held against, and with what RTL.
+  void add_comparison_options(CLI::App& app) {
+    app.add_option("--trace", given_.trace, "Every change of every output pin, for comparisons");
+    app.add_option("--difference", given_.difference,
+                   "Wave of both sides, written when --engine lockstep finds a difference")
+        ->capture_default_str();
+    CLI::Option* golden = app.add_option("--golden", given_.golden,
+                                         "Folder of golden traces (traces): every change of every pin is compared, the "
+                                         "first difference ends the run (docs/traces.md)");
+    CLI::Option* fault =
+        app.add_option("--fault", given_.fault,
+                       "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
+            ->check(CLI::Range(0, 255));
+    CLI::Option* seed =
+        app.add_option("--seed", given_.seed,
+                       "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
+    of_whole_run_.insert(of_whole_run_.end(), {golden, fault, seed});
   }
-}
+
+  /// To a time of the run, or to one before it.
+  void add_ways_back(CLI::App& app) {
+    app.add_option("--save-at", given_.save_at,
+                   "TIME FILE: saves the run as it is then, for --restore; once for each time (docs/save_restore.md)")
+        ->type_name("TIME FILE")
+        ->allow_extra_args(false);
+    CLI::Option* rewind = app.add_option("--rewind-on", given_.rewind_on,
+                                         "CODE TIME: no wave until an event with this code of the log, or a violation, "
+                                         "happens; then the run is done again from a snapshot, with the wave from so "
+                                         "long before it to as long behind it (docs/save_restore.md)")
+                              ->type_name("CODE TIME")
+                              ->needs(app.get_option("--wave"));
+    for (const char* each : {"--wave-on", "--wave-from", "--wave-to", "--wave-inside"})
+      rewind->excludes(app.get_option(each));
+    CLI::Option* restore = app.add_option(
+        "--restore", given_.restore,
+        "A saved run in the place of a scenario: it goes on from there, and log, wave, trace and capture begin there");
+    for (CLI::Option* each : of_whole_run_) restore->excludes(each);
+    rewind->excludes(restore);
+    app.add_option(
+           "--gdb", given_.gdb,
+           "TCP port (0: any free one) where gdb-multiarch attaches to the first ARM board; the run waits for it")
+        ->excludes(rewind)
+        ->check(CLI::Range(0, 65535));
+  }
+
+  RunArguments given_;
+  std::vector<CLI::Option*> of_whole_run_;  ///< what a saved run already has
+};
 
 }  // namespace
 
-int run(const RunArguments& given) {
-  leave_nothing_on_signals();
-  RunRequest request = request_of(given);
-  const RunArguments& arguments = request.arguments;
-  request.options.wave = wave_options("dsdpv1-sim run", arguments.wave, *request.scenario.kind);
-  check_outputs_of(arguments, request.scenario);
-  if (arguments.gdb) check_has_board(request.scenario);
-  const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
-  if (arguments.engine == "lockstep") return forth_and_back(request, [&] { return run_lockstep(request, rtl).status; });
-  if (arguments.engine == "rtl")
-    return forth_and_back(request, [&] { return run_scenario(request, cosim::make_rtl_execution(rtl)); });
-  if (arguments.view == "pins")
-    return forth_and_back(
-        request, [&] { return run_scenario(request, tb::make_pin_execution()); });
-  return in_tlm_view(
-      [&request](std::unique_ptr<tb::Execution> execution) { return run_scenario(request, std::move(execution)); });
-}
-
-int cosim_own_rtl(const CosimArguments& arguments) {
-  if (arguments.scenario.empty() == arguments.replay.empty())
-    throw tb::InputError(std::string(kCosim) + ": allowed is one of SCENARIO and --replay");
-  if (!arguments.replay.empty()) return rtl_random(stimulus_arguments_of(arguments));
-  leave_nothing_on_signals();
-  RunRequest request{run_arguments_of(arguments), {}, {}, {}, {}};
-  request.options = options_of(request.arguments);
-  request.scenario = load_scenario(arguments.scenario, tb::scenario::parse_settings(arguments.set));
-  request.options.wave = wave_options(kCosim, arguments.wave, *request.scenario.kind);
-  request.options.wave.inside = true;
-  check_outputs_of(arguments, request.scenario);
-  const OwnRtl own = build_own_rtl(arguments.own, kCosim, !arguments.wave.file.empty());
-  return run_own_rtl(std::move(request), arguments, own);
-}
+std::unique_ptr<Command> make_run() { return std::make_unique<Run>(); }
 
 }  // namespace dsdpv1::app

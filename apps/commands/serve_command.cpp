@@ -1,24 +1,19 @@
 // serve: a scenario's segment behind a pseudo-terminal, a TCP port or a serial port.
-#include "apps/commands/serve_command.hpp"
-
-#include <fmt/format.h>
-
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "apps/command_line.hpp"
+#include "apps/commands/command.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/options/checks.hpp"
+#include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/wave_options.hpp"
+#include "apps/options/words.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
-#include "io/input/input_error.hpp"
-#include "io/input/units.hpp"
-#include "io/output/output_file.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/html/report_file.hpp"
 #include "tb/report/result_fields.hpp"
@@ -33,90 +28,134 @@ namespace {
 /// Longer than any computer stays up, and far from the end of 64 bits.
 constexpr tb::Tick kOpenEnd = 5LL * 365 * 24 * 3600 * bus::kTicksPerSecond;
 
-int chosen_baud(const tb::scenario::Scenario& scenario, const std::string& word) {
-  if (word.empty()) return scenario.baud;
-  return baud_index("serve: --baud", word);
-}
+class Serve : public Command {
+ public:
+  Serve() : Command("serve", "Lets a real master talk to a scenario's slaves, in real time") {}
 
-tb::Tick chosen_end(const std::string& text) {
-  if (text.empty()) return kOpenEnd;
-  const std::optional<tb::Tick> time = tb::parse_time(text);
-  if (!time || *time <= 0)
-    throw tb::InputError(fmt::format("dsdpv1-sim serve: --for is {}, allowed is {}", text, tb::kTimeForm));
-  return *time;
-}
+  void options(CLI::App& app) override {
+    app.add_option("SCENARIO", scenario_, "Scenario in YAML; it needs no masters, and its end is not looked at")
+        ->required();
+    add_port_options(app);
+    app.add_option("--baud", baud_, "Baud rate; left out: that of the scenario");
+    app.add_option("--for", duration_, "Ends after this time, for example 10s; left out: Ctrl-C");
+    add_wave_options(app, wave_);
+    add_log_options(app, run_.log, run_.log_whole, "As of run; where it grows is said at the start", "As of run");
+    app.add_option("--result", result_, "As of run, and how well real time was kept");
+    add_report_option(app, report_);
+    app.add_option("--junit", junit_, "As of run");
+    add_checks_option(app, checks_);
+    add_set_option(app, set_);
+    add_capture_options(app, capture_);
+    add_quiet_option(app, quiet_);
+    app.footer(std::string("\nExamples:\n"
+                           "  dsdpv1-sim serve scenarios/serve_19k2.yaml --pty dp --log serve.log\n"
+                           "  dsdpv1-sim serve scenarios/serve_19k2.yaml --tcp 5020\n"
+                           "  dsdpv1-sim serve scenarios/serve_19k2.yaml --serial /dev/ttyUSB0 --baud 93.75k\n"
+                           "docs/pyprofibus.md and docs/usb_rs485.md take you through it.\n") +
+               kExitCodes);
+  }
 
-std::unique_ptr<tb::serve::HostConnection> open_port(const ServeArguments& arguments, int baud) {
-  const int bits_per_second = static_cast<int>(bus::kTicksPerSecond / bus::baud(baud).bit);
-  if (!arguments.serial.empty()) return tb::serve::open_serial({arguments.serial, bits_per_second, arguments.rts});
-  if (arguments.tcp >= 0)
-    return tb::serve::open_tcp(arguments.bind, arguments.tcp, std::chrono::seconds(arguments.turn));
-  return tb::serve::open_pty(arguments.link, bits_per_second);
-}
+  int carry_out() override {
+    leave_nothing_on_signals();
+    tb::scenario::Scenario scenario = load_scenario(scenario_, tb::scenario::parse_settings(set_));
+    if (!baud_.empty()) scenario.baud = baud_index("dsdpv1-sim serve: --baud", baud_);
+    scenario.end = duration_.empty() ? kOpenEnd : time_of("dsdpv1-sim serve: --for", duration_, 1);
+    take_run_words(*scenario.kind);
+    check_files(scenario);
+    WantedFile result_file(result_), junit_file(junit_);
+    std::optional<tb::html::ReportFile> report_file;
+    if (!report_.empty()) report_file.emplace(report_, scenario, run_);
 
-tb::RunOptions options_of(const ServeArguments& arguments, const tb::ChipKind& kind) {
-  tb::RunOptions options;
-  options.wave = wave_options("dsdpv1-sim serve", arguments.wave, kind);
-  options.log = arguments.log;
-  options.log_whole = arguments.log_whole;
-  options.capture = capture_request("dsdpv1-sim serve", arguments.capture, arguments.capture_link);
-  options.checks = checks_mode("serve", arguments.checks);
-  options.open_ended = true;
-  return options;
-}
+    auto port = open_port(scenario.baud);
+    const std::string name = port->name();
+    auto made = std::make_unique<tb::serve::RealTimeExecution>(std::move(port), scenario.baud);
+    tb::serve::RealTimeExecution& execution = *made;
+    tb::Bench bench(scenario, run_, std::move(made));
+    if (!run_.log.empty()) std::cerr << "serve: the log grows as " << bench.log_grows_at() << '\n';
+    execution.join();
+    execution.say = [&bench](tb::Tick at, const std::string& text) {
+      std::cerr << "serve: " << text << '\n';
+      bench.log(at, "host", "serve", text);
+    };
+    catch_signals();
+    std::cout << "serving \"" << bus::printable(scenario.name) << "\" at " << bus::baud(scenario.baud).name << " on "
+              << name << "; Ctrl-C ends\n"
+              << std::flush;
+
+    tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
+    if (wave_.save) write_save_files(wave_.file, *scenario.kind);
+    if (bench.wave_is_empty()) std::cerr << nothing_recorded(wave_) << '\n';
+    result.pacing = execution.pacing();
+    result_file.write([&] { return tb::result_json(result); });
+    junit_file.write([&] { return tb::junit("dsdpv1-sim serve", tb::run_cases(result)); });
+    if (report_file) report_file->write(result, DSDPV1_VERSION);
+    if (!quiet_) std::cout << tb::summary(result) << std::flush;
+    return exit_code(verdict(result));
+  }
+
+ private:
+  void add_port_options(CLI::App& app) {
+    CLI::Option* pty =
+        app.add_option("--pty", link_, "At a pseudo-terminal (default) with this name as a link to it")->expected(0, 1);
+    CLI::Option* tcp = app.add_option("--tcp", tcp_, "At this TCP port (0: any free one), a byte a character")
+                           ->check(CLI::Range(0, 65535));
+    CLI::Option* serial = app.add_option("--serial", serial_, "At this serial port, 8E1, with an RS-485 transceiver");
+    pty->excludes(tcp)->excludes(serial);
+    tcp->excludes(serial);
+    app.add_option("--bind", bind_, "IPv4 address of --tcp")->capture_default_str()->needs(tcp);
+    app.add_option("--turn", turn_,
+                   "Seconds; a host that sends nothing for so long while others wait loses the TCP port (0: keeps it)")
+        ->check(CLI::Range(0, 86400))
+        ->capture_default_str()
+        ->needs(tcp);
+    app.add_flag("--rts", rts_, "RTS of the serial port switches the transceiver; else it does so by itself")
+        ->needs(serial);
+  }
+
+  void take_run_words(const tb::ChipKind& kind) {
+    run_.wave = wave_options("dsdpv1-sim serve", wave_, kind);
+    run_.capture = capture_request("dsdpv1-sim serve", capture_);
+    run_.checks = checks_mode("dsdpv1-sim serve", checks_);
+    run_.open_ended = true;
+  }
+
+  void check_files(const tb::scenario::Scenario& scenario) const {
+    std::vector<NamedFile> outputs = wave_files("dsdpv1-sim serve", wave_.file, wave_.save);
+    outputs.insert(outputs.end(), {{"--log", run_.log},
+                                   {"--result", result_},
+                                   {"--report", report_},
+                                   {"--junit", junit_},
+                                   {"--capture", capture_.file}});
+    check_outputs("dsdpv1-sim serve", scenario_inputs(scenario_, scenario.files), outputs);
+  }
+
+  std::unique_ptr<tb::serve::HostConnection> open_port(int baud) const {
+    const int bits_per_second = static_cast<int>(bus::kTicksPerSecond / bus::baud(baud).bit);
+    if (!serial_.empty()) return tb::serve::open_serial({serial_, bits_per_second, rts_});
+    if (tcp_ >= 0) return tb::serve::open_tcp(bind_, tcp_, std::chrono::seconds(turn_));
+    return tb::serve::open_pty(link_, bits_per_second);
+  }
+
+  std::string scenario_;
+  std::string link_;  ///< of the pseudo-terminal; empty: none
+  int tcp_ = -1;      ///< port; 0: any free one; -1: no TCP
+  std::string bind_ = "127.0.0.1";
+  int turn_ = 10;  ///< s; 0: a host keeps the TCP port
+  std::string serial_;
+  bool rts_ = false;
+  std::string baud_;      ///< empty: that of the scenario
+  std::string duration_;  ///< empty: until interrupted
+  WaveArguments wave_;
+  tb::RunOptions run_;
+  std::string result_, report_, junit_;  ///< files, empty: not wanted
+  std::string checks_;                   ///< empty: as the scenario says
+  std::vector<std::string> set_;
+  CaptureArguments capture_;
+  bool quiet_ = false;
+};
 
 }  // namespace
 
-int serve(const ServeArguments& arguments) {
-  leave_nothing_on_signals();
-  tb::scenario::Scenario scenario = load_scenario(arguments.scenario, tb::scenario::parse_settings(arguments.set));
-  scenario.baud = chosen_baud(scenario, arguments.baud);
-  scenario.end = chosen_end(arguments.duration);
-  tb::RunOptions options = options_of(arguments, *scenario.kind);
-  std::vector<NamedFile> outputs = wave_files("dsdpv1-sim serve", arguments.wave.file, arguments.wave.save);
-  outputs.push_back({"--log", arguments.log});
-  outputs.push_back({"--result", arguments.result});
-  outputs.push_back({"--report", arguments.report});
-  outputs.push_back({"--junit", arguments.junit});
-  outputs.push_back({"--capture", arguments.capture});
-  check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files), outputs);
-  std::optional<tb::OutputFile> result_file, junit_file;
-  if (!arguments.result.empty()) result_file.emplace(arguments.result);
-  if (!arguments.junit.empty()) junit_file.emplace(arguments.junit);
-  std::optional<tb::html::ReportFile> report_file;
-  if (!arguments.report.empty()) report_file.emplace(arguments.report, scenario, options);
-
-  auto port = open_port(arguments, scenario.baud);
-  const std::string name = port->name();
-  auto made = std::make_unique<tb::serve::RealTimeExecution>(std::move(port), scenario.baud);
-  tb::serve::RealTimeExecution& execution = *made;
-  tb::Bench bench(scenario, options, std::move(made));
-  if (!arguments.log.empty()) std::cerr << "serve: the log grows as " << bench.log_grows_at() << '\n';
-  execution.join();
-  execution.say = [&bench](tb::Tick at, const std::string& text) {
-    std::cerr << "serve: " << text << '\n';
-    bench.log(at, "host", "serve", text);
-  };
-  catch_signals();
-  std::cout << "serving \"" << bus::printable(scenario.name) << "\" at " << bus::baud(scenario.baud).name << " on "
-            << name << "; Ctrl-C ends\n"
-            << std::flush;
-
-  tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
-  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
-  if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
-  result.pacing = execution.pacing();
-  if (result_file) {
-    result_file->write(tb::result_json(result));
-    result_file->commit();
-  }
-  if (junit_file) {
-    junit_file->write(tb::junit("dsdpv1-sim serve", tb::run_cases(result)));
-    junit_file->commit();
-  }
-  if (report_file) report_file->write(result, DSDPV1_VERSION);
-  if (!arguments.quiet) std::cout << tb::summary(result) << std::flush;
-  return exit_code(verdict(result));
-}
+std::unique_ptr<Command> make_serve() { return std::make_unique<Serve>(); }
 
 }  // namespace dsdpv1::app

@@ -1,7 +1,5 @@
-#include "apps/commands/traces_command.hpp"
-
+// traces: golden traces checked, made again, listed, and turned into waves.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,11 +8,13 @@
 #include <iostream>
 #include <memory>
 
-#include "apps/command_line.hpp"
+#include "apps/commands/command.hpp"
+#include "apps/commands/scenario_run.hpp"
 #include "apps/data_folder.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/rtl_options.hpp"
 #include "bus/printable.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
@@ -22,7 +22,6 @@
 #include "lab/traces/golden.hpp"
 #include "lab/traces/golden_check.hpp"
 #include "lab/traces/trace_wave.hpp"
-#include "tb/bench/bench.hpp"
 #include "tb/bench/verdict.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/text_table.hpp"
@@ -37,8 +36,23 @@ constexpr const char* kTool = "dsdpv1-sim " DSDPV1_VERSION;
 const std::vector<std::string> kRulings = {"docs/chip.md", "docs/microarchitecture.md", "docs/chip_rsu.md",
                                            "docs/microarchitecture_rsu.md"};
 
-std::string folder_of(const TracesArguments& arguments) {
-  if (!arguments.folder.empty()) return arguments.folder;
+constexpr const char* kTracesFooter =
+    "\nExamples:\n  dsdpv1-sim traces check\n  dsdpv1-sim traces check power_on_12m --engine rtl\n"
+    "  dsdpv1-sim traces regenerate scenarios/power_on_12m.yaml\n  dsdpv1-sim traces wave power_on_12m golden.fst\n"
+    "docs/traces.md says what they are.\n"
+    "\nExit codes: 0 no difference, 1 a difference, 2 wrong input, 130 interrupted.\n";
+
+struct TracesArguments {
+  std::vector<std::string> scenarios;  ///< names or paths; empty: all
+  std::string folder;                  ///< of the goldens; empty: traces of the source tree
+  std::string engine = "skip";
+  unsigned fault = 0;          ///< of rtl_ref/faults.txt, 0: none
+  std::string golden, output;  ///< of wave: its name and the file
+  std::optional<bool> progress;
+};
+
+std::string folder_of(const TracesArguments& given) {
+  if (!given.folder.empty()) return given.folder;
   return fs::path(data_folder()) / "traces";
 }
 
@@ -113,29 +127,29 @@ void hand_over_any(const std::vector<std::string>& files) {
 }
 
 /// The scenarios given, or all and then the goldens without one.
-int for_scenarios(const TracesArguments& arguments, const std::function<int(const std::string& file)>& work) {
-  if (arguments.scenarios.empty()) {
+int for_scenarios(const TracesArguments& given, const std::function<int(const std::string& file)>& work) {
+  if (given.scenarios.empty()) {
     hand_over_any(own_scenarios());
     const int status = for_each(own_scenarios(), work);
-    return status == kInterrupted ? status : worse(status, report_orphans(folder_of(arguments)));
+    return status == kInterrupted ? status : worse(status, report_orphans(folder_of(given)));
   }
   std::vector<std::string> files;
-  std::transform(arguments.scenarios.begin(), arguments.scenarios.end(), std::back_inserter(files), scenario_file);
+  std::transform(given.scenarios.begin(), given.scenarios.end(), std::back_inserter(files), scenario_file);
   hand_over_any(files);
   return for_each(files, work);
 }
 
-int check(const TracesArguments& arguments) {
+int check(const TracesArguments& given) {
   return for_scenarios(
-      arguments,
-      [&arguments](const std::string& file) {
+      given,
+      [&given](const std::string& file) {
         RunArguments one;
         one.scenario = file;
-        one.engine = arguments.engine;
-        one.fault = arguments.fault;
-        one.golden = folder_of(arguments);
+        one.engine = given.engine;
+        one.fault = given.fault;
+        one.golden = folder_of(given);
         one.difference = "";
-        one.progress = arguments.progress;
+        one.progress = given.progress;
         one.quiet = true;
         return run(one);
       });
@@ -173,7 +187,7 @@ class Regeneration {
       options.observers.push_back(&*check_);
     }
     tb::Bench bench(scenario_, options, std::move(execution));
-    tb::Progress progress(scenario_.end, progress_bar.value_or(isatty(STDERR_FILENO) != 0));
+    tb::Progress progress(scenario_.end, shows_progress(progress_bar));
     tb::RunResult result = bench.run([&](tb::Tick now) {
       progress.show(now);
       if (check_) check_->reached(now);
@@ -206,14 +220,14 @@ class Regeneration {
   std::optional<tb::traces::GoldenCheck> check_;
 };
 
-int regenerate(const TracesArguments& arguments) {
-  const std::string folder = folder_of(arguments);
+int regenerate(const TracesArguments& given) {
+  const std::string folder = folder_of(given);
   tb::traces::golden_names(folder);  // refuses what is no folder before anything is run
   catch_signals();
-  return for_scenarios(arguments, [&](const std::string& file) {
+  return for_scenarios(given, [&](const std::string& file) {
     const tb::scenario::Scenario scenario = tb::scenario::load(file);
     Regeneration regeneration(scenario, folder);
-    const tb::RunResult result = regeneration.run(arguments.progress);
+    const tb::RunResult result = regeneration.run(given.progress);
     if (result.interrupted) return kInterrupted;
     if (const tb::Verdict verdict = tb::verdict(result); verdict != tb::Verdict::kPassed) {
       std::cout << golden_name(file) << ": does not pass, its golden stays as it is\n" << std::flush;
@@ -228,8 +242,8 @@ int regenerate(const TracesArguments& arguments) {
 
 // --- list, wave ------------------------------------------------------------------------------------------------------
 
-int list(const TracesArguments& arguments) {
-  const std::string folder = folder_of(arguments);
+int list(const TracesArguments& given) {
+  const std::string folder = folder_of(given);
   const tb::traces::Json rulings = tb::traces::rulings_of(data_folder(), kRulings);
   tb::TextTable table({"golden", "slaves", "cycles", "changes", "KB", "rulings"});
   for (const std::string& name : tb::traces::golden_names(folder)) {
@@ -245,26 +259,67 @@ int list(const TracesArguments& arguments) {
   return kPassed;
 }
 
-int wave(const TracesArguments& arguments) {
-  const std::string folder = folder_of(arguments), name = golden_name(arguments.golden);
-  tb::check_wave_name(arguments.output);
+int wave(const TracesArguments& given) {
+  const std::string folder = folder_of(given), name = golden_name(given.golden);
+  tb::check_wave_name(given.output);
   check_outputs(
       "dsdpv1-sim traces wave",
       {{"the manifest", tb::traces::manifest_path(folder, name)}, {"the golden", tb::traces::trace_path(folder, name)}},
-      {{"the wave", arguments.output}});
-  tb::traces::write_wave(*tb::traces::read_golden(folder, name).trace, arguments.output);
+      {{"the wave", given.output}});
+  tb::traces::write_wave(*tb::traces::read_golden(folder, name).trace, given.output);
   return kPassed;
 }
 
+class Traces : public Command {
+ public:
+  Traces() : Command("traces", "Golden traces of all pins: what a chip has to do in each scenario") {}
+
+  void options(CLI::App& app) override {
+    app.require_subcommand(0, 1);  // carry_out says in its own words what is missing
+    CLI::App* check_them = add_action(app, "check", "Runs scenarios and compares every change of every pin", check);
+    add_scenarios(*check_them);
+    check_them->add_option("--engine", given_.engine, "As of run: step, skip, rtl, lockstep")->capture_default_str();
+    add_fault_option(*check_them, given_.fault);
+    add_scenarios(*add_action(app, "regenerate",
+                              "Makes goldens again, writes those that are others, and says what changed", regenerate));
+    add_action(app, "list", "What there is", list);
+    CLI::App* as_wave = add_action(app, "wave", "Writes a golden as a wave", wave);
+    as_wave->add_option("SCENARIO", given_.golden, "Its name, or the scenario's path")->required();
+    as_wave->add_option("FILE", given_.output, "FILE.vcd or FILE.fst")->required();
+    app.footer(kTracesFooter);
+  }
+
+  int carry_out() override {
+    leave_nothing_on_signals();
+    if (action_ != nullptr) return action_(given_);
+    throw tb::InputError("dsdpv1-sim traces: an action is missing, allowed are check, regenerate, list, wave");
+  }
+
+ private:
+  using Action = int (*)(const TracesArguments& given);
+
+  CLI::App* add_action(CLI::App& traces, const char* name, const char* line, Action action) {
+    CLI::App* app = traces.add_subcommand(name, line);
+    app->callback([this, action] { action_ = action; });
+    app->add_option(
+        "--folder", given_.folder,
+        "Folder of the golden traces; left out: traces of this source tree, whose scenarios are meant by names");
+    app->footer(kTracesFooter);
+    return app;
+  }
+
+  void add_scenarios(CLI::App& app) {
+    app.add_option("SCENARIO", given_.scenarios, "Scenarios by name or path; left out: all of scenarios/");
+    app.add_flag_callback(
+        "--no-progress", [this] { given_.progress = false; }, "Show no progress bar");
+  }
+
+  TracesArguments given_;
+  Action action_ = nullptr;
+};
+
 }  // namespace
 
-int traces(const TracesArguments& arguments) {
-  leave_nothing_on_signals();
-  if (arguments.action == "check") return check(arguments);
-  if (arguments.action == "regenerate") return regenerate(arguments);
-  if (arguments.action == "list") return list(arguments);
-  if (arguments.action == "wave") return wave(arguments);
-  throw tb::InputError("dsdpv1-sim traces: an action is missing, allowed are check, regenerate, list, wave");
-}
+std::unique_ptr<Command> make_traces() { return std::make_unique<Traces>(); }
 
 }  // namespace dsdpv1::app

@@ -1,14 +1,11 @@
 #include "apps/options/campaign.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <thread>
 
 #include "apps/interrupt.hpp"
+#include "apps/options/common.hpp"
 #include "lab/campaign/runner.hpp"
 #include "lab/campaign/slurm_runner.hpp"
 
@@ -20,8 +17,7 @@ using tb::campaign::Kind;
 
 Carrying carrying_of(const CampaignArguments& arguments, const Kind& kind,
                      std::optional<std::chrono::duration<double>> limit) {
-  const unsigned at_a_time = arguments.jobs != 0 ? arguments.jobs : std::max(1U, std::thread::hardware_concurrency());
-  return {kind, at_a_time, limit, arguments.progress.value_or(isatty(STDERR_FILENO) != 0), interrupted};
+  return {kind, at_a_time(arguments.jobs), limit, shows_progress(arguments.progress), interrupted};
 }
 
 void say_interrupted(const Kind& kind, std::size_t done, std::size_t all) {
@@ -48,6 +44,17 @@ bool run_all(Runner&& runner, const Kind& kind, std::size_t all) {
 
 }  // namespace
 
+void add_campaign_options(CLI::App& app, CampaignArguments& arguments, const std::string& usual_folder) {
+  app.add_option("--out", arguments.out, "Folder for the runs and results; left out: " + usual_folder);
+  app.add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")->check(CLI::Range(1, 256));
+  CLI::Option* slurm = app.add_flag("--slurm", arguments.slurm,
+                                    "As a job array of a Slurm cluster (sbatch); the folder must be seen by its nodes");
+  app.add_option("--slurm-options", arguments.slurm_options, "More options for sbatch: \"--partition=x --time=10\"")
+      ->needs(slurm);
+  app.add_option("--slurm-task", arguments.slurm_task)->group("");  // what the tasks of an array call
+  add_output_options(app, arguments.progress, arguments.quiet);
+}
+
 std::vector<NamedFile> outputs_in(const std::string& folder, const Kind& kind) {
   std::vector<NamedFile> outputs;
   for (const std::filesystem::path& file : tb::campaign::own_files(folder, kind))
@@ -55,9 +62,9 @@ std::vector<NamedFile> outputs_in(const std::string& folder, const Kind& kind) {
   return outputs;
 }
 
-bool carry_out(const CampaignArguments& arguments, const Kind& kind, tb::campaign::Jobs& jobs,
-               const tb::campaign::Folder& folder, const std::string& identity,
-               std::optional<std::chrono::duration<double>> limit) {
+bool carry_out_jobs(const CampaignArguments& arguments, const Kind& kind, tb::campaign::Jobs& jobs,
+                    const tb::campaign::Folder& folder, const std::string& identity,
+                    std::optional<std::chrono::duration<double>> limit) {
   const Carrying carrying = carrying_of(arguments, kind, limit);
   if (arguments.is_task()) return run_task(arguments, carrying, jobs, folder);
   for (const std::size_t job : all_of(jobs)) jobs.look(job);

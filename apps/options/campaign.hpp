@@ -1,5 +1,7 @@
 #pragma once
 // What sweep and regress have in common on the command line: many runs, here or in a cluster, and their folder.
+#include <CLI/CLI.hpp>
+
 #include <chrono>
 #include <optional>
 #include <string>
@@ -27,13 +29,16 @@ struct CampaignArguments {
   }
 };
 
+/// `usual_folder`: in words, where `out` is left out.
+void add_campaign_options(CLI::App& app, CampaignArguments& arguments, const std::string& usual_folder);
+
 /// What is written or removed in the folder, of which what is there already can be an input or lead to one.
 std::vector<NamedFile> outputs_in(const std::string& folder, const tb::campaign::Kind& kind);
 
 /// Runs the jobs that are not finished; of a task, its own. Says how many were finished before. False when it was
 /// interrupted, which it says too. `identity`: what the jobs depend on. A run that takes longer than `limit` is killed.
-bool carry_out(const CampaignArguments& arguments, const tb::campaign::Kind& kind, tb::campaign::Jobs& jobs,
-               const tb::campaign::Folder& folder, const std::string& identity,
-               std::optional<std::chrono::duration<double>> limit = std::nullopt);
+bool carry_out_jobs(const CampaignArguments& arguments, const tb::campaign::Kind& kind, tb::campaign::Jobs& jobs,
+                    const tb::campaign::Folder& folder, const std::string& identity,
+                    std::optional<std::chrono::duration<double>> limit = std::nullopt);
 
 }  // namespace dsdpv1::app

@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <iostream>
 #include <map>
-#include <optional>
 
+#include "apps/exit_codes.hpp"
+#include "apps/interrupt.hpp"
 #include "io/input/input_error.hpp"
 #include "io/output/output_place.hpp"
 #include "io/output/write_file.hpp"
@@ -46,6 +48,17 @@ void check_outputs(const std::string& command, const std::vector<NamedFile>& inp
 
 void write_wanted(const std::string& path, const std::string& text) {
   if (!path.empty()) tb::write_file(path, text);
+}
+
+int print_or_write(const std::string& command, const std::string& text, const std::string& output) {
+  if (output.empty()) {
+    std::cout << text << std::flush;
+    return kPassed;
+  }
+  leave_nothing_on_signals();
+  check_outputs(command, {}, {{"--output", output}});
+  tb::write_file(output, text);
+  return kPassed;
 }
 
 }  // namespace dsdpv1::app

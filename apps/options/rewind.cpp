@@ -7,9 +7,9 @@
 #include <iostream>
 #include <tuple>
 
+#include "apps/exit_codes.hpp"
 #include "apps/options/wave_options.hpp"
 #include "io/input/input_error.hpp"
-#include "io/input/units.hpp"
 #include "io/output/output_place.hpp"
 #include "tb/bench/run_log.hpp"
 

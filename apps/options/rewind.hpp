@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/command_line.hpp"
+#include "apps/options/run_arguments.hpp"
 #include "apps/options/snapshots.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/chip/chip_kind.hpp"

@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "apps/options/words.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 #include "io/input/units.hpp"
@@ -23,14 +24,17 @@ std::string kept(const std::string& text) {
   return setting.path + "=" + (file ? tb::scenario::given_path(setting.value) : setting.value);
 }
 
-tb::Tick time_of(const std::string& text, tb::Tick end) {
-  const std::optional<tb::Tick> time = tb::parse_time(text);
-  if (!time || *time < 0)
-    throw tb::InputError(fmt::format("dsdpv1-sim run: --save-at is {}, allowed is {}", text, tb::kTimeForm));
-  if (*time > end)
+tb::Tick time_in_run(const std::string& text, tb::Tick end) {
+  const tb::Tick time = time_of("dsdpv1-sim run: --save-at", text);
+  if (time > end)
     throw tb::InputError(fmt::format("dsdpv1-sim run: --save-at is {}, allowed is a time up to the end of the run, {}",
                                      text, tb::time_text(end)));
-  return *time;
+  return time;
+}
+
+/// By the pins of cores: their pins can be followed from any time on.
+bool is_of_cores(const tb::RunOptions& options) {
+  return options.view_name == "pins" && (options.engine_name == "step" || options.engine_name == "skip");
 }
 
 }  // namespace
@@ -82,10 +86,6 @@ void replay_debugger(tb::RunOptions& options, const tb::SavedRun& run) {
   options.gdb->history->live_from = run.at;
 }
 
-bool is_of_cores(const tb::RunOptions& options) {
-  return options.view_name == "pins" && (options.engine_name == "step" || options.engine_name == "skip");
-}
-
 std::vector<NamedFile> save_files(const RunArguments& arguments) {
   std::vector<NamedFile> files;
   for (const auto& [time, file] : arguments.save_at) files.push_back({"--save-at " + time, file});
@@ -95,7 +95,7 @@ std::vector<NamedFile> save_files(const RunArguments& arguments) {
 SavedRuns::SavedRuns(const RunArguments& arguments, const tb::SavedRun& run, const tb::SavedRun* restored, tb::Tick end)
     : run_(run), restored_(restored), end_(end), path_(arguments.restore) {
   for (const auto& [time, file] : arguments.save_at)
-    saves_.push_back(std::make_unique<Save>(time_of(time, end), time, file));
+    saves_.push_back(std::make_unique<Save>(time_in_run(time, end), time, file));
 }
 
 void SavedRuns::ask(tb::RunOptions& options) {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/command_line.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/run_arguments.hpp"
 #include "io/output/output_file.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/saved/saved_run.hpp"
@@ -61,9 +61,6 @@ class SavedRuns {
   bool met_ = false, differs_ = false;
   std::exception_ptr error_;
 };
-
-/// By the pins of cores: their pins can be followed from any time on.
-bool is_of_cores(const tb::RunOptions& options);
 
 /// The files of --save-at, for check_outputs.
 std::vector<NamedFile> save_files(const RunArguments& arguments);

@@ -2,28 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <ctime>
-#include <optional>
 
+#include "apps/options/words.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
-#include "io/input/units.hpp"
 #include "io/output/output_place.hpp"
 #include "io/waves/save_files.hpp"
 #include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::app {
 namespace {
-
-bus::Tick time_of(const std::string& command, const char* option, const std::string& text) {
-  const std::optional<bus::Tick> time = tb::parse_time(text);
-  if (!time || *time < 0)
-    throw tb::InputError(fmt::format("{}: {} is {}, allowed is {}", command, option, text, tb::kTimeForm));
-  return *time;
-}
 
 /// "2026-11-24 13:15:08 UTC".
 std::string now() {
@@ -118,9 +109,9 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
   options.selection.signals = arguments.signals;
   options.selection.wires_only = arguments.wires_only;
   options.selection.clock = arguments.clock;
-  options.selection.around = time_of(command, "--wave-around", arguments.around);
-  if (!arguments.from.empty()) options.selection.from = time_of(command, "--wave-from", arguments.from);
-  if (!arguments.to.empty()) options.selection.to = time_of(command, "--wave-to", arguments.to);
+  options.selection.around = time_of(command + ": --wave-around", arguments.around);
+  if (!arguments.from.empty()) options.selection.from = time_of(command + ": --wave-from", arguments.from);
+  if (!arguments.to.empty()) options.selection.to = time_of(command + ": --wave-to", arguments.to);
   if (options.selection.to < options.selection.from)
     throw tb::InputError(fmt::format("{}: --wave-to is {}, allowed is a time not before --wave-from, {}", command,
                                      arguments.to, arguments.from));
@@ -131,7 +122,7 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
 bus::Tick check_window(const std::string& command, const char* option, const std::string& code,
                        const std::string& around, const tb::ChipKind& kind) {
   check_code(command, option, code, kind);
-  return time_of(command, option, around);
+  return time_of(command + ": " + option, around);
 }
 
 std::string nothing_recorded(const WaveArguments& arguments) {

@@ -1,16 +1,13 @@
 #pragma once
-// --wave and the options that go with it, of run and serve.
+// --wave and the options that go with it, of run, serve and replay.
+#include <CLI/CLI.hpp>
+
 #include <string>
 #include <vector>
 
 #include "apps/options/outputs.hpp"
 #include "tb/bench/wave_recorder.hpp"
 #include "tb/chip/chip_kind.hpp"
-
-namespace CLI {  // NOLINT(readability-identifier-naming): its library's
-class App;
-class Option;
-}  // namespace CLI
 
 namespace dsdpv1::app {
 

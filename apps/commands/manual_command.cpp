@@ -1,6 +1,9 @@
+// manual: the program's own options as a manual page in roff, for man(1), so that it cannot go stale.
 #include <fmt/format.h>
 
-#include "apps/commands/manual_command.hpp"
+#include <iostream>
+
+#include "apps/commands/command.hpp"
 #include "apps/options/shown_options.hpp"
 #include "io/input/suggest.hpp"
 
@@ -65,8 +68,6 @@ std::string command_section(const CLI::App& command) {
   return text + footer(command);
 }
 
-}  // namespace
-
 std::string manual_page(const CLI::App& app) {
   const std::string& name = app.get_name();
   std::string text = fmt::format(".\\\" Made by `{} manual`.\n.TH {} 1 \"\" \"{}\" \"User Commands\"\n", name,
@@ -79,5 +80,27 @@ std::string manual_page(const CLI::App& app) {
   for (const CLI::App* command : shown_commands(app)) text += command_section(*command);
   return text + ".SH EXAMPLES AND EXIT CODES\n" + footer(app);
 }
+
+class Manual : public Command {
+ public:
+  Manual() : Command("manual", "Prints the manual page of this program, in roff") {}
+
+  void options(CLI::App& app) override {
+    program_ = app.get_parent();
+    app.footer("\nExample:\n  dsdpv1-sim manual | man -l -\n");
+  }
+
+  int carry_out() override {
+    std::cout << manual_page(*program_) << std::flush;
+    return kPassed;
+  }
+
+ private:
+  const CLI::App* program_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_manual() { return std::make_unique<Manual>(); }
 
 }  // namespace dsdpv1::app

@@ -1,8 +1,11 @@
+// completion: the program's own options as completions of shells, so that they cannot go stale.
 #include <fmt/format.h>
 
-#include "apps/command_line.hpp"
-#include "apps/commands/manual_command.hpp"
+#include <iostream>
+
+#include "apps/commands/command.hpp"
 #include "apps/options/shown_options.hpp"
+#include "apps/options/words.hpp"
 
 namespace dsdpv1::app {
 namespace {
@@ -94,11 +97,32 @@ std::string zsh(const CLI::App& app) {
   return fmt::format(kZsh, app.get_name(), commands, cases);
 }
 
+class Completion : public Command {
+ public:
+  Completion() : Command("completion", "Prints what completes this program's command line in a shell") {}
+
+  void options(CLI::App& app) override {
+    program_ = app.get_parent();
+    shell_ = app.add_option("SHELL", "bash or zsh")->required();
+    app.footer(
+        "\nExamples:\n  source <(dsdpv1-sim completion bash)\n"
+        "  dsdpv1-sim completion zsh > ~/.zfunc/_dsdpv1-sim\n");
+  }
+
+  int carry_out() override {
+    const auto shell = shell_->as<std::string>();
+    check_word("dsdpv1-sim completion: SHELL", shell, {"bash", "zsh"});
+    std::cout << (shell == "bash" ? bash(*program_) : zsh(*program_)) << std::flush;
+    return kPassed;
+  }
+
+ private:
+  const CLI::App* program_ = nullptr;
+  const CLI::Option* shell_ = nullptr;
+};
+
 }  // namespace
 
-std::string completion(const CLI::App& app, const std::string& shell) {
-  check_word("completion: SHELL", shell, {"bash", "zsh"});
-  return shell == "bash" ? bash(app) : zsh(app);
-}
+std::unique_ptr<Command> make_completion() { return std::make_unique<Completion>(); }
 
 }  // namespace dsdpv1::app

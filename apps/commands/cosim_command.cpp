@@ -1,0 +1,120 @@
+// cosim: RTL of the user's own held against the model, in a scenario or by a stimulus.
+#include <iostream>
+#include <utility>
+
+#include "apps/commands/command.hpp"
+#include "apps/commands/rtl_random.hpp"
+#include "apps/commands/scenario_run.hpp"
+#include "apps/hand_over.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/options/outputs.hpp"
+#include "cosim/joined_wave.hpp"
+#include "io/input/input_error.hpp"
+
+namespace dsdpv1::app {
+namespace {
+
+constexpr const char* kCosim = "dsdpv1-sim cosim";
+
+class Cosim : public Command {
+ public:
+  Cosim() : Command("cosim", "Builds RTL of your own with Verilator and holds it against the model") {
+    run_.engine = "lockstep";
+  }
+
+  void options(CLI::App& app) override {
+    app.add_option("SCENARIO", run_.scenario, "Scenario in YAML");
+    CLI::Option* replay =
+        app.add_option("--replay", replay_, "A stimulus file in its place: a case of rtl-random, with its --set");
+    add_own_rtl_options(app, own_, true);
+    app.add_option("--difference", run_.difference, "Wave of both sides' pins, written when they differ")
+        ->capture_default_str();
+    CLI::Option* wave =
+        app.add_option("--wave", run_.wave.file,
+                       "Wave of the run with the inside of your RTL beside the model's: FILE.vcd or FILE.fst");
+    app.add_option("--wave-from", run_.wave.from, "Only from this time on")->needs(wave)->excludes(replay);
+    app.add_option("--wave-to", run_.wave.to, "Only up to this time")->needs(wave)->excludes(replay);
+    add_wave_save_option(app, wave_save_, wave);
+    add_log_options(app, run_.log, run_.log_whole)->excludes(replay);
+    app.add_option("--result", run_.result, "Result, measurements and the first difference as JSON");
+    add_checks_option(app, run_.checks)->excludes(replay);
+    add_set_option(app, run_.set);
+    app.footer(
+        "\nExamples:\n  dsdpv1-sim cosim --rtl examples/own_rtl --top board_chip --pins examples/own_rtl/pins.yaml "
+        "scenarios/two_slaves.yaml\n"
+        "  dsdpv1-sim cosim --rtl my_chip --top chip my.yaml --wave inside.fst --wave-from 1.6ms --log my.log --result "
+        "my.json\n"
+        "  dsdpv1-sim cosim --rtl my_chip --top chip --replay lockstep.stimulus --wave inside.fst\n"
+        "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input, 3 nothing was judged, 130 "
+        "interrupted.\n");
+  }
+
+  int carry_out() override {
+    if (run_.scenario.empty() == replay_.empty())
+      throw tb::InputError(std::string(kCosim) + ": allowed is one of SCENARIO and --replay");
+    if (!replay_.empty()) return rtl_random(stimulus());
+    leave_nothing_on_signals();
+    RunRequest request{run_, {}, options_of(run_), {}, {}};
+    request.scenario = load_scenario(run_.scenario, tb::scenario::parse_settings(run_.set));
+    request.options.wave = wave_options(kCosim, run_.wave, *request.scenario.kind);
+    request.options.wave.inside = true;
+    check_files(request.scenario);
+    return run_own_rtl(std::move(request), build_own_rtl(own_, kCosim, !run_.wave.file.empty()));
+  }
+
+ private:
+  /// The stimulus of --replay, as rtl-random plays it.
+  RtlRandomArguments stimulus() const {
+    RtlRandomArguments stimulus;
+    stimulus.command = kCosim;
+    stimulus.replay = replay_;
+    stimulus.own = own_;
+    stimulus.set = run_.set;
+    stimulus.difference = run_.difference;
+    stimulus.wave = run_.wave.file;
+    stimulus.wave_save = wave_save_;
+    stimulus.log = run_.log;
+    stimulus.result = run_.result;
+    return stimulus;
+  }
+
+  void check_files(const tb::scenario::Scenario& scenario) const {
+    std::vector<NamedFile> inputs = scenario_inputs(run_.scenario, scenario.files);
+    inputs.push_back({"--pins", own_.pins});
+    std::vector<NamedFile> outputs = wave_files(kCosim, run_.wave.file, wave_save_);
+    outputs.insert(outputs.end(), {{"--difference", run_.difference}, {"--log", run_.log}, {"--result", run_.result}});
+    check_outputs(kCosim, inputs, outputs);
+  }
+
+  /// In lockstep with the user's RTL; with a wave, its inside goes beside the model's.
+  int run_own_rtl(RunRequest request, const OwnRtl& own) const {
+    cosim::LockstepOptions lockstep;
+    lockstep.tolerances = own.map.tolerances;
+    if (run_.wave.file.empty())
+      return run_lockstep(
+                 request, [&own](auto&&...) { return own.make(std::nullopt); }, lockstep)
+          .status;
+    cosim::JoinedWave wave(run_.wave.file, own_.build);
+    const tb::WaveSelection window = request.options.wave.selection;
+    request.options.wave.path = wave.model();
+    const auto make = [&](const std::string& name, const auto& /*parameters*/) {
+      return own.make(wave.trace(name, window.from, window.to));
+    };
+    const LockstepOutcome outcome = run_lockstep(request, make, lockstep);
+    wave.finish(outcome.difference);
+    if (wave_save_) write_save_files(run_.wave.file, *request.scenario.kind);
+    std::cout << "with the inside   " << run_.wave.file << '\n' << std::flush;
+    return outcome.status;
+  }
+
+  RunArguments run_;
+  bool wave_save_ = false;  ///< once the wave has both sides, so not the run's
+  std::string replay_;      ///< a stimulus file in the place of a scenario
+  OwnRtlArguments own_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_cosim() { return std::make_unique<Cosim>(); }
+
+}  // namespace dsdpv1::app

@@ -1,0 +1,31 @@
+#pragma once
+// Model and RTL in lockstep without a scenario: of rtl-random, and of cosim, whose stimulus is played so.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/options/rtl_options.hpp"
+
+namespace dsdpv1::app {
+
+struct RtlRandomArguments {
+  std::string command = "dsdpv1-sim rtl-random";  ///< for messages
+  RtlChip chip;                                   ///< of the reference RTL
+  std::uint64_t cycles = 10'000'000, seed = 1;
+  unsigned jobs = 0;                           ///< threads; 0: as many as there are processors
+  std::string replay;                          ///< a stimulus file instead of random cases
+  unsigned fault = 0;                          ///< of rtl_ref/faults.txt, to see one found
+  std::string stimulus = "lockstep.stimulus";  ///< where a shrunk failing case goes
+  std::string difference = "lockstep.vcd";     ///< ... and its wave
+  OwnRtlArguments own;                         ///< without a folder: the reference RTL
+  std::vector<std::string> set;                ///< chip.KEY=VALUE: parameters of the model
+  std::string wave, log, result, tsv;          ///< empty: none
+  bool campaign = false;                       ///< all four host ports in turn, kept in `state`
+  std::string state = "rtl-campaign";          ///< folder
+  bool wave_save = false;
+};
+
+/// Returns the exit code; throws tb::InputError.
+int rtl_random(const RtlRandomArguments& arguments);
+
+}  // namespace dsdpv1::app

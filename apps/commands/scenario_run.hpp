@@ -1,0 +1,37 @@
+#pragma once
+// A run of a scenario from its file to the verdict: of run and traces as it is asked for, of cosim with the user's RTL.
+#include <optional>
+
+#include "apps/options/run_arguments.hpp"
+#include "cosim/lockstep_execution.hpp"
+#include "tb/bench/bench.hpp"
+#include "tb/saved/saved_run.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace dsdpv1::app {
+
+/// Carries it out; returns the exit code. Throws tb::InputError.
+int run(const RunArguments& given);
+
+/// What is to be carried out.
+struct RunRequest {
+  RunArguments arguments;
+  tb::scenario::Scenario scenario;
+  tb::RunOptions options;
+  tb::SavedRun described;                ///< for --save-at
+  std::optional<tb::SavedRun> restored;  ///< of --restore
+};
+
+/// The options but for the wave's. Throws tb::InputError.
+tb::RunOptions options_of(const RunArguments& arguments);
+
+struct LockstepOutcome {
+  int status = 0;  ///< exit code
+  std::optional<cosim::Difference> difference;
+};
+
+/// Model and the RTL that `make` makes side by side.
+LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make,
+                             const cosim::LockstepOptions& lockstep = {});
+
+}  // namespace dsdpv1::app

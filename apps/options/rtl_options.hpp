@@ -1,0 +1,43 @@
+#pragma once
+// Which RTL stands beside the model: the reference RTL of a chip, or RTL of the user's own.
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+#include "cosim/pin_map.hpp"
+#include "cosim/random/play_options.hpp"
+#include "cosim/user_rtl.hpp"
+
+namespace dsdpv1::app {
+
+/// --chip and --mode.
+struct RtlChip {
+  std::string chip = "dsdpv1";    ///< kind of chip
+  std::string mode = "parallel";  ///< host port of the DSDPV1-RSU
+
+  /// Throws tb::InputError for a chip without reference RTL.
+  Part part() const;
+  /// Throws tb::InputError for a port that the chip does not have.
+  HostMode host() const;
+};
+void add_chip_options(CLI::App& app, RtlChip& chip);
+/// --fault: a single one in the reference RTL.
+CLI::Option* add_fault_option(CLI::App& app, unsigned& fault);
+
+struct OwnRtlArguments {
+  std::string rtl, top, pins, build = "build/cosim";
+};
+
+struct OwnRtl {
+  cosim::PinMap map;
+  cosim::MakeUserRtl make;
+};
+
+/// --rtl and what goes with it. `required`: the command is about nothing else.
+void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool required);
+
+/// Reads the map of its pins, the names of the reference RTL when there is none, and builds it, `traced` so that its
+/// inside can be recorded. `command` as "dsdpv1-sim cosim". Throws tb::InputError.
+OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, bool traced);
+
+}  // namespace dsdpv1::app
