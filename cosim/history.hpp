@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cosim/line_history.hpp"
-#include "model/dsdpv1/pins.hpp"
+#include "cosim/rtl.hpp"
 
 namespace dsdpv1::cosim {
 
@@ -18,30 +18,30 @@ const char* name(Side side);
 
 class History {
  public:
-  /// Of the first so many pins.
-  History(int cycles, int pins) : span_(cycles * profibus::kTicksPerCycle), pins_(static_cast<std::size_t>(pins)) {}
+  History(int cycles, const tb::ChipKind& kind)
+      : span_(cycles * bus::kTicksPerCycle), pins_(kind.pins()), line_pin_(kind.board_pins().rxd) {}
 
-  void begin(Side side, Pin pin, Level level) { levels_.at(static_cast<std::size_t>(side)).at(index(pin)) = level; }
-  void add(Tick at, Side side, Pin pin, Level level);
+  void begin(Side side, PinNumber pin, Level level) { levels_.at(static_cast<std::size_t>(side)).at(pin) = level; }
+  void add(Tick at, Side side, PinNumber pin, Level level);
   /// Writes what happened in the last cycles up to `end` to `path` (.vcd, .fst): scopes inputs, model, rtl, one below
   /// the other. Throws tb::InputError.
   void write_wave(const std::string& path, Tick end) const;
-  /// The last telegram on PBRXD; see LineHistory.
+  /// The last telegram that the chip heard; see LineHistory.
   LineTelegram last_telegram(int rate) const { return line_.last_telegram(rate); }
 
  private:
   struct Change {
     Tick at;
     Side side;
-    Pin pin;
+    PinNumber pin;
     Level level;
   };
-  static std::size_t index(Pin pin) { return static_cast<std::size_t>(pin); }
   void forget_before(Tick oldest);
 
   Tick span_;
-  std::size_t pins_;
-  std::array<std::array<Level, dsdpv1::kRsuPinCount>, kSides> levels_{};  ///< before the first change kept
+  const tb::PinTable& pins_;
+  const PinNumber line_pin_;
+  std::array<std::array<Level, kMostPins>, kSides> levels_{};  ///< before the first change kept
   std::deque<Change> changes_;
   LineHistory line_;
 };

@@ -4,9 +4,10 @@
 #include <string>
 
 #include "bus/time.hpp"
-#include "model/dsdpv1/pins.hpp"
 
 namespace dsdpv1::cosim {
+
+using bus::Tick;
 
 /// What a station of the segment sent last, as far as it can be read from the edges of the line.
 struct LineTelegram {

@@ -11,15 +11,10 @@ namespace dsdpv1::cosim {
 namespace {
 
 constexpr int kNoRate = -1;
-constexpr Tick kCycle = profibus::kTicksPerCycle;
-constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: nothing was due, B006 := 01 is all
-constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is on its way
-constexpr unsigned kImageEvery = 256;      // ... the DPRAM is compared all the same from time to time
-constexpr Tick kStartsUp = 3500 * kCycle;  // H6: the start-up access has written every cell
-constexpr Tick kImageGap = 1000 * kCycle;  // with a serial port no pin shows an access: as often as this
+constexpr Tick kCycle = bus::kTicksPerCycle;
 
-std::string text(Pin pin, const std::optional<Level>& level) {
-  return level ? level_text(pin, *level) : "no such change within the tolerance";
+std::string text(const tb::PinInfo& pin, const std::optional<Level>& level) {
+  return level ? level_text(pin.width, *level) : "no such change within the tolerance";
 }
 
 }  // namespace
@@ -35,31 +30,40 @@ std::string describe(const Difference& difference) {
       difference.dpram_accesses);
 }
 
-Lockstep::Lockstep(std::unique_ptr<tb::PinDevice> model, const dsdpv1::Config& config, std::unique_ptr<RtlTop> top,
-                   const LockstepOptions& options)
-    : model_(std::move(model)),
-      part_(config.part),
-      rtl_(std::move(top), config, config.part == Part::kRsu ? TickEnds::kLater : TickEnds::kAtOnce),
+std::string level_text(int width, Level level) {
+  if (level == tb::kLevelZ) return "Z";
+  if (level == tb::kLevelX) return "X";
+  return width == 1 ? fmt::format("{}", level) : fmt::format("{:02X}", level);
+}
+
+Lockstep::Lockstep(std::unique_ptr<tb::PinDevice> model, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
+                   const tb::OwnSettings& chip, const LockstepOptions& options)
+    : kind_(kind),
+      model_(std::move(model)),
+      ends_later_(kind.rtl()->timing(chip).clock != kNoPin),
+      rtl_(std::move(rtl), kind, kind.rtl()->timing(chip), *model_, ends_later_ ? TickEnds::kLater : TickEnds::kAtOnce),
       options_(options),
-      comparator_(options.tolerances),
-      history_(options.history_cycles, dsdpv1::pin_count(config.part)) {
-  for (int i = 0; i < dsdpv1::pin_count(part_); ++i) {
-    const Pin pin = static_cast<Pin>(i);
-    const Level level = model_->level(number(pin));
+      comparator_(kind.pins(), options.tolerances),
+      history_(options.history_cycles, kind),
+      watch_(kind.rtl()->watch_memory()),
+      image_(static_cast<std::size_t>(kind.cells())) {
+  for (PinNumber pin = 0; pin < kind.pins().size(); ++pin) {
+    const Level level = model_->level(pin);
     history_.begin(Side::kInput, pin, level);
     history_.begin(Side::kModel, pin, level);
     history_.begin(Side::kRtl, pin, rtl_.level(pin));
-    if (!dsdpv1::is_input(pin)) comparator_.begin(pin, level, rtl_.level(pin));
+    if (!kind.pins()[pin].input) comparator_.begin(pin, level, rtl_.level(pin));
   }
-  model_->watch({[](void* self, Tick at, tb::PinNumber pin, Level level) {
-                   static_cast<Lockstep*>(self)->model_changed(at, static_cast<Pin>(pin), level);
+  model_->watch({[](void* self, Tick at, PinNumber pin, Level level) {
+                   static_cast<Lockstep*>(self)->model_changed(at, pin, level);
                  },
                  this},
-                dsdpv1::outputs_of(part_));
-  rtl_.watch(
-      {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->rtl_changed(at, pin, level); },
-       this},
-      dsdpv1::outputs_of(part_));
+                tb::outputs_of(kind.pins()));
+  rtl_.watch({[](void* self, Tick at, PinNumber pin, Level level) {
+                static_cast<Lockstep*>(self)->rtl_changed(at, pin, level);
+              },
+              this},
+             tb::outputs_of(kind.pins()));
 }
 
 void Lockstep::watch(const tb::PinSink& sink, tb::PinMask pins) {
@@ -67,50 +71,34 @@ void Lockstep::watch(const tb::PinSink& sink, tb::PinMask pins) {
   watched_ = pins;
 }
 
-void Lockstep::set(Tick at, tb::PinNumber changed, Level level) {
+void Lockstep::set(Tick at, PinNumber pin, Level level) {
   advance(at);
-  if (model_->level(changed) == level) return;
-  const Pin pin = static_cast<Pin>(changed);
+  if (model_->level(pin) == level) return;
   note(at, Side::kInput, pin, level);
-  note_input(at, pin, level);
-  model_->set(at, changed, level);
+  hear(at, pin, level);
+  model_->set(at, pin, level);
   rtl_.set(at, pin, level);
 }
 
-void Lockstep::note(Tick at, Side side, Pin pin, Level level) {
+void Lockstep::note(Tick at, Side side, PinNumber pin, Level level) {
   history_.add(at, side, pin, level);
   if (on_pin_) on_pin_(at, side, pin, level);
 }
 
-void Lockstep::note_input(Tick at, Pin pin, Level level) {
-  watch_.change(at, pin, level);
-  if (part_ == Part::kRsu) note_serial(at, pin);
-  if (pin != Pin::kWr || level == 0) return;
-  user_wrote_ = true;
-  last_write_ = at;
+void Lockstep::hear(Tick at, PinNumber pin, Level level) {
+  watch_->change(at, pin, level);
+  if (const std::optional<Tick> end = watch_->take_end()) ended_ = end;
 }
 
-/// With a serial port the DPRAM is the same in every cycle, so it may be compared at any.
-void Lockstep::note_serial(Tick at, Pin pin) {
-  if (pin == Pin::kReset) {
-    image_at_ = at + kStartsUp;
-    const auto mode = static_cast<HostMode>(model_->level(number(Pin::kMode)));  // R11: at the end of the reset
-    serial_ = mode == HostMode::kSpi || mode == HostMode::kUart;
-  }
-  const bool moves = pin == Pin::kXss || pin == Pin::kRxd || pin == Pin::kTxd || pin == Pin::kPbrts;
-  if (!moves || model_->level(number(Pin::kReset)) == 0 || !serial_ || at < image_at_ + kImageGap) return;
-  ended_ = image_at_ = at;
-}
-
-/// The model is stopped wherever one of its accesses ends, because the RTL's DPRAM can be seen at its present time
+/// The model is stopped wherever one of its accesses ends, because the RTL's memory can be seen at its present time
 /// only.
 void Lockstep::advance(Tick to) {
-  if (part_ == Part::kRsu) look_at_dpram(to);
+  if (ends_later_) look_at_memory(to);
   for (Tick next = model_->next_event(); next <= to && !difference_; next = model_->next_event()) {
     model_->advance(next);
     if (!ended_) continue;
-    if (part_ == Part::kRsu)
-      look_at_dpram(to);
+    if (ends_later_)
+      look_at_memory(to);
     else
       access_ended(*std::exchange(ended_, std::nullopt));
   }
@@ -119,47 +107,39 @@ void Lockstep::advance(Tick to) {
   settle(to);
 }
 
-/// Of the DSDPV1-RSU, whose ticks are evaluated when they are over.
-void Lockstep::look_at_dpram(Tick to) {
+/// Where ticks are evaluated when they are over.
+void Lockstep::look_at_memory(Tick to) {
   if (ended_ && *ended_ < to && !difference_) access_ended(*std::exchange(ended_, std::nullopt));
 }
 
-void Lockstep::model_changed(Tick at, Pin pin, Level level) {
+void Lockstep::model_changed(Tick at, PinNumber pin, Level level) {
   note(at, Side::kModel, pin, level);
   if (!difference_) comparator_.model_changed(at, pin, level);
-  watch_.change(at, pin, level);
-  if (pin == Pin::kLReq && level == 0 && model_->level(number(Pin::kReset)) != 0) ended_ = at;
-  if (part_ == Part::kRsu) note_serial(at, pin);
-  if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, number(pin), level);
+  hear(at, pin, level);
+  if (sink_.call != nullptr && (watched_ & tb::mask_of(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 
-void Lockstep::rtl_changed(Tick at, Pin pin, Level level) {
+void Lockstep::rtl_changed(Tick at, PinNumber pin, Level level) {
   note(at, Side::kRtl, pin, level);
   if (!difference_) comparator_.rtl_changed(at, pin, level);
 }
 
 void Lockstep::access_ended(Tick at) {
-  if (!dpram_may_have_changed(at)) return;
-  rtl_.advance(part_ == Part::kRsu ? at + 1 : at);
+  if (!watch_->worth_a_look(at) || !options_.compare_dpram) return;
+  rtl_.advance(ends_later_ ? at + 1 : at);
   settle(at);
-  if (!difference_) compare_dpram(at);
+  if (!difference_) compare_memory(at);
 }
 
-bool Lockstep::dpram_may_have_changed(Tick at) {
-  const bool chip_wrote = at - watch_.chip_access_start() > kShortAccess;
-  return (chip_wrote || user_wrote_ || ++accesses_ % kImageEvery == 0) && options_.compare_dpram;
-}
-
-void Lockstep::compare_dpram(Tick at) {
-  DpramImage image;
-  if (!rtl_.top().dpram(image)) return;
-  user_wrote_ = last_write_ > at - kSettles;
+void Lockstep::compare_memory(Tick at) {
+  if (!rtl_.rtl().memory(image_.data())) return;
+  watch_->compared(at);
   ++counts_.dpram_images;
-  for (std::size_t i = 0; i < image.size(); ++i) {
+  for (std::size_t i = 0; i < image_.size(); ++i) {
     const auto address = static_cast<std::uint16_t>(i);
     const std::uint8_t model = model_->peek(address);
-    if (model == image[i]) continue;
-    return found(at, fmt::format("DPRAM B{:03X}: model {:02X}, RTL {:02X}", address, model, image[i]));
+    if (model == image_[i]) continue;
+    return found(at, fmt::format("DPRAM B{:03X}: model {:02X}, RTL {:02X}", address, model, image_[i]));
   }
 }
 
@@ -169,8 +149,8 @@ void Lockstep::settle(Tick horizon) {
   compared_to_ = horizon;
   if (!pin) return;
   compared_to_ = pin->at;
-  found(pin->at, fmt::format("pin {}: model {}, RTL {}", dsdpv1::name(pin->pin), text(pin->pin, pin->model),
-                             text(pin->pin, pin->rtl)));
+  const tb::PinInfo& info = kind_.pins()[pin->pin];
+  found(pin->at, fmt::format("pin {}: model {}, RTL {}", info.name, text(info, pin->model), text(info, pin->rtl)));
 }
 
 void Lockstep::found(Tick at, std::string what) {
@@ -178,7 +158,7 @@ void Lockstep::found(Tick at, std::string what) {
   difference_ = Difference{
       at, std::move(what),
       telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, tb::cycle_text(telegram.start)),
-      watch_.user_text(), watch_.chip_text()};
+      watch_->last_of_user(), watch_->last_of_chip()};
 }
 
 const MatchCounts& Lockstep::counts() const {

@@ -1,18 +1,16 @@
 #pragma once
-// Model and RTL side by side on the same inputs: every change of every output pin is compared, and the DPRAM at the end
-// of each access that can have changed it. Whoever drives the chip sees the model's outputs.
+// Model and RTL side by side on the same inputs: every change of every output pin is compared, and the memory that chip
+// and user share at the end of each access that can have changed it. Whoever drives the chip sees the model's outputs.
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cosim/history.hpp"
 #include "cosim/pin_comparator.hpp"
 #include "cosim/rtl_chip.hpp"
-#include "kinds/dsdpv1/random/access_watch.hpp"
-#include "model/dsdpv1/config.hpp"
-#include "tb/chip/pin_device.hpp"
 
 namespace dsdpv1::cosim {
 
@@ -20,12 +18,6 @@ struct LockstepOptions {
   Tolerances tolerances{};
   bool compare_dpram = true;  ///< as far as the RTL lets it be seen
   int history_cycles = 5000;  ///< that the wave of a difference shows
-};
-
-struct DpramDifference {
-  Tick at = 0;
-  std::uint16_t address = 0;
-  std::uint8_t model = 0, rtl = 0;
 };
 
 /// The first difference in words, one thing a line.
@@ -36,6 +28,9 @@ struct Difference {
   std::string last_access;     ///< of the user
   std::string dpram_accesses;  ///< the chip's last one
 };
+
+/// A level in words: "1", "3F", "Z", "X".
+std::string level_text(int width, Level level);
 
 /// All of it as text: cycle, time, what, last telegram and access.
 std::string describe(const Difference& difference);
@@ -54,16 +49,16 @@ struct MatchCounts {
 
 class Lockstep : public tb::PinDevice {
  public:
-  /// `model` with the parameters of `config`.
-  Lockstep(std::unique_ptr<tb::PinDevice> model, const dsdpv1::Config& config, std::unique_ptr<RtlTop> top,
-           const LockstepOptions& options = {});
+  /// `model`, fresh from ChipKind::make_device, and `rtl` with these parameters. Of a kind that has an RtlOf.
+  Lockstep(std::unique_ptr<tb::PinDevice> model, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
+           const tb::OwnSettings& chip, const LockstepOptions& options = {});
 
   // Outputs, events and what no pin shows are the model's.
-  void set(Tick at, tb::PinNumber pin, Level level) override;
+  void set(Tick at, PinNumber pin, Level level) override;
   void advance(Tick to) override;
   Tick now() const override { return model_->now(); }
   Tick next_event() const override { return model_->next_event(); }
-  Level level(tb::PinNumber pin) const override { return model_->level(pin); }
+  Level level(PinNumber pin) const override { return model_->level(pin); }
   Level sample(Tick at) override {
     advance(at);
     return model_->sample(at);
@@ -78,7 +73,7 @@ class Lockstep : public tb::PinDevice {
   const char* works_on() const override { return model_->works_on(); }
 
   /// Told each change at the pins of all sides: of each side in order of time, the sides in turns.
-  using PinListener = std::function<void(Tick at, Side side, Pin pin, Level level)>;
+  using PinListener = std::function<void(Tick at, Side side, PinNumber pin, Level level)>;
   void on_pin(PinListener listener) { on_pin_ = std::move(listener); }
 
   /// The first difference; nothing is compared after it.
@@ -89,34 +84,29 @@ class Lockstep : public tb::PinDevice {
   void write_wave(const std::string& path);
 
  private:
-  void model_changed(Tick at, Pin pin, Level level);
-  void rtl_changed(Tick at, Pin pin, Level level);
-  void note(Tick at, Side side, Pin pin, Level level);
-  void note_input(Tick at, Pin pin, Level level);
-  void note_serial(Tick at, Pin pin);
-  void look_at_dpram(Tick to);
+  void model_changed(Tick at, PinNumber pin, Level level);
+  void rtl_changed(Tick at, PinNumber pin, Level level);
+  void note(Tick at, Side side, PinNumber pin, Level level);
+  void hear(Tick at, PinNumber pin, Level level);
+  void look_at_memory(Tick to);
   void access_ended(Tick at);
-  bool dpram_may_have_changed(Tick at);
-  void compare_dpram(Tick at);
+  void compare_memory(Tick at);
   void settle(Tick horizon);
   void found(Tick at, std::string what);
 
+  const tb::ChipKind& kind_;
   std::unique_ptr<tb::PinDevice> model_;
-  const dsdpv1::Part part_;
+  const bool ends_later_;  ///< TickEnds::kLater
   RtlChip rtl_;
   LockstepOptions options_;
   PinComparator comparator_;
   History history_;
+  std::unique_ptr<MemoryWatch> watch_;
+  std::vector<std::uint8_t> image_;  ///< of the RTL's memory
   tb::PinSink sink_;
   PinListener on_pin_;
-  std::uint32_t watched_ = 0;
-  AccessWatch watch_;
-  Tick last_write_ = -1;
-  std::optional<Tick> ended_;  ///< an access of the model has ended, the DPRAM is not compared yet
-  Tick image_at_ = 0;          ///< with a serial port
-  bool serial_ = false;        ///< the port that is live
-  bool user_wrote_ = true;     ///< since the DPRAM was compared
-  unsigned accesses_ = 0;
+  tb::PinMask watched_ = 0;
+  std::optional<Tick> ended_;  ///< an access of the model has ended, the memory is not compared yet
   std::optional<Difference> difference_;
   mutable MatchCounts counts_;
   Tick compared_to_ = 0;

@@ -4,23 +4,21 @@
 
 #include <algorithm>
 
-#include "cosim/reference_rtl.hpp"
 #include "cosim/rtl_device.hpp"
 #include "io/input/input_error.hpp"
-#include "kinds/dsdpv1/keys/settings.hpp"
-#include "kinds/dsdpv1/kind.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
 
-/// The parameters of the chip; other kinds than the DSDPV1, the DSDPV1-R, which is the same, and the DSDPV1-RSU have no
-/// RTL here.
-dsdpv1::Config config_with_rtl(const tb::ChipKind& kind, const tb::ChipRequest& request) {
-  if (!tb::is_dsdpv1(kind) && &kind != &tb::dsdpv1_rsu_kind())
-    throw tb::InputError(
-        fmt::format("--engine rtl and lockstep are for chips of the kinds {}, {} and {}, the scenario has {}",
-                    tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), tb::dsdpv1_rsu_kind().name(), kind.name()));
-  return tb::config_of(request);
+/// Throws for a kind that has no RTL.
+const RtlOf& rtl_of(const tb::ChipKind& kind) {
+  if (kind.rtl() != nullptr) return *kind.rtl();
+  std::vector<std::string> with_rtl;
+  for (const tb::ChipKind* each : tb::chip_kinds())
+    if (each->rtl() != nullptr) with_rtl.emplace_back(each->name());
+  throw tb::InputError(fmt::format("--engine rtl and lockstep are for chips of the kinds {}, the scenario has {}",
+                                   tb::join(with_rtl), kind.name()));
 }
 
 class RtlExecution : public tb::Execution {
@@ -28,9 +26,10 @@ class RtlExecution : public tb::Execution {
   explicit RtlExecution(MakeRtl make) : make_(std::move(make)) {}
 
   std::unique_ptr<tb::ChipView> make_chip(const tb::ChipKind& kind, const tb::ChipRequest& request) override {
-    const dsdpv1::Config config = config_with_rtl(kind, request);
+    const RtlTiming timing = rtl_of(kind).timing(request.settings);
+    std::unique_ptr<Rtl> rtl = make_(request.name, kind, request.settings);
     return add_chip(kind, request,
-                    std::make_unique<RtlDevice>(kind.make_device(request), config, make_(request.name, config)));
+                    std::make_unique<RtlDevice>(kind.make_device(request), std::move(rtl), kind, timing));
   }
   void run(tb::Tick end, const std::function<bool()>& stopped) override {
     while (!stopped() && timeline_.step(end)) {
@@ -43,20 +42,14 @@ class RtlExecution : public tb::Execution {
 
 }  // namespace
 
-MakeRtl reference_rtl(unsigned fault, std::uint32_t seed) {
-  if (fault == 0)
-    return [seed](const std::string&, const dsdpv1::Config& config) { return make_reference_rtl(config, seed); };
-  return
-      [fault, seed](const std::string&, const dsdpv1::Config& config) { return make_faulty_rtl(config, fault, seed); };
-}
-
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
   return std::make_unique<RtlExecution>(std::move(make));
 }
 
 std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const tb::ChipKind& kind, const tb::ChipRequest& request) {
-  const dsdpv1::Config config = config_with_rtl(kind, request);
-  auto device = std::make_unique<Lockstep>(kind.make_device(request), config, make_(request.name, config), options_);
+  rtl_of(kind);
+  std::unique_ptr<Rtl> rtl = make_(request.name, kind, request.settings);
+  auto device = std::make_unique<Lockstep>(kind.make_device(request), std::move(rtl), kind, request.settings, options_);
   chips_.push_back({request.name, device.get()});
   return add_chip(kind, request, std::move(device));
 }

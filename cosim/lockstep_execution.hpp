@@ -1,6 +1,5 @@
 #pragma once
 // --engine rtl and --engine lockstep: scenarios on RTL.
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,15 +10,6 @@
 #include "tb/bench/record.hpp"
 
 namespace dsdpv1::cosim {
-
-/// Makes the RTL of the chip with this name and these parameters; may throw tb::InputError.
-using MakeRtl = std::function<std::unique_ptr<RtlTop>(const std::string& name, const dsdpv1::Config& config)>;
-
-constexpr std::uint32_t kUsualSeed = 1;
-
-/// The reference RTL of rtl_ref/, with the single fault `fault` of its faults.txt unless it is 0; what is not reset in
-/// it begins with values that depend on `seed`.
-MakeRtl reference_rtl(unsigned fault = 0, std::uint32_t seed = kUsualSeed);
 
 /// The RTL drives the pins. A core beside it, on the same inputs, tells states and events, which pins do not show.
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make);

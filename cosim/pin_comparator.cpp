@@ -3,20 +3,18 @@
 #include <algorithm>
 
 namespace dsdpv1::cosim {
-namespace {
 
-constexpr int kFirstOutput = static_cast<int>(Pin::kLReq);
-
-bool matches(Pin pin, Level model, Level rtl) {
-  return model == rtl || (pin == Pin::kDOut && model == dsdpv1::kLevelX);
+tb::PinMask PinComparator::data_of(const tb::PinTable& pins) {
+  tb::PinMask mask = 0;
+  for (PinNumber pin = 0; pin < pins.size(); ++pin)
+    if (!pins[pin].input && pins[pin].bus != nullptr) mask |= tb::mask_of(pin);
+  return mask;
 }
 
-}  // namespace
-
-void PinComparator::begin(Pin pin, Level model, Level rtl) {
-  state(pin).model = model;
-  state(pin).rtl = rtl;
-  touched_ |= dsdpv1::mask(pin);
+void PinComparator::begin(PinNumber pin, Level model, Level rtl) {
+  states_.at(pin).model = model;
+  states_.at(pin).rtl = rtl;
+  touched_ |= tb::mask_of(pin);
 }
 
 std::optional<PinDifference> PinComparator::settle(Tick horizon) {
@@ -41,39 +39,38 @@ std::optional<PinDifference> PinComparator::settle(Tick horizon) {
 void PinComparator::take(Tick at) {
   for (; model_next_ < model_.size() && model_[model_next_].at == at; ++model_next_) {
     const Change& change = model_[model_next_];
-    state(change.pin).model = change.level;
-    state(change.pin).model_touched = true;
-    touched_ |= dsdpv1::mask(change.pin);
+    states_.at(change.pin).model = change.level;
+    states_.at(change.pin).model_touched = true;
+    touched_ |= tb::mask_of(change.pin);
   }
   for (; rtl_next_ < rtl_.size() && rtl_[rtl_next_].at == at; ++rtl_next_) {
     const Change& change = rtl_[rtl_next_];
-    state(change.pin).rtl = change.level;
-    state(change.pin).rtl_touched = true;
-    touched_ |= dsdpv1::mask(change.pin);
+    states_.at(change.pin).rtl = change.level;
+    states_.at(change.pin).rtl_touched = true;
+    touched_ |= tb::mask_of(change.pin);
   }
 }
 
 std::optional<PinDifference> PinComparator::compare(Tick at) {
   std::optional<PinDifference> found;
-  for (int i = kFirstOutput; i < dsdpv1::kRsuPinCount && touched_ != 0 && !found; ++i) {
-    const Pin pin = static_cast<Pin>(i);
-    if ((touched_ & dsdpv1::mask(pin)) == 0) continue;
-    touched_ &= ~dsdpv1::mask(pin);
+  for (PinNumber pin = 0; pin < kMostPins && touched_ != 0 && !found; ++pin) {
+    if ((touched_ & tb::mask_of(pin)) == 0) continue;
+    touched_ &= ~tb::mask_of(pin);
     found = tolerance(pin) == 0 ? compare_exact(at, pin) : compare_tolerant(at, pin);
   }
   return found;
 }
 
-std::optional<PinDifference> PinComparator::compare_exact(Tick at, Pin pin) {
-  State& now = state(pin);
+std::optional<PinDifference> PinComparator::compare_exact(Tick at, PinNumber pin) {
+  State& now = states_.at(pin);
   if (!matches(pin, now.model, now.rtl)) return PinDifference{at, pin, now.model, now.rtl};
-  if (now.model_touched && now.model != dsdpv1::kLevelX) ++matched_;
+  if (now.model_touched && now.model != tb::kLevelX) ++matched_;
   now.model_touched = now.rtl_touched = false;
   return std::nullopt;
 }
 
-std::optional<PinDifference> PinComparator::compare_tolerant(Tick at, Pin pin) {
-  State& now = state(pin);
+std::optional<PinDifference> PinComparator::compare_tolerant(Tick at, PinNumber pin) {
+  State& now = states_.at(pin);
   if (!now.model_touched && !now.rtl_touched) return compare_exact(at, pin);  // the levels at the beginning
   if (now.model_touched) now.model_ahead.push_back({at, now.model});
   if (now.rtl_touched) now.rtl_ahead.push_back({at, now.rtl});
@@ -89,11 +86,9 @@ std::optional<PinDifference> PinComparator::compare_tolerant(Tick at, Pin pin) {
   return std::nullopt;
 }
 
-/// Pins beside those of table 1 have no tolerance.
 std::optional<PinDifference> PinComparator::overdue(Tick horizon) {
-  for (int i = kFirstOutput; i < dsdpv1::kPinCount; ++i) {
-    const Pin pin = static_cast<Pin>(i);
-    const State& now = state(pin);
+  for (PinNumber pin = 0; pin < kMostPins; ++pin) {
+    const State& now = states_.at(pin);
     const Tick oldest = horizon - tolerance(pin) - 1;
     if (!now.model_ahead.empty() && now.model_ahead.front().at < oldest)
       return PinDifference{now.model_ahead.front().at, pin, now.model_ahead.front().level, std::nullopt};

@@ -2,36 +2,37 @@
 // Compares the pin changes of two chips that get the same inputs.
 //
 // A pin without tolerance must have the same level on both sides at every tick. A pin with a tolerance must make the
-// same changes in the same order, each within so many cycles of the other side's. D as the model drives it may be X,
-// which anything matches (P5).
+// same changes in the same order, each within so many cycles of the other side's. Data as the model drives them may be
+// X, which anything matches (P5).
 #include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
 
-#include "model/dsdpv1/pins.hpp"
+#include "cosim/rtl.hpp"
 
 namespace dsdpv1::cosim {
 
 /// The first difference; a level that did not come within the tolerance is `nullopt`.
 struct PinDifference {
   Tick at = 0;
-  Pin pin{};
+  PinNumber pin = 0;
   std::optional<Level> model, rtl;
 };
 
 /// Cycles by which a pin of the RTL may be earlier or later, by pin; 0: exactly.
-using Tolerances = std::array<int, dsdpv1::kRsuPinCount>;
+using Tolerances = std::array<int, kMostPins>;
 
 class PinComparator {
  public:
-  explicit PinComparator(const Tolerances& tolerances = {}) : tolerances_(tolerances) {}
+  explicit PinComparator(const tb::PinTable& pins, const Tolerances& tolerances = {})
+      : data_(data_of(pins)), tolerances_(tolerances) {}
 
   /// The levels at the beginning; without a call 0.
-  void begin(Pin pin, Level model, Level rtl);
-  void model_changed(Tick at, Pin pin, Level level) { model_.push_back({at, pin, level}); }
-  void rtl_changed(Tick at, Pin pin, Level level) { rtl_.push_back({at, pin, level}); }
+  void begin(PinNumber pin, Level model, Level rtl);
+  void model_changed(Tick at, PinNumber pin, Level level) { model_.push_back({at, pin, level}); }
+  void rtl_changed(Tick at, PinNumber pin, Level level) { rtl_.push_back({at, pin, level}); }
 
   /// Compares everything before `horizon`, which both sides have reached. The first difference, and from then on
   /// nothing more.
@@ -42,7 +43,7 @@ class PinComparator {
  private:
   struct Change {
     Tick at;
-    Pin pin;
+    PinNumber pin;
     Level level;
   };
   struct Late {
@@ -54,17 +55,20 @@ class PinComparator {
     bool model_touched = false, rtl_touched = false;
     std::deque<Late> model_ahead, rtl_ahead;  ///< tolerant pins: changes that the other side has not made yet
   };
-  Tick tolerance(Pin pin) const { return tolerances_.at(index(pin)) * profibus::kTicksPerCycle; }
-  static std::size_t index(Pin pin) { return static_cast<std::size_t>(pin); }
-  State& state(Pin pin) { return states_.at(index(pin)); }
+  static tb::PinMask data_of(const tb::PinTable& pins);
+  Tick tolerance(PinNumber pin) const { return tolerances_.at(pin) * bus::kTicksPerCycle; }
+  bool matches(PinNumber pin, Level model, Level rtl) const {
+    return model == rtl || (model == tb::kLevelX && (data_ & tb::mask_of(pin)) != 0);
+  }
   void take(Tick at);
   std::optional<PinDifference> compare(Tick at);
-  std::optional<PinDifference> compare_exact(Tick at, Pin pin);
-  std::optional<PinDifference> compare_tolerant(Tick at, Pin pin);
+  std::optional<PinDifference> compare_exact(Tick at, PinNumber pin);
+  std::optional<PinDifference> compare_tolerant(Tick at, PinNumber pin);
   std::optional<PinDifference> overdue(Tick horizon);
 
-  Tolerances tolerances_;
-  std::array<State, dsdpv1::kRsuPinCount> states_;
+  const tb::PinMask data_;  ///< outputs on a bus
+  const Tolerances tolerances_;
+  std::array<State, kMostPins> states_;
   std::vector<Change> model_, rtl_;
   std::size_t model_next_ = 0, rtl_next_ = 0;
   std::uint32_t touched_ = 0;

@@ -16,7 +16,8 @@ constexpr int kLargestTolerance = 1000;
 
 class Reader {
  public:
-  explicit Reader(std::string path) : path_(std::move(path)), map_(default_pin_map()) {}
+  Reader(std::string path, const tb::PinTable& pins)
+      : path_(std::move(path)), pins_(pins), map_(default_pin_map(pins)) {}
 
   PinMap read(const std::string& content) {
     const YAML::Node root = load(content);
@@ -86,14 +87,11 @@ class Reader {
   }
   void tolerance(const YAML::Node& name, const YAML::Node& node) {
     std::vector<std::string> outputs;
-    for (int i = 0; i < dsdpv1::kPinCount; ++i) {
-      const Pin pin = static_cast<Pin>(i);
-      if (!dsdpv1::is_input(pin) && pin != Pin::kDOut) outputs.emplace_back(dsdpv1::name(pin));
-    }
+    for (const tb::PinInfo& pin : pins_)
+      if (!pin.input && pin.bus == nullptr) outputs.emplace_back(pin.name);
     check_name(name, outputs);
-    for (int i = 0; i < dsdpv1::kPinCount; ++i)
-      if (text(name) == dsdpv1::name(static_cast<Pin>(i)))
-        map_.tolerances.at(static_cast<std::size_t>(i)) = cycles(node);
+    for (std::size_t i = 0; i < pins_.size(); ++i)
+      if (text(name) == pins_[i].name) map_.tolerances.at(i) = cycles(node);
   }
   int cycles(const YAML::Node& node) const {
     int value = -1;
@@ -103,29 +101,37 @@ class Reader {
   }
 
   std::string path_;
+  const tb::PinTable& pins_;
   PinMap map_;
 };
 
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 }  // namespace
 
-PinMap default_pin_map() {
+std::string enable_of(const tb::PinInfo& pin) {
+  return pin.released ? std::string(pin.bus != nullptr ? pin.bus : pin.name) + "_OE" : "";
+}
+
+PinMap default_pin_map(const tb::PinTable& pins) {
   PinMap map;
   map.clock = {"clk_i", false};
-  for (int i = 0; i < dsdpv1::kPinCount; ++i) {
-    const Pin pin = static_cast<Pin>(i);
-    if (pin == Pin::kDIn || pin == Pin::kDOut) continue;
-    std::string port = dsdpv1::name(pin);
-    for (char& c : port) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    map.pins[dsdpv1::name(pin)] = {port + (dsdpv1::is_input(pin) ? "_i" : "_o"), false};
+  for (const tb::PinInfo& pin : pins) {
+    map.pins[pin.name] = {lower(pin.bus != nullptr ? pin.bus : pin.name) + (pin.input ? "_i" : "_o"), false};
+    if (pin.released) map.pins[enable_of(pin)] = {lower(enable_of(pin)) + "_o", false};
   }
-  map.pins["D_IN"] = {"d_i", false};
-  map.pins["D_OUT"] = {"d_o", false};
-  map.pins["D_OE"] = {"d_oe_o", false};
   return map;
 }
 
-PinMap load_pin_map(const std::string& path) { return parse_pin_map(tb::read_file(path, tb::kPinMapFile), path); }
+PinMap load_pin_map(const std::string& path, const tb::PinTable& pins) {
+  return parse_pin_map(tb::read_file(path, tb::kPinMapFile), path, pins);
+}
 
-PinMap parse_pin_map(const std::string& text, const std::string& path) { return Reader(path).read(text); }
+PinMap parse_pin_map(const std::string& text, const std::string& path, const tb::PinTable& pins) {
+  return Reader(path, pins).read(text);
+}
 
 }  // namespace dsdpv1::cosim

@@ -15,9 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Layout = std::uint32_t (*)();
-using Make = RtlTop* (*)(const RtlLimits* limits, std::uint32_t fault, std::uint32_t seed);
-
 [[noreturn]] void fail(const std::string& what) {
   throw tb::InputError(what +
                        ", allowed is a complete build: ./run build (Verilator 5.006 or later), without it the engines "
@@ -35,48 +32,77 @@ fs::path find(const std::string& name) {
 }
 
 template <class Function>
-Function symbol(void* library, const char* name) {
-  return reinterpret_cast<Function>(dlsym(library, name));  // the way POSIX gives for functions
+Function symbol(void* library, const std::string& name) {
+  return reinterpret_cast<Function>(
+      dlsym(library, ("dsdpv1_rtl_" + name).c_str()));  // the way POSIX gives for functions
 }
 
-/// Stays loaded to the end of the program: designs may live as long.
-Make load(const std::string& name) {
+class Design : public Rtl {
+ public:
+  Design(const RtlLibrary& library, const RtlStart& start) : library_(library), design_(library.create(&start)) {}
+  ~Design() override { library_.destroy(design_); }
+  Design(const Design&) = delete;
+  Design& operator=(const Design&) = delete;
+
+  void eval(bool clk, Level* levels) override { library_.eval(design_, clk, levels); }
+  bool memory(std::uint8_t* image) const override {
+    if (library_.memory == nullptr) return false;
+    library_.memory(design_, image);
+    return true;
+  }
+
+ private:
+  const RtlLibrary library_;
+  void* design_;
+};
+
+RtlLibrary load_reference(const std::string& name) {
   const fs::path path = find(name);
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) fail(std::string("the reference RTL cannot be loaded: ") + dlerror());
-  const auto layout = symbol<Layout>(library, "dsdpv1_rtl_layout");
+  std::string why_not;
+  const RtlLibrary library = load_library(path, why_not);
+  if (!why_not.empty()) fail("the reference RTL cannot be loaded: " + why_not);
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD);
+  const auto layout = symbol<std::uint32_t (*)()>(handle, "layout");
   if (layout == nullptr || layout() != DSDPV1_RTL_LAYOUT)
     fail(path.string() + " is of another build than this program");
-  return symbol<Make>(library, "dsdpv1_rtl_make");
-}
-
-/// Of the part's RTL; `kind` is empty or "_faults".
-Make make_of(const dsdpv1::Config& config, const char* kind) {
-  static std::mutex mutex;
-  static std::map<std::string, Make> loaded;
-  const std::scoped_lock lock(mutex);
-  const std::string name = fmt::format("lib{}_rtl{}.so", config.part == Part::kRsu ? "dsdpv1_rsu" : "dsdpv1", kind);
-  const auto found = loaded.find(name);
-  return found != loaded.end() ? found->second : loaded.emplace(name, load(name)).first->second;
-}
-
-RtlLimits limits(const dsdpv1::Config& config) {
-  return {config.access_interval, config.ready_cycles,  config.rts_lead,         config.rts_trail,
-          config.intr_low,        config.intr_gap,      config.search_window_ms, config.search_window_bits,
-          config.baud_control_ms, config.spi_reply_gap, config.spi_write_gap,    config.serial_block_crc,
-          config.u_timer,         config.uart_min_tsdr, config.uart_cfg_length,  config.uart_gaps};
+  return library;
 }
 
 }  // namespace
 
-std::unique_ptr<RtlTop> make_reference_rtl(const dsdpv1::Config& config, std::uint32_t seed) {
-  const RtlLimits parameters = limits(config);
-  return std::unique_ptr<RtlTop>(make_of(config, "")(&parameters, 0, seed));
+RtlLibrary load_library(const std::string& path, std::string& why_not) {
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) {
+    why_not = dlerror();
+    return {};
+  }
+  RtlLibrary library;
+  library.create = symbol<decltype(library.create)>(handle, "create");
+  library.destroy = symbol<decltype(library.destroy)>(handle, "destroy");
+  library.eval = symbol<decltype(library.eval)>(handle, "eval");
+  library.memory = symbol<decltype(library.memory)>(handle, "memory");
+  library.trace = symbol<decltype(library.trace)>(handle, "trace");
+  library.dump = symbol<decltype(library.dump)>(handle, "dump");
+  return library;
 }
 
-std::unique_ptr<RtlTop> make_faulty_rtl(const dsdpv1::Config& config, unsigned fault, std::uint32_t seed) {
-  const RtlLimits parameters = limits(config);
-  return std::unique_ptr<RtlTop>(make_of(config, "_faults")(&parameters, fault, seed));
+RtlLibrary reference_library(const std::string& top, bool with_faults) {
+  static std::mutex mutex;
+  static std::map<std::string, RtlLibrary> loaded;
+  const std::scoped_lock lock(mutex);
+  const std::string name = fmt::format("lib{}_rtl{}.so", top, with_faults ? "_faults" : "");
+  const auto found = loaded.find(name);
+  return found != loaded.end() ? found->second : loaded.emplace(name, load_reference(name)).first->second;
+}
+
+std::unique_ptr<Rtl> make_design(const RtlLibrary& library, const RtlStart& start) {
+  return std::make_unique<Design>(library, start);
+}
+
+MakeRtl reference_rtl(unsigned fault, std::uint32_t seed) {
+  return [fault, seed](const std::string&, const tb::ChipKind& kind, const tb::OwnSettings& chip) {
+    return kind.rtl()->make_reference(chip, fault, seed);
+  };
 }
 
 }  // namespace dsdpv1::cosim

@@ -5,18 +5,25 @@
 
 namespace dsdpv1::cosim {
 
-RtlDevice::RtlDevice(std::unique_ptr<tb::PinDevice> core, const dsdpv1::Config& config, std::unique_ptr<RtlTop> top)
-    : core_(std::move(core)), rtl_(std::move(top), config) {
-  core_->watch({[](void* self, Tick at, tb::PinNumber pin, Level level) {
-                  static_cast<RtlDevice*>(self)->core_changes_.push_back({at, static_cast<Pin>(pin), level});
+PinNumber data_output(const tb::PinTable& pins) {
+  for (PinNumber pin = 0; pin < pins.size(); ++pin)
+    if (!pins[pin].input && pins[pin].bus != nullptr) return pin;
+  return kNoPin;
+}
+
+RtlDevice::RtlDevice(std::unique_ptr<tb::PinDevice> core, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
+                     const RtlTiming& timing)
+    : core_(std::move(core)), rtl_(std::move(rtl), kind, timing, *core_), data_(data_output(kind.pins())) {
+  core_->watch({[](void* self, Tick at, PinNumber pin, Level level) {
+                  static_cast<RtlDevice*>(self)->core_changes_.push_back({at, pin, level});
                 },
                 this},
-               dsdpv1::mask(Pin::kDOut));
-  rtl_.watch({[](void* self, Tick at, Pin pin, Level level) {
+               data_ == kNoPin ? 0 : tb::mask_of(data_));
+  rtl_.watch({[](void* self, Tick at, PinNumber pin, Level level) {
                 static_cast<RtlDevice*>(self)->rtl_changes_.push_back({at, pin, level});
               },
               this},
-             dsdpv1::outputs_of(config.part));
+             tb::outputs_of(kind.pins()));
 }
 
 void RtlDevice::watch(const tb::PinSink& sink, tb::PinMask pins) {
@@ -24,10 +31,10 @@ void RtlDevice::watch(const tb::PinSink& sink, tb::PinMask pins) {
   watched_ = pins;
 }
 
-void RtlDevice::set(Tick at, tb::PinNumber pin, Level level) {
+void RtlDevice::set(Tick at, PinNumber pin, Level level) {
   advance(at);
   core_->set(at, pin, level);
-  rtl_.set(at, static_cast<Pin>(pin), level);
+  rtl_.set(at, pin, level);
   pass_on();
 }
 
@@ -40,7 +47,7 @@ void RtlDevice::advance(Tick to) {
 /// The RTL does not know when the user looks: before Tw (P5) the core beside it says that D is unknown.
 Level RtlDevice::sample(Tick at) {
   advance(at);
-  return core_->sample(at) == dsdpv1::kLevelX ? dsdpv1::kLevelX : d_;
+  return core_->sample(at) == tb::kLevelX ? tb::kLevelX : d_;
 }
 
 /// Both sides have told their changes in order of time, one side after the other.
@@ -60,18 +67,18 @@ void RtlDevice::pass_on_tick(Tick at) {
     core_d_ = core_changes_[core_next_].level;
   for (; rtl_next_ < rtl_changes_.size() && rtl_changes_[rtl_next_].at == at; ++rtl_next_) {
     const Change& change = rtl_changes_[rtl_next_];
-    if (change.pin == Pin::kDOut)
+    if (change.pin == data_)
       rtl_d_ = change.level;
     else
       tell(at, change.pin, change.level);
   }
-  const bool unknown = core_d_ == dsdpv1::kLevelX && rtl_d_ != dsdpv1::kLevelZ;
-  const Level d = unknown ? dsdpv1::kLevelX : rtl_d_;
-  if (std::exchange(d_, d) != d) tell(at, Pin::kDOut, d);
+  const bool unknown = core_d_ == tb::kLevelX && rtl_d_ != tb::kLevelZ;
+  const Level d = unknown ? tb::kLevelX : rtl_d_;
+  if (std::exchange(d_, d) != d) tell(at, data_, d);
 }
 
-void RtlDevice::tell(Tick at, Pin pin, Level level) {
-  if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, number(pin), level);
+void RtlDevice::tell(Tick at, PinNumber pin, Level level) {
+  if (sink_.call != nullptr && (watched_ & tb::mask_of(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 
 }  // namespace dsdpv1::cosim

@@ -1,27 +1,25 @@
 #pragma once
 // RTL as the chip of a bench: the RTL drives the pins. A core beside it, on the same inputs, tells what pins do not
-// show: states and events, and when D is X. A two-state simulation has no X: where P5 and section 12 of the
+// show: states and events, and when data are X. A two-state simulation has no X: where P5 and section 12 of the
 // microarchitecture leave D unknown the RTL drives some value, and the bench must not see a value there.
 #include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "cosim/rtl_chip.hpp"
-#include "tb/chip/pin_device.hpp"
 
 namespace dsdpv1::cosim {
 
 class RtlDevice : public tb::PinDevice {
  public:
-  /// `core` with the parameters of `config`.
-  RtlDevice(std::unique_ptr<tb::PinDevice> core, const dsdpv1::Config& config, std::unique_ptr<RtlTop> top);
+  /// `core`, before its first call, and `rtl` with the parameters that `timing` is of.
+  RtlDevice(std::unique_ptr<tb::PinDevice> core, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
+            const RtlTiming& timing);
 
-  void set(Tick at, tb::PinNumber pin, Level level) override;
+  void set(Tick at, PinNumber pin, Level level) override;
   void advance(Tick to) override;
   Tick now() const override { return rtl_.now(); }
-  Level level(tb::PinNumber pin) const override {
-    return pin == number(Pin::kDOut) ? d_ : rtl_.level(static_cast<Pin>(pin));
-  }
+  Level level(PinNumber pin) const override { return pin == data_ ? d_ : rtl_.level(pin); }
   Level sample(Tick at) override;
   Tick next_event() const override { return std::min(rtl_.next_event(), core_->next_event()); }
   void watch(const tb::PinSink& sink, tb::PinMask pins) override;
@@ -34,20 +32,24 @@ class RtlDevice : public tb::PinDevice {
  private:
   struct Change {
     Tick at;
-    Pin pin;
+    PinNumber pin;
     Level level;
   };
   void pass_on();
   void pass_on_tick(Tick at);
-  void tell(Tick at, Pin pin, Level level);
+  void tell(Tick at, PinNumber pin, Level level);
 
   std::unique_ptr<tb::PinDevice> core_;
   RtlChip rtl_;
+  const PinNumber data_;  ///< the output on a bus of data; kNoPin: there is none
   tb::PinSink sink_;
-  std::uint32_t watched_ = 0;
-  std::vector<Change> core_changes_, rtl_changes_;  ///< since pass_on; of the core only D
+  tb::PinMask watched_ = 0;
+  std::vector<Change> core_changes_, rtl_changes_;  ///< since pass_on; of the core only data
   std::size_t core_next_ = 0, rtl_next_ = 0;
-  Level core_d_ = dsdpv1::kLevelZ, rtl_d_ = dsdpv1::kLevelZ, d_ = dsdpv1::kLevelZ;
+  Level core_d_ = tb::kLevelZ, rtl_d_ = tb::kLevelZ, d_ = tb::kLevelZ;
 };
+
+/// The output of a kind's pins that is on a bus.
+PinNumber data_output(const tb::PinTable& pins);
 
 }  // namespace dsdpv1::cosim

@@ -1,6 +1,5 @@
 #include "cosim/user_rtl.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -15,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cosim/reference_rtl.hpp"
 #include "io/input/input_error.hpp"
 #include "io/output/write_file.hpp"
 #include "io/waves/wave_writer.hpp"
@@ -23,14 +23,6 @@ namespace dsdpv1::cosim {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Bytes that go to and come from the library, in this order.
-constexpr const char* kInputs[] = {"CLK", "RESET", "R_REQ", "R_STA", "CSR", "RD", "WR", "PBRXD"};
-constexpr const char* kOutputs[] = {"L_REQ", "L_STA", "INTR0", "PBTXD", "PBRTS", "PBF", "BR", "READY", "D_OE"};
-constexpr std::size_t kInputBytes = std::size(kInputs) + 3, kOutputBytes = std::size(kOutputs) + 1;
-constexpr std::size_t kD = std::size(kInputs), kALow = kD + 1, kAHigh = kD + 2;
-
-const Port& port(const PinMap& map, const std::string& name) { return name == "CLK" ? map.clock : map.pins.at(name); }
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -70,67 +62,45 @@ std::vector<std::string> sources(const UserRtl& rtl, const PinMap& map) {
   return files;
 }
 
-using Create = void* (*)(int start);
-using Destroy = void (*)(void* self);
-using Eval = void (*)(void* self, const std::uint8_t* in, std::uint8_t* out);
-using Trace = void (*)(void* self, const char* file);
-using Dump = void (*)(void* self, unsigned long long picoseconds);
-
-struct Library {
-  Create create = nullptr;
-  Destroy destroy = nullptr;
-  Eval eval = nullptr;
-  Trace trace = nullptr;  ///< and dump: only of a build with UserRtl::traced
-  Dump dump = nullptr;
-};
-
-template <class Function>
-Function symbol(void* handle, const char* name) {
-  return reinterpret_cast<Function>(dlsym(handle, name));  // the way POSIX gives for functions
-}
-
-/// Stays loaded to the end of the program: designs may live as long.
-Library load(const std::string& path) {
-  void* handle = dlopen(fs::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) throw tb::InputError(path, 0, fmt::format("cannot be loaded: {}", dlerror()));
-  return {symbol<Create>(handle, "dsdpv1_rtl_create"), symbol<Destroy>(handle, "dsdpv1_rtl_destroy"),
-          symbol<Eval>(handle, "dsdpv1_rtl_eval"), symbol<Trace>(handle, "dsdpv1_rtl_trace"),
-          symbol<Dump>(handle, "dsdpv1_rtl_dump")};
+RtlLibrary load(const std::string& path) {
+  std::string why_not;
+  const RtlLibrary library = load_library(fs::absolute(path).string(), why_not);
+  if (!why_not.empty()) throw tb::InputError(path, 0, "cannot be loaded: " + why_not);
+  return library;
 }
 
 /// Three designs that begin with zeros, with ones and with random values wherever nothing is initialised or reset
 /// (Verilator's randReset). A trace is that of the first.
-class UserTop : public TimedTop {
+class UserDesigns : public Rtl {
  public:
-  UserTop(const Library& library, std::optional<RtlTrace> trace)
-      : library_(library), designs_{library.create(0), library.create(1), library.create(2)}, trace_(std::move(trace)) {
+  UserDesigns(const RtlLibrary& library, const tb::PinTable& pins, std::optional<RtlTrace> trace)
+      : library_(library), pins_(pins), trace_(std::move(trace)) {
+    for (std::size_t i = 0; i < designs_.size(); ++i) {
+      RtlStart start;
+      start.fill = static_cast<int>(i);
+      designs_.at(i) = library.create(&start);
+    }
     if (trace_) library_.trace(designs_.front(), trace_->file.c_str());
   }
-  ~UserTop() override {
+  ~UserDesigns() override {
     if (trace_) dump();
     for (void* design : designs_) library_.destroy(design);
   }
-  UserTop(const UserTop&) = delete;
-  UserTop& operator=(const UserTop&) = delete;
+  UserDesigns(const UserDesigns&) = delete;
+  UserDesigns& operator=(const UserDesigns&) = delete;
 
-  void eval() override {
-    const std::array<std::uint8_t, kInputBytes> levels = {in.clk,
-                                                          in.reset,
-                                                          in.r_req,
-                                                          in.r_sta,
-                                                          in.csr,
-                                                          in.rd,
-                                                          in.wr,
-                                                          in.pbrxd,
-                                                          in.d,
-                                                          static_cast<std::uint8_t>(in.a & 0xFF),
-                                                          static_cast<std::uint8_t>(in.a >> 8)};
-    out.word = word(0, levels);
-    out.unknown = (out.word ^ word(1, levels)) | (out.word ^ word(2, levels));
+  void eval(bool clk, Level* levels) override {
+    std::array<Level, kMostPins> other{};
+    std::copy_n(levels, pins_.size(), other.begin());
+    library_.eval(designs_.front(), clk, levels);
+    for (std::size_t i = 1; i < designs_.size(); ++i) {
+      library_.eval(designs_.at(i), clk, other.data());
+      for (std::size_t pin = 0; pin < pins_.size(); ++pin)
+        if (!pins_[pin].input && other.at(pin) != levels[pin]) levels[pin] = tb::kLevelX;
+    }
   }
-  bool dpram(DpramImage&) const override { return false; }
   /// What the evaluations of one time have led to is dumped when they are over: a trace takes each time once.
-  void moment(bus::Tick at) override {
+  void moment(Tick at) override {
     if (!trace_ || at == now_) return;
     if (now_ >= 0) dump();
     now_ = at;
@@ -138,20 +108,15 @@ class UserTop : public TimedTop {
 
  private:
   void dump() {
-    if (now_ >= trace_->from && now_ <= trace_->to) library_.dump(designs_.front(), tb::picoseconds(now_));
-  }
-  std::uint32_t word(std::size_t design, const std::array<std::uint8_t, kInputBytes>& levels) {
-    std::array<std::uint8_t, kOutputBytes> bytes{};
-    library_.eval(designs_.at(design), levels.data(), bytes.data());
-    std::uint32_t word = 0;
-    for (std::size_t i = 0; i < std::size(kOutputs); ++i) word |= (bytes.at(i) & 1U) << (kWireLReq + i);
-    return (word >> kWireDriven & 1U) != 0 ? word | bytes.back() : word;
+    if (now_ >= trace_->from && now_ <= trace_->to)
+      library_.dump(designs_.front(), static_cast<std::uint64_t>(tb::picoseconds(now_)));
   }
 
-  Library library_;
-  std::array<void*, 3> designs_;
+  const RtlLibrary library_;
+  const tb::PinTable& pins_;
+  std::array<void*, 3> designs_{};
   std::optional<RtlTrace> trace_;
-  bus::Tick now_ = -1;  ///< of the evaluations that are not dumped yet
+  Tick now_ = -1;  ///< of the evaluations that are not dumped yet
 };
 
 /// The parts of the generated file that only a traced build has.
@@ -168,32 +133,52 @@ constexpr const char* kTraceFunctions =
 
 }  // namespace
 
-std::string adapter_source(const std::string& top, const PinMap& map, bool traced) {
+namespace {
+
+unsigned bits(const tb::PinInfo& pin) { return (1U << static_cast<unsigned>(pin.width)) - 1; }
+
+/// A bus that nobody drives reads as ones.
+std::string input_line(const tb::PinInfo& pin, std::size_t number, const Port& port) {
+  if (pin.width == 1) return fmt::format("  model.{} = {}levels[{}];\n", port.name, port.inverted ? "!" : "", number);
+  const std::string level = pin.bus != nullptr ? fmt::format("(levels[{0}] < 0 ? {1} : levels[{0}])", number, bits(pin))
+                                               : fmt::format("levels[{}]", number);
+  return fmt::format("  model.{} = ({}{}) & {};\n", port.name, port.inverted ? "~" : "", level, bits(pin));
+}
+
+std::string output_line(const tb::PinInfo& pin, std::size_t number, const PinMap& map) {
+  const Port& port = map.pins.at(pin.name);
+  std::string level = pin.width == 1 ? fmt::format("{}model.{}", port.inverted ? "!" : "", port.name)
+                                     : fmt::format("({}model.{}) & {}", port.inverted ? "~" : "", port.name, bits(pin));
+  if (pin.released) {
+    const Port& enable = map.pins.at(enable_of(pin));
+    level = fmt::format("{}model.{} ? {} : -1", enable.inverted ? "!" : "", enable.name, level);
+  }
+  return fmt::format("  levels[{}] = static_cast<short>({});\n", number, level);
+}
+
+}  // namespace
+
+std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced) {
   std::string text = fmt::format(
       "// Generated: the pins of {0} for the co-simulation.\n"
-      "#include \"V{0}.h\"\n#include \"verilated.h\"\n{1}#include <memory>\n\nnamespace {{\nstruct Design {{\n"
+      "#include \"V{0}.h\"\n#include \"verilated.h\"\n{1}#include <memory>\n\nnamespace {{\n"
+      "struct Start {{\n  int fill;\n  unsigned seed, fault;\n  const void* parameters;\n}};\nstruct Design {{\n"
       "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n{2}}};\n}}  // namespace\n\n"
-      "extern \"C\" void* dsdpv1_rtl_create(int start) {{\n  auto* design = new Design;\n"
-      "  design->context.randReset(start);\n  design->context.randSeed(1);\n{3}"
+      "extern \"C\" void* dsdpv1_rtl_create(const Start* start) {{\n  auto* design = new Design;\n"
+      "  design->context.randReset(start->fill);\n  design->context.randSeed(static_cast<int>(start->seed));\n{3}"
       "  design->model = std::make_unique<V{0}>(&design->context);\n  return design;\n}}\n\n"
       "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{ delete static_cast<Design*>(self); }}\n{4}\n"
-      "extern \"C\" void dsdpv1_rtl_eval(void* self, const unsigned char* in, unsigned char* out) {{\n"
-      "  V{0}& model = *static_cast<Design*>(self)->model;\n",
+      "extern \"C\" void dsdpv1_rtl_eval(void* self, bool clk, short* levels) {{\n"
+      "  V{0}& model = *static_cast<Design*>(self)->model;\n  model.{5} = {6}clk;\n",
       top, traced ? kTraceIncluded : "", traced ? kTraceMember : "",
-      traced ? "  design->context.traceEverOn(true);\n" : "", traced ? kTraceFunctions : "");
-  for (std::size_t i = 0; i < std::size(kInputs); ++i)
-    text += fmt::format("  model.{} = {}in[{}];\n", port(map, kInputs[i]).name,
-                        port(map, kInputs[i]).inverted ? "!" : "", i);
-  const auto inverted = [&map](const char* name) { return port(map, name).inverted ? "~" : ""; };
-  text += fmt::format("  model.{} = ({}in[{}]) & 0xFF;\n", port(map, "D_IN").name, inverted("D_IN"), kD);
-  text += fmt::format("  model.{} = ({}(in[{}] | in[{}] << 8)) & 0x7FF;\n", port(map, "A").name, inverted("A"), kALow,
-                      kAHigh);
+      traced ? "  design->context.traceEverOn(true);\n" : "", traced ? kTraceFunctions : "", map.clock.name,
+      map.clock.inverted ? "!" : "");
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    if (pins[i].input) text += input_line(pins[i], i, map.pins.at(pins[i].name));
   text += "  model.eval();\n";
-  for (std::size_t i = 0; i < std::size(kOutputs); ++i)
-    text += fmt::format("  out[{}] = {}model.{};\n", i, port(map, kOutputs[i]).inverted ? "!" : "",
-                        port(map, kOutputs[i]).name);
-  text += fmt::format("  out[{}] = {}model.{};\n}}\n", std::size(kOutputs), inverted("D_OUT"), port(map, "D_OUT").name);
-  return text;
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    if (!pins[i].input) text += output_line(pins[i], i, map);
+  return text + "}\n";
 }
 
 namespace {
@@ -269,7 +254,7 @@ std::string make_command(const UserRtl& rtl, const std::string& build) {
 
 }  // namespace
 
-MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
+MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind) {
   check_top(rtl);
   if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, allowed is one with RTL");
   if (!installed("verilator"))
@@ -277,13 +262,14 @@ MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
   const std::string build = fs::absolute(rtl.traced ? fs::path(rtl.build) / "traced" : fs::path(rtl.build)).string();
   create_folder(build);
   const std::string adapter = build + "/adapter.cpp";
-  tb::write_file(adapter, adapter_source(rtl.top, map, rtl.traced));
+  tb::write_file(adapter, adapter_source(rtl.top, map, kind.pins(), rtl.traced));
 
   call(verilator_command(rtl, map, build, adapter), build + "/verilator.log", rtl);
   check_ports(rtl, map, build);
   call(make_command(rtl, build), build + "/compiler.log", rtl);
-  const Library library = load(build + "/librtl.so");
-  return [library](const std::optional<RtlTrace>& trace) { return std::make_unique<UserTop>(library, trace); };
+  return [library = load(build + "/librtl.so"), &pins = kind.pins()](const std::optional<RtlTrace>& trace) {
+    return std::make_unique<UserDesigns>(library, pins, trace);
+  };
 }
 
 }  // namespace dsdpv1::cosim

@@ -1,5 +1,5 @@
 #pragma once
-// RTL of a user's own: built with Verilator into a shared library, loaded, and evaluated as any other RtlTop.
+// RTL of a user's own: built with Verilator into a shared library, loaded, and evaluated as any other Rtl.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,13 +20,13 @@ struct UserRtl {
 
 /// Makes the design for one run, also on several threads. With a trace, of a build with UserRtl::traced, its inside is
 /// recorded.
-using MakeUserRtl = std::function<std::unique_ptr<RtlTop>(const std::optional<RtlTrace>& trace)>;
+using MakeUserRtl = std::function<std::unique_ptr<Rtl>(const std::optional<RtlTrace>& trace)>;
 
 /// Builds it; throws tb::InputError with Verilator's or the compiler's words. The result makes chips that run three
 /// times, with different values wherever nothing is initialised or reset: where the three differ a pin is X.
-MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map);
+MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind);
 
 /// The generated file between the Verilated class and this program; `traced` as of UserRtl.
-std::string adapter_source(const std::string& top, const PinMap& map, bool traced);
+std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced);
 
 }  // namespace dsdpv1::cosim

@@ -42,7 +42,8 @@ void take_signal(const std::string& text, calibrate::Names& names) {
 /// A map of pins says of what differs from the names of the reference RTL how it is called.
 void take_map(const std::string& path, calibrate::Names& names) {
   if (path.empty()) return;
-  const cosim::PinMap map = cosim::load_pin_map(path), usual = cosim::default_pin_map();
+  const tb::PinTable& pins = tb::chip_kinds().front()->pins();
+  const cosim::PinMap map = cosim::load_pin_map(path, pins), usual = cosim::default_pin_map(pins);
   for (const auto& [pin, port] : map.pins) {
     const cosim::Port& other = usual.pins.at(pin);
     if (pin == "D_OUT" || pin == "D_OE" || (port.name == other.name && port.inverted == other.inverted)) continue;

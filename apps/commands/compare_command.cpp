@@ -60,7 +60,7 @@ class Compare : public Command {
     leave_nothing_on_signals();
     take_words();
     check_files();
-    tb::compare::Comparison comparison(a_, b_, given_, [] { return std::make_unique<cosim::PinSurroundings>(); });
+    tb::compare::Comparison comparison(a_, b_, given_, [] { return std::make_unique<cosim::PinSurroundings>(chip()); });
     if (!wave_.empty()) comparison.write_wave(wave_);
     tb::ShareProgress progress(shows_progress(progress_));
     comparison.on_progress([&progress](double share) { progress.show(share); });
@@ -105,11 +105,16 @@ class Compare : public Command {
         ->allow_extra_args(false);
   }
 
+  /// Whose pins a map is about.
+  static const tb::ChipKind& chip() { return *tb::chip_kinds().front(); }
+
   /// The pins of the map, and what --signal says instead or besides.
   std::vector<NamedPair> pairs() const {
     std::vector<NamedPair> pairs;
+    const tb::PinTable& table = chip().pins();
     if (!pins_.empty())
-      pairs = cosim::pairs_of(pins_ == kOwnRtl ? cosim::default_pin_map() : cosim::load_pin_map(pins_));
+      pairs =
+          cosim::pairs_of(pins_ == kOwnRtl ? cosim::default_pin_map(table) : cosim::load_pin_map(pins_, table), table);
     for (const std::string& text : signals_) {
       NamedPair pair = tb::compare::parse_pair(text);
       const auto same = [&](const NamedPair& other) { return other.a == pair.a; };

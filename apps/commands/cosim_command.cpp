@@ -59,7 +59,8 @@ class Cosim : public Command {
     request.options.wave = wave_options(kCosim, run_.wave, *request.scenario.kind);
     request.options.wave.inside = true;
     check_files(request.scenario);
-    return run_own_rtl(std::move(request), build_own_rtl(own_, kCosim, !run_.wave.file.empty()));
+    const OwnRtl own = build_own_rtl(own_, kCosim, *request.scenario.kind, !run_.wave.file.empty());
+    return run_own_rtl(std::move(request), own);
   }
 
  private:
@@ -97,7 +98,7 @@ class Cosim : public Command {
     cosim::JoinedWave wave(run_.wave.file, own_.build);
     const tb::WaveSelection window = request.options.wave.selection;
     request.options.wave.path = wave.model();
-    const auto make = [&](const std::string& name, const auto& /*parameters*/) {
+    const auto make = [&](const std::string& name, const auto&...) {
       return own.make(wave.trace(name, window.from, window.to));
     };
     const LockstepOutcome outcome = run_lockstep(request, make, lockstep);

@@ -61,16 +61,15 @@ cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
 
 Bench bench_of(const RtlRandomArguments& arguments) {
   Bench bench;
-  if (!arguments.own.rtl.empty() && arguments.chip.part() == Part::kRsu)
-    throw tb::InputError("--rtl: RTL of your own has the pins of table 1, allowed is without --chip dsdpv1_rsu");
   if (arguments.own.rtl.empty()) {
     bench.options = cosim::quick_options(arguments.chip.part());
     cosim::set_parameters(bench.options, arguments.set);
     bench.make = reference_of(arguments)(bench.options);
     return bench;
   }
-  const OwnRtl own = build_own_rtl(arguments.own, arguments.command, !arguments.wave.empty());
-  bench.options = cosim::own_rtl_options(own.map.tolerances);
+  const Part part = arguments.chip.part();
+  const OwnRtl own = build_own_rtl(arguments.own, arguments.command, cosim::chip_kind(part), !arguments.wave.empty());
+  bench.options = cosim::own_rtl_options(part, own.map.tolerances);
   cosim::set_parameters(bench.options, arguments.set);
   bench.make_own = own.make;
   bench.make = [make = own.make] { return make(std::nullopt); };

@@ -53,10 +53,13 @@ void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool require
   build->needs(rtl);
 }
 
-OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, bool traced) {
-  OwnRtl own{arguments.pins.empty() ? cosim::default_pin_map() : cosim::load_pin_map(arguments.pins), {}};
-  own.make =
-      cosim::build_user_rtl({command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced}, own.map);
+OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
+                     bool traced) {
+  OwnRtl own{
+      arguments.pins.empty() ? cosim::default_pin_map(kind.pins()) : cosim::load_pin_map(arguments.pins, kind.pins()),
+      {}};
+  own.make = cosim::build_user_rtl({command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced},
+                                   own.map, kind);
   return own;
 }
 

@@ -38,6 +38,7 @@ void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool require
 
 /// Reads the map of its pins, the names of the reference RTL when there is none, and builds it, `traced` so that its
 /// inside can be recorded. `command` as "dsdpv1-sim cosim". Throws tb::InputError.
-OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, bool traced);
+OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
+                     bool traced);
 
 }  // namespace dsdpv1::app

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <utility>
 
-#include "cosim/reference_rtl.hpp"
+#include "cosim/random/play_options.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 
@@ -51,7 +51,7 @@ class Hunt {
 
   Kill kill_;
   const CampaignOptions& options_;
-  MakeTop make_ = [this] { return make_faulty_rtl(options_.play.config, kill_.fault.number); };
+  MakeTop make_ = [this] { return reference_top(options_.play, kill_.fault.number, 1)(); };
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

@@ -2,6 +2,7 @@
 // Who hears what happens while a stimulus is played: log and wave.
 #include "bus/monitor/monitor.hpp"
 #include "cosim/lockstep.hpp"
+#include "model/dsdpv1/pins.hpp"
 
 namespace dsdpv1::cosim {
 

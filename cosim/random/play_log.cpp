@@ -9,7 +9,7 @@
 namespace dsdpv1::cosim {
 
 void PlayLog::pin(Tick at, Side side, Pin pin, Level level) {
-  log_.add({at, name(side), "pin", fmt::format("{} {}", dsdpv1::name(pin), level_text(pin, level))});
+  log_.add({at, name(side), "pin", fmt::format("{} {}", dsdpv1::name(pin), level_text(dsdpv1::width(pin), level))});
 }
 
 void PlayLog::event(const profibus::Event& event) {

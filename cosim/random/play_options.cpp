@@ -1,22 +1,35 @@
 #include "cosim/random/play_options.hpp"
 
 #include "cosim/random/campaign.hpp"
-#include "cosim/reference_rtl.hpp"
 #include "io/input/input_error.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/kind.hpp"
 #include "tb/scenario/settings.hpp"
 
 namespace dsdpv1::cosim {
+namespace {
+
+tb::Dsdpv1Settings settings_of(const dsdpv1::Config& config) {
+  tb::Dsdpv1Settings settings;
+  static_cast<dsdpv1::Config&>(settings) = config;
+  return settings;
+}
+
+tb::Engine engine_of(const dsdpv1::Config& config) {
+  return config.engine == dsdpv1::Engine::kStep ? tb::Engine::kStep : tb::Engine::kSkip;
+}
+
+}  // namespace
 
 const tb::ChipKind& chip_kind(Part part) {
   if (part == Part::kR) return tb::dsdpv1_r_kind();
   return part == Part::kRsu ? tb::dsdpv1_rsu_kind() : tb::dsdpv1_kind();
 }
 
-PlayOptions own_rtl_options(const Tolerances& tolerances) {
+PlayOptions own_rtl_options(Part part, const Tolerances& tolerances) {
   PlayOptions options = quick_options();
   options.config = {};
+  options.config.part = part;
   options.lockstep.tolerances = tolerances;
   return options;
 }
@@ -29,17 +42,23 @@ void set_parameters(PlayOptions& options, const std::vector<std::string>& settin
       throw tb::InputError(each.origin, 0, "is no parameter of the chip, allowed is like chip.search_window_ms=1");
     tb::scenario::apply(each, kind, scenario);
   }
-  tb::Dsdpv1Settings chip;
-  static_cast<dsdpv1::Config&>(chip) = options.config;
+  tb::Dsdpv1Settings chip = settings_of(options.config);
   if (const YAML::Node keys = scenario["chip"]; keys.IsDefined())
     tb::keys::read_object(kind.chip_keys(), &chip, keys, {"--set"});
   options.config = static_cast<const dsdpv1::Config&>(chip);
 }
 
+std::unique_ptr<Lockstep> make_lockstep(const PlayOptions& options, std::unique_ptr<Rtl> rtl) {
+  const tb::ChipKind& kind = chip_kind(options.config.part);
+  const tb::Dsdpv1Settings chip = settings_of(options.config);
+  return std::make_unique<Lockstep>(kind.make_device({"chip", chip, engine_of(options.config)}), std::move(rtl), kind,
+                                    chip, options.lockstep);
+}
+
 MakeTop reference_top(const PlayOptions& options, unsigned fault, std::uint32_t seed) {
-  const dsdpv1::Config config = options.config;
-  if (fault != 0) return [=] { return make_faulty_rtl(config, fault, seed); };
-  return [=] { return make_reference_rtl(config, seed); };
+  return [&rtl = *chip_kind(options.config.part).rtl(), chip = settings_of(options.config), fault, seed] {
+    return rtl.make_reference(chip, fault, seed);
+  };
 }
 
 }  // namespace dsdpv1::cosim

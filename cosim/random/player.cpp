@@ -8,7 +8,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
-#include "kinds/dsdpv1/chip/core_device.hpp"
+#include "cosim/random/play_options.hpp"
 #include "kinds/dsdpv1/random/serial_edges.hpp"
 #include "model/dpram/crc16.hpp"
 
@@ -77,32 +77,32 @@ class AimedLane : public Lane {
 /// The chip as a station of the segment, model and RTL in one.
 class ChipAgent : public bus::Agent, private bus::Listener {
  public:
-  ChipAgent(const PlayOptions& options, std::unique_ptr<RtlTop> top, bus::Segment& segment)
-      : lockstep_(std::make_unique<tb::CoreDevice>(options.config), options.config, std::move(top), options.lockstep),
+  ChipAgent(const PlayOptions& options, std::unique_ptr<Rtl> rtl, bus::Segment& segment)
+      : lockstep_(make_lockstep(options, std::move(rtl))),
         listeners_(options.listeners),
         segment_(segment),
         station_(segment.attach("chip", this)) {
-    lockstep_.watch({[](void* self, Tick at, tb::PinNumber pin, Level level) {
-                       static_cast<ChipAgent*>(self)->drive(at, static_cast<Pin>(pin), level);
-                     },
-                     this},
-                    dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts));
+    lockstep_->watch({[](void* self, Tick at, tb::PinNumber pin, Level level) {
+                        static_cast<ChipAgent*>(self)->drive(at, static_cast<Pin>(pin), level);
+                      },
+                      this},
+                     dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts));
   }
-  Tick next() const override { return due_.empty() ? lockstep_.next_event() : due_.front().at; }
+  Tick next() const override { return due_.empty() ? lockstep_->next_event() : due_.front().at; }
   void run(Tick now) override {
-    lockstep_.advance(now);
+    lockstep_->advance(now);
     tell();
-    for (PlayListener* each : listeners_) each->evaluated(now, lockstep_);
+    for (PlayListener* each : listeners_) each->evaluated(now, *lockstep_);
     if (aimed_.empty()) return;
-    const char* item = lockstep_.works_on();
+    const char* item = lockstep_->works_on();
     for (AimedLane* each : aimed_) each->works_on(now, item);
   }
   /// `lane` wants to know what the chip's accesses work on.
   void tell_of_accesses(AimedLane& lane) { aimed_.push_back(&lane); }
-  Lockstep& lockstep() { return lockstep_; }
-  Level level(Pin pin) const { return lockstep_.level(number(pin)); }
+  Lockstep& lockstep() { return *lockstep_; }
+  Level level(Pin pin) const { return lockstep_->level(number(pin)); }
   void set(Tick at, Pin pin, Level level) {
-    lockstep_.set(at, number(pin), level);
+    lockstep_->set(at, number(pin), level);
     announce();
   }
 
@@ -125,7 +125,7 @@ class ChipAgent : public bus::Agent, private bus::Listener {
   }
   void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? 1 : 0); }
 
-  Lockstep lockstep_;
+  std::unique_ptr<Lockstep> lockstep_;
   const std::vector<PlayListener*>& listeners_;
   std::vector<AimedLane*> aimed_;
   bus::Segment& segment_;
@@ -352,8 +352,8 @@ class Player {
   Lockstep& lockstep() { return chip_.lockstep(); }
   /// Somebody wants to know what happens: pins of all sides, and telegrams, which nobody else here reads.
   void listen() {
-    lockstep().on_pin([this](Tick at, Side side, Pin pin, Level level) {
-      for (PlayListener* each : options_.listeners) each->pin(at, side, pin, level);
+    lockstep().on_pin([this](Tick at, Side side, PinNumber pin, Level level) {
+      for (PlayListener* each : options_.listeners) each->pin(at, side, static_cast<Pin>(pin), level);
     });
     monitor_.emplace(segment_);
     monitor_->on_telegram = [this](const bus::WireTelegram& telegram) {

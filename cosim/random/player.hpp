@@ -10,11 +10,12 @@
 #include "cosim/random/coverage.hpp"
 #include "cosim/random/play_listener.hpp"
 #include "cosim/random/stimulus.hpp"
+#include "model/dsdpv1/config.hpp"
 
 namespace dsdpv1::cosim {
 
 /// Makes the RTL for one run; each run has a new one.
-using MakeTop = std::function<std::unique_ptr<RtlTop>()>;
+using MakeTop = std::function<std::unique_ptr<Rtl>()>;
 
 struct PlayOptions {
   dsdpv1::Config config;

@@ -16,6 +16,7 @@
 #include "kinds/dsdpv1/pins/inside_watch.hpp"
 #include "kinds/dsdpv1/pins/pin_table.hpp"
 #include "kinds/dsdpv1/port/last_access.hpp"
+#include "kinds/dsdpv1/rtl/rtl_of.hpp"
 #include "kinds/dsdpv1/user_cpu/orders.hpp"
 #include "model/dsdpv1/reasons.hpp"
 
@@ -125,6 +126,7 @@ class Dsdpv1Kind : public ChipKind {
   const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }
   const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }
 
+  const cosim::RtlOf* rtl() const override { return &cosim::rtl_of(part_); }
   std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {
     return std::make_unique<CoreDevice>(config_of(request));
   }

@@ -21,6 +21,10 @@
 #include "tb/chip/user_cpu/program.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 
+namespace dsdpv1::cosim {
+class RtlOf;
+}
+
 namespace dsdpv1::tb {
 
 namespace scenario {
@@ -160,6 +164,10 @@ class ChipKind {
   virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
   /// The name of the program that has the slave's user CPU, where this one has not; empty: this one has.
   virtual const char* other_program(const scenario::Slave& /*slave*/) const { return ""; }
+
+  // --- Faculties that a kind may lack: null.
+  /// For RTL beside the model: --engine rtl and lockstep, cosim, rtl-random.
+  virtual const cosim::RtlOf* rtl() const { return nullptr; }
 
   // --- What happens.
   /// Of its events.

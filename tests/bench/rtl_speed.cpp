@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "cosim/random/campaign.hpp"
+#include "cosim/random/play_options.hpp"
 #include "cosim/random/random_setup.hpp"
-#include "cosim/reference_rtl.hpp"
 #include "kinds/dsdpv1/random/random_stimulus.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tests/bench/programs.hpp"
@@ -99,7 +99,7 @@ class RecordingTop : public cosim::RtlTop {
   Recording& recording_;
 };
 
-std::unique_ptr<cosim::RtlTop> make_rtl() { return cosim::make_reference_rtl(cosim::quick_config(), kSeed); }
+std::unique_ptr<cosim::Rtl> make_rtl() { return cosim::reference_top(cosim::quick_options(), 0, kSeed)(); }
 
 /// A case as the campaign of rtl-random plays it.
 std::uint64_t play_case(std::uint64_t number, const cosim::MakeTop& make) {

@@ -8,8 +8,8 @@
 
 #include "cosim/random/campaign.hpp"
 #include "cosim/random/faults.hpp"
+#include "cosim/random/play_options.hpp"
 #include "cosim/random/random_setup.hpp"
-#include "cosim/reference_rtl.hpp"
 #include "tests/app/program.hpp"
 
 namespace dsdpv1 {
@@ -20,9 +20,7 @@ using app_test::call;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-cosim::MakeTop faulty(unsigned fault) {
-  return [fault] { return cosim::make_faulty_rtl(cosim::quick_config(), fault); };
-}
+cosim::MakeTop faulty(unsigned fault) { return cosim::reference_top(cosim::quick_options(), fault, 1); }
 
 TEST(Campaign, ReachesDataExchangeAndIsTheSameWithOneThreadAndWithThree) {
   constexpr std::uint64_t kCycles = 3'000'000;

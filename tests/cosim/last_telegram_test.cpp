@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kinds/dsdpv1/port/last_access.hpp"
-#include "kinds/dsdpv1/random/access_watch.hpp"
+#include "kinds/dsdpv1/rtl/access_watch.hpp"
 #include "model/dsdpv1/serial_host.hpp"
 
 namespace dsdpv1 {
@@ -44,11 +44,11 @@ TEST(LastTelegram, OfTheUartIsThatAfterTheLastSilence) {
 }
 
 TEST(LastTelegram, TheFirstOfARunIsNoted) {
-  cosim::AccessWatch watch;
+  cosim::AccessWatch watch(Part::kRsu);
   const SpiFrame frame(kRead, SpiTiming());
   for (std::size_t i = 0; i < frame.size(); ++i)
-    if (frame[i].pin != Pin::kMiso) watch.change(250'000 + frame[i].at, frame[i].pin, frame[i].level ? 1 : 0);
-  EXPECT_EQ(watch.user_text(), "SPI frame of 6 bytes from cycle 1000 (20.833 us): 01 00 14 01 18 CF");
+    if (frame[i].pin != Pin::kMiso) watch.change(250'000 + frame[i].at, number(frame[i].pin), frame[i].level ? 1 : 0);
+  EXPECT_EQ(watch.last_of_user(), "SPI frame of 6 bytes from cycle 1000 (20.833 us): 01 00 14 01 18 CF");
 }
 
 TEST(LastTelegram, AnAccessAfterItIsTheLast) {

@@ -14,6 +14,8 @@
 #include "bus/wire/uart.hpp"
 #include "cosim/lockstep.hpp"
 #include "kinds/dsdpv1/chip/core_device.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/kind.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
 namespace dsdpv1 {
@@ -27,9 +29,12 @@ constexpr Tick kEnd = 10'000 * kCycle;
 
 std::unique_ptr<MadeUpTop> spoiled(MadeUpTop::Spoil spoil) { return std::make_unique<MadeUpTop>(std::move(spoil)); }
 
+const tb::Dsdpv1Settings kSettings;
+
 struct Lockstep : cosim::Lockstep {
   explicit Lockstep(std::unique_ptr<MadeUpTop> top, const cosim::LockstepOptions& options = {})
-      : cosim::Lockstep(std::make_unique<tb::CoreDevice>(dsdpv1::Config()), {}, std::move(top), options) {}
+      : cosim::Lockstep(std::make_unique<tb::CoreDevice>(dsdpv1::Config()), std::move(top), tb::dsdpv1_kind(),
+                        kSettings, options) {}
 };
 
 /// Out of RESET after 10 us, then to kEnd.
@@ -47,17 +52,12 @@ TEST(Lockstep, ModelAgainstItselfIsTheSame) {
   EXPECT_GT(lockstep.counts().dpram_images, 1U);
 }
 
-struct WireOfPin {
-  Pin pin;
-  cosim::Wire wire;
-};
-
-class EachPin : public testing::TestWithParam<WireOfPin> {};
+class EachPin : public testing::TestWithParam<Pin> {};
 
 TEST_P(EachPin, ThatDiffersIsNamedWithCycleAndBothLevels) {
-  const auto [pin, wire] = GetParam();
-  Lockstep lockstep(spoiled([wire = wire](cosim::RtlOutputs& out, long cycle) {
-    if (cycle >= 5000) out.word ^= 1U << wire;
+  const Pin pin = GetParam();
+  Lockstep lockstep(spoiled([pin](Level* levels, long cycle) {
+    if (cycle >= 5000) levels[number(pin)] ^= 1;
   }));
   run(lockstep);
   ASSERT_TRUE(lockstep.difference());
@@ -69,17 +69,14 @@ TEST_P(EachPin, ThatDiffersIsNamedWithCycleAndBothLevels) {
   EXPECT_EQ(lockstep.counts().cycles, 5000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Outputs, EachPin,
-    testing::Values(WireOfPin{Pin::kLReq, cosim::kWireLReq}, WireOfPin{Pin::kLSta, cosim::kWireLSta},
-                    WireOfPin{Pin::kIntr0, cosim::kWireIntr0}, WireOfPin{Pin::kPbtxd, cosim::kWirePbtxd},
-                    WireOfPin{Pin::kPbrts, cosim::kWirePbrts}, WireOfPin{Pin::kPbf, cosim::kWirePbf},
-                    WireOfPin{Pin::kBr, cosim::kWireBr}, WireOfPin{Pin::kReady, cosim::kWireReady}),
-    [](const auto& each) { return std::string(dsdpv1::name(each.param.pin)); });
+INSTANTIATE_TEST_SUITE_P(Outputs, EachPin,
+                         testing::Values(Pin::kLReq, Pin::kLSta, Pin::kIntr0, Pin::kPbtxd, Pin::kPbrts, Pin::kPbf,
+                                         Pin::kBr, Pin::kReady),
+                         [](const auto& each) { return std::string(dsdpv1::name(each.param)); });
 
 TEST(Lockstep, ADifferenceOfOneCycleIsFound) {
-  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
-    if (cycle == 7777) out.word ^= 1U << cosim::kWireIntr0;
+  Lockstep lockstep(spoiled([](Level* levels, long cycle) {
+    if (cycle == 7777) levels[number(Pin::kIntr0)] ^= 1;
   }));
   run(lockstep);
   ASSERT_TRUE(lockstep.difference());
@@ -87,8 +84,8 @@ TEST(Lockstep, ADifferenceOfOneCycleIsFound) {
 }
 
 TEST(Lockstep, DDrivenWithoutAReadIsFound) {
-  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
-    if (cycle >= 6000) out.word |= 1U << cosim::kWireDriven | 0x3CU;
+  Lockstep lockstep(spoiled([](Level* levels, long cycle) {
+    if (cycle >= 6000) levels[number(Pin::kDOut)] = 0x3C;
   }));
   run(lockstep);
   ASSERT_TRUE(lockstep.difference());
@@ -96,8 +93,8 @@ TEST(Lockstep, DDrivenWithoutAReadIsFound) {
 }
 
 TEST(Lockstep, AnOutputThatIsUnknownIsADifference) {
-  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
-    if (cycle >= 4000) out.unknown = 1U << cosim::kWirePbrts;
+  Lockstep lockstep(spoiled([](Level* levels, long cycle) {
+    if (cycle >= 4000) levels[number(Pin::kPbrts)] = dsdpv1::kLevelX;
   }));
   run(lockstep);
   ASSERT_TRUE(lockstep.difference());
@@ -118,10 +115,10 @@ TEST(Lockstep, AnotherContentOfTheDpramIsFoundAtTheEndOfAnAccess) {
 TEST(Lockstep, ToleranceLetsAPinBeLater) {
   cosim::LockstepOptions options;
   options.tolerances.at(static_cast<std::size_t>(Pin::kLReq)) = 1;
-  std::uint32_t before = 0;
-  const auto late = [&before](cosim::RtlOutputs& out, long) {  // L_REQ half a cycle late
-    const std::uint32_t now = out.word & 1U << cosim::kWireLReq;
-    out.word = (out.word & ~(1U << cosim::kWireLReq)) | std::exchange(before, now);
+  Level before = 0;
+  const auto late = [&before](Level* levels, long) {  // L_REQ half a cycle late
+    const Level now = levels[number(Pin::kLReq)];
+    levels[number(Pin::kLReq)] = std::exchange(before, now);
   };
   Lockstep tolerant(spoiled(late), options);
   run(tolerant);
@@ -134,8 +131,8 @@ TEST(Lockstep, ToleranceLetsAPinBeLater) {
 }
 
 TEST(Lockstep, WaveShowsBothSidesAroundTheDifference) {
-  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
-    if (cycle >= 5000) out.word |= 1U << cosim::kWireReady;
+  Lockstep lockstep(spoiled([](Level* levels, long cycle) {
+    if (cycle >= 5000) levels[number(Pin::kReady)] = 1;
   }));
   run(lockstep);
   const auto file = std::filesystem::path(testing::TempDir()) / "lockstep_both_sides.vcd";
@@ -154,8 +151,8 @@ TEST(Lockstep, WaveShowsBothSidesAroundTheDifference) {
 }
 
 TEST(Lockstep, LastTelegramAndAccessAreTold) {
-  Lockstep lockstep(spoiled([](cosim::RtlOutputs& out, long cycle) {
-    if (cycle >= 9000) out.word ^= 1U << cosim::kWireBr;
+  Lockstep lockstep(spoiled([](Level* levels, long cycle) {
+    if (cycle >= 9000) levels[number(Pin::kBr)] ^= 1;
   }));
   lockstep.set(480 * kCycle, number(Pin::kReset), 1);
   bus::Segment segment;

@@ -8,6 +8,7 @@
 #include "cosim/pin_map.hpp"
 #include "cosim/user_rtl.hpp"
 #include "io/input/input_error.hpp"
+#include "kinds/dsdpv1/pins/pin_table.hpp"
 
 namespace dsdpv1 {
 namespace {
@@ -21,7 +22,7 @@ class PinMapFile : public testing::Test {
  protected:
   cosim::PinMap load(const std::string& text) const {
     std::ofstream(path_) << text;
-    return cosim::load_pin_map(path_);
+    return cosim::load_pin_map(path_, tb::pins_of(Part::kDsdpv1));
   }
   /// The message behind the file's name.
   std::string error_of(const std::string& text) const {
@@ -81,25 +82,34 @@ TEST_F(PinMapFile, WrongContentIsNamedWithItsLineAndWhatIsAllowed) {
   EXPECT_THAT(error_of("files: a.sv\n"), HasSubstr(":1: files is no list"));
 }
 
-TEST(PinMap, FileThatIsNotThereIsNamed) { EXPECT_THROW(cosim::load_pin_map("none.yaml"), tb::InputError); }
+TEST(PinMap, FileThatIsNotThereIsNamed) {
+  EXPECT_THROW(cosim::load_pin_map("none.yaml", tb::pins_of(Part::kDsdpv1)), tb::InputError);
+}
 
 TEST(Adapter, InvertsWhereTheMapSaysSo) {
-  cosim::PinMap map = cosim::default_pin_map();
+  cosim::PinMap map = cosim::default_pin_map(tb::pins_of(Part::kDsdpv1));
   map.pins["CSR"] = {"cs", true};
   map.pins["INTR0"] = {"irq", true};
   map.pins["D_OUT"] = {"q", true};
-  const std::string text = cosim::adapter_source("chip", map, false);
-  EXPECT_THAT(text, HasSubstr("model.cs = !in["));
-  EXPECT_THAT(text, HasSubstr("= !model.irq;"));
-  EXPECT_THAT(text, HasSubstr("= ~model.q;"));
-  EXPECT_THAT(text, HasSubstr("model.rd_i = in["));
-  EXPECT_THAT(text, HasSubstr("= model.l_req_o;"));
+  const std::string text = cosim::adapter_source("chip", map, tb::pins_of(Part::kDsdpv1), false);
+  EXPECT_THAT(text, HasSubstr("model.cs = !levels["));
+  EXPECT_THAT(text, HasSubstr("(!model.irq);"));
+  EXPECT_THAT(text, HasSubstr("model.d_oe_o ? (~model.q) & 255 : -1"));
+  EXPECT_THAT(text, HasSubstr("model.rd_i = levels["));
+  EXPECT_THAT(text, HasSubstr("(model.l_req_o);"));
+}
+
+TEST(Adapter, HasThePinsOfTheKind) {
+  const tb::PinTable& pins = tb::pins_of(Part::kRsu);
+  const std::string text = cosim::adapter_source("chip", cosim::default_pin_map(pins), pins, false);
+  EXPECT_THAT(text, HasSubstr("model.uiv_i = (levels[25]) & 7;"));
+  EXPECT_THAT(text, HasSubstr("model.miso_oe_o ? model.miso_o : -1"));
 }
 
 TEST(Adapter, HasATraceWhereItIsWantedOnly) {
-  const cosim::PinMap map = cosim::default_pin_map();
-  EXPECT_THAT(cosim::adapter_source("chip", map, false), testing::Not(HasSubstr("race")));
-  EXPECT_THAT(cosim::adapter_source("chip", map, true), HasSubstr("dsdpv1_rtl_trace("));
+  const cosim::PinMap map = cosim::default_pin_map(tb::pins_of(Part::kDsdpv1));
+  EXPECT_THAT(cosim::adapter_source("chip", map, tb::pins_of(Part::kDsdpv1), false), testing::Not(HasSubstr("race")));
+  EXPECT_THAT(cosim::adapter_source("chip", map, tb::pins_of(Part::kDsdpv1), true), HasSubstr("dsdpv1_rtl_trace("));
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ constexpr long kWrongFrom = 3000;  // cycle
 
 cosim::MakeTop wrong_interrupt() {
   return [] {
-    return std::make_unique<cosim_test::MadeUpTop>([](cosim::RtlOutputs& out, long cycle) {
-      if (cycle >= kWrongFrom) out.word &= ~(1U << cosim::kWireIntr0);
+    return std::make_unique<cosim_test::MadeUpTop>([](Level* levels, long cycle) {
+      if (cycle >= kWrongFrom) levels[number(Pin::kIntr0)] = 0;
     });
   };
 }

@@ -41,14 +41,10 @@ NAME_A_CHIP = {
         board/stm32/rcc.cpp board/stm32/rcc.hpp
     """.split(),
     "one face for co-simulation": """
-        cosim/history.cpp cosim/history.hpp cosim/line_history.hpp cosim/lockstep.cpp cosim/lockstep.hpp cosim/lockstep_execution.cpp
-        cosim/lockstep_execution.hpp cosim/pin_comparator.cpp cosim/pin_comparator.hpp cosim/pin_map.cpp cosim/pin_map.hpp
         cosim/random/campaign.cpp cosim/random/campaign.hpp cosim/random/campaign_record.cpp cosim/random/coverage.cpp
-        cosim/random/play_log.cpp cosim/random/play_options.cpp cosim/random/play_wave.cpp
+        cosim/random/play_listener.hpp cosim/random/play_log.cpp cosim/random/play_options.cpp cosim/random/play_wave.cpp
         cosim/random/play_wave.hpp cosim/random/player.cpp cosim/random/player.hpp cosim/random/random_master.cpp
         cosim/random/random_master.hpp cosim/random/random_setup.hpp cosim/random/stimulus.hpp cosim/random/stimulus_result.cpp
-        cosim/reference_rtl.cpp cosim/reference_rtl.hpp cosim/rtl_chip.cpp cosim/rtl_chip.hpp cosim/rtl_device.cpp cosim/rtl_device.hpp
-        cosim/rtl_top.hpp cosim/user_rtl.cpp cosim/wave_pins.cpp
     """.split(),
     "one class a kind of chip": """
         lab/calibrate/found.hpp lab/calibrate/scene.cpp lab/calibrate/scene.hpp lab/calibrate/search.cpp lab/calibrate/watchdog.cpp

@@ -12,7 +12,8 @@ PinTable make_pins(Part part) {
     const auto pin = static_cast<dsdpv1::Pin>(i);
     const bool data = pin == dsdpv1::Pin::kDIn || pin == dsdpv1::Pin::kDOut;
     table.push_back({dsdpv1::name(pin), dsdpv1::width(pin), dsdpv1::is_input(pin), data ? "D" : nullptr,
-                     pin == dsdpv1::Pin::kPbrxd || pin == dsdpv1::Pin::kPbtxd});
+                     pin == dsdpv1::Pin::kPbrxd || pin == dsdpv1::Pin::kPbtxd,
+                     pin == dsdpv1::Pin::kDOut || pin == dsdpv1::Pin::kMiso});
   }
   return table;
 }

@@ -31,13 +31,14 @@ function(dsdpv1_rtl_library target top library optimisation)
   add_custom_command(
     OUTPUT ${library}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${sources_folder}  # what an earlier build left there may depend on headers that are gone
     COMMAND ${DSDPV1_VERILATOR} --cc --exe --build -O3 --x-assign fast --x-initial unique -DDSDPV1_RUN_TIME_LIMITS -I. -I${PROJECT_SOURCE_DIR}/registers
             --top-module ${top} --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
             -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${arguments}
             ${${top}_places} ${${top}_files} ${adapter}
     WORKING_DIRECTORY ${rtl_dir}  # what it makes names sources as they are called here
     DEPENDS ${${top}_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
-            ${${top}_places} ${PROJECT_SOURCE_DIR}/cosim/rtl_top.hpp ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/verilated_top.hpp
+            ${${top}_places} ${PROJECT_SOURCE_DIR}/cosim/rtl_library.hpp ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/limits.hpp ${PROJECT_SOURCE_DIR}/model/dsdpv1/pins.hpp
     COMMENT "Verilating ${name}"
     VERBATIM)
   set_property(TARGET ${target} APPEND PROPERTY SOURCES ${library})

@@ -22,6 +22,7 @@ struct PinInfo {
   bool input = false;
   const char* bus = nullptr;  ///< of two pins that are the two directions of one bus: its name, shown in waves
   bool line = false;          ///< sends to the bus or hears it
+  bool released = false;      ///< an output that may be kLevelZ
 };
 
 /// At most 32 pins.
@@ -39,6 +40,12 @@ inline PinMask inputs_of(const PinTable& pins) {
   PinMask mask = 0;
   for (std::size_t pin = 0; pin < pins.size(); ++pin)
     if (pins[pin].input) mask |= mask_of(static_cast<PinNumber>(pin));
+  return mask;
+}
+inline PinMask outputs_of(const PinTable& pins) {
+  PinMask mask = 0;
+  for (std::size_t pin = 0; pin < pins.size(); ++pin)
+    if (!pins[pin].input) mask |= mask_of(static_cast<PinNumber>(pin));
   return mask;
 }
 /// All pins of a chip.
