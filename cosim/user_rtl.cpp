@@ -186,14 +186,16 @@ namespace {
 /// Folders with the modules of the reference RTL, and what they include.
 std::vector<std::string> reference_folders(const UserRtl& rtl) {
   const fs::path root = fs::path(rtl.sources) / "rtl_ref";
-  std::ifstream list(root / "files.txt");
-  if (!list)
+  if (!fs::is_directory(root))
     throw tb::InputError(fmt::format("{}: the map of pins has reference: true, but {} is not there, allowed is a {}",
                                      rtl.command, root.string(), "program whose sources are where it was built"));
   std::vector<std::string> folders = {root.string(), (fs::path(rtl.sources) / "registers").string()};
-  for (std::string file; std::getline(list, file);) {
-    const std::string folder = (root / file).parent_path().string();
-    if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+  for (const char* top : {"files.txt", "files_rsu.txt"}) {
+    std::ifstream list(root / top);
+    for (std::string file; std::getline(list, file);) {
+      const std::string folder = (root / file).parent_path().string();
+      if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+    }
   }
   return folders;
 }

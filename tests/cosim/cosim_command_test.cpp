@@ -127,6 +127,19 @@ std::string line_with(const std::string& text, const std::string& word) {
 }
 
 /// One build for all of it: the pulse of INTR0 is 60 cycles long, P7 asks for 64.
+/// The reference RTL of the DSDPV1-RSU as if it were a user's: SPI, where SCK is a clock of its own and MISO is late.
+TEST(OwnRtl, OfTheRsuIsTheSameAtItsSerialPort) {
+  const app_test::Folder folder;
+  std::ofstream(folder.file("pins.yaml")) << "reference: true\n";
+  const app_test::Called called =
+      call("rtl-random --chip dsdpv1_rsu --mode spi --rtl rtl_ref/dsdpv1_rsu --top dsdpv1_rsu --pins '" +
+               folder.file("pins.yaml") + "' --build '" + folder.file("build") + "' --cycles 500000 --stimulus '" +
+               folder.file("case") + "' --difference '" + folder.file("both.vcd") + "'",
+           kSource);
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+  EXPECT_THAT(called.out, HasSubstr("telegrams of the host"));
+}
+
 TEST(OwnRtl, DefectIsFoundAtRandomShownFromInsideAndPlayedAgainExactly) {
   const app_test::Folder folder;
   copy_example(folder);
