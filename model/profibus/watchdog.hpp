@@ -24,11 +24,12 @@ class Watchdog {
   void baud_control(Cycle now) {
     if (state_ != State::kBaudSearch) rate_found(now);
   }
-  void dp_control(Cycle now, Cycle time) {
+  /// `factors`: WD_Fact_1 x WD_Fact_2, `base_ms`: WD_Base, 1 or 10.
+  void dp_control(Cycle now, unsigned factors, unsigned base_ms) {
     if (state_ == State::kBaudSearch) return;
     state_ = State::kDpControl;
-    time_ = time;
-    deadline_ = now + time;
+    time_ = kCyclesPerMs * base_ms * factors;
+    deadline_ = now + time_;
   }
   /// An error-free telegram to this station; `from_holder`: from the master that holds the slave (ruling S22).
   void trigger(Cycle now, bool from_holder) {
