@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "model/profibus/time.hpp"
+#include "model/profibus/fdl_times.hpp"
 
 namespace dsdpv1::profibus {
 

@@ -31,6 +31,7 @@ class BaudSearch {
   bool searching() const { return searching_; }
   BaudIndex index() const { return index_; }  ///< the rate that the receiver uses, found or tried
   int bit() const { return index_.bit_cycles(); }
+  int max_tsdr() const { return index_.max_tsdr(); }
 
   template <class Archive>
   void store(Archive& archive) {

@@ -3,7 +3,7 @@
 // station delay from the end of a request to the begin of its answer, from min_TSDR to max_TSDR (baud.hpp).
 #include <algorithm>
 
-#include "model/profibus/baud.hpp"
+#include "model/profibus/time.hpp"
 
 namespace dsdpv1::profibus {
 
@@ -13,9 +13,7 @@ constexpr int kMinTsdr = 11;  ///< the least min_TSDR, bit times
 /// Whether an idle time of `idle` cycles is T_SYN, `bit` cycles a bit: as the logic sees it, to the cycle.
 constexpr bool is_syn(Cycle idle, int bit) { return idle >= static_cast<Cycle>(kSynBits) * bit - 1; }
 
-/// T_SDR of an answer in cycles: the min_TSDR of Set_Prm, bit times, as far as the rate allows.
-constexpr Cycle tsdr(int min_tsdr, BaudIndex rate) {
-  return Cycle{std::min(min_tsdr, rate.max_tsdr())} * rate.bit_cycles();
-}
+/// T_SDR of an answer in cycles, `bit` cycles a bit: the min_TSDR of Set_Prm, as far as the rate allows; bit times.
+constexpr Cycle tsdr(int min_tsdr, int max_tsdr, int bit) { return Cycle{std::min(min_tsdr, max_tsdr)} * bit; }
 
 }  // namespace dsdpv1::profibus

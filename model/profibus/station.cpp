@@ -186,7 +186,7 @@ void Station::decide(Cycle now, const Telegram& telegram) {
 }
 
 void Station::answer(const Telegram& telegram, const Frame& frame) {
-  const Cycle begin = telegram.end - kSynchroniserDelay + tsdr(slave_.min_tsdr(), search_.index());
+  const Cycle begin = telegram.end - kSynchroniserDelay + tsdr(slave_.min_tsdr(), search_.max_tsdr(), search_.bit());
   tx_.send(frame.bytes.data(), frame.size, search_.bit(), begin, config_.rts_lead, config_.rts_trail);
 }
 

@@ -24,12 +24,13 @@ class Watchdog {
   void baud_control(Cycle now) {
     if (state_ != State::kBaudSearch) rate_found(now);
   }
-  /// `factors`: WD_Fact_1 x WD_Fact_2, `base_ms`: WD_Base, 1 or 10.
-  void dp_control(Cycle now, unsigned factors, unsigned base_ms) {
+  /// The time that Set_Prm gives: WD_Fact_1 x WD_Fact_2, and WD_Base, 1 or 10 ms.
+  static constexpr Cycle time_of(unsigned factors, unsigned base_ms) { return kCyclesPerMs * base_ms * factors; }
+  void dp_control(Cycle now, Cycle time) {
     if (state_ == State::kBaudSearch) return;
     state_ = State::kDpControl;
-    time_ = kCyclesPerMs * base_ms * factors;
-    deadline_ = now + time_;
+    time_ = time;
+    deadline_ = now + time;
   }
   /// An error-free telegram to this station; `from_holder`: from the master that holds the slave (ruling S22).
   void trigger(Cycle now, bool from_holder) {
