@@ -6,6 +6,7 @@ BusDevice::BusDevice(const Kind& kind, const ChipPlan& plan, dpsim_bus& bus)
     : bus_(bus),
       chip_(plan.name, kind.chip.make_device(plan.request()), kind.chip.pins(), kind.chip.board_pins(), 0, bus.segment),
       inputs_(tb::inputs_of(kind.chip.pins()) & ~tb::mask_of(kind.chip.board_pins().rxd)) {
+  chip_.listen(*this, 0);
   bus.timeline.add(chip_);
   bus.add_station({chip_.station(), Station::Kind::kChip});
 }
@@ -21,15 +22,9 @@ tb::Level BusDevice::sample(Tick at) {
 }
 
 void BusDevice::watch(const tb::PinSink& sink, tb::PinMask pins) {
-  const tb::PinMask told = pins & ~inputs_;
-  chip_.on_pin = [sink, told](Tick at, tb::PinNumber pin, tb::Level level) {
-    if ((told & tb::mask_of(pin)) != 0) sink.call(sink.self, at, pin, level);
-  };
-  chip_.watch(now(), told);
-}
-
-void BusDevice::on_event(const profibus::EventSink& sink) {
-  chip_.on_event = [sink](const profibus::Event& event) { sink.call(sink.self, event); };
+  changes_ = sink;
+  told_ = pins & ~inputs_;
+  chip_.watch(now(), told_);
 }
 
 tb::ChipStatus BusDevice::status() const {

@@ -8,7 +8,7 @@
 
 namespace dsdpv1::capi {
 
-class BusDevice : public tb::PinDevice {
+class BusDevice : public tb::PinDevice, private tb::ChipListener {
  public:
   BusDevice(const Kind& kind, const ChipPlan& plan, dpsim_bus& bus);
 
@@ -19,18 +19,27 @@ class BusDevice : public tb::PinDevice {
   tb::Level level(tb::PinNumber pin) const override { return chip_.level(pin); }
   tb::Level sample(Tick at) override;
   void watch(const tb::PinSink& sink, tb::PinMask pins) override;
-  void on_event(const profibus::EventSink& sink) override;
+  void on_event(const profibus::EventSink& sink) override { events_ = sink; }
   tb::ChipStatus status() const override;
   std::uint8_t address() const override { return chip_.address(); }
   std::uint8_t peek(std::uint16_t address) const override;
   void poke(std::uint16_t address, std::uint8_t value) override { chip_.poke(now(), address, value); }
 
  private:
+  void pin(std::size_t /*slave*/, Tick at, tb::PinNumber pin, tb::Level level) override {
+    if ((told_ & tb::mask_of(pin)) != 0) changes_.call(changes_.self, at, pin, level);
+  }
+  void event(std::size_t /*slave*/, const profibus::Event& event) override {
+    if (events_.call != nullptr) events_.call(events_.self, event);
+  }
   void catch_up() const;
 
   dpsim_bus& bus_;
   mutable tb::PinChip chip_;  ///< it leaves undone what nobody sees
   const tb::PinMask inputs_;  ///< those that the caller sets
+  tb::PinMask told_ = 0;      ///< to `changes_`
+  tb::PinSink changes_;
+  profibus::EventSink events_;
 };
 
 }  // namespace dsdpv1::capi

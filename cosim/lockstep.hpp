@@ -69,7 +69,9 @@ class Lockstep : public tb::PinDevice {
   std::uint8_t address() const override { return model_->address(); }
   std::uint8_t peek(std::uint16_t address) const override { return model_->peek(address); }
   void poke(std::uint16_t address, std::uint8_t value) override { model_->poke(address, value); }
-  void look_inside(Tick now, const tb::TellInside& tell) override { model_->look_inside(now, tell); }
+  void look_inside(Tick now, std::size_t number, tb::ChipListener& listener) override {
+    model_->look_inside(now, number, listener);
+  }
   const char* works_on() const override { return model_->works_on(); }
 
   /// Told each change at the pins of all sides: of each side in order of time, the sides in turns.

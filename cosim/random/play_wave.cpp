@@ -50,14 +50,21 @@ void PlayWave::telegram(Tick now, const bus::WireTelegram& telegram) {
 }
 
 void PlayWave::evaluated(Tick now, tb::PinDevice& model) {
-  model.look_inside(
-      now,
-      [this](Tick at, std::size_t signal, Level level, const std::string& word) {
-        if (signals_[signal].width == 0)
-          writer_->say(in_order(at), inside_[signal], word);
-        else
-          writer_->set(in_order(at), inside_[signal], level);
-      });
+  struct Inside : tb::ChipListener {
+    explicit Inside(PlayWave& wave) : wave_(wave) {}
+    void inside(std::size_t, Tick at, std::size_t signal, Level level, const std::string& word) override {
+      wave_.inside(at, signal, level, word);
+    }
+    PlayWave& wave_;
+  } listener(*this);
+  model.look_inside(now, 0, listener);
+}
+
+void PlayWave::inside(Tick at, std::size_t signal, Level level, const std::string& word) {
+  if (signals_[signal].width == 0)
+    writer_->say(in_order(at), inside_[signal], word);
+  else
+    writer_->set(in_order(at), inside_[signal], level);
 }
 
 void PlayWave::ends(Tick end, const Lockstep& /*lockstep*/) { writer_->finish(in_order(end)); }

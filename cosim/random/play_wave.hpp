@@ -29,6 +29,7 @@ class PlayWave : public PlayListener {
 
  private:
   using Signal = tb::WaveWriter::Signal;
+  void inside(Tick at, std::size_t signal, Level level, const std::string& word);
   /// The host's edges are told when they happen, the chip's when it is evaluated.
   Tick in_order(Tick at) { return last_ = std::max(at, last_); }
 

@@ -6,12 +6,26 @@
 #include <string>
 #include <vector>
 
-#include "lab/traces/difference.hpp"
 #include "lab/traces/tap.hpp"
 #include "lab/traces/trace.hpp"
 #include "tb/bench/observer.hpp"
 
 namespace dsdpv1::tb::traces {
+
+/// What one side does with a signal at the tick of the difference.
+struct Side {
+  Level level = kLevelX;  ///< that it has then
+  bool changed = false;   ///< to it, at this tick
+};
+
+struct Difference {
+  Tick at = 0;
+  Signal signal;
+  Side golden, here;
+};
+
+/// "pin READY of io: golden 0, here still 1", "the line: golden still 1, here 0".
+std::string what_differs(const Difference& difference);
 
 /// Told all signals by a Tap, and as an Observer what was on the bus. Compares up to the first difference: at each
 /// tick every signal must change as often and to the same levels as in the golden; in which order signals change within

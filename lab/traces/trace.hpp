@@ -5,10 +5,30 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/traces/signals.hpp"
 #include "lab/traces/tap.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb::traces {
+
+struct Signal {
+  enum class Kind : std::uint8_t { kInput, kOutput, kLine };  ///< inputs and outputs are the chip's
+
+  std::string slave;  ///< "bus" for the line
+  std::string name;   ///< the pin's, "line" for the line
+  int width = 1;      ///< number of wires, 1..15
+  Kind kind = Kind::kInput;
+
+  bool operator==(const Signal& other) const {
+    return slave == other.slave && name == other.name && width == other.width && kind == other.kind;
+  }
+};
+/// All pins of each slave, in the order of the scenario and of the chip's pin table, then the line.
+using Signals = std::vector<Signal>;
+
+Signals signals_of(const scenario::Scenario& scenario);
+
+/// "1", "7FF", "Z", "X".
+std::string level_words(const Signal& signal, Level level);
 
 /// Largest trace that is read.
 constexpr std::size_t kMostBytes = 256U << 20U;

@@ -6,6 +6,25 @@
 
 namespace dsdpv1::dpram {
 
+void Sequencer::commit(Cycle now) {
+  const bool acyclic = acyclic_answer(item_);
+  std::uint8_t& command = acyclic ? user_command2_ : user_command1_;
+  command = static_cast<std::uint8_t>(command & ~area(item_).flag);
+  put(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
+  goto_phase(Phase::kChoose, now + 1);
+  effect_ = now;
+  const bool too_long = image_size_ == 0;
+  switch (item_) {
+    case Item::kInit: too_long ? refuse_length(now) : commit_init(now); break;
+    case Item::kInput: too_long ? refuse_length(now) : commit_input(now); break;
+    case Item::kDiag: too_long ? refuse_length(now) : commit_diag(now); break;
+    case Item::kC1Answer:
+    case Item::kC2Answer: too_long ? refuse_length(now) : commit_acyclic(now); break;
+    default: commit_verdict(now); break;
+  }
+  next_item();
+}
+
 bool Sequencer::crc_right(Cycle now, profibus::Reason reason, std::uint8_t error_bit) {
   const auto* stored = &image_[static_cast<std::size_t>(image_size_)];
   const unsigned found = static_cast<unsigned>(stored[0]) << 8 | stored[1];

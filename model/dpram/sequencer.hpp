@@ -170,21 +170,31 @@ class Sequencer {
   static constexpr int kVersionBytes = 4;
   static constexpr int kStartUpMoves = regs::kDpramSize + kVersionBytes + 1;  // the RAM, the version, B006
   static constexpr int kMostBlock = 254;                                      // with its CRC 256 bytes
+  static constexpr std::uint8_t kChipWasHere = 1;                             // B006
+  // All that the user may ask for with B010 and B011.
+  static constexpr std::uint8_t kUserCommands1 = regs::kUserCommand1Init | regs::kUserCommand1PrmVerdict |
+                                                 regs::kUserCommand1CfgVerdict | regs::kUserCommand1Input |
+                                                 regs::kUserCommand1Diag;
+  static constexpr std::uint8_t kUserCommands2 =
+      regs::kUserCommand2InputClear | regs::kUserCommand2C1 | regs::kUserCommand2C2;
   bool is_possible_block() const;
   static bool acyclic_answer(Item item) { return item == Item::kC1Answer || item == Item::kC2Answer; }
 
-  // access
+  // sequencer.cpp
   bool waiting() const { return phase_ == Phase::kIdle || phase_ == Phase::kDue; }
   void make_moves(Cycle until);
-  void make_up_accesses(Cycle until);
   void begin(Cycle now);
   void end(Cycle now);
   void move(Cycle now);  // the byte move of one cycle
+  // doze.cpp
+  void make_up_accesses(Cycle until);
+  // start_up.cpp
   void move_start_up(Cycle now);
+  // access_count.cpp
   void move_header(Cycle now);
   void read_header(int index);
   void header_at_once();
-  // choosing
+  // access_order.cpp
   void choose(Cycle now);
   unsigned due_items(Cycle now) const;
   unsigned due_commands() const;
@@ -194,10 +204,6 @@ class Sequencer {
   static constexpr unsigned when(Item item, bool due) { return due ? mask(item) : 0U; }
   void start(Item item, Cycle now);
   void next_item() { item_ = static_cast<Item>(static_cast<int>(item_) + 1); }
-  void start_read(Cycle now, const Area& area);
-  void start_write(Cycle now, Item item);
-  void status_byte(Item item, Cycle now);
-  void move_status(Item item, Cycle now);
   // moving bytes; the next move's cycle has been counted on when one is made
   void note(regs::Address address, std::uint8_t byte, bool writes);
   std::uint8_t get(regs::Address address) {
@@ -209,16 +215,25 @@ class Sequencer {
     ram_.write(address, byte);
     if (notes_moves_) note(address, byte, true);
   }
-  // moving blocks
+  // block_moves.cpp
+  void start_read(Cycle now, const Area& area);
   void read_byte();
   void decode(Cycle now);
-  void commit(Cycle now);
+  void start_write(Cycle now, Item item);
+  void write_byte();
+  void write_crc();
   void flag(Cycle now);
   void goto_phase(Phase phase, Cycle visible) {
     phase_ = phase;
     visible_ = visible;
   }
-  // effects
+  // status_cells.cpp
+  void status_byte(Item item, Cycle now);
+  void move_status(Item item, Cycle now);
+  void write_status2(Cycle now);
+  std::uint8_t status3() const;
+  // commit.cpp
+  void commit(Cycle now);
   bool input_history() const;
   void clear_input_error(Cycle now);
   bool crc_right(Cycle now, profibus::Reason reason, std::uint8_t error_bit);
@@ -230,7 +245,6 @@ class Sequencer {
   void refuse_length(Cycle now);
   void init_result(bool good);
   bool offline() const { return user_.mail().state.state == profibus::DpState::kOffline; }
-  std::uint8_t status3() const;
 
   profibus::EventLog& log_;
   Ram& ram_;

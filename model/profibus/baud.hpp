@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "model/profibus/time.hpp"
+#include "model/profibus/fdl_times.hpp"
 
 namespace dsdpv1::profibus {
 
@@ -48,8 +48,6 @@ class BaudIndex {
 
 constexpr BaudIndex kBaudUnknown{};  ///< the baud rate is being searched
 
-constexpr int kMinTsdr = 11;           ///< bit times, S3
-constexpr int kSynBits = 33;           ///< T_SYN, S3
 constexpr int kBitsPerCharacter = 11;  ///< start, 8 data, even parity, stop
 
 }  // namespace dsdpv1::profibus

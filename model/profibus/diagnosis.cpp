@@ -1,5 +1,7 @@
 #include "model/profibus/diagnosis.hpp"
 
+#include "model/profibus/dp_slave.hpp"
+
 namespace dsdpv1::profibus {
 namespace {
 
@@ -38,6 +40,37 @@ const std::uint8_t* Diagnosis::bytes(const DiagnosisView& view) {
   answer_[5] = static_cast<std::uint8_t>(view.ident & 0xFF);
   std::memcpy(&answer_[kStandard], user_.bytes.data(), static_cast<std::size_t>(user_.size));
   return answer_.data();
+}
+
+// --- Slave_Diag, and the user's block
+// ----------------------------------------------------------------------------------
+
+Reply DpSlave::slave_diag(const Request& request) {
+  DiagnosisView view;
+  view.ready = state_ == DpState::kDataExch;
+  view.prm_req = state_ == DpState::kWaitPrm && !prm_awaited_;
+  view.watchdog = watchdog_.state() == Watchdog::State::kDpControl;
+  view.freeze = inputs_.held();
+  view.sync = outputs_.held();
+  view.master = master_;
+  view.ident = config_.ident;
+  const Reply reply = Reply::with_data(fc::kDl, diagnosis_.bytes(view), diagnosis_.size());
+  if (master_ == request.sa) diagnosis_.read_by_holder();
+  return reply;
+}
+
+bool DpSlave::new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size) {
+  if (!Diagnosis::known_type(type)) {
+    log_.at_cycle(now, Reason::kDiagType, type);
+    return false;
+  }
+  if (size > config_.max_diag) {
+    log_.at_cycle(now, Reason::kDiagLength, static_cast<unsigned>(size), static_cast<unsigned>(config_.max_diag));
+    return false;
+  }
+  log_.at_cycle(now, Reason::kDiagAccepted, type, static_cast<unsigned>(size));
+  diagnosis_.set_user(type, bytes, size);
+  return true;
 }
 
 }  // namespace dsdpv1::profibus

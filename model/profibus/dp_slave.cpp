@@ -3,8 +3,6 @@
 namespace dsdpv1::profibus {
 namespace {
 
-constexpr int kMaxAddress = 125;  // EN 50170: 126 is the delivery address, 127 broadcast
-
 bool c2_channel(int dsap) { return dsap <= kC2FirstSap && dsap > kC2FirstSap - kC2Channels; }
 
 }  // namespace
@@ -72,16 +70,6 @@ void DpSlave::watchdog_expired(Cycle now) {
   leave_to_wait_prm(now);
 }
 
-void DpSlave::hand_outputs(Cycle now) {
-  if (mail_.output.due.waiting()) ++outputs_replaced_;
-  if (outputs_.size() > 0) mail_.output.due.set(now);
-}
-
-void DpSlave::clear_outputs(Cycle now) {
-  outputs_.clear();
-  hand_outputs(now);
-}
-
 // --- services --------------------------------------------------------------------------------------------------------
 
 Reply DpSlave::handle(Cycle now, const Request& request) {
@@ -123,26 +111,6 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
   }
 }
 
-// Requests without data (S13).
-Reply DpSlave::read_only(Cycle now, const Request& request) {
-  if (request.dsap == sap::kReadInputs && state_ != DpState::kDataExch) return refuse_state(now, request, request.dsap);
-  if (request.size > 0) {
-    log_.at_cycle(now, Reason::kSapData, static_cast<unsigned>(request.dsap), static_cast<unsigned>(request.size),
-                  request.sa);
-    return Reply::status(fc::kRr);
-  }
-  switch (request.dsap) {
-    case sap::kReadInputs: return reply_data(inputs_.shown().bytes.data(), inputs_.size());
-    case sap::kReadOutputs: return reply_data(outputs_.shown().bytes.data(), outputs_.size());
-    case sap::kGetCfg: return get_cfg();
-    default: return slave_diag(request);
-  }
-}
-
-Reply DpSlave::reply_data(const std::uint8_t* data, int size) const {
-  return size == 0 ? Reply::sc() : Reply::with_data(fc::kDl, data, size);
-}
-
 Reply DpSlave::refuse_state(Cycle now, const Request& request, int sap) {
   log_.at_cycle(now, Reason::kSapState, static_cast<unsigned>(sap), static_cast<unsigned>(state_), request.sa);
   return Reply::status(fc::kRs);
@@ -169,103 +137,6 @@ Reply DpSlave::c2_initiate(Cycle now, const Request& request) {
     return Reply::status(fc::kRs);
   }
   return msac2_.initiate(now, request);
-}
-
-Reply DpSlave::data_exchange(Cycle now, const Request& request) {
-  constexpr int kDefaultSap = 0;
-  if (state_ != DpState::kDataExch) return refuse_state(now, request, kDefaultSap);
-  if (held_by_other(request)) return refuse_master(now, request, kDefaultSap);
-  if (request.size == outputs_.size()) {
-    if (request.size > 0) outputs_.write(request.data);
-    if (!outputs_.held()) hand_outputs(now);
-  } else if (request.size == 0 && prm_.fail_safe) {
-    log_.at_cycle(now, Reason::kFailSafeClear);
-    clear_outputs(now);
-  } else {
-    log_.at_cycle(now, Reason::kOutputLength, static_cast<unsigned>(request.size),
-                  static_cast<unsigned>(outputs_.size()));
-    diagnosis_.cfg_fault();
-    leave_to_wait_prm(now);
-    return Reply::status(fc::kRr);  // S19
-  }
-  ++data_exchanges_;
-  return input_reply();
-}
-
-Reply DpSlave::input_reply() const {
-  const bool high = diagnosis_.high_priority();
-  if (inputs_.size() > 0)
-    return Reply::with_data(high ? fc::kDh : fc::kDl, inputs_.shown().bytes.data(), inputs_.size());
-  return high ? Reply::status(fc::kDh) : Reply::sc();
-}
-
-Reply DpSlave::slave_diag(const Request& request) {
-  DiagnosisView view;
-  view.ready = state_ == DpState::kDataExch;
-  view.prm_req = state_ == DpState::kWaitPrm && !prm_awaited_;
-  view.watchdog = watchdog_.state() == Watchdog::State::kDpControl;
-  view.freeze = inputs_.held();
-  view.sync = outputs_.held();
-  view.master = master_;
-  view.ident = config_.ident;
-  const Reply reply = Reply::with_data(fc::kDl, diagnosis_.bytes(view), diagnosis_.size());
-  if (master_ == request.sa) diagnosis_.read_by_holder();
-  return reply;
-}
-
-Reply DpSlave::get_cfg() const {
-  const Block<kMaxCfg>& cfg = state_ == DpState::kDataExch ? cfg_ : config_.cfg;  // 6.2.9
-  return reply_data(cfg.bytes.data(), cfg.size);
-}
-
-Reply DpSlave::set_slave_address(Cycle now, const Request& request) {
-  constexpr int kSize = 4;
-  if (state_ != DpState::kWaitPrm) return refuse_state(now, request, sap::kSetSlaveAddress);
-  if (!config_.address_change || address_locked_) {
-    log_.at_cycle(now, Reason::kAddressDisabled, config_.address_change, address_locked_);
-    return Reply::status(fc::kRs);
-  }
-  if (request.size > kSize) {
-    log_.at_cycle(now, Reason::kAddressTooLong, static_cast<unsigned>(request.size));
-    return Reply::status(fc::kRr);
-  }
-  const std::uint8_t* data = request.data;
-  const unsigned ident = request.size == kSize ? static_cast<unsigned>(data[1]) << 8 | data[2] : 0;
-  if (request.size < kSize || data[0] > kMaxAddress || ident != config_.ident) {
-    log_.at_cycle(now, Reason::kAddressRefused, static_cast<unsigned>(request.size), request.size > 0 ? data[0] : 0U,
-                  ident);
-    return Reply::sc();
-  }
-  log_.at_cycle(now, Reason::kAddressChanged, address_, data[0], data[3]);
-  address_ = data[0];
-  address_locked_ = data[3] != 0;
-  mail_.address = {{now}, address_, address_locked_};
-  return Reply::sc();
-}
-
-// --- the user's side -------------------------------------------------------------------------------------------------
-
-bool DpSlave::new_inputs(Cycle now, const std::uint8_t* bytes, int size) {
-  if (size != inputs_.size()) {
-    log_.at_cycle(now, Reason::kInputLength, static_cast<unsigned>(size), static_cast<unsigned>(inputs_.size()));
-    return false;
-  }
-  inputs_.write(bytes);
-  return true;
-}
-
-bool DpSlave::new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size) {
-  if (!Diagnosis::known_type(type)) {
-    log_.at_cycle(now, Reason::kDiagType, type);
-    return false;
-  }
-  if (size > config_.max_diag) {
-    log_.at_cycle(now, Reason::kDiagLength, static_cast<unsigned>(size), static_cast<unsigned>(config_.max_diag));
-    return false;
-  }
-  log_.at_cycle(now, Reason::kDiagAccepted, type, static_cast<unsigned>(size));
-  diagnosis_.set_user(type, bytes, size);
-  return true;
 }
 
 }  // namespace dsdpv1::profibus

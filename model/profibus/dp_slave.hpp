@@ -1,9 +1,10 @@
 #pragma once
-// The DP slave state machine (chapter 6, rulings S4 to S33): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. Service bodies
-// that are longer than a few lines are in set_prm.cpp, check_cfg.cpp and global_control.cpp.
+// The DP slave state machine (chapter 6, rulings S4 to S33): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. Each service is in
+// the file that bears its name; dp_slave.cpp has the states and the way to the services.
 #include "model/profibus/diagnosis.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event_log.hpp"
+#include "model/profibus/fdl_times.hpp"
 #include "model/profibus/msac1.hpp"
 #include "model/profibus/msac2.hpp"
 #include "model/profibus/request.hpp"
@@ -94,20 +95,24 @@ class DpSlave {
   void unanswered(Cycle now, const Request& request);
   Reply c1(Cycle now, const Request& request);
   Reply c2_initiate(Cycle now, const Request& request);
-  Reply data_exchange(Cycle now, const Request& request);
-  Reply input_reply() const;
-  Reply slave_diag(const Request& request);
-  Reply get_cfg() const;
-  Reply read_only(Cycle now, const Request& request);
-  Reply set_slave_address(Cycle now, const Request& request);
-  Reply reply_data(const std::uint8_t* data, int size) const;
   Reply refuse_state(Cycle now, const Request& request, int sap);
   Reply refuse_master(Cycle now, const Request& request, int sap);
   bool held_by_other(const Request& request) const { return master_ != kNoMaster && master_ != request.sa; }
   void enter(Cycle now, DpState state);
   void leave_to_wait_prm(Cycle now);
-  void hand_outputs(Cycle now);
+  // data_exchange.cpp
+  Reply data_exchange(Cycle now, const Request& request);
+  Reply input_reply() const;
+  // fail_safe.cpp
+  bool fail_safe_clear(Cycle now, const Request& request);
   void clear_outputs(Cycle now);
+  void hand_outputs(Cycle now);
+  // diagnosis.cpp, read_services.cpp, set_slave_address.cpp
+  Reply slave_diag(const Request& request);
+  Reply read_only(Cycle now, const Request& request);
+  Reply get_cfg() const;
+  Reply reply_data(const std::uint8_t* data, int size) const;
+  Reply set_slave_address(Cycle now, const Request& request);
   // set_prm.cpp
   Reply set_prm(Cycle now, const Request& request);
   bool check_ident(Cycle now, const Request& request);

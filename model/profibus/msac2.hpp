@@ -1,6 +1,9 @@
 #pragma once
-// MSAC_C2: two channels for class 2 masters, the resource manager that lends them (table 30) and the F, I and U timers
-// (7.3, figure 11; rulings V2 to V4, V7 to V14). docs/microarchitecture.md, section 15.2, has the states.
+// MSAC_C2: two channels for class 2 masters (msac2.cpp), Initiate with the resource manager that lends them (table 30;
+// msac2_initiate.cpp), and the F, I and U timers (msac2_timers.cpp): 7.3, figure 11, rulings V2 to V4, V7 to V14.
+// docs/microarchitecture.md, section 15.2, has the states.
+#include <initializer_list>
+
 #include "model/profibus/acyclic.hpp"
 #include "model/profibus/rm_registry.hpp"
 
@@ -43,12 +46,12 @@ class Msac2 {
   struct Channel {
     State state = State::kFree;
     std::uint8_t master = 0;
-    std::uint8_t abort_reason = 0;  ///< 1 sequence, 2 invalid PDU, 3 timeout
-    Cycle timeout = 0;              ///< Send_Timeout in cycles
-    Cycle idle_timeout = 0;         ///< twice that, as far as 16 bits go
-    Cycle watch = kNever;           ///< F or I ends
-    Cycle user = kNever;            ///< U ends
-    Pdu pdu;                        ///< Initiate, then the request, then its answer
+    std::uint8_t abort_reason = 0;
+    Cycle timeout = 0;       ///< Send_Timeout in cycles
+    Cycle idle_timeout = 0;  ///< twice that, as far as 16 bits go
+    Cycle watch = kNever;    ///< F or I ends
+    Cycle user = kNever;     ///< U ends
+    Pdu pdu;                 ///< Initiate, then the request, then its answer
 
     template <class Archive>
     void store(Archive& archive) {
@@ -59,12 +62,16 @@ class Msac2 {
       archive.cycles(watch_ends, user_ends);
     }
   };
-  static constexpr int kNobody = -1;
+  static constexpr int kNobody = -1, kSsap = 50;
+  static constexpr std::uint8_t kSequenceError = 1, kInvalidPdu = 2, kTimeout = 3, kInvalidAddAddr = 7;  // aborts, V11
 
   Channel& channel_at(int channel) { return channels_[static_cast<std::size_t>(channel)]; }
   const Channel& channel_at(int channel) const { return channels_[static_cast<std::size_t>(channel)]; }
   State state(int channel) const { return channel_at(channel).state; }
   static int channel_of(const Request& request) { return kC2FirstSap - request.dsap; }
+  static void put(Pdu& pdu, std::initializer_list<std::uint8_t> bytes) {
+    pdu.assign(bytes.begin(), static_cast<int>(bytes.size()));
+  }
   static unsigned sap_of(int channel) { return static_cast<unsigned>(kC2FirstSap - channel); }
   RmEntry entry(int number) const;
   void enter(Cycle now, int number, State state);

@@ -124,7 +124,7 @@ void DpSlave::accept_prm(Cycle now, const PrmRequest& prm) {
   set_min_tsdr(prm.min_tsdr);
   if (prm.watchdog) {
     log_.at_cycle(now, Reason::kWatchdogOn, prm.watchdog_factor, prm.watchdog_base_ms);
-    watchdog_.dp_control(now, kCyclesPerMs * prm.watchdog_base_ms * prm.watchdog_factor);
+    watchdog_.dp_control(now, Watchdog::time_of(prm.watchdog_factor, prm.watchdog_base_ms));
   } else {
     watchdog_.baud_control(now);
   }

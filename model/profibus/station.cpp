@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/profibus/fdl_times.hpp"
+
 namespace dsdpv1::profibus {
 namespace {
 
@@ -184,8 +186,7 @@ void Station::decide(Cycle now, const Telegram& telegram) {
 }
 
 void Station::answer(const Telegram& telegram, const Frame& frame) {
-  const Cycle tsdr = std::min(slave_.min_tsdr(), search_.max_tsdr());  // S11
-  const Cycle begin = telegram.end - kSynchroniserDelay + tsdr * search_.bit();
+  const Cycle begin = telegram.end - kSynchroniserDelay + tsdr(slave_.min_tsdr(), search_.max_tsdr(), search_.bit());
   tx_.send(frame.bytes.data(), frame.size, search_.bit(), begin, config_.rts_lead, config_.rts_trail);
 }
 

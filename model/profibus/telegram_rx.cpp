@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/profibus/fdl_times.hpp"
 #include "model/profibus/request.hpp"
 
 namespace dsdpv1::profibus {
@@ -23,8 +24,6 @@ int expected_size(std::uint8_t delimiter) {
 }
 
 int address_offset(std::uint8_t delimiter) { return delimiter == sd::kSd2 ? kSd2Header : 1; }
-
-bool is_syn(Cycle idle, int bit) { return idle >= static_cast<Cycle>(kSynBits) * bit - 1; }
 
 std::uint8_t fcs_of(const std::uint8_t* bytes, int size) {
   unsigned sum = 0;

@@ -24,6 +24,8 @@ class Watchdog {
   void baud_control(Cycle now) {
     if (state_ != State::kBaudSearch) rate_found(now);
   }
+  /// The time that Set_Prm gives: WD_Fact_1 x WD_Fact_2, and WD_Base, 1 or 10 ms.
+  static constexpr Cycle time_of(unsigned factors, unsigned base_ms) { return kCyclesPerMs * base_ms * factors; }
   void dp_control(Cycle now, Cycle time) {
     if (state_ == State::kBaudSearch) return;
     state_ = State::kDpControl;

@@ -6,7 +6,6 @@
 #include <chrono>
 
 #include "tb/bench/script.hpp"
-#include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::tb {
 
@@ -53,39 +52,27 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       options_(options),
       execution_(std::move(execution)),
       setup_(scenario),
+      observers_(execution_->timeline()),
       exchange_(scenario, stations_),
-      checks_(scenario, options.checks.value_or(scenario.checks.mode)),
-      hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty()),
-      journal_(scenario, execution_->timeline(),
-               log_form(options.log, options.log_whole, options.open_ended, options.from)) {
+      checks_(scenario, options.checks.value_or(scenario.checks.mode), observers_),
+      hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty(), observers_),
+      journal_(scenario, observers_, log_form(options.log, options.log_whole, options.open_ended, options.from)) {
   add_marks();
-  checks_.on_violation = [this](const std::string& slave, const checks::Violation& violation, const char* kind) {
-    stations_.slave(slave).chip().pause_access();
-    journal_.check_violated(slave, violation, kind);
-    observers_.tell(&Observer::violated, slave, violation);
-    changed(violation.found);
-  };
-  hosts_.on_telegram = [this](std::size_t slave, const HostTelegram& telegram) {
-    observers_.tell(&Observer::host_telegram, slave, telegram);
-  };
-  replies_.on_change = [this](const auto&, auto, const auto&) { changed(); };
+  replies_.on_change = [this](const auto&, auto, const auto&) { observers_.changed(); };
   if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline(), kind_);
   for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);
   baud_follower_ = std::make_unique<BaudFollower>(*this);
   add_monitor();
   for (const scenario::Master& master : scenario.masters) add_master(master);
   for (const scenario::Master2& master : scenario.masters2) add_master2(master);
-  script_ = std::make_unique<Script>(scenario_, stations_, execution_->segment(), journal_, replies_, left_out_);
-  script_->on_action = [this](const scenario::Action& action, Tick at) { exchange_.acts(action, at); };
+  script_ =
+      std::make_unique<Script>(scenario_, stations_, execution_->segment(), journal_, replies_, left_out_, observers_);
   add_agents();
   if (!options.log.empty()) journal_.open(options.log);
   if (!options.trace.empty()) trace_.emplace(options.trace, scenario_, options.from);
   if (!options.capture.path.empty()) capture_.emplace(options.capture, scenario_.baud, options.from);
   add_observers();
-  if (!waves_) return;
-  waves_->begin();
-  journal_.on_code = [this](Tick at, const std::string& station, const std::string& code, bool violation,
-                            std::uint64_t count) { waves_->happened(at, station, code, violation, count); };
+  if (waves_) waves_->begin();
 }
 
 Bench::~Bench() = default;
@@ -106,9 +93,20 @@ void Bench::add_slave(const scenario::Slave& slave) {
       kind_, {slave.name.text, *scenario_.chip, options_.engine, options_.wave.inside, watched_pins()});
   MakeUser make_user = kind_.make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
   auto& slaves = stations_.slaves;
-  slaves.push_back(
-      std::make_unique<SlaveStation>(slave, std::move(station), std::move(chip), std::move(make_user), *execution_));
-  connect(*slaves.back(), slaves.size() - 1);
+  slaves.push_back(std::make_unique<SlaveStation>(slaves.size(), slave, std::move(station), std::move(chip),
+                                                  std::move(make_user), *execution_, observers_));
+  SlaveStation& made = *slaves.back();
+  checks_.add(made.name(), made.chip());
+  if (waves_) waves_->add_chip(made.name(), made.chip(), hosts_.port());
+  const ChipNews wanted = wanted_news(made.chip());
+  if (wanted.runs) waves_->take_runs();
+  made.chip().listen(observers_, slaves.size() - 1, wanted);
+}
+
+/// Nobody but the wave wants to hear of runs, of the inside and of actions, nobody without checks of reads.
+ChipNews Bench::wanted_news(const ChipView& chip) const {
+  const bool wave = waves_.has_value();
+  return {wave && takes_runs() && chip.tells_runs(), checks_.on() || !options_.observers.empty(), wave, wave};
 }
 
 const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {
@@ -118,59 +116,21 @@ const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {
   return options_.gdb && first != slaves.end() && &*first == &slave ? &*options_.gdb : nullptr;
 }
 
-void Bench::connect(SlaveStation& station, std::size_t index) {
-  checks_.add(station.name());
-  if (waves_) waves_->add_chip(station.name(), station.chip(), hosts_.port());
-  ChipView& chip = station.chip();
-  chip.on_pin = [this, index](Tick at, PinNumber pin, Level level) {
-    observers_.tell(&Observer::pin, index, at, pin, level);
-  };
-  chip.on_interrupt = [&station](Tick at, bool level) { station.interrupt_changed(at, level); };
-  chip.on_event = [this, index](const profibus::Event& event) {
-    observers_.tell(&Observer::event, index, event);
-    changed(event.at);
-  };
-  if (waves_ && takes_runs() && chip.tells_runs()) {
-    waves_->take_runs();
-    chip.on_run = [this, index](PinNumber pin) { waves_->follow_run(index, pin); };
-  }
-  if (waves_) {  // what nobody else listens to
-    chip.on_inside = [this, index](Tick at, std::size_t signal, Level level, const std::string& word) {
-      observers_.tell(&Observer::inside, index, at, signal, level, word);
-    };
-    chip.on_action = [this, index](Tick at, const std::string& words) {
-      observers_.tell(&Observer::action, index, at, words);
-    };
-  }
-  if (checks_.on() || !options_.observers.empty())  // nobody else wants to know
-    chip.on_read = [this, index](Tick sample) { observers_.tell(&Observer::read, index, sample); };
-  station.on_error = [this, &station](const user_cpu::ProgramError& error) {
-    journal_.happened({error.at, station.name(), error.code, profibus::Severity::kRefusal, error.text});
-    changed();
-  };
-  station.on_text = [this, &station](Tick at, const std::string& line) {
-    journal_.log(at, station.name(), "text", line);
-    if (options_.on_text && at >= options_.from) options_.on_text(station.name(), line);
-  };
-  station.on_killed = [this] { periodic_poll_.stop(); };
-  station.on_failure = [this, &station](Tick at, const std::string& why, const std::string& registers) {
-    user_failed(station, at, why, registers);
-  };
-  station.on_outputs = [this, &station](Tick at, bool has_changed) {
-    if (has_changed) journal_.log({at, station.name(), "user", "outputs", {}, station.outputs()});
-    changed();
-  };
-}
-
 void Bench::add_monitor() {
   monitor_ = std::make_unique<bus::Monitor>(execution_->segment());
   monitor_->set_baud(scenario_.baud);
-  monitor_->on_telegram = [this](const bus::WireTelegram& each) { telegram(each); };
+  monitor_->on_telegram = [this](const bus::WireTelegram& each) {
+    observers_.tell(&Observer::telegram, HeardTelegram(now(), each));
+    observers_.changed();
+  };
   if (waves_)
     monitor_->on_character = [this](const bus::ReceivedCharacter& each) {
       observers_.tell(&Observer::character, now(), each);
     };
-  monitor_->on_flag = [this](const bus::Flag& each) { flagged(each); };
+  monitor_->on_flag = [this](const bus::Flag& each) {
+    observers_.tell(&Observer::flag, each);
+    observers_.changed();
+  };
   monitor_->on_skipped = [this](const bus::ReceivedCharacter& each) { observers_.tell(&Observer::skipped, each); };
 }
 
@@ -181,12 +141,8 @@ void Bench::add_master(const scenario::Master& spec) {
 
 void Bench::add_master2(const scenario::Master2& spec) {
   auto& masters = stations_.masters2;
-  masters.push_back(
-      std::make_unique<Class2Station>(scenario_, spec, stations_, execution_->segment(), journal_, replies_));
-  masters.back()->on_state = [this, &spec](const std::string& connection, const char* state) {
-    observers_.tell(&Observer::master_state, now(), spec.name.text, connection, std::string(state));
-    changed();
-  };
+  masters.push_back(std::make_unique<Class2Station>(scenario_, spec, stations_, execution_->segment(), journal_,
+                                                    replies_, observers_));
   if (waves_) waves_->add_master(spec.name.text, masters.back()->connection_names(), "CLOSED");
 }
 
@@ -205,11 +161,11 @@ void Bench::connect(MasterStation& entry) {
                  fmt::format("{} (address {}): {} to {}{}", slaves.at(address), address, bus::name(from), bus::name(to),
                              reason.empty() ? "" : ", " + reason));
     observers_.tell(&Observer::master_state, now(), name, slaves.at(address), std::string(bus::name(to)));
-    changed();
+    observers_.changed();
   };
   master.on_inputs = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address) {
     journal_.log({at, name, "inputs", slaves.at(address), {}, master.slave(address).inputs});
-    changed();
+    observers_.changed();
   };
 }
 
@@ -225,11 +181,13 @@ void Bench::add_agents() {
   timeline.add(periodic_poll_);
 }
 
-/// Checks before what they are shown by, the script last: it acts on what the others have noted.
+/// Checks before what they are shown by, the script last: it acts on what the others have noted. Each costs
+/// a call at each change of a pin.
 void Bench::add_observers() {
+  observers_.add(*this);
   observers_.add(exchange_);
-  observers_.add(checks_);
-  observers_.add(hosts_);
+  if (checks_.on()) observers_.add(checks_);
+  if (hosts_.port() != nullptr) observers_.add(hosts_);
   if (trace_) observers_.add(*trace_);
   if (waves_) observers_.add(*waves_);
   if (capture_) observers_.add(*capture_);
@@ -241,32 +199,17 @@ void Bench::add_observers() {
 
 // --- what happens ----------------------------------------------------------------------------------------------------
 
-/// In the TLM view chips act before the timeline has come to their tick.
-void Bench::changed(Tick at) { observers_.tell(&Observer::changed, std::max(at, now())); }
-
-void Bench::user_failed(const SlaveStation& station, Tick at, const std::string& why, const std::string& registers) {
-  journal_.happened({at, station.name(), scenario::kFirmwareFault, profibus::Severity::kViolation, why});
-  registers_ = registers;
+void Bench::text(std::size_t slave, Tick at, const std::string& line) {
+  if (options_.on_text && at >= options_.from) options_.on_text(stations_.slaves[slave]->name(), line);
 }
 
 bool Bench::stopped() const { return periodic_poll_.stopped() || !registers_.empty() || execution_->broken_off(); }
 
-void Bench::telegram(const bus::WireTelegram& telegram) {
-  observers_.tell(&Observer::telegram, HeardTelegram(now(), telegram));
-  if (telegram.tsdr) {
-    for (const auto& slave : stations_.slaves)
-      if (slave->chip().address() == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
-  }
-  changed();
-}
-
-void Bench::flagged(const bus::Flag& flag) {
-  observers_.tell(&Observer::flag, flag);
-  // An unanswered request is how masters find out that nobody is there.
-  const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
-  journal_.happened({flag.at, "bus", scenario::flag_code(flag.kind),
-                     wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo, flag.text});
-  changed();
+void Bench::telegram(const HeardTelegram& heard) {
+  const bus::WireTelegram& telegram = heard.telegram;
+  if (!telegram.tsdr) return;
+  for (const auto& slave : stations_.slaves)
+    if (slave->chip().address() == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
 }
 
 // --- running ---------------------------------------------------------------------------------------------------------

@@ -50,7 +50,7 @@ struct RunOptions {
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
 };
 
-class Bench {
+class Bench : private Observer {
  public:
   /// Builds everything; throws InputError. `scenario` must outlive the bench.
   Bench(const scenario::Scenario& scenario, const RunOptions& options, std::unique_ptr<Execution> execution);
@@ -92,7 +92,6 @@ class Bench {
   PinMask watched_pins() const;
   bool takes_runs() const;
   void add_slave(const scenario::Slave& slave);
-  void connect(SlaveStation& station, std::size_t index);
   void connect(MasterStation& entry);
   void add_master(const scenario::Master& spec);
   void add_master2(const scenario::Master2& spec);
@@ -101,13 +100,19 @@ class Bench {
   void add_agents();
   void add_observers();
   const GdbRequest* gdb_of(const scenario::Slave& slave) const;
-  void user_failed(const SlaveStation& station, Tick at, const std::string& why, const std::string& registers);
+  ChipNews wanted_news(const ChipView& chip) const;
+  void interrupt(std::size_t slave, Tick at, bool level) override {
+    stations_.slaves[slave]->interrupt_changed(at, level);
+  }
+  void text(std::size_t slave, Tick at, const std::string& line) override;
+  void user_failed(std::size_t /*slave*/, Tick /*at*/, const std::string& /*why*/,
+                   const std::string& registers) override {
+    registers_ = registers;
+  }
+  void killed() override { periodic_poll_.stop(); }
+  void telegram(const HeardTelegram& heard) override;
   bool stopped() const;
-  void telegram(const bus::WireTelegram& telegram);
-  void flagged(const bus::Flag& flag);
   Tick now() const { return execution_->timeline().now(); }
-  void changed() { changed(now()); }
-  void changed(Tick at);
   RunResult collect();
   void add_expectations(RunResult& result);
   SlaveResult collect(SlaveStation& slave, Tick at) const;
@@ -127,13 +132,13 @@ class Bench {
   RunOptions options_;
   std::unique_ptr<Execution> execution_;
   Setup setup_;
+  Observers observers_;
   ExchangeWatch exchange_;
   CheckWatch checks_;
   HostWatch hosts_;
   Journal journal_;
   Replies replies_;
   Stations stations_;
-  Observers observers_;
   std::set<const void*> left_out_;  ///< of the scenario, by address: what a user CPU's program cannot do or tell
   std::unique_ptr<BaudFollower> baud_follower_;
   std::unique_ptr<bus::Monitor> monitor_;

@@ -26,8 +26,11 @@ void refuse_unmade(const scenario::Scenario& scenario, ChecksMode mode, const sc
 
 }  // namespace
 
-CheckWatch::CheckWatch(const scenario::Scenario& scenario, ChecksMode mode)
-    : scenario_(scenario), mode_(mode), on_(mode != ChecksMode::kOff && !scenario.kind->rules().empty()) {
+CheckWatch::CheckWatch(const scenario::Scenario& scenario, ChecksMode mode, const Observers& observers)
+    : scenario_(scenario),
+      mode_(mode),
+      observers_(observers),
+      on_(mode != ChecksMode::kOff && !scenario.kind->rules().empty()) {
   for (const scenario::Expectation& each : scenario.expect) refuse_unmade(scenario, mode, each);
   for (const scenario::Action& each : scenario.script)
     if (each.when) refuse_unmade(scenario, mode, *each.when);
@@ -35,12 +38,13 @@ CheckWatch::CheckWatch(const scenario::Scenario& scenario, ChecksMode mode)
 
 PinMask CheckWatch::pins() const { return on() ? scenario_.kind->checked_pins() : 0; }
 
-void CheckWatch::add(const std::string& slave) {
+void CheckWatch::add(const std::string& slave, ChipView& chip) {
   if (!on()) return;
   const std::size_t rules = scenario_.kind->rules().size();
   slaves_.push_back(std::make_unique<Slave>());
   Slave& entry = *slaves_.back();
   entry.name = slave;
+  entry.chip = &chip;
   entry.checks = scenario_.kind->make_checks(scenario_.checks, scenario_.chip.get());
   entry.allowed.resize(rules);
   entry.listed_of.resize(rules);
@@ -61,8 +65,10 @@ void CheckWatch::keep(Slave& slave, const checks::Violation& violation) {
   if (allowed) ++slave.allowed.at(check);
   if (mode_ == ChecksMode::kFail && !allowed) ++failures_;
   if (slave.listed_of.at(check)++ < CheckResult::kListed) slave.listed.push_back(violation);
-  if (on_violation)
-    on_violation(slave.name, violation, mode_ != ChecksMode::kFail ? "check" : allowed ? "allowed" : "violation");
+  slave.chip->pause_access();
+  const char* const kind = mode_ != ChecksMode::kFail ? "check" : allowed ? "allowed" : "violation";
+  observers_.tell(&Observer::violated, slave.name, violation, kind);
+  observers_.changed(violation.found);
 }
 
 std::uint64_t CheckWatch::left_out() const {

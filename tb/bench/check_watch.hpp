@@ -1,6 +1,5 @@
 #pragma once
 // The checks of a run: one set a slave, what counts against the scenario, and what is kept for the report.
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,9 +13,9 @@ namespace dsdpv1::tb {
 
 class CheckWatch : public Observer {
  public:
-  /// `scenario` must outlive it.
+  /// `scenario` and `observers`, who are told of violations, must outlive it.
   /// Throws InputError when an expectation, or what an action waits for, is on a check that is not made.
-  CheckWatch(const scenario::Scenario& scenario, ChecksMode mode);
+  CheckWatch(const scenario::Scenario& scenario, ChecksMode mode, const Observers& observers);
   CheckWatch(const CheckWatch&) = delete;
   CheckWatch& operator=(const CheckWatch&) = delete;
 
@@ -25,7 +24,7 @@ class CheckWatch : public Observer {
   PinMask pins() const;
 
   /// Slaves are numbered in the order in which they are added. Nothing happens when off.
-  void add(const std::string& slave);
+  void add(const std::string& slave, ChipView& chip);
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     if (on()) slaves_[slave]->checks->pin(at, pin, level);
   }
@@ -42,12 +41,10 @@ class CheckWatch : public Observer {
   std::uint64_t failures() const { return failures_; }
   std::vector<CheckResult> results() const;
 
-  /// `kind`: "check" when it is only reported, else "violation" or "allowed".
-  std::function<void(const std::string& slave, const checks::Violation& violation, const char* kind)> on_violation;
-
  private:
   struct Slave {
     std::string name;
+    ChipView* chip = nullptr;
     std::unique_ptr<checks::ChipChecks> checks;
     std::vector<checks::Violation> listed;
     std::vector<std::uint64_t> allowed;  ///< by check
@@ -57,6 +54,7 @@ class CheckWatch : public Observer {
 
   const scenario::Scenario& scenario_;
   ChecksMode mode_;
+  const Observers& observers_;
   bool on_;  ///< asked at every change of a pin
   std::vector<std::unique_ptr<Slave>> slaves_;
   std::uint64_t failures_ = 0;

@@ -44,8 +44,12 @@ bus::BusParameters bus_parameters(const scenario::BusParameters& bus) {
 }
 
 Class2Station::Class2Station(const scenario::Scenario& scenario, const scenario::Master2& spec, const Stations& slaves,
-                             bus::Segment& segment, Journal& journal, Replies& replies)
-    : journal_(journal), replies_(replies), spec_(spec), master_(segment, config_of(spec, scenario.baud)) {
+                             bus::Segment& segment, Journal& journal, Replies& replies, const Observers& observers)
+    : journal_(journal),
+      replies_(replies),
+      observers_(observers),
+      spec_(spec),
+      master_(segment, config_of(spec, scenario.baud)) {
   for (const scenario::Connection& connection : spec.connections) add(scenario, connection, slaves);
   listen();
 }
@@ -78,7 +82,8 @@ void Class2Station::listen() {
   master_.on_state = [this, connection](Tick at, bus::ConnectionId id, bus::ConnectionState from,
                                         bus::ConnectionState to) {
     journal_.log(at, name(), "state", fmt::format("{}: {} to {}", connection(id), bus::name(from), bus::name(to)));
-    if (on_state) on_state(connection(id), bus::name(to));
+    observers_.tell(&Observer::master_state, observers_.now(), name(), connection(id), std::string(bus::name(to)));
+    observers_.changed();
   };
   master_.on_end = [this, connection](Tick at, bus::ConnectionId id, const bus::ConnectionEnd& end) {
     journal_.log(at, name(), "state", fmt::format("{} {}", connection(id), end.words));

@@ -1,6 +1,5 @@
 #pragma once
 // A class 2 master of the scenario with its connections, by their names.
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@ namespace dsdpv1::tb {
 using bus::Tick;
 
 class Journal;
+class Observers;
 class Replies;
 struct Stations;
 
@@ -22,7 +22,7 @@ class Class2Station {
   /// All of them must outlive it. `slaves` has those of the scenario. Throws InputError for values that the bus
   /// refuses.
   Class2Station(const scenario::Scenario& scenario, const scenario::Master2& spec, const Stations& slaves,
-                bus::Segment& segment, Journal& journal, Replies& replies);
+                bus::Segment& segment, Journal& journal, Replies& replies, const Observers& observers);
   Class2Station(const Class2Station&) = delete;
   Class2Station& operator=(const Class2Station&) = delete;
 
@@ -37,8 +37,6 @@ class Class2Station {
   /// Carries out an action of the script that is about one of the connections.
   void act(const scenario::Action& action, Tick now);
 
-  std::function<void(const std::string& connection, const char* state)> on_state;
-
  private:
   void add(const scenario::Scenario& scenario, const scenario::Connection& connection, const Stations& slaves);
   void listen();
@@ -46,6 +44,7 @@ class Class2Station {
 
   Journal& journal_;
   Replies& replies_;
+  const Observers& observers_;
   const scenario::Master2& spec_;
   bus::Master2 master_;
   std::map<std::string, bus::ConnectionId> ids_;

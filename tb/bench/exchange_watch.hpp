@@ -21,8 +21,7 @@ class ExchangeWatch : public Observer {
 
   void event(std::size_t slave, const profibus::Event& event) override;
   void master_state(Tick now, const std::string& master, const std::string& member, const std::string& state) override;
-  /// The script carries out an action.
-  void acts(const scenario::Action& action, Tick now);
+  void acts(const scenario::Action& action, Tick now) override;
 
   /// At the end of a run; none where the scenario wants none.
   std::vector<ExpectationResult> finish(const std::vector<SlaveResult>& slaves) const;

@@ -4,11 +4,13 @@
 
 namespace dsdpv1::tb {
 
-HostWatch::HostWatch(const scenario::Scenario& scenario, bool wanted) {
+HostWatch::HostWatch(const scenario::Scenario& scenario, bool wanted, const Observers& observers) {
   for (std::size_t slave = 0; wanted && slave < scenario.slaves.size(); ++slave) {
     std::unique_ptr<HostReader> reader = scenario.kind->make_host_reader(*scenario.chip);
     if (reader == nullptr) return;
-    reader->on_telegram = [this, slave](const HostTelegram& telegram) { on_telegram(slave, telegram); };
+    reader->on_telegram = [&observers, slave](const HostTelegram& telegram) {
+      observers.tell(&Observer::host_telegram, slave, telegram);
+    };
     readers_.push_back(std::move(reader));
   }
 }

@@ -1,6 +1,5 @@
 #pragma once
 // The telegrams between chips and their users, where these have a serial host port: one reader a slave.
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -13,8 +12,8 @@ namespace dsdpv1::tb {
 
 class HostWatch : public Observer {
  public:
-  /// `scenario` must outlive it. `wanted`: somebody listens.
-  HostWatch(const scenario::Scenario& scenario, bool wanted);
+  /// Both must outlive it. `wanted`: somebody listens.
+  HostWatch(const scenario::Scenario& scenario, bool wanted, const Observers& observers);
   HostWatch(const HostWatch&) = delete;
   HostWatch& operator=(const HostWatch&) = delete;
 
@@ -26,8 +25,6 @@ class HostWatch : public Observer {
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     if (!readers_.empty()) readers_[slave]->pin(at, pin, level);
   }
-
-  std::function<void(std::size_t slave, const HostTelegram& telegram)> on_telegram;
 
  private:
   std::vector<std::unique_ptr<HostReader>> readers_;  ///< by slave, or none

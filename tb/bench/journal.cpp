@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "io/input/units.hpp"
+#include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::tb {
 
 void Journal::log(LogEntry entry) {
   if (!log_) return;
-  entry.at = std::max(entry.at, clock_.now());
+  entry.at = std::max(entry.at, observers_.now());
   log_->add(entry);
 }
 
@@ -20,7 +21,7 @@ std::string Journal::in_log(const bus::Bytes& bytes) const { return bytes_text(b
 
 void Journal::count_one(Tick at, const std::string& station, const std::string& code, bool violation) {
   const std::uint64_t count = ++counts_[station][code];
-  if (on_code) on_code(at, station, code, violation, count);
+  observers_.tell(&Observer::counted, at, station, code, violation, count);
 }
 
 void Journal::happened(Occurrence occurrence) {
@@ -40,18 +41,18 @@ void Journal::happened(Occurrence occurrence) {
     ++occurrences_dropped_;
 }
 
-void Journal::check_violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
+void Journal::violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
   const std::string id = scenario_.kind->rules()[violation.check.index].id;
   count_one(violation.found, slave, id, true);
   if (!log_) return;
   log_->finding(
-      {std::max(violation.found, clock_.now()), slave, kind,
+      {std::max(violation.found, observers_.now()), slave, kind,
        fmt::format("at {} ns: {}  [{}]", nanoseconds(violation.at), violation.text, checks::history_text(violation)),
        id});
 }
 
 void Journal::event(std::size_t slave, const profibus::Event& event) {
-  happened({event.at, scenario_.slaves[slave].name.text, profibus::code(event.reason), profibus::severity(event.reason),
+  happened({event.at, name_of(slave), profibus::code(event.reason), profibus::severity(event.reason),
             scenario_.kind->describe(event), scenario_.kind->cell_of(event)});
 }
 
@@ -59,9 +60,28 @@ void Journal::telegram(const HeardTelegram& telegram) {
   if (log_) log(log_entry(telegram.telegram, telegram.words()));
 }
 
+// An unanswered request is how masters find out that nobody is there.
+void Journal::flag(const bus::Flag& flag) {
+  const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
+  happened({flag.at, "bus", scenario::flag_code(flag.kind),
+            wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo, flag.text});
+}
+
+void Journal::error(std::size_t slave, const user_cpu::ProgramError& error) {
+  happened({error.at, name_of(slave), error.code, profibus::Severity::kRefusal, error.text});
+}
+
+void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, bool changed) {
+  if (changed) log({at, name_of(slave), "user", "outputs", {}, outputs});
+}
+
+void Journal::user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& /*registers*/) {
+  happened({at, name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation, why});
+}
+
 void Journal::host_telegram(std::size_t slave, const HostTelegram& telegram) {
   const Tick at = std::max(telegram.end, telegram.known);
-  LogEntry entry{at, scenario_.slaves[slave].name.text, "host", telegram.words, {}, telegram.bytes};
+  LogEntry entry{at, name_of(slave), "host", telegram.words, {}, telegram.bytes};
   entry.wrong = telegram.wrong;
   if (log_) log_->finding(entry);
 }

@@ -1,12 +1,10 @@
 #pragma once
 // What has happened in a run: counted, kept for the report, written into the log.
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bus/timeline.hpp"
 #include "tb/bench/observer.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/bench/run_log.hpp"
@@ -16,9 +14,9 @@ namespace dsdpv1::tb {
 
 class Journal : public Observer {
  public:
-  /// `scenario` and `clock` must outlive it.
-  Journal(const scenario::Scenario& scenario, const bus::Timeline& clock, const LogForm& form)
-      : scenario_(scenario), clock_(clock), form_(form) {}
+  /// `scenario` and `observers`, who are told of each code that is counted, must outlive it.
+  Journal(const scenario::Scenario& scenario, const Observers& observers, const LogForm& form)
+      : scenario_(scenario), observers_(observers), form_(form) {}
   /// From now on there is a log; throws InputError when it cannot be created.
   void open(const std::string& path) { log_.emplace(path, form_); }
 
@@ -30,17 +28,17 @@ class Journal : public Observer {
   std::string in_log(const bus::Bytes& bytes) const;
   /// An event of the chip, an error of the program, a flag of the monitor.
   void happened(Occurrence occurrence);
-  /// `kind`: "check", "violation" or "allowed".
-  void check_violated(const std::string& slave, const checks::Violation& violation, const char* kind);
 
   // Observer
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& telegram) override;
+  void violated(const std::string& slave, const checks::Violation& violation, const char* kind) override;
+  void flag(const bus::Flag& flag) override;
   void host_telegram(std::size_t slave, const HostTelegram& telegram) override;
-
-  /// Told of each code when it is counted; `count`: how often at its station so far. Null: nobody wants to know.
-  std::function<void(Tick at, const std::string& station, const std::string& code, bool violation, std::uint64_t count)>
-      on_code;
+  void error(std::size_t slave, const user_cpu::ProgramError& error) override;
+  void text(std::size_t slave, Tick at, const std::string& line) override { log(at, name_of(slave), "text", line); }
+  void outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, bool changed) override;
+  void user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& registers) override;
 
   std::uint64_t count(const std::string& station, const std::string& code) const;
   /// Violations that the scenario does not allow, those of checks apart.
@@ -52,10 +50,11 @@ class Journal : public Observer {
   const RunLog* run_log() const { return log_ ? &*log_ : nullptr; }
 
  private:
+  const std::string& name_of(std::size_t slave) const { return scenario_.slaves[slave].name.text; }
   void count_one(Tick at, const std::string& station, const std::string& code, bool violation);
 
   const scenario::Scenario& scenario_;
-  const bus::Timeline& clock_;
+  const Observers& observers_;
   LogForm form_;
   std::optional<RunLog> log_;
   std::vector<Occurrence> occurrences_;

@@ -1,16 +1,19 @@
 #pragma once
-// Who hears what happens at chips and on the line: log, waves, checks, trace, script. The bench tells all of them the
-// same, in the order in which they were added. It builds and finishes them, and what is only for the log it says there.
+// Who hears what happens in a run, at chips, on the line, to user programs and masters: log, waves, checks, trace,
+// script, the bench itself. Whoever knows it first tells all of them the same, in the order in which they were added.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/monitor/monitor.hpp"
-#include "model/profibus/event.hpp"
+#include "bus/timeline.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/chip/checks/recorder.hpp"
+#include "tb/chip/chip_view.hpp"
 #include "tb/chip/host_reader.hpp"
-#include "tb/chip/pins/pins.hpp"
+#include "tb/chip/user_cpu/program.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb {
 
@@ -27,20 +30,15 @@ class HeardTelegram {
   mutable std::optional<std::string> words_;
 };
 
-/// Overrides what concerns it. Slaves are numbered as in the scenario.
-class Observer {
+/// Overrides what concerns it, of chips what they tell (ChipListener). Slaves are numbered as in the scenario.
+class Observer : public ChipListener {
  public:
-  virtual ~Observer() = default;
-
   /// The run begins, `chip` has the levels of power-on.
   virtual void begins(std::size_t /*slave*/, const ChipView& /*chip*/) {}
-  virtual void pin(std::size_t /*slave*/, Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
-  /// The slave's user CPU begins a read and samples the data then, see ChipView::on_read.
-  virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
-  virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
   virtual void telegram(const HeardTelegram& /*telegram*/) {}
-  /// What the checks of tb/chip/checks find, as soon as it can be seen.
-  virtual void violated(const std::string& /*slave*/, const checks::Violation& /*violation*/) {}
+  /// What the checks of tb/chip/checks find, as soon as it can be seen. `kind`: "check" when it is only reported, else
+  /// "violation" or "allowed".
+  virtual void violated(const std::string& /*slave*/, const checks::Violation& /*violation*/, const char* /*kind*/) {}
   /// What the monitor flags; what is flagged of a telegram comes before it.
   virtual void flag(const bus::Flag& /*flag*/) {}
   /// A character after a wrong telegram, see bus::Monitor::on_skipped.
@@ -49,10 +47,21 @@ class Observer {
   virtual void host_telegram(std::size_t /*slave*/, const HostTelegram& /*telegram*/) {}
   /// Right or not.
   virtual void character(Tick /*now*/, const bus::ReceivedCharacter& /*heard*/) {}
-  /// See ChipView::on_inside and on_action.
-  virtual void inside(std::size_t /*slave*/, Tick /*at*/, std::size_t /*signal*/, Level /*level*/,
-                      const std::string& /*word*/) {}
-  virtual void action(std::size_t /*slave*/, Tick /*at*/, const std::string& /*words*/) {}
+  // What the slave's user program says and does, as user_cpu::StationCpu has it.
+  virtual void error(std::size_t /*slave*/, const user_cpu::ProgramError& /*error*/) {}
+  virtual void text(std::size_t /*slave*/, Tick /*at*/, const std::string& /*line*/) {}
+  /// It has fetched outputs, other ones than before when `changed`.
+  virtual void outputs(std::size_t /*slave*/, Tick /*at*/, const bus::Bytes& /*outputs*/, bool /*changed*/) {}
+  /// Its processor cannot go on, and has these registers.
+  virtual void user_failed(std::size_t /*slave*/, Tick /*at*/, const std::string& /*why*/,
+                           const std::string& /*registers*/) {}
+  /// Its debugger wants the run to end.
+  virtual void killed() {}
+  /// A code of the log was counted at a chip or "bus", `count` times so far.
+  virtual void counted(Tick /*at*/, const std::string& /*station*/, const std::string& /*code*/, bool /*violation*/,
+                       std::uint64_t /*count*/) {}
+  /// The script is about to carry out an action.
+  virtual void acts(const scenario::Action& /*action*/, Tick /*now*/) {}
   /// What a master makes of a slave (class 1), or the state of a connection (class 2): `member` is its name.
   virtual void master_state(Tick /*now*/, const std::string& /*master*/, const std::string& /*member*/,
                             const std::string& /*state*/) {}
@@ -60,18 +69,43 @@ class Observer {
   virtual void changed(Tick /*at*/) {}
 };
 
-class Observers {
+/// What chips tell, all of them are told.
+class Observers : public ChipListener {
  public:
+  /// `timeline` must outlive it.
+  explicit Observers(const bus::Timeline& timeline) : timeline_(timeline) {}
   /// It must outlive the calls of `tell`.
   void add(Observer& observer) { all_.push_back(&observer); }
 
   /// tell(&Observer::pin, slave, at, pin, level)
-  template <class... Parameters, class... Arguments>
-  void tell(void (Observer::*what)(Parameters...), const Arguments&... arguments) const {
+  template <class Listener, class... Parameters, class... Arguments>
+  void tell(void (Listener::*what)(Parameters...), const Arguments&... arguments) const {
     for (Observer* each : all_) (each->*what)(arguments...);
   }
 
+  /// Tells Observer::changed; in the TLM view chips act before the timeline has come to their tick.
+  void changed(Tick at = 0) const { tell(&Observer::changed, std::max(at, timeline_.now())); }
+  Tick now() const { return timeline_.now(); }
+
+  void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
+    tell(&Observer::pin, slave, at, pin, level);
+  }
+  void interrupt(std::size_t slave, Tick at, bool level) override { tell(&Observer::interrupt, slave, at, level); }
+  void event(std::size_t slave, const profibus::Event& event) override {
+    tell(&Observer::event, slave, event);
+    changed(event.at);
+  }
+  void follows(std::size_t slave, PinNumber pin) override { tell(&Observer::follows, slave, pin); }
+  void read(std::size_t slave, Tick sample) override { tell(&Observer::read, slave, sample); }
+  void inside(std::size_t slave, Tick at, std::size_t signal, Level level, const std::string& word) override {
+    tell(&Observer::inside, slave, at, signal, level, word);
+  }
+  void action(std::size_t slave, Tick at, const std::string& words) override {
+    tell(&Observer::action, slave, at, words);
+  }
+
  private:
+  const bus::Timeline& timeline_;
   std::vector<Observer*> all_;
 };
 

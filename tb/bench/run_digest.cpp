@@ -31,7 +31,7 @@ void RunDigest::telegram(const HeardTelegram& heard) {
   add(telegram.end, hash);
 }
 
-void RunDigest::violated(const std::string& slave, const checks::Violation& violation) {
+void RunDigest::violated(const std::string& slave, const checks::Violation& violation, const char* /*kind*/) {
   Hash hash = begun('v', violation.at);
   hash.add(slave);
   hash.add(violation.text);

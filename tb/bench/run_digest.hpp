@@ -15,7 +15,7 @@ class RunDigest : public Observer {
  public:
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& heard) override;
-  void violated(const std::string& slave, const checks::Violation& violation) override;
+  void violated(const std::string& slave, const checks::Violation& violation, const char* kind) override;
   void flag(const bus::Flag& flag) override;
   void master_state(Tick now, const std::string& master, const std::string& member, const std::string& state) override;
 

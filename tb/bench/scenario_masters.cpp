@@ -101,15 +101,17 @@ ScenarioMasters::ScenarioMasters(Scenario scenario, bus::Segment& segment, const
       setup_(whole_),
       left_out_(words_left_out(whole_)),
       part_(part_of_masters(whole_, setup_)),
-      journal_(part_, timeline, {}),
-      script_(part_, stations_, segment, journal_, replies_, {}) {
+      observers_(timeline),
+      journal_(part_, observers_, {}),
+      script_(part_, stations_, segment, journal_, replies_, {}, observers_) {
+  observers_.add(script_);
   for (const scenario::Master& master : part_.masters)
     stations_.masters.push_back(make_master(part_, master, setup_, segment));
   for (const scenario::Master2& master : part_.masters2)
     stations_.masters2.push_back(
-        std::make_unique<Class2Station>(part_, master, stations_, segment, journal_, replies_));
-  replies_.on_change = [this, &timeline](const std::string& asker, ActionKind service, const Reply& reply) {
-    changed(timeline.now());
+        std::make_unique<Class2Station>(part_, master, stations_, segment, journal_, replies_, observers_));
+  replies_.on_change = [this](const std::string& asker, ActionKind service, const Reply& reply) {
+    observers_.changed();
     if (on_reply) on_reply(asker, service, reply);
   };
 }

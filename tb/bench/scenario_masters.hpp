@@ -40,6 +40,7 @@ class ScenarioMasters {
   Setup setup_;
   const std::string left_out_;
   const scenario::Scenario part_;  ///< without slaves and what is theirs
+  Observers observers_;
   Journal journal_;
   Replies replies_;
   Stations stations_;

@@ -15,8 +15,13 @@ using scenario::Action;
 using scenario::ActionKind;
 
 Script::Script(const scenario::Scenario& scenario, Stations& stations, bus::Segment& segment, Journal& journal,
-               Replies& replies, const std::set<const void*>& left_out)
-    : scenario_(scenario), stations_(stations), segment_(segment), journal_(journal), replies_(replies) {
+               Replies& replies, const std::set<const void*>& left_out, const Observers& observers)
+    : scenario_(scenario),
+      stations_(stations),
+      segment_(segment),
+      journal_(journal),
+      replies_(replies),
+      observers_(observers) {
   const auto is_left_out = [&left_out](const void* what) { return left_out.count(what) != 0; };
   for (std::size_t i = 0; i < scenario.slaves.size(); ++i)
     plan(scenario.slaves[i].release_reset, Kind::kReleaseReset, i);
@@ -79,7 +84,7 @@ void Script::carry_out(const Due& due, Tick now) {
       break;
     }
     case Kind::kAction:
-      if (on_action) on_action(scenario.script[due.index], now);
+      observers_.tell(&Observer::acts, scenario.script[due.index], now);
       act(scenario.script[due.index], now);
       break;
     case Kind::kResumeUser:

@@ -2,7 +2,6 @@
 // The scenario's script and expectations as the last agent of the timeline: it acts when everybody else has acted at a
 // tick.
 #include <cstddef>
-#include <functional>
 #include <set>
 #include <vector>
 
@@ -22,10 +21,7 @@ class Script : public bus::Agent, public Observer {
   /// All of them must outlive it. `left_out`: actions and expectations, by address, that are neither carried out nor
   /// judged.
   Script(const scenario::Scenario& scenario, Stations& stations, bus::Segment& segment, Journal& journal,
-         Replies& replies, const std::set<const void*>& left_out);
-
-  /// Told of each action before it is carried out; null: nobody wants to know.
-  std::function<void(const scenario::Action& action, Tick now)> on_action;
+         Replies& replies, const std::set<const void*>& left_out, const Observers& observers);
 
   /// Conditions are looked at again at `at`.
   void changed(Tick at) override {
@@ -79,6 +75,7 @@ class Script : public bus::Agent, public Observer {
   bus::Segment& segment_;
   Journal& journal_;
   Replies& replies_;
+  const Observers& observers_;
   std::vector<Due> agenda_;           ///< latest first; equal times in the order of planning
   std::vector<std::size_t> waiting_;  ///< actions whose condition has not come true
   std::vector<ExpectationResult> expectations_;

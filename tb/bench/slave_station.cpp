@@ -4,13 +4,16 @@
 
 namespace dsdpv1::tb {
 
-SlaveStation::SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station,
-                           std::unique_ptr<ChipView> chip, MakeUser make_user, Execution& execution)
-    : slave_(slave),
+SlaveStation::SlaveStation(std::size_t number, const scenario::Slave& slave, user_cpu::StationConfig station,
+                           std::unique_ptr<ChipView> chip, MakeUser make_user, Execution& execution,
+                           const Observers& observers)
+    : number_(number),
+      slave_(slave),
       station_(std::move(station)),
       chip_(std::move(chip)),
       make_user_(std::move(make_user)),
-      execution_(execution) {}
+      execution_(execution),
+      observers_(observers) {}
 
 void SlaveStation::hold_in_reset(Tick now) {
   if (user_) {
@@ -31,17 +34,14 @@ void SlaveStation::release_reset(Tick now) {
   tells_ = user_->tells();
   user_->set_others(this);
   user_->on_error = [this](const user_cpu::ProgramError& error) {
-    if (on_error) on_error(error);
+    observers_.tell(&Observer::error, number_, error);
+    observers_.changed();
   };
-  user_->on_text = [this](Tick at, const std::string& line) {
-    if (on_text) on_text(at, line);
-  };
+  user_->on_text = [this](Tick at, const std::string& line) { observers_.tell(&Observer::text, number_, at, line); };
   user_->on_plan = [this] { announce(); };
-  user_->on_killed = [this] {
-    if (on_killed) on_killed();
-  };
+  user_->on_killed = [this] { observers_.tell(&Observer::killed); };
   user_->on_failure = [this](Tick at, const std::string& why, const std::string& registers) {
-    if (on_failure) on_failure(at, why, registers);
+    observers_.tell(&Observer::user_failed, number_, at, why, registers);
   };
 }
 
@@ -75,7 +75,8 @@ void SlaveStation::run(Tick now) {
   outputs_seen_ = received;
   const bool changed = outputs_ != user_->outputs();
   outputs_ = user_->outputs();
-  if (on_outputs) on_outputs(execution_.timeline().now(), changed);  // the turn may have gone on
+  observers_.tell(&Observer::outputs, number_, observers_.now(), outputs_, changed);  // the turn may have gone on
+  observers_.changed();
 }
 
 SlaveResult SlaveStation::result() const {

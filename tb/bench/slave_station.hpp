@@ -1,12 +1,12 @@
 #pragma once
 // One slave on the bench: the chip and the user CPU that runs the driver.
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "bus/timeline.hpp"
 #include "tb/bench/execution.hpp"
+#include "tb/bench/observer.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/chip/chip_view.hpp"
@@ -15,12 +15,12 @@
 
 namespace dsdpv1::tb {
 
-/// The agent is the user CPU; the chip is the execution's business.
+/// The agent is the user CPU; the chip is the execution's business. What it does is told to the observers.
 class SlaveStation : public bus::Agent, private user_cpu::Others {
  public:
-  /// `execution` must outlive it.
-  SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station, std::unique_ptr<ChipView> chip,
-               MakeUser make_user, Execution& execution);
+  /// `number`: of the slave in the scenario. `execution` and `observers` must outlive it.
+  SlaveStation(std::size_t number, const scenario::Slave& slave, user_cpu::StationConfig station,
+               std::unique_ptr<ChipView> chip, MakeUser make_user, Execution& execution, const Observers& observers);
   SlaveStation(const SlaveStation&) = delete;
   SlaveStation& operator=(const SlaveStation&) = delete;
 
@@ -48,23 +48,17 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   /// Everything but the master's side.
   SlaveResult result() const;
 
-  /// As user_cpu::StationCpu has them.
-  std::function<void(const user_cpu::ProgramError&)> on_error;
-  std::function<void(Tick at, const std::string& line)> on_text;
-  std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
-  std::function<void()> on_killed;
-  /// The user CPU has fetched outputs, other ones than before when `changed`.
-  std::function<void(Tick at, bool changed)> on_outputs;
-
  private:
   bool quiet(Tick tick) override { return execution_.quiet(*this, tick); }
   bool go_on(Tick tick) override;
 
+  const std::size_t number_;
   const scenario::Slave& slave_;
   user_cpu::StationConfig station_;
   std::unique_ptr<ChipView> chip_;
   MakeUser make_user_;
   Execution& execution_;
+  const Observers& observers_;
   std::unique_ptr<user_cpu::StationCpu> user_;
   user_cpu::UserCounters before_reset_;  ///< of user CPUs that a reset has ended
   std::optional<user_cpu::BoardReport> board_before_reset_;

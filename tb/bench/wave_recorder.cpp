@@ -193,7 +193,7 @@ void WaveRecorder::end_run() {
 }
 
 /// A sender moves its own pin before the line.
-void WaveRecorder::follow_run(std::size_t slave, PinNumber pin) {
+void WaveRecorder::follows(std::size_t slave, PinNumber pin) {
   if (asleep_) return;
   PinSignal& own = chips_[slave].pins[pin];
   own.follows = own.has_followed = true;
@@ -285,8 +285,8 @@ bool WaveRecorder::opens_window(const std::string& code, bool violation) const {
       [&](const std::string& wanted) { return wanted == code || (violation && wanted == kAnyViolation); });
 }
 
-void WaveRecorder::happened(bus::Tick at, const std::string& station, const std::string& code, bool violation,
-                            std::uint64_t count) {
+void WaveRecorder::counted(bus::Tick at, const std::string& station, const std::string& code, bool violation,
+                           std::uint64_t count) {
   make_changes(at, Turn::kMonitor);
   const auto signal = event_signals_.find(station);
   if (signal != event_signals_.end()) say(at, signal->second, fmt::format("{} {}", code, count));

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "bus/timeline.hpp"
+#include "bus/wire/character_run.hpp"
 #include "bus/wire/segment.hpp"
 #include "io/waves/deferred_wave.hpp"
 #include "io/waves/wave_selection.hpp"
 #include "io/waves/wave_writer.hpp"
-#include "tb/bench/line_run.hpp"
 #include "tb/bench/observer.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/chip/chip_view.hpp"
@@ -34,6 +34,27 @@ struct WaveOptions {
   std::string date;     ///< that the file is to have; empty: none
   /// Pins are not followed, and there is no file, until `WaveRecorder::wake`; `on` is told by `triggered` then.
   bool asleep = false;
+};
+
+/// A run of characters: nobody tells its changes one by one, so they are made when something behind them is written.
+class LineRun {
+ public:
+  /// Its changes, in the place of what is left of the one before.
+  void begin(const bus::CharacterRun& run) {
+    end();
+    bus::for_each_change(run, [this](bus::Tick at, bool /*level*/) { edges_.push_back(at); });
+  }
+  /// What is left does not happen.
+  void end() { edges_.clear(), next_ = 0; }
+  bool is_under_way() const { return next_ < edges_.size(); }
+  /// Of the next change, while the run is under way.
+  bus::Tick at() const { return edges_[next_]; }
+  bool level() const { return next_ % 2 != 0; }
+  void go_on() { ++next_; }
+
+ private:
+  std::vector<bus::Tick> edges_;  ///< falling and rising in turn
+  std::size_t next_ = 0;
 };
 
 class WaveRecorder : public Observer, private bus::Listener {
@@ -63,8 +84,7 @@ class WaveRecorder : public Observer, private bus::Listener {
   void pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) override;
   /// From now on the changes of runs are made here. Where chips tell theirs it is the same wave, and takes longer.
   void take_runs() { takes_runs_ = true; }
-  /// See ChipView::on_run.
-  void follow_run(std::size_t slave, PinNumber pin);
+  void follows(std::size_t slave, PinNumber pin) override;
   void event(std::size_t slave, const profibus::Event& event) override;
   void character(bus::Tick now, const bus::ReceivedCharacter& heard) override;
   void inside(std::size_t slave, bus::Tick at, std::size_t signal, Level level, const std::string& word) override;
@@ -76,8 +96,9 @@ class WaveRecorder : public Observer, private bus::Listener {
   void host_telegram(std::size_t slave, const HostTelegram& telegram) override;
   void master_state(bus::Tick now, const std::string& master, const std::string& member,
                     const std::string& state) override;
-  /// A code of the log: `station` is a chip, or "bus". `count` is shown with it, so that each is a change.
-  void happened(bus::Tick at, const std::string& station, const std::string& code, bool violation, std::uint64_t count);
+  /// `count` is shown with the code, so that each is a change.
+  void counted(bus::Tick at, const std::string& station, const std::string& code, bool violation,
+               std::uint64_t count) override;
   /// Nothing has opened a window.
   bool is_empty() const { return !writer_->has_window(); }
   // See WaveWriter.

@@ -185,7 +185,7 @@ class ChipKind {
 
   /// In the order in which they are shown; none by default: all pins as the table has them.
   virtual const std::vector<PinGroup>& pin_groups() const;
-  /// Those that ChipView::on_inside tells; none by default.
+  /// Those that ChipListener::inside tells; none by default.
   virtual const std::vector<InnerSignal>& inner_signals() const;
 
   // --- Checks of its user's side; none by default.

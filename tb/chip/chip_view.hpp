@@ -2,7 +2,6 @@
 // One chip as the bench drives and sees it, whichever kind it is and whichever way it is executed (pins of the core,
 // TLM module, RTL).
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -47,8 +46,35 @@ ChipStatus common_status(const Status& own) {
   return status;
 }
 
-/// An inner signal (ChipKind::inner_signals) has changed; one of words has no level, any other no word.
-using TellInside = std::function<void(Tick at, std::size_t signal, Level level, const std::string& word)>;
+/// Who hears what happens at chips; overrides what concerns it. `slave`: the number with which it listens to the chip.
+class ChipListener {
+ public:
+  virtual ~ChipListener() = default;
+
+  /// Changes of the watched pins, in order of time.
+  virtual void pin(std::size_t /*slave*/, Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
+  /// The pin that interrupts the user CPU, told before pin().
+  virtual void interrupt(std::size_t /*slave*/, Tick /*at*/, bool /*level*/) {}
+  virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
+  // What follows is told to whom wants it: ChipNews.
+  /// The pin has the levels of the run that begins on the line now, until its end or until it is cut: changes up to
+  /// then may be told or not, also one to the level that the pin has already.
+  virtual void follows(std::size_t /*slave*/, PinNumber /*pin*/) {}
+  /// The user CPU begins a read, whose first edge is still to come, and samples the data at `sample`: no pin shows
+  /// that.
+  virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
+  /// An inner signal (ChipKind::inner_signals) has changed; one of words has no level, any other no word. Only where
+  /// ChipRequest::inside wants it.
+  virtual void inside(std::size_t /*slave*/, Tick /*at*/, std::size_t /*signal*/, Level /*level*/,
+                      const std::string& /*word*/) {}
+  /// What the user CPU does at the chip's pins, in words: an access, a pin that it moves.
+  virtual void action(std::size_t /*slave*/, Tick /*at*/, const std::string& /*words*/) {}
+};
+
+/// News that are not made where nobody wants them. Without runs all changes are told.
+struct ChipNews {
+  bool runs = false, reads = false, inside = false, actions = false;
+};
 
 class ChipView {
  public:
@@ -70,7 +96,7 @@ class ChipView {
   /// What the user CPU of this kind has hold of; null: no user CPU of the bench can.
   virtual user_cpu::UserSide* user_side() { return nullptr; }
 
-  /// Whether `on_run` is told.
+  /// Whether ChipListener::follows is told.
   virtual bool tells_runs() const { return false; }
 
   /// Somebody else acts before the next edge of an access under way.
@@ -80,21 +106,17 @@ class ChipView {
   /// by their pins.
   virtual void watch(Tick /*now*/, PinMask /*pins*/) {}
 
-  /// Changes of the watched pins, in order of time.
-  std::function<void(Tick at, PinNumber pin, Level level)> on_pin;
-  /// The pin has the levels of the run that begins on the line now, until its end or until it is cut: changes up to
-  /// then may be told or not, also one to the level that the pin has already. Null: all changes are wanted.
-  std::function<void(PinNumber pin)> on_run;
-  /// The pin that interrupts the user CPU, told before `on_pin`.
-  std::function<void(Tick at, bool level)> on_interrupt;
-  std::function<void(const profibus::Event&)> on_event;
-  /// The user CPU begins a read, whose first edge is still to come, and samples the data at `sample`: no pin shows
-  /// that.
-  std::function<void(Tick sample)> on_read;
-  /// Told when ChipRequest::inside wants it.
-  TellInside on_inside;
-  /// What the user CPU does at the chip's pins, in words: an access, a pin that it moves.
-  std::function<void(Tick at, const std::string& words)> on_action;
+  /// From now on `listener`, which must outlive the calls, is told, and nobody else.
+  void listen(ChipListener& listener, std::size_t number, const ChipNews& wanted = {}) {
+    listener_ = &listener;
+    number_ = number;
+    wanted_ = wanted;
+  }
+
+ protected:
+  ChipListener* listener_ = nullptr;
+  std::size_t number_ = 0;
+  ChipNews wanted_;  ///< none without a listener
 };
 
 }  // namespace dsdpv1::tb

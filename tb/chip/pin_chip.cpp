@@ -35,7 +35,7 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, con
   device_->on_event({[](void* self, const profibus::Event& event) {
                        auto& chip = *static_cast<PinChip*>(self);
                        chip.pause_access();
-                       if (chip.on_event) chip.on_event(event);
+                       if (chip.listener_ != nullptr) chip.listener_->event(chip.number_, event);
                      },
                      this});
 }
@@ -78,7 +78,7 @@ void PinChip::run(Tick now) {
   PinDevice& chip = device();
   catch_up(now);
   chip.advance(now);
-  if (tells_inside_ && on_inside) chip.look_inside(now, on_inside);
+  if (tells_inside_ && wanted_.inside) chip.look_inside(now, number_, *listener_);
   if (chip.left_run()) {
     segment_.cut_run(now);
     chip.leave_run(now);
@@ -90,7 +90,7 @@ void PinChip::run(Tick now) {
 
 // An answer begins: its first start bit waits to be told, or the whole of it is told in its place.
 void PinChip::send_run() {
-  if ((reports_txd_ && !on_run) || !line_.only_level_waits() || !device_->begins_to_send()) return;
+  if ((reports_txd_ && !wanted_.runs) || !line_.only_level_waits() || !device_->begins_to_send()) return;
   const profibus::CharacterRun run = device_->hide_txd();
   own_run_ = true;
   hides_txd_ = segment_.send_run(
@@ -114,8 +114,9 @@ void PinChip::pin_changed(Tick at, PinNumber pin, Level level) {
 }
 
 void PinChip::tell(Tick at, PinNumber pin, Level level) {
-  if (pin == places_.interrupt && on_interrupt) on_interrupt(at, level != 0);
-  if (on_pin) on_pin(at, pin, level);
+  if (listener_ == nullptr) return;
+  if (pin == places_.interrupt) listener_->interrupt(number_, at, level != 0);
+  listener_->pin(number_, at, pin, level);
 }
 
 void PinChip::line_changed(Tick at, bool level) {
@@ -129,10 +130,10 @@ void PinChip::line_changed(Tick at, bool level) {
 
 bool PinChip::run_begins(const bus::CharacterRun& run) {
   if (reports_rxd_) {
-    if (!on_run) return false;
-    on_run(places_.rxd);
+    if (!wanted_.runs) return false;
+    listener_->follows(number_, places_.rxd);
   }
-  if (own_run_ && reports_txd_) on_run(places_.txd);
+  if (own_run_ && reports_txd_) listener_->follows(number_, places_.txd);
   if (own_run_) return true;  // while it sends, it does not listen
   if (run.bit % bus::kTicksPerCycle != 0) return false;
   catch_up(run.start);

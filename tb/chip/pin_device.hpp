@@ -74,7 +74,7 @@ class PinDevice {
   virtual std::uint8_t peek(std::uint16_t address) const = 0;
   virtual void poke(std::uint16_t address, std::uint8_t value) = 0;
   /// Tells the inner signals that have changed since the last look; of a core with Engine::kStep.
-  virtual void look_inside(Tick /*now*/, const TellInside& /*tell*/) {}
+  virtual void look_inside(Tick /*now*/, std::size_t /*number*/, ChipListener& /*listener*/) {}
   /// What its access to that memory works on, as its documents call it; empty: nothing, or not known.
   virtual const char* works_on() const { return ""; }
 

@@ -41,7 +41,9 @@ class CoreDevice : public PinDevice {
   std::uint8_t address() const override { return chip_.address(); }
   std::uint8_t peek(std::uint16_t address) const override { return chip_.peek(address); }
   void poke(std::uint16_t address, std::uint8_t value) override { chip_.poke(address, value); }
-  void look_inside(Tick now, const TellInside& tell) override { inside_.look(now, chip_, tell); }
+  void look_inside(Tick now, std::size_t number, ChipListener& listener) override {
+    inside_.look(now, chip_, number, listener);
+  }
   const char* works_on() const override { return chip_.inside().access.item; }
 
   std::vector<std::uint8_t> save() const override { return chip_.save(); }

@@ -80,21 +80,21 @@ void Dsdpv1PinChip::host_pin_changed(Tick at, PinNumber /*pin*/, Level level) {
 }
 
 void Dsdpv1PinChip::set_r_req(Tick at, bool level) {
-  if (on_action) on_action(at, words_of("R_REQ", level));
+  if (wanted_.actions) listener_->action(number_, at, words_of("R_REQ", level));
   pins().set_r_req(at, level);
   report(at, Pin::kRReq, Pin::kRReq);
 }
 
 void Dsdpv1PinChip::set_r_sta(Tick at, bool level) {
-  if (on_action) on_action(at, words_of("R_STA", level));
+  if (wanted_.actions) listener_->action(number_, at, words_of("R_STA", level));
   pins().set_r_sta(at, level);
   report(at, Pin::kRSta, Pin::kRSta);
 }
 
 void Dsdpv1PinChip::begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) {
   pins_->begin(at, access, timing);  // no edge yet: the chip is not concerned
-  if (on_action) on_action(at, words_of(access));
-  if (!access.write && on_read) on_read(pins_->sample_tick());
+  if (wanted_.actions) listener_->action(number_, at, words_of(access));
+  if (!access.write && wanted_.reads) listener_->read(number_, pins_->sample_tick());
 }
 
 bool Dsdpv1PinChip::put_off() {

@@ -56,7 +56,7 @@ class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
   std::optional<user_cpu::PinHostBus> pins_;
 };
 
-/// What ChipView::on_action says of an access, and of a pin that the user CPU moves.
+/// What ChipListener::action says of an access, and of a pin that the user CPU moves.
 std::string words_of(const user_cpu::Access& access);
 std::string words_of(const char* pin, bool level);
 

@@ -86,14 +86,14 @@ std::vector<InsideWatch::Value> InsideWatch::values(const Seen& seen) {
   return values;
 }
 
-void InsideWatch::look(bus::Tick at, const dsdpv1::Chip& chip, const TellInside& tell) {
+void InsideWatch::look(bus::Tick at, const dsdpv1::Chip& chip, std::size_t number, ChipListener& listener) {
   const Seen seen = see(chip);
   if (!told_.empty() && same(seen, last_)) return;
   last_ = seen;
   const std::vector<Value> now = values(seen);
   for (std::size_t i = 0; i < now.size(); ++i)
     if (told_.empty() || now[i].level != told_[i].level || now[i].word != told_[i].word)
-      tell(at, i, now[i].level, now[i].word);
+      listener.inside(number, at, i, now[i].level, now[i].word);
   told_ = now;
 }
 

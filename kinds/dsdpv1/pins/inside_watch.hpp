@@ -15,8 +15,8 @@ namespace dsdpv1::tb {
 class InsideWatch {
  public:
   static const std::vector<InnerSignal>& signals();
-  /// `tell` in the order of `signals()`.
-  void look(bus::Tick at, const dsdpv1::Chip& chip, const TellInside& tell);
+  /// Told in the order of `signals()`; `number`: of the chip.
+  void look(bus::Tick at, const dsdpv1::Chip& chip, std::size_t number, ChipListener& listener);
 
  private:
   /// What the signals are made of; cheap to compare, as it is done in every cycle.

@@ -39,15 +39,15 @@ class TlmChipView : public ChipView {
       if ((dsdpv1::mask(pin) & kPlannedBy) != 0) timeline.wake();
     };
     chip_.module().on_event = [this, &timeline](const profibus::Event& event) {
-      if (on_event) on_event(event);
+      if (listener_ != nullptr) listener_->event(number_, event);
       timeline.wake();  // the script may have waited for it
     };
     bus_.on_begin = [this](Tick at, const user_cpu::Access& access, Tick sample) {
-      if (on_action) on_action(at, words_of(access));
-      if (!access.write && on_read) on_read(sample);
+      if (wanted_.actions) listener_->action(number_, at, words_of(access));
+      if (!access.write && wanted_.reads) listener_->read(number_, sample);
     };
     bus_.on_handshake = [this](Tick at, const char* pin, bool level) {
-      if (on_action) on_action(at, words_of(pin, level));
+      if (wanted_.actions) listener_->action(number_, at, words_of(pin, level));
     };
   }
 
@@ -64,8 +64,9 @@ class TlmChipView : public ChipView {
  private:
   const dsdpv1::Chip& core() const { return chip_.module().chip(); }
   void tell(Tick at, Pin pin, Level level) const {
-    if (pin == Pin::kIntr0 && on_interrupt) on_interrupt(at, level != 0);
-    if (on_pin) on_pin(at, number(pin), level);
+    if (listener_ == nullptr) return;
+    if (pin == Pin::kIntr0) listener_->interrupt(number_, at, level != 0);
+    listener_->pin(number_, at, number(pin), level);
   }
 
   systemc_bench::TlmChip chip_;

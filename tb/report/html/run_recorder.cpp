@@ -113,7 +113,7 @@ void RunRecorder::answer(const bus::WireTelegram& wire) {
 
 // --- violations ------------------------------------------------------------------------------------------------------
 
-void RunRecorder::violated(const std::string& slave, const checks::Violation& violation) {
+void RunRecorder::violated(const std::string& slave, const checks::Violation& violation, const char* /*kind*/) {
   const auto& all = scenario_.slaves;
   const auto found =
       std::find_if(all.begin(), all.end(), [&slave](const scenario::Slave& each) { return each.name.text == slave; });

@@ -51,7 +51,7 @@ class RunRecorder : public Observer {
   void host_telegram(std::size_t slave, const HostTelegram& telegram) override {
     telegrams_.add(scenario_.slaves[slave].name.text, telegram);
   }
-  void violated(const std::string& slave, const checks::Violation& violation) override;
+  void violated(const std::string& slave, const checks::Violation& violation, const char* kind) override;
   /// The run is over: what waited for more of it is taken as it is.
   void finish();
 

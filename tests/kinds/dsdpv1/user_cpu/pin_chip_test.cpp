@@ -33,10 +33,16 @@ struct WithCore {
   user_cpu::HostBus& host = static_cast<user_cpu::HostBus&>(*chip.user_side());
 };
 
+/// When events came.
+struct Heard : tb::ChipListener {
+  void event(std::size_t /*slave*/, const profibus::Event& event) override { events.push_back(event.at); }
+  std::vector<Tick> events;
+};
+
 /// The user has the DPRAM.
 struct PinChipTest : testing::Test {
   PinChipTest() {
-    chip.on_event = [this](const profibus::Event& event) { events.push_back(event.at); };
+    chip.listen(heard, 0);
     chip.set_reset(1000, true);
     chip.run(200 * bus::kTicksPerUs);
     host.set_r_req(200 * bus::kTicksPerUs, true);
@@ -52,7 +58,8 @@ struct PinChipTest : testing::Test {
   tb::PinChip& chip = with_core.chip;
   const dsdpv1::Chip& core = with_core.core;
   user_cpu::HostBus& host = with_core.host;
-  std::vector<Tick> events;
+  Heard heard;
+  std::vector<Tick>& events = heard.events;
 };
 
 TEST_F(PinChipTest, AnAccessThatNobodyHearsOfIsOneTurn) {
@@ -91,14 +98,15 @@ TEST_F(PinChipTest, AReadInOneTurnBringsTheByte) {
 struct PutOffTest : testing::Test {
   struct User : WithCore {
     User(const char* name, bus::Segment& segment) : WithCore(name, segment) {
-      chip.on_event = [this](const profibus::Event& event) { events.push_back(event.at); };
+      chip.listen(heard, 0);
       chip.set_reset(1000, true);
       chip.run(200 * bus::kTicksPerUs);
       host.set_r_req(200 * bus::kTicksPerUs, true);
       chip.run(202 * bus::kTicksPerUs);
       host.set_r_sta(202 * bus::kTicksPerUs, true);
     }
-    std::vector<Tick> events;
+    Heard heard;
+    std::vector<Tick>& events = heard.events;
   };
 
   /// Chips act when they plan to, the line moves at `line_at`; up to the end of the access.
