@@ -39,7 +39,7 @@ Lockstep::Lockstep(std::unique_ptr<tb::PinDevice> model, const dsdpv1::Config& c
                    const LockstepOptions& options)
     : model_(std::move(model)),
       part_(config.part),
-      rtl_(std::move(top), config, config.part == Part::kRsu ? TickEnds::kLater : TickEnds::kAtOnce),
+      rtl_(std::move(top), config, dsdpv1::has_serial_ports(config.part) ? TickEnds::kLater : TickEnds::kAtOnce),
       options_(options),
       comparator_(options.tolerances),
       history_(options.history_cycles, dsdpv1::pin_count(config.part)) {
@@ -84,7 +84,7 @@ void Lockstep::note(Tick at, Side side, Pin pin, Level level) {
 
 void Lockstep::note_input(Tick at, Pin pin, Level level) {
   watch_.change(at, pin, level);
-  if (part_ == Part::kRsu) note_serial(at, pin);
+  if (dsdpv1::has_serial_ports(part_)) note_serial(at, pin);
   if (pin != Pin::kWr || level == 0) return;
   user_wrote_ = true;
   last_write_ = at;
@@ -105,11 +105,11 @@ void Lockstep::note_serial(Tick at, Pin pin) {
 /// The model is stopped wherever one of its accesses ends, because the RTL's DPRAM can be seen at its present time
 /// only.
 void Lockstep::advance(Tick to) {
-  if (part_ == Part::kRsu) look_at_dpram(to);
+  if (dsdpv1::has_serial_ports(part_)) look_at_dpram(to);
   for (Tick next = model_->next_event(); next <= to && !difference_; next = model_->next_event()) {
     model_->advance(next);
     if (!ended_) continue;
-    if (part_ == Part::kRsu)
+    if (dsdpv1::has_serial_ports(part_))
       look_at_dpram(to);
     else
       access_ended(*std::exchange(ended_, std::nullopt));
@@ -129,7 +129,7 @@ void Lockstep::model_changed(Tick at, Pin pin, Level level) {
   if (!difference_) comparator_.model_changed(at, pin, level);
   watch_.change(at, pin, level);
   if (pin == Pin::kLReq && level == 0 && model_->level(number(Pin::kReset)) != 0) ended_ = at;
-  if (part_ == Part::kRsu) note_serial(at, pin);
+  if (dsdpv1::has_serial_ports(part_)) note_serial(at, pin);
   if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, number(pin), level);
 }
 
@@ -140,7 +140,7 @@ void Lockstep::rtl_changed(Tick at, Pin pin, Level level) {
 
 void Lockstep::access_ended(Tick at) {
   if (!dpram_may_have_changed(at)) return;
-  rtl_.advance(part_ == Part::kRsu ? at + 1 : at);
+  rtl_.advance(dsdpv1::has_serial_ports(part_) ? at + 1 : at);
   settle(at);
   if (!difference_) compare_dpram(at);
 }

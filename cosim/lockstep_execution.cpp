@@ -16,10 +16,7 @@ namespace {
 /// The parameters of the chip; other kinds than the DSDPV1, the DSDPV1-R, which is the same, and the DSDPV1-RSU have no
 /// RTL here.
 dsdpv1::Config config_with_rtl(const tb::ChipKind& kind, const tb::ChipRequest& request) {
-  if (!tb::is_dsdpv1(kind) && &kind != &tb::dsdpv1_rsu_kind())
-    throw tb::InputError(
-        fmt::format("--engine rtl and lockstep are for chips of the kinds {}, {} and {}, the scenario has {}",
-                    tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), tb::dsdpv1_rsu_kind().name(), kind.name()));
+  tb::part_of(kind, "--engine rtl and lockstep are");
   return tb::config_of(request);
 }
 

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using Layout = std::uint32_t (*)();
-using Make = RtlTop* (*)(const RtlLimits* limits, std::uint32_t fault, std::uint32_t seed);
+using Make = RtlTop* (*)(const dsdpv1::Config* config, std::uint32_t fault, std::uint32_t seed);
 
 [[noreturn]] void fail(const std::string& what) {
   throw tb::InputError(what +
@@ -55,28 +55,19 @@ Make make_of(const dsdpv1::Config& config, const char* kind) {
   static std::mutex mutex;
   static std::map<std::string, Make> loaded;
   const std::scoped_lock lock(mutex);
-  const std::string name = fmt::format("lib{}_rtl{}.so", config.part == Part::kRsu ? "dsdpv1_rsu" : "dsdpv1", kind);
+  const std::string name = fmt::format("libdsdpv1{}_rtl{}.so", dsdpv1::row(config.part).rtl, kind);
   const auto found = loaded.find(name);
   return found != loaded.end() ? found->second : loaded.emplace(name, load(name)).first->second;
-}
-
-RtlLimits limits(const dsdpv1::Config& config) {
-  return {config.access_interval, config.ready_cycles,  config.rts_lead,         config.rts_trail,
-          config.intr_low,        config.intr_gap,      config.search_window_ms, config.search_window_bits,
-          config.baud_control_ms, config.spi_reply_gap, config.spi_write_gap,    config.serial_block_crc,
-          config.u_timer,         config.uart_min_tsdr, config.uart_cfg_length,  config.uart_gaps};
 }
 
 }  // namespace
 
 std::unique_ptr<RtlTop> make_reference_rtl(const dsdpv1::Config& config, std::uint32_t seed) {
-  const RtlLimits parameters = limits(config);
-  return std::unique_ptr<RtlTop>(make_of(config, "")(&parameters, 0, seed));
+  return std::unique_ptr<RtlTop>(make_of(config, "")(&config, 0, seed));
 }
 
 std::unique_ptr<RtlTop> make_faulty_rtl(const dsdpv1::Config& config, unsigned fault, std::uint32_t seed) {
-  const RtlLimits parameters = limits(config);
-  return std::unique_ptr<RtlTop>(make_of(config, "_faults")(&parameters, fault, seed));
+  return std::unique_ptr<RtlTop>(make_of(config, "_faults")(&config, fault, seed));
 }
 
 }  // namespace dsdpv1::cosim

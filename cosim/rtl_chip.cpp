@@ -51,7 +51,7 @@ bool acts_at_once(Pin pin) {
 RtlChip::RtlChip(std::unique_ptr<RtlTop> top, const dsdpv1::Config& config, TickEnds ends)
     : top_(std::move(top)),
       timed_(dynamic_cast<TimedTop*>(top_.get())),
-      rsu_(config.part == Part::kRsu),
+      rsu_(dsdpv1::has_serial_ports(config.part)),
       ends_(ends),
       miso_delay_(config.spi_miso_delay) {
   power_up();
@@ -229,7 +229,7 @@ Level RtlChip::level(Pin pin) const {
 
 void RtlChip::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
   sink_ = sink;
-  watched_ = sink.call == nullptr ? 0 : pins & dsdpv1::outputs_of(rsu_ ? Part::kRsu : Part::kDsdpv1);
+  watched_ = sink.call == nullptr ? 0 : pins & (rsu_ ? dsdpv1::kRsuOutputPins : dsdpv1::kOutputPins);
 }
 
 }  // namespace dsdpv1::cosim

@@ -29,14 +29,13 @@ std::vector<NamedFile> with_files_of(const std::string& folder, std::vector<Name
 
 int rtl_faults(const RtlFaultsArguments& arguments) {
   leave_nothing_on_signals();
-  const auto given_or_own = [](const std::string& path, const char* own) {
+  const auto given_or_own = [](const std::string& path, const std::string& own) {
     return path.empty() ? data_folder() + own : path;
   };
   const Part part = part_of(arguments.chip);
-  const bool rsu = part == Part::kRsu;
-  const std::string list = given_or_own(arguments.list, rsu ? "/rtl_ref/faults_rsu.txt" : "/rtl_ref/faults.txt");
-  const std::string folder =
-      given_or_own(arguments.directed, rsu ? "/tests/cosim/stimuli_rsu" : "/tests/cosim/stimuli");
+  const std::string suffix = dsdpv1::row(part).rtl;
+  const std::string list = given_or_own(arguments.list, "/rtl_ref/faults" + suffix + ".txt");
+  const std::string folder = given_or_own(arguments.directed, "/tests/cosim/stimuli" + suffix);
   const std::vector<cosim::Fault> faults = cosim::read_faults(list);
   const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, part);
   check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "apps/command_line.hpp"
@@ -61,7 +62,7 @@ cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
 
 Bench bench_of(const RtlRandomArguments& arguments) {
   Bench bench;
-  if (!arguments.own.rtl.empty() && part_of(arguments.chip) == Part::kRsu)
+  if (!arguments.own.rtl.empty() && dsdpv1::has_serial_ports(part_of(arguments.chip)))
     throw tb::InputError("--rtl: RTL of your own has the pins of table 1, allowed is without --chip dsdpv1_rsu");
   if (arguments.own.rtl.empty()) {
     bench.options = cosim::quick_options(part_of(arguments.chip));
@@ -121,12 +122,9 @@ cosim::MakeTopFor make_for(const RtlRandomArguments& arguments) {
 
 /// From here on `arguments` and `bench` have the parameters of the case that differs.
 void take_case(const cosim::CampaignResult& campaign, RtlRandomArguments& arguments, Bench& bench) {
-  for (const cosim::OwnParameter& each : cosim::kOwnParameters) {
-    const std::uint32_t value = campaign.failed_config.*each.member;
-    if (value == bench.options.config.*each.member) continue;
-    bench.options.config.*each.member = value;
-    arguments.set.push_back(fmt::format("chip.{}={}", each.key, value));
-  }
+  for (std::string& each : cosim::settings_between(bench.options.config, campaign.failed_config))
+    arguments.set.push_back(std::move(each));
+  bench.options.config = campaign.failed_config;
   if (arguments.own.rtl.empty()) bench.make = reference_of(arguments)(bench.options);
 }
 
@@ -309,13 +307,12 @@ void check_files(const RtlRandomArguments& arguments) {
 
 Part part_of(const std::string& chip) {
   check_word("--chip", chip, {"dsdpv1", "dsdpv1_r", "dsdpv1_rsu"});
-  if (chip == "dsdpv1_rsu") return Part::kRsu;
-  return chip == "dsdpv1_r" ? Part::kR : Part::kDsdpv1;
+  return *dsdpv1::part_called(chip);
 }
 
 HostMode mode_of(Part part, const std::string& mode) {
   check_word("--mode", mode, {"parallel", "spi", "uart"});
-  if (part != Part::kRsu && mode != "parallel")
+  if (!dsdpv1::has_serial_ports(part) && mode != "parallel")
     throw tb::InputError("--mode " + mode +
                          ": only the dsdpv1_rsu has that port, allowed is --chip dsdpv1_rsu with it");
   if (mode == "spi") return HostMode::kSpi;

@@ -125,6 +125,16 @@ dsdpv1::Config case_config(std::uint64_t seed, const dsdpv1::Config& usual) {
   return config;
 }
 
+std::vector<std::string> settings_between(const dsdpv1::Config& from, const dsdpv1::Config& to) {
+  std::vector<std::string> settings;
+#define DSDPV1_PARAMETER(name, ...) \
+  if (from.name != to.name) settings.push_back(fmt::format("chip.{}={}", #name, to.name));
+#define DSDPV1_RSU_LIST(name, ...) \
+  if (from.name != to.name) settings.push_back(fmt::format("chip.{}=[{}]", #name, fmt::join(to.name, ", ")));
+#include "model/dsdpv1/parameters.inc"
+  return settings;
+}
+
 std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number) {
   // splitmix64: neighbouring numbers give unrelated seeds.
   std::uint64_t z = campaign * 0x9E3779B97F4A7C15ULL + number + 1;

@@ -39,10 +39,10 @@ class Checks : public ChipChecks, private AccessSink {
       dsdpv1::mask(dsdpv1::Pin::kWr);
 
   /// What they see of a part's pins.
-  static constexpr std::uint32_t pins(Part part) { return part == Part::kRsu ? kPins | kSerialPins : kPins; }
+  static constexpr std::uint32_t pins(Part part) { return has_serial_ports(part) ? kPins | kSerialPins : kPins; }
 
   /// `serial`: straps and parameters; a change of a strap counts from then on.
-  explicit Checks(const Limits& limits = Limits(rules()), Part part = Part::kDsdpv1, const SerialSettings& serial = {})
+  explicit Checks(const Limits& limits = Limits(rules()), Part part = {}, const SerialSettings& serial = {})
       : pins_(pins(part)),
         settings_(serial),
         history_(tb::pins_of(part)),

@@ -16,13 +16,12 @@
 #define RTL_INSIDE(place) dsdpv1__DOT__##place
 #endif
 #include "kinds/dsdpv1/rtl/verilated_top.hpp"
+#include "model/dsdpv1/config.hpp"
 #if VM_COVERAGE
 #include "verilated_cov.h"
 #endif
 
 namespace {
-
-using dsdpv1::cosim::RtlLimits;
 
 #ifdef DSDPV1_RTL_RSU
 using Model = Vdsdpv1_rsu;
@@ -56,24 +55,25 @@ class Chip : public dsdpv1::cosim::VerilatedTop<Model> {
     return true;
   }
 };
-
-void set_more(Model& model, const RtlLimits& limits) {
-  model.spi_reply_gap_i = limits.spi_reply_gap;
-  model.spi_write_gap_i = limits.spi_write_gap;
-  model.serial_block_crc_i = limits.serial_block_crc;
-  model.u_timer_i = limits.u_timer;
-  model.uart_min_tsdr_i = limits.uart_min_tsdr;
-  model.uart_cfg_length_i = limits.uart_cfg_length;
-  constexpr unsigned kGapBits = 16;
-  for (unsigned i = 0; i < limits.uart_gaps.size(); i += 2)
-    model.uart_gaps_i[i / 2] = limits.uart_gaps[i] | limits.uart_gaps[i + 1] << kGapBits;
-}
 #else
 using Model = Vdsdpv1;
 using Chip = dsdpv1::cosim::VerilatedTop<Model>;
-
-void set_more(Model&, const RtlLimits&) {}
 #endif
+
+void set_parameters(Model& model, const dsdpv1::Config& config) {
+#define DSDPV1_PARAMETER(name, ...) model.name##_i = config.name;
+#define DSDPV1_RSU_TICKS(...)
+#ifdef DSDPV1_RTL_RSU
+  constexpr unsigned kGapBits = 16;
+#define DSDPV1_RSU_LIST(name, ...)                     \
+  for (unsigned i = 0; i < config.name.size(); i += 2) \
+    model.name##_i[i / 2] = config.name[i] | config.name[i + 1] << kGapBits;
+#else
+#define DSDPV1_RSU_PARAMETER(...)
+#define DSDPV1_RSU_LIST(...)
+#endif
+#include "model/dsdpv1/parameters.inc"
+}
 
 #if VM_COVERAGE
 /// Writes at its end what it has counted, as a file of its own in the folder that the environment names
@@ -98,22 +98,12 @@ using Top = Chip;
 extern "C" std::uint32_t dsdpv1_rtl_layout() { return DSDPV1_RTL_LAYOUT; }
 
 /// The caller owns the result.
-extern "C" dsdpv1::cosim::RtlTop* dsdpv1_rtl_make(const RtlLimits* limits, [[maybe_unused]] std::uint32_t fault,
+extern "C" dsdpv1::cosim::RtlTop* dsdpv1_rtl_make(const dsdpv1::Config* config, [[maybe_unused]] std::uint32_t fault,
                                                   std::uint32_t seed) {
   auto top = std::make_unique<Top>(seed);
-  Model& model = top->model();
-  model.access_interval_i = limits->access_interval;
-  model.ready_cycles_i = limits->ready_cycles;
-  model.rts_lead_i = limits->rts_lead;
-  model.rts_trail_i = limits->rts_trail;
-  model.intr_low_i = limits->intr_low;
-  model.intr_gap_i = limits->intr_gap;
-  model.search_window_ms_i = limits->search_window_ms;
-  model.search_window_bits_i = limits->search_window_bits;
-  model.baud_control_ms_i = limits->baud_control_ms;
-  set_more(model, *limits);
+  set_parameters(top->model(), *config);
 #ifdef SINGLE_FAULTS
-  model.fault_i = static_cast<CData>(fault);
+  top->model().fault_i = static_cast<CData>(fault);
 #endif
   return top.release();
 }
