@@ -24,12 +24,8 @@ constexpr Cycle kResetSynchroniser = 2;  // P9, P10
 // The outputs that are registers of the rising edge; D_OUT and MISO are the host ports' own.
 constexpr std::uint32_t kEdgeOutputs = kRsuOutputPins & ~mask(Pin::kDOut) & ~mask(Pin::kMiso);
 
-constexpr std::uint32_t levels_in_reset() {  // P10, R14
-  std::uint32_t high = 0;
-  for (int i = 0; i < kRsuPinCount; ++i) high |= kPinRows[i].level == 1 ? mask(static_cast<Pin>(i)) : 0;
-  return high & kEdgeOutputs;
-}
-constexpr std::uint32_t kResetLevels = levels_in_reset();
+constexpr std::uint32_t kResetLevels =
+    kEdgeOutputs & pins_where([](const PinRow& row) { return row.level == 1; });  // P10, R14
 
 profibus::StationConfig station_of(const Config& config) {
   profibus::StationConfig station;

@@ -24,7 +24,16 @@ constexpr std::array<PartRow, 3> kParts = {
     {{"dsdpv1", "DSDPV1", false, ""}, {"dsdpv1_r", "DSDPV1-R", false, ""}, {"dsdpv1_rsu", "DSDPV1-RSU", true, "_rsu"}}};
 
 constexpr const PartRow& row(Part part) { return kParts[static_cast<std::size_t>(part)]; }
-constexpr bool has_serial_ports(Part part) { return row(part).has_serial_ports; }
+constexpr unsigned serial_parts() {
+  unsigned parts = 0;
+  for (std::size_t i = 0; i < kParts.size(); ++i) parts |= kParts[i].has_serial_ports ? 1U << i : 0;
+  return parts;
+}
+/// Asked at each change of a serial pin: no table is read.
+constexpr bool has_serial_ports(Part part) {
+  constexpr unsigned kSerialParts = serial_parts();
+  return (kSerialParts >> static_cast<unsigned>(part) & 1U) != 0;
+}
 /// By its name in scenarios; nullopt: none is called so.
 constexpr std::optional<Part> part_called(std::string_view name) {
   for (std::size_t i = 0; i < kParts.size(); ++i)

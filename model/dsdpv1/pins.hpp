@@ -39,32 +39,34 @@ constexpr PinRow kPinRows[] = {
 #include "model/dsdpv1/pins.inc"
 };
 
-constexpr int count_of_all_parts() {
-  int count = 0;
-  for (const PinRow& row : kPinRows) count += row.of_all_parts ? 1 : 0;
-  return count;
-}
-constexpr int kPinCount = count_of_all_parts();  ///< of the DSDPV1 and -R: the first ones
-constexpr int kRsuPinCount = static_cast<int>(sizeof kPinRows / sizeof(PinRow));  ///< of the DSDPV1-RSU: all
-constexpr int pin_count(Part part) { return has_serial_ports(part) ? kRsuPinCount : kPinCount; }
+constexpr int kRsuPinCount = sizeof kPinRows / sizeof(PinRow);  ///< of the DSDPV1-RSU: all
 
 /// Its place in tables of pins.
 constexpr std::uint8_t number(Pin pin) { return static_cast<std::uint8_t>(pin); }
 constexpr std::uint32_t mask(Pin pin) { return std::uint32_t{1} << static_cast<unsigned>(pin); }
+/// Those whose rows are `wanted`.
+template <class Wanted>
+constexpr std::uint32_t pins_where(const Wanted& wanted) {
+  std::uint32_t pins = 0;
+  for (int i = 0; i < kRsuPinCount; ++i) pins |= wanted(kPinRows[i]) ? mask(static_cast<Pin>(i)) : 0;
+  return pins;
+}
+
+/// Those of all parts; those that only the DSDPV1-RSU has.
+constexpr std::uint32_t kCommonPins = pins_where([](const PinRow& row) { return row.of_all_parts; });
+constexpr std::uint32_t kSerialPins = pins_where([](const PinRow& row) { return !row.of_all_parts; });
+constexpr int kPinCount = __builtin_popcount(kCommonPins);  ///< of the DSDPV1 and the DSDPV1-R: the first ones
+constexpr int pin_count(Part part) { return has_serial_ports(part) ? kRsuPinCount : kPinCount; }
 
 /// Table 1's name of a pin ("L_REQ"); D_IN and D_OUT for the two directions of D.
 constexpr const char* name(Pin pin) { return kPinRows[number(pin)].name; }
 /// Number of wires: 11 for A, 8 for D, 2 for MODE and ADR, 3 for UBR and UIV, else 1.
 constexpr int width(Pin pin) { return kPinRows[number(pin)].width; }
 constexpr bool is_input(Pin pin) { return kPinRows[number(pin)].direction == Direction::kInput; }
-
-constexpr std::uint32_t outputs_among(int pins) {
-  std::uint32_t outputs = 0;
-  for (int i = 0; i < pins; ++i) outputs |= is_input(static_cast<Pin>(i)) ? 0 : mask(static_cast<Pin>(i));
-  return outputs;
-}
-/// Outputs of the DSDPV1 and the DSDPV1-R; of the DSDPV1-RSU.
-constexpr std::uint32_t kOutputPins = outputs_among(kPinCount), kRsuOutputPins = outputs_among(kRsuPinCount);
+/// Outputs of the DSDPV1-RSU; of the DSDPV1 and the DSDPV1-R.
+constexpr std::uint32_t kRsuOutputPins =
+    pins_where([](const PinRow& row) { return row.direction == Direction::kOutput; });
+constexpr std::uint32_t kOutputPins = kRsuOutputPins & kCommonPins;
 constexpr std::uint32_t outputs_of(Part part) { return has_serial_ports(part) ? kRsuOutputPins : kOutputPins; }
 
 /// Receives the changes of output pins, in order of time. `call` is never null while attached.
