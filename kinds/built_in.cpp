@@ -4,6 +4,10 @@
 
 namespace dsdpv1::tb {
 
-std::vector<const ChipKind*> built_in_chip_kinds() { return {&dsdpv1_kind(), &dsdpv1_r_kind(), &dsdpv1_rsu_kind()}; }
+std::vector<const ChipKind*> built_in_chip_kinds() {
+  std::vector<const ChipKind*> kinds;
+  for (std::size_t i = 0; i < kParts.size(); ++i) kinds.push_back(&kind_of(static_cast<Part>(i)));
+  return kinds;
+}
 
 }  // namespace dsdpv1::tb

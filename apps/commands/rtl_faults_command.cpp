@@ -23,7 +23,9 @@ std::vector<NamedFile> with_files_of(const std::string& folder, std::vector<Name
   return inputs;
 }
 
-std::string given_or_own(const std::string& path, const char* own) { return path.empty() ? data_folder() + own : path; }
+std::string given_or_own(const std::string& path, const std::string& own) {
+  return path.empty() ? data_folder() + own : path;
+}
 
 class RtlFaults : public Command {
  public:
@@ -49,9 +51,9 @@ class RtlFaults : public Command {
   int carry_out() override {
     leave_nothing_on_signals();
     const Part part = chip_.part();
-    const bool rsu = part == Part::kRsu;
-    const std::string list = given_or_own(list_, rsu ? "/rtl_ref/faults_rsu.txt" : "/rtl_ref/faults.txt");
-    const std::string folder = given_or_own(directed_, rsu ? "/tests/cosim/stimuli_rsu" : "/tests/cosim/stimuli");
+    const std::string suffix = dsdpv1::row(part).rtl;
+    const std::string list = given_or_own(list_, "/rtl_ref/faults" + suffix + ".txt");
+    const std::string folder = given_or_own(directed_, "/tests/cosim/stimuli" + suffix);
     const std::vector<cosim::Fault> faults = cosim::read_faults(list);
     const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, part);
     check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", tsv_}});

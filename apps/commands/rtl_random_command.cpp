@@ -117,12 +117,9 @@ cosim::MakeTopFor make_for(const RtlRandomArguments& arguments) {
 
 /// From here on `arguments` and `bench` have the parameters of the case that differs.
 void take_case(const cosim::CampaignResult& campaign, RtlRandomArguments& arguments, Bench& bench) {
-  for (const cosim::OwnParameter& each : cosim::kOwnParameters) {
-    const std::uint32_t value = campaign.failed_config.*each.member;
-    if (value == bench.options.config.*each.member) continue;
-    bench.options.config.*each.member = value;
-    arguments.set.push_back(fmt::format("chip.{}={}", each.key, value));
-  }
+  for (std::string& each : cosim::settings_between(bench.options.config, campaign.failed_config))
+    arguments.set.push_back(std::move(each));
+  bench.options.config = campaign.failed_config;
   if (arguments.own.rtl.empty()) bench.make = reference_of(arguments)(bench.options);
 }
 

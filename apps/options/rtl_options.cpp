@@ -14,8 +14,9 @@ void add_chip_options(CLI::App& app, RtlChip& chip) {
 }
 
 Part RtlChip::part() const {
-  return value_of<Part>("dsdpv1-sim --chip", chip,
-                        {{"dsdpv1", Part::kDsdpv1}, {"dsdpv1_r", Part::kR}, {"dsdpv1_rsu", Part::kRsu}});
+  std::vector<std::pair<std::string, Part>> parts;
+  for (const PartRow& row : kParts) parts.emplace_back(row.name, *part_called(row.name));
+  return value_of<Part>("dsdpv1-sim --chip", chip, parts);
 }
 
 HostMode RtlChip::host() const {
@@ -23,7 +24,7 @@ HostMode RtlChip::host() const {
   const auto host =
       value_of<HostMode>("dsdpv1-sim --mode", mode,
                          {{"parallel", HostMode::kParallel}, {"spi", HostMode::kSpi}, {"uart", HostMode::kUart}});
-  if (of != Part::kRsu && host != HostMode::kParallel)
+  if (!has_serial_ports(of) && host != HostMode::kParallel)
     throw tb::InputError("--mode " + mode +
                          ": only the dsdpv1_rsu has that port, allowed is --chip dsdpv1_rsu with it");
   return host;

@@ -1,5 +1,7 @@
 #include "cosim/random/campaign.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <mutex>
@@ -123,6 +125,16 @@ dsdpv1::Config case_config(std::uint64_t seed, const dsdpv1::Config& usual) {
   config.search_window_bits = static_cast<std::uint32_t>(random.between(120, 400));
   config.baud_control_ms = static_cast<std::uint32_t>(random.between(1, 4));
   return config;
+}
+
+std::vector<std::string> settings_between(const dsdpv1::Config& from, const dsdpv1::Config& to) {
+  std::vector<std::string> settings;
+#define DSDPV1_PARAMETER(name, ...) \
+  if (from.name != to.name) settings.push_back(fmt::format("chip.{}={}", #name, to.name));
+#define DSDPV1_RSU_LIST(name, ...) \
+  if (from.name != to.name) settings.push_back(fmt::format("chip.{}=[{}]", #name, fmt::join(to.name, ", ")));
+#include "model/dsdpv1/parameters.inc"
+  return settings;
 }
 
 std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number) {

@@ -11,7 +11,7 @@
 namespace dsdpv1::cosim {
 
 /// How random cases and directed stimuli are played on the reference RTL of the part.
-PlayOptions quick_options(dsdpv1::Part part = dsdpv1::Part::kDsdpv1);
+PlayOptions quick_options(dsdpv1::Part part = {});
 
 /// The parameters of a case of this seed: now and then other limits of the baud search and of BAUD_CONTROL (S1) than
 /// those of `usual`, still short ones.
@@ -41,14 +41,8 @@ struct CampaignResult {
   std::optional<Difference> difference;  ///< of the first case that has one
 };
 
-/// A parameter of the chip that cases choose for themselves, by its key in scenarios.
-struct OwnParameter {
-  const char* key;
-  std::uint32_t dsdpv1::Config::*member;
-};
-constexpr OwnParameter kOwnParameters[] = {{"search_window_ms", &dsdpv1::Config::search_window_ms},
-                                           {"search_window_bits", &dsdpv1::Config::search_window_bits},
-                                           {"baud_control_ms", &dsdpv1::Config::baud_control_ms}};
+/// Texts of --set, chip.KEY=VALUE, for the parameters in which `to` differs from `from`.
+std::vector<std::string> settings_between(const dsdpv1::Config& from, const dsdpv1::Config& to);
 
 /// What is compared so far, for a progress line; called by one thread at a time.
 using CampaignProgress = std::function<void(std::uint64_t cases, std::uint64_t cycles)>;

@@ -21,10 +21,7 @@ tb::Engine engine_of(const dsdpv1::Config& config) {
 
 }  // namespace
 
-const tb::ChipKind& chip_kind(Part part) {
-  if (part == Part::kR) return tb::dsdpv1_r_kind();
-  return part == Part::kRsu ? tb::dsdpv1_rsu_kind() : tb::dsdpv1_kind();
-}
+const tb::ChipKind& chip_kind(Part part) { return tb::kind_of(part); }
 
 PlayOptions own_rtl_options(Part part, const Tolerances& tolerances) {
   PlayOptions options = quick_options();

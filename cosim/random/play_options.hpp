@@ -9,7 +9,7 @@
 namespace dsdpv1::cosim {
 
 /// The kind of chip that stimuli are for.
-const tb::ChipKind& chip_kind(Part part = Part::kDsdpv1);
+const tb::ChipKind& chip_kind(Part part = {});
 
 /// For RTL of a user's own: the parameters that scenarios have. For the reference RTL see quick_options().
 PlayOptions own_rtl_options(Part part, const Tolerances& tolerances);

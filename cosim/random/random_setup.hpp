@@ -11,7 +11,7 @@ namespace dsdpv1::cosim {
 
 /// Chip parameters so short that every state is reached soon. What a random case waits for, it waits for with their
 /// times.
-inline dsdpv1::Config quick_config(dsdpv1::Part part = dsdpv1::Part::kDsdpv1) {
+inline dsdpv1::Config quick_config(dsdpv1::Part part = {}) {
   dsdpv1::Config config;
   config.part = part;
   config.u_timer = 20'000;  // of SPI: some frames

@@ -169,7 +169,7 @@ class LineParser {
     std::string word;
     if (!(words_ >> word) || word[0] == '#') return std::nullopt;
     const auto verb = kVerbs.find(word);
-    const bool rsu = part_ == Part::kRsu;
+    const bool rsu = dsdpv1::has_serial_ports(part_);
     if (verb == kVerbs.end())
       fail("unknown action " + word, fmt::format("send, spike, take, give, write, read, block, pin, {}reset, sync, "
                                                  "repeat, end",

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
 
 #include "driver/dsdpv1.h"
+#include "io/input/input_error.hpp"
 #include "io/input/units.hpp"
 #include "kinds/dsdpv1/checks/checks.hpp"
 #include "kinds/dsdpv1/chip/core_device.hpp"
@@ -49,10 +51,10 @@ class Dsdpv1AccessReader : public AccessReader {
 
 class Dsdpv1Kind : public ChipKind {
  public:
-  Dsdpv1Kind(Part part, const char* name, const char* title) : part_(part), name_(name), title_(title) {}
+  explicit Dsdpv1Kind(Part part) : part_(part), rtl_(cosim::make_rtl_of(part)) {}
 
-  const char* name() const override { return name_; }
-  const char* title() const override { return title_; }
+  const char* name() const override { return row(part_).name; }
+  const char* title() const override { return row(part_).title; }
   const PinTable& pins() const override { return pins_of(part_); }
   const BoardPins& board_pins() const override { return kDsdpv1BoardPins; }
   int cells() const override { return 0x800; }  // P4
@@ -126,7 +128,7 @@ class Dsdpv1Kind : public ChipKind {
   const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }
   const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }
 
-  const cosim::RtlOf* rtl() const override { return &cosim::rtl_of(part_); }
+  const cosim::RtlOf* rtl() const override { return rtl_.get(); }
   std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {
     return std::make_unique<CoreDevice>(config_of(request));
   }
@@ -143,8 +145,8 @@ class Dsdpv1Kind : public ChipKind {
   }
 
  private:
-  Part part_;
-  const char *name_, *title_;
+  const Part part_;
+  const std::unique_ptr<const cosim::RtlOf> rtl_;
 };
 
 std::string Dsdpv1Kind::place_of(const std::string& init_key) const {
@@ -229,7 +231,7 @@ std::vector<Order> rsu_orders() {
 
 const std::vector<Order>& Dsdpv1Kind::orders() const {
   static const std::vector<Order> plain = parallel_orders(), rsu = rsu_orders();
-  return part_ == Part::kRsu ? rsu : plain;
+  return has_serial_ports(part_) ? rsu : plain;
 }
 
 const std::vector<keys::Word>& Dsdpv1Kind::blocks() const {
@@ -244,21 +246,17 @@ const std::vector<keys::Word>& Dsdpv1Kind::blocks() const {
 
 }  // namespace
 
-const ChipKind& dsdpv1_kind() {
-  static const Dsdpv1Kind kind(Part::kDsdpv1, "dsdpv1", "DSDPV1");
-  return kind;
+const ChipKind& kind_of(Part part) {
+  static const std::array<Dsdpv1Kind, kParts.size()> kinds = {Dsdpv1Kind(Part::kDsdpv1), Dsdpv1Kind(Part::kR),
+                                                              Dsdpv1Kind(Part::kRsu)};
+  return kinds.at(static_cast<std::size_t>(part));
 }
 
-const ChipKind& dsdpv1_r_kind() {
-  static const Dsdpv1Kind kind(Part::kR, "dsdpv1_r", "DSDPV1-R");
-  return kind;
+Part part_of(const ChipKind& kind, const char* what) {
+  for (std::size_t i = 0; i < kParts.size(); ++i)
+    if (&kind == &kind_of(static_cast<Part>(i))) return static_cast<Part>(i);
+  throw InputError(fmt::format("{} for chips of the kinds {}, {} and {}, the scenario has {}", what, kParts[0].name,
+                               kParts[1].name, kParts[2].name, kind.name()));
 }
-
-const ChipKind& dsdpv1_rsu_kind() {
-  static const Dsdpv1Kind kind(Part::kRsu, "dsdpv1_rsu", "DSDPV1-RSU");
-  return kind;
-}
-
-bool is_dsdpv1(const ChipKind& kind) { return &kind == &dsdpv1_kind() || &kind == &dsdpv1_r_kind(); }
 
 }  // namespace dsdpv1::tb

@@ -47,7 +47,7 @@ std::string parameter_table(const Result& result) {
   for (const ParameterResult& each : result.parameters) {
     const bool shown = each.verdict != Verdict::kNotShown;
     const Estimate& estimate = each.fit.estimate;
-    table.add({each.row->ruling, each.row->key, std::to_string(default_of(*each.row)), shown ? each.words : "-",
+    table.add({ruling_of(*each.row), each.row->key, std::to_string(default_of(*each.row)), shown ? each.words : "-",
                field_of(*each.row).type.unit,
                shown ? word(each.verdict) : std::string(word(each.verdict)) + ": " + each.words,
                std::to_string(estimate.count), std::to_string(estimate.outliers.size()),
@@ -117,7 +117,7 @@ nlohmann::ordered_json clock_json(const Estimate& clock) {
 }
 
 nlohmann::ordered_json parameter_json(const ParameterResult& each) {
-  nlohmann::ordered_json json = {{"parameter", each.row->key},        {"ruling", each.row->ruling},
+  nlohmann::ordered_json json = {{"parameter", each.row->key},        {"ruling", ruling_of(*each.row)},
                                  {"default", default_of(*each.row)},  {"unit", field_of(*each.row).type.unit},
                                  {"measured_by", each.row->measured}, {"verdict", word(each.verdict)}};
   if (each.verdict == Verdict::kNotShown) {
@@ -188,7 +188,7 @@ std::string chip_block(const Result& result) {
   for (const ParameterResult& each : result.parameters) {
     const bool shown = each.verdict != Verdict::kNotShown;
     any = any || shown;
-    text += fmt::format("  {}{}: {}  # {} {}\n", shown ? "" : "# ", each.row->key, each.chosen, each.row->ruling,
+    text += fmt::format("  {}{}: {}  # {} {}\n", shown ? "" : "# ", each.row->key, each.chosen, ruling_of(*each.row),
                         shown ? "measured: " + each.words : "not shown: " + each.words);
   }
   return any ? text : text + "  {}\n";

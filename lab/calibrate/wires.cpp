@@ -14,8 +14,11 @@ namespace {
 using bus::capture::CaptureError;
 
 constexpr std::array<const char*, static_cast<std::size_t>(Wire::kA)> kPins = {
-    "RESET", "R_REQ", "R_STA", "CSR",   "RD",  "WR", "PBRXD", "L_REQ",
-    "L_STA", "INTR0", "PBTXD", "PBRTS", "PBF", "BR", "READY"};
+#define DSDPV1_PIN(pin, name, ...) name,
+#define DSDPV1_BUS(...)
+#define DSDPV1_RSU_PIN(...)
+#include "model/dsdpv1/pins.inc"
+};
 
 Wire wire_at(std::size_t place) { return static_cast<Wire>(place); }
 std::size_t place_of(Wire wire) { return static_cast<std::size_t>(wire); }

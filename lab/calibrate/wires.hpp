@@ -9,32 +9,23 @@
 
 #include "bus/capture/level_taker.hpp"
 #include "bus/time.hpp"
+#include "model/dsdpv1/pins.hpp"
 
 namespace dsdpv1::calibrate {
 
 using bus::Tick;
 
-/// Single pins; A0 to A10 and D0 to D7 follow kA and kD.
+constexpr std::size_t kAddressWires = dsdpv1::width(dsdpv1::Pin::kA), kDataWires = dsdpv1::width(dsdpv1::Pin::kDIn);
+
+/// Single pins of table 1; A0 to A10 and D0 to D7 follow kA and kD.
 enum class Wire : std::uint8_t {
-  kReset,
-  kRReq,
-  kRSta,
-  kCsr,
-  kRd,
-  kWr,
-  kPbrxd,
-  kLReq,
-  kLSta,
-  kIntr0,
-  kPbtxd,
-  kPbrts,
-  kPbf,
-  kBr,
-  kReady,
+#define DSDPV1_PIN(pin, ...) pin,
+#define DSDPV1_BUS(...)
+#define DSDPV1_RSU_PIN(...)
+#include "model/dsdpv1/pins.inc"
   kA,
-  kD = kA + 11,
+  kD = kA + kAddressWires,
 };
-constexpr std::size_t kAddressWires = 11, kDataWires = 8;
 constexpr std::size_t kWireCount = static_cast<std::size_t>(Wire::kD) + kDataWires;
 
 /// Table 1's name: "L_REQ", "A10".

@@ -22,10 +22,10 @@ using profibus::kTicksPerCycle;
 constexpr Cycle kResetSynchroniser = 2;  // P9, P10
 
 // The outputs that are registers of the rising edge; D_OUT and MISO are the host ports' own.
-constexpr std::uint32_t kEdgeOutputs = outputs_of(Part::kRsu) & ~mask(Pin::kDOut) & ~mask(Pin::kMiso);
+constexpr std::uint32_t kEdgeOutputs = kRsuOutputPins & ~mask(Pin::kDOut) & ~mask(Pin::kMiso);
 
 constexpr std::uint32_t kResetLevels =
-    mask(Pin::kIntr0) | mask(Pin::kPbtxd) | mask(Pin::kPbf) | mask(Pin::kTxd);  // P10, R14
+    kEdgeOutputs & pins_where([](const PinRow& row) { return row.level == 1; });  // P10, R14
 
 profibus::StationConfig station_of(const Config& config) {
   profibus::StationConfig station;
@@ -661,7 +661,7 @@ void Chip::watch(const PinSink& sink, std::uint32_t pins) {
   impl_->wake();
   impl_->plan();
   impl_->sink = sink;
-  impl_->watched = sink.call != nullptr ? pins & outputs_of(Part::kRsu) : 0;
+  impl_->watched = sink.call != nullptr ? pins & kRsuOutputPins : 0;
 }
 
 void Chip::on_event(const profibus::EventSink& sink) { impl_->log.attach(sink); }

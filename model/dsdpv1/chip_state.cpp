@@ -38,37 +38,13 @@ void put(std::uint32_t value, std::uint8_t* to) {
   for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-const char* part_name(Part part) {
-  return part == Part::kDsdpv1 ? "DSDPV1" : part == Part::kR ? "DSDPV1-R" : "DSDPV1-RSU";
-}
-
 /// `tell(name, value)` of each parameter, by the names that scenarios have for them.
 template <class Tell>
 void each_parameter(Config& config, const Tell& tell) {
-  auto& [engine, part, access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap, search_window_ms,
-         search_window_bits, baud_control_ms, spi_strobe, spi_data, spi_miso_delay, spi_reply_gap, spi_write_gap,
-         serial_block_crc, u_timer, uart_gaps, uart_min_tsdr, uart_cfg_length] = config;
-  static_cast<void>(engine);
-  static_cast<void>(part);
-  tell("access_interval", access_interval);
-  tell("ready_cycles", ready_cycles);
-  tell("rts_lead", rts_lead);
-  tell("rts_trail", rts_trail);
-  tell("intr_low", intr_low);
-  tell("intr_gap", intr_gap);
-  tell("search_window_ms", search_window_ms);
-  tell("search_window_bits", search_window_bits);
-  tell("baud_control_ms", baud_control_ms);
-  tell("spi_strobe", spi_strobe);
-  tell("spi_data", spi_data);
-  tell("spi_miso_delay", spi_miso_delay);
-  tell("spi_reply_gap", spi_reply_gap);
-  tell("spi_write_gap", spi_write_gap);
-  tell("serial_block_crc", serial_block_crc);
-  tell("u_timer", u_timer);
-  for (std::uint32_t& each : uart_gaps) tell("uart_gaps", each);
-  tell("uart_min_tsdr", uart_min_tsdr);
-  tell("uart_cfg_length", uart_cfg_length);
+#define DSDPV1_PARAMETER(name, ...) tell(#name, config.name);
+#define DSDPV1_RSU_LIST(name, ...) \
+  for (std::uint32_t & each : config.name) tell(#name, each);
+#include "model/dsdpv1/parameters.inc"
 }
 
 [[noreturn]] void fail(const std::string& text) { throw StateError(text); }
@@ -98,7 +74,7 @@ void check_whole(StateReader& reader, const std::uint8_t* bytes, std::size_t siz
 void check_part(StateReader& reader, Part part) {
   Part saved = part;
   reader.within(Part::kDsdpv1, Part::kRsu, saved);
-  if (saved != part) fail(std::string("the state is of a ") + part_name(saved) + ", this chip is a " + part_name(part));
+  if (saved != part) fail(std::string("the state is of a ") + row(saved).title + ", this chip is a " + row(part).title);
 }
 
 void check_parameters(StateReader& reader, Config config) {

@@ -12,7 +12,7 @@ void SerialPorts::reset() {
 }
 
 void SerialPorts::release(Cycle now) {
-  if (config_.part != Part::kRsu) return;
+  if (!has_serial_ports(config_.part)) return;
   running_ = true;
   in_force_ = straps_;
   const auto [mode, address, rate, interval] = in_force_;
@@ -22,7 +22,7 @@ void SerialPorts::release(Cycle now) {
 }
 
 void SerialPorts::set(Tick at, Pin pin, Level level) {
-  if (config_.part != Part::kRsu) return;
+  if (!has_serial_ports(config_.part)) return;
   switch (pin) {
     case Pin::kXss: return spi_.shift().set_xss(at, level != 0);
     case Pin::kSck: return spi_.shift().set_sck(at, level != 0);

@@ -46,7 +46,7 @@ class SerialPorts {
     archive.within(HostMode::kParallel, HostMode::kUart, mode);
     for (std::size_t i = 0; i < kStraps; ++i) archive.within(0, kHighestStrap, straps[i], in_force[i]);
     archive(running, spi, uart);
-    archive.check(!live() || config.part == Part::kRsu);
+    archive.check(!live() || has_serial_ports(config.part));
   }
 
  private:

@@ -31,7 +31,7 @@ struct RsuStraps {
 struct RsuTlmOptions : TlmOptions {
   RsuTlmOptions() {
     chip.part = Part::kRsu;
-    observed |= outputs_of(Part::kRsu);
+    observed |= kRsuOutputPins;
   }
   RsuStraps straps{};
   SpiTiming spi{};    ///< of the host's frames

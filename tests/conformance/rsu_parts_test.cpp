@@ -19,6 +19,19 @@ TEST(RsuParts, Pins) {
   EXPECT_FALSE(is_input(Pin::kMiso));
 }
 
+TEST(RsuParts, PinsBeginAtTheLevelsOfTheirRows) {
+  Config config;
+  config.part = Part::kRsu;
+  const Chip chip(config);
+  for (int i = 0; i < kRsuPinCount; ++i)
+    EXPECT_EQ(chip.level(static_cast<Pin>(i)), kPinRows[i].level) << kPinRows[i].name;
+}
+
+TEST(RsuParts, AreFoundByTheirNames) {
+  for (const Part part : {Part::kDsdpv1, Part::kR, Part::kRsu}) EXPECT_EQ(part_called(row(part).name), part);
+  EXPECT_EQ(part_called("dsdpv1_x"), std::nullopt);
+}
+
 TEST(RsuParts, OtherPartsHaveNoStraps) {
   for (const Part part : {Part::kDsdpv1, Part::kR}) {
     Config config;

@@ -33,7 +33,7 @@ const tb::Dsdpv1Settings kSettings;
 
 struct Lockstep : cosim::Lockstep {
   explicit Lockstep(std::unique_ptr<MadeUpTop> top, const cosim::LockstepOptions& options = {})
-      : cosim::Lockstep(std::make_unique<tb::CoreDevice>(dsdpv1::Config()), std::move(top), tb::dsdpv1_kind(),
+      : cosim::Lockstep(std::make_unique<tb::CoreDevice>(dsdpv1::Config()), std::move(top), tb::kind_of(Part::kDsdpv1),
                         kSettings, options) {}
 };
 

@@ -80,7 +80,7 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
   if (own.access) options.access = static_cast<const AccessTiming&>(*own.access);
   options.switches = switches_of(own);
   const auto& settings = static_cast<const Dsdpv1Settings&>(*request.scenario.chip);
-  if (settings.part == Part::kRsu) {
+  if (dsdpv1::has_serial_ports(settings.part)) {
     options.serial = true;
     hold_straps(options.switches, settings);
     if (settings.mode != HostMode::kParallel) options.card = static_cast<unsigned>(settings.address);

@@ -33,7 +33,7 @@ const RuleTable& all_rules() {
 const RuleTable& rules(Part part) {
   static const RuleTable parallel(all_rules().begin(),
                                   all_rules().begin() + static_cast<std::ptrdiff_t>(kFirstSpiCheck));
-  return part == Part::kRsu ? all_rules() : parallel;
+  return has_serial_ports(part) ? all_rules() : parallel;
 }
 
 const Rule& rule(CheckId check) { return all_rules().at(check.index); }

@@ -23,7 +23,7 @@ constexpr Check kAllChecks[] = {
 constexpr Check kFirstSpiCheck = Check::kSckHigh, kFirstUartCheck = Check::kRxdCharacterGap;
 
 /// The rules of a part: of all but the DSDPV1-RSU those without the serial ports.
-const RuleTable& rules(Part part = Part::kDsdpv1);
+const RuleTable& rules(Part part = {});
 /// Of any part: the place of a check is the same in all of their tables.
 const Rule& rule(CheckId check);
 

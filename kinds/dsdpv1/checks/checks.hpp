@@ -30,19 +30,19 @@ namespace dsdpv1::checks {
 
 class Checks : public ChipChecks, private AccessSink {
  public:
-  /// Of the outputs these, and all inputs but PBRXD: the monitor hears the line.
+  /// Of table 1 all but the line, which the monitor hears, and PBF, BR, READY; PBRTS says who sends.
   static constexpr std::uint32_t kPins =
-      dsdpv1::mask(dsdpv1::Pin::kLReq) | dsdpv1::mask(dsdpv1::Pin::kLSta) | dsdpv1::mask(dsdpv1::Pin::kDOut) |
-      dsdpv1::mask(dsdpv1::Pin::kIntr0) | dsdpv1::mask(dsdpv1::Pin::kPbrts) | dsdpv1::mask(dsdpv1::Pin::kReset) |
-      dsdpv1::mask(dsdpv1::Pin::kRReq) | dsdpv1::mask(dsdpv1::Pin::kRSta) | dsdpv1::mask(dsdpv1::Pin::kA) |
-      dsdpv1::mask(dsdpv1::Pin::kDIn) | dsdpv1::mask(dsdpv1::Pin::kCsr) | dsdpv1::mask(dsdpv1::Pin::kRd) |
-      dsdpv1::mask(dsdpv1::Pin::kWr);
+      dsdpv1::kCommonPins &
+      ~(dsdpv1::mask(dsdpv1::Pin::kPbrxd) | dsdpv1::mask(dsdpv1::Pin::kPbtxd) | dsdpv1::mask(dsdpv1::Pin::kPbf) |
+        dsdpv1::mask(dsdpv1::Pin::kBr) | dsdpv1::mask(dsdpv1::Pin::kReady));
 
   /// What they see of a part's pins.
-  static constexpr std::uint32_t pins(Part part) { return part == Part::kRsu ? kPins | kSerialPins : kPins; }
+  static constexpr std::uint32_t pins(Part part) {
+    return has_serial_ports(part) ? kPins | dsdpv1::kSerialPins : kPins;
+  }
 
   /// `serial`: straps and parameters; a change of a strap counts from then on.
-  explicit Checks(const Limits& limits = Limits(rules()), Part part = Part::kDsdpv1, const SerialSettings& serial = {})
+  explicit Checks(const Limits& limits = Limits(rules()), Part part = {}, const SerialSettings& serial = {})
       : pins_(pins(part)),
         settings_(serial),
         history_(tb::pins_of(part)),
@@ -72,11 +72,6 @@ class Checks : public ChipChecks, private AccessSink {
   void on_violation(std::function<void(const Violation&)> sink) override { recorder_.on_violation = std::move(sink); }
 
  private:
-  static constexpr std::uint32_t kSerialPins = dsdpv1::mask(dsdpv1::Pin::kXss) | dsdpv1::mask(dsdpv1::Pin::kSck) |
-                                               dsdpv1::mask(dsdpv1::Pin::kMosi) | dsdpv1::mask(dsdpv1::Pin::kMiso) |
-                                               dsdpv1::mask(dsdpv1::Pin::kRxd) | dsdpv1::mask(dsdpv1::Pin::kTxd) |
-                                               dsdpv1::mask(dsdpv1::Pin::kMode) | dsdpv1::mask(dsdpv1::Pin::kAdr) |
-                                               dsdpv1::mask(dsdpv1::Pin::kUbr) | dsdpv1::mask(dsdpv1::Pin::kUiv);
   static constexpr Level kSpi = 1, kUart = 2;  // R2; 3 as 0
 
   bool serial() const { return settings_.mode == kSpi || settings_.mode == kUart; }

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "bus/time.hpp"
-#include "model/dsdpv1/pins.hpp"
+#include "model/dsdpv1/config.hpp"
 
 namespace dsdpv1::checks {
 
@@ -13,15 +13,16 @@ using bus::Tick;
 constexpr Tick kTicksPerCycle = 250;  ///< of CLK (R2)
 
 struct SerialSettings {
-  Level mode = 0;                      ///< MODE: 1 SPI, 2 UART, else parallel
-  Level address = 0;                   ///< ADR; 1 or 2, else no telegram is for this card
-  Level rate = 0;                      ///< UBR (UA1)
-  Level interval = 0;                  ///< UIV (UA3)
-  std::uint32_t spi_write_gap = 128;   ///< cycles
-  std::uint32_t spi_reply_gap = 0;     ///< bytes
-  std::uint32_t spi_miso_delay = 120;  ///< ticks
-  std::array<std::uint32_t, 8> uart_gaps = {7, 2, 4, 10, 20, 40, 100, 200};  ///< half characters
-  std::uint32_t uart_min_tsdr = 11;                                          ///< bit times
+  Level mode = 0;      ///< MODE: 1 SPI, 2 UART, else parallel
+  Level address = 0;   ///< ADR; 1 or 2, else no telegram is for this card
+  Level rate = 0;      ///< UBR (UA1)
+  Level interval = 0;  ///< UIV (UA3)
+  // those of the chip, with its defaults and units
+  std::uint32_t spi_write_gap = dsdpv1::Config{}.spi_write_gap;
+  std::uint32_t spi_reply_gap = dsdpv1::Config{}.spi_reply_gap;
+  std::uint32_t spi_miso_delay = dsdpv1::Config{}.spi_miso_delay;
+  std::array<std::uint32_t, 8> uart_gaps = dsdpv1::Config{}.uart_gaps;
+  std::uint32_t uart_min_tsdr = dsdpv1::Config{}.uart_min_tsdr;
 };
 
 }  // namespace dsdpv1::checks

@@ -36,7 +36,7 @@ Dsdpv1PinChip::Dsdpv1PinChip(const std::string& name, std::unique_ptr<PinDevice>
 }
 
 void Dsdpv1PinChip::strap(const Straps& levels) {
-  if (part_ != Part::kRsu) return;
+  if (!dsdpv1::has_serial_ports(part_)) return;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const auto pin = static_cast<PinNumber>(number(Pin::kMode) + i);
     device().set(0, pin, levels[i]);
@@ -53,7 +53,7 @@ void Dsdpv1PinChip::reset_host(Tick at) {
   for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip.set(at, number(pin), 0);
   chip.set(at, number(Pin::kDIn), dsdpv1::kLevelZ);
   chip.set(at, number(Pin::kA), dsdpv1::HostAccess::kIdleAddress);
-  if (part_ == Part::kRsu) {
+  if (dsdpv1::has_serial_ports(part_)) {
     for (const Pin pin : {Pin::kXss, Pin::kRxd}) chip.set(at, number(pin), 1);
     for (const Pin pin : {Pin::kSck, Pin::kMosi}) chip.set(at, number(pin), 0);
     report(at, Pin::kXss, Pin::kRxd);

@@ -1,6 +1,8 @@
 #include "kinds/dsdpv1/claims/rulings.hpp"
 
 #include <cstdlib>
+#include <map>
+#include <string>
 
 #include "kinds/dsdpv1/keys/settings.hpp"
 
@@ -47,38 +49,28 @@ Claims all_claims() {
 
 const std::vector<ParameterRow>& parameters() {
   using W = Wire;
+  constexpr const char* kSearch = "begin of the search to the telegram that ends it";
   static const std::vector<ParameterRow> all = {
-      {Parameter::kRtsLead, "rts_lead", "P2", "PBRTS rises to the answer's first start bit", {W::kPbrts, W::kPbtxd}},
-      {Parameter::kRtsTrail,
-       "rts_trail",
-       "P2",
-       "end of the last stop bit to the fall of PBRTS",
-       {W::kPbrts, W::kPbtxd}},
-      {Parameter::kIntrLow, "intr_low", "P7", "INTR0 low", {W::kIntr0}},
-      {Parameter::kIntrGap, "intr_gap", "P7", "INTR0 high before a pulse that waited", {W::kIntr0}},
-      {Parameter::kAccessInterval, "access_interval", "H1", "rises of L_REQ, the user's pins low", {W::kLReq}},
-      {Parameter::kReadyCycles,
-       "ready_cycles",
-       "D1",
-       "release of RESET (R) to the access that writes B004",
-       {W::kLReq}},
-      {Parameter::kSearchWindowMs,
-       "search_window_ms",
-       "S1",
-       "begin of the search to the telegram that ends it",
-       {W::kPbrxd, W::kBr}},
-      {Parameter::kSearchWindowBits,
-       "search_window_bits",
-       "S1",
-       "begin of the search to the telegram that ends it",
-       {W::kPbrxd, W::kBr}},
-      {Parameter::kBaudControlMs,
-       "baud_control_ms",
-       "S1",
-       "last telegram to the fall of BR",
-       {W::kPbrxd, W::kPbtxd, W::kBr}},
+      {Parameter::kRtsLead, "rts_lead", "PBRTS rises to the answer's first start bit", {W::kPbrts, W::kPbtxd}},
+      {Parameter::kRtsTrail, "rts_trail", "end of the last stop bit to the fall of PBRTS", {W::kPbrts, W::kPbtxd}},
+      {Parameter::kIntrLow, "intr_low", "INTR0 low", {W::kIntr0}},
+      {Parameter::kIntrGap, "intr_gap", "INTR0 high before a pulse that waited", {W::kIntr0}},
+      {Parameter::kAccessInterval, "access_interval", "rises of L_REQ, the user's pins low", {W::kLReq}},
+      {Parameter::kReadyCycles, "ready_cycles", "release of RESET (R) to the access that writes B004", {W::kLReq}},
+      {Parameter::kSearchWindowMs, "search_window_ms", kSearch, {W::kPbrxd, W::kBr}},
+      {Parameter::kSearchWindowBits, "search_window_bits", kSearch, {W::kPbrxd, W::kBr}},
+      {Parameter::kBaudControlMs, "baud_control_ms", "last telegram to the fall of BR", {W::kPbrxd, W::kPbtxd, W::kBr}},
   };
   return all;
+}
+
+const char* ruling_of(const ParameterRow& row) {
+  static const std::map<std::string, const char*> rulings = {
+#define DSDPV1_PARAMETER(name, initial, least, most, unit, ruling, text) {#name, ruling},
+#define DSDPV1_RSU_LIST(name, initial, least, most, unit, ruling, text) {#name, ruling},
+#include "model/dsdpv1/parameters.inc"
+  };
+  return rulings.at(row.key);
 }
 
 const tb::keys::Field& field_of(const ParameterRow& row) { return *tb::dsdpv1_chip_keys().find(row.key); }

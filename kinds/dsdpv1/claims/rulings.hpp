@@ -20,13 +20,14 @@ Claims all_claims();
 
 struct ParameterRow {
   Parameter parameter;
-  const char* key;  ///< in a scenario's `chip`; unit, default and range stand there
-  const char* ruling;
+  const char* key;       ///< in a scenario's `chip`; unit, default and range stand there, its ruling in parameters.inc
   const char* measured;  ///< from what
   std::vector<Wire> needs;
 };
 
 const std::vector<ParameterRow>& parameters();
+/// Which ruling marks it (p): "H1".
+const char* ruling_of(const ParameterRow& row);
 /// The scenario's description of it.
 const tb::keys::Field& field_of(const ParameterRow& row);
 long long default_of(const ParameterRow& row);

@@ -89,20 +89,11 @@ using C = Dsdpv1Settings;
 
 ChipKeys plain_chip_keys() {
   ChipKeys o("chip", "The parameters of the chip that the rulings mark (p), for all slaves of the scenario.");
-  o.integer("access_interval", &C::access_interval, {16, 4800}, "cycles",
-            "From the start of one DPRAM access of the chip to the next (H1).");
-  o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles", "From the release of RESET to B004 = 0xC5 (D1).");
-  o.integer("rts_lead", &C::rts_lead, {0, 32}, "cycles", "PBRTS high before the first start bit (P2).");
-  o.integer("rts_trail", &C::rts_trail, {0, 32}, "cycles", "PBRTS high after the last stop bit (P2).");
-  o.integer("intr_low", &C::intr_low, {1, 10000}, "cycles", "How long INTR0 stays low (P7).");
-  o.integer("intr_gap", &C::intr_gap, {1, 10000}, "cycles",
-            "How long INTR0 stays high between two pulses at least (P7).");
-  o.integer("search_window_ms", &C::search_window_ms, {1, 10000}, "ms",
-            "Least time at one baud rate of the search (S1).");
-  o.integer("search_window_bits", &C::search_window_bits, {100, 100000}, "bit times",
-            "Least bit times at one baud rate of the search (S1).");
-  o.integer("baud_control_ms", &C::baud_control_ms, {1, 60000}, "ms",
-            "Silence after which the baud rate is searched again (S1).");
+#define DSDPV1_PARAMETER(name, initial, least, most, unit, ruling, text) \
+  o.integer(#name, &C::name, {least, most}, unit, text " (" ruling ").");
+#define DSDPV1_RSU_PARAMETER(...)
+#define DSDPV1_RSU_LIST(...)
+#include "model/dsdpv1/parameters.inc"
   return o;
 }
 
@@ -131,23 +122,12 @@ void add_straps(ChipKeys& o) {
 }
 
 void add_serial_parameters(ChipKeys& o) {
-  o.integer("spi_strobe", &C::spi_strobe, {0, 12000}, "ticks of 1/12 ns",
-            "Least SCK high, SCK low, XSS low before the first rise and after the last fall, XSS high (SP2).");
-  o.integer("spi_data", &C::spi_data, {0, 600}, "ticks of 1/12 ns", "Least setup and hold of MOSI (SP2).");
-  o.integer("spi_miso_delay", &C::spi_miso_delay, {1, 600}, "ticks of 1/12 ns",
-            "From SCK's fall to the change of MISO (SP2).");
-  o.integer("spi_reply_gap", &C::spi_reply_gap, {0, 16}, "bytes", "FF between a request and its reply (SP6).");
-  o.integer("spi_write_gap", &C::spi_write_gap, {0, 4800}, "cycles", "How long after a write no frame is heard (SP9).");
-  o.integer("serial_block_crc", &C::serial_block_crc, {0, 1}, "",
-            "1: the CRCs of blocks in the DPRAM are judged in SPI and UART mode, too (SP15).");
-  o.integer("u_timer", &C::u_timer, {0, 4'800'000}, "cycles",
-            "How long the host may keep the DPRAM without a telegram; at least 48, 0: as long as it likes (SP17).");
-  o.integers("uart_gaps", &C::uart_gaps, {1, 1000}, "half characters",
-             "Longest silence within a telegram of the UART, by the code in B019 or UIV (UA3).");
-  o.integer("uart_min_tsdr", &C::uart_min_tsdr, {1, 255}, "bit times",
-            "Least time from a request of the UART to its reply (UA4).");
-  o.integer("uart_cfg_length", &C::uart_cfg_length, {0, 1}, "",
-            "1: the length in the reply with a configuration is B502 + 1 (UA12).");
+#define DSDPV1_PARAMETER(...)
+#define DSDPV1_RSU_PARAMETER(name, initial, least, most, unit, ruling, text) \
+  o.integer(#name, &C::name, {least, most}, unit, text " (" ruling ").");
+#define DSDPV1_RSU_LIST(name, initial, least, most, unit, ruling, text) \
+  o.integers(#name, &C::name, {least, most}, unit, text " (" ruling ").");
+#include "model/dsdpv1/parameters.inc"
 }
 
 ChipKeys rsu_chip_keys() {
@@ -163,7 +143,7 @@ const char* mode_name(HostMode mode) { return mode_words().at(static_cast<std::s
 
 const keys::Object& chip_keys_of(Part part) {
   static const ChipKeys plain = plain_chip_keys(), rsu = rsu_chip_keys();
-  return part == Part::kRsu ? static_cast<const keys::Object&>(rsu) : plain;
+  return dsdpv1::has_serial_ports(part) ? static_cast<const keys::Object&>(rsu) : plain;
 }
 
 void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file) {
@@ -231,7 +211,7 @@ ObjectOf<Dsdpv1User> rsu_user_keys() {
 
 const keys::Object& user_keys_of(Part part) {
   static const ObjectOf<Dsdpv1User> plain = plain_user_keys(), rsu = rsu_user_keys();
-  return part == Part::kRsu ? rsu : plain;
+  return dsdpv1::has_serial_ports(part) ? rsu : plain;
 }
 
 dsdpv1::Config config_of(const ChipRequest& request) {

@@ -108,7 +108,7 @@ void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const 
   };
   if (user.spi) refuse(user.spi->line, "spi");
   if (user.uart) refuse(user.uart->line, "uart");
-  if (chip.part != Part::kRsu) return;
+  if (!dsdpv1::has_serial_ports(chip.part)) return;
   for (const Name& text : user.switches)
     if (is_of_the_card(*parse_switch(text.text)))
       throw InputError(file, text.line,

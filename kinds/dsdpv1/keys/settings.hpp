@@ -94,7 +94,7 @@ dsdpv1::Config config_of(const ChipRequest& request);
 
 // The keys (ChipKind::chip_keys, user_keys).
 const keys::Object& chip_keys_of(Part part);
-inline const keys::Object& dsdpv1_chip_keys() { return chip_keys_of(Part::kDsdpv1); }
+inline const keys::Object& dsdpv1_chip_keys() { return chip_keys_of({}); }
 const keys::Object& user_keys_of(Part part);
 
 /// ChipKind::check_chip, check_user.

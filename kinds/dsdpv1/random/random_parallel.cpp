@@ -63,7 +63,7 @@ void RandomParallel::rude() {
     action.value = 1;
     push(action);
   }
-  if (part_ == Part::kRsu) late_straps();
+  if (dsdpv1::has_serial_ports(part_)) late_straps();
   give();
   wait(1);
 }

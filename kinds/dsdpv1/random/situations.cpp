@@ -104,7 +104,7 @@ bool is_foreign(const std::string& code, const HostSide& side) {
   if (begins(code, "SPI_")) return side.mode != HostMode::kSpi;
   if (begins(code, "UART_")) return side.mode != HostMode::kUart;
   if (begins(code, "TELEGRAM_")) return parallel;
-  if (strap) return side.part != Part::kRsu;
+  if (strap) return !dsdpv1::has_serial_ports(side.part);
   if (shared || parallel) return false;
   const bool crc = begins(code, "INIT_CRC") || begins(code, "INPUT_CRC") || begins(code, "DIAG_CRC") ||
                    begins(code, "C1_CRC") || begins(code, "C2_CRC");

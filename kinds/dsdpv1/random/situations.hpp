@@ -34,7 +34,7 @@ class Situations {
 
 /// What the user's host is connected to.
 struct HostSide {
-  dsdpv1::Part part = dsdpv1::Part::kDsdpv1;
+  dsdpv1::Part part = {};
   HostMode mode = HostMode::kParallel;
 };
 

@@ -26,7 +26,7 @@ void AccessWatch::change(Tick at, PinNumber changed, Level to) {
   const bool differs = level(pin) != to;
   level(pin) = to;
   if (pin == Pin::kLReq && to == 0 && level(Pin::kReset) != 0) end_ = at;
-  if (part_ == Part::kRsu) serial_change(at, pin);
+  if (has_serial_ports(part_)) serial_change(at, pin);
   if (pin == Pin::kWr && to != 0) {
     user_wrote_ = true;
     last_write_ = at;

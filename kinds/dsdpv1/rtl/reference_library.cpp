@@ -19,8 +19,7 @@ using Model = Vdsdpv1_rsu;
 using Model = Vdsdpv1;
 #endif
 #include "cosim/rtl_library.hpp"
-#include "kinds/dsdpv1/rtl/limits.hpp"
-#include "model/dsdpv1/pins.hpp"
+#include "model/dsdpv1/config.hpp"
 #include "verilated.h"
 #if VM_COVERAGE
 #include "verilated_cov.h"
@@ -30,7 +29,6 @@ namespace {
 
 using dsdpv1::number;
 using dsdpv1::Pin;
-using dsdpv1::cosim::RtlLimits;
 using dsdpv1::cosim::RtlStart;
 
 constexpr unsigned kDpramSize = 2048;
@@ -49,27 +47,19 @@ struct Design {
 
 Model& model_of(void* design) { return *static_cast<Design*>(design)->model; }
 
-void set_limits(Model& model, const RtlLimits& limits) {
-  model.access_interval_i = limits.access_interval;
-  model.ready_cycles_i = limits.ready_cycles;
-  model.rts_lead_i = limits.rts_lead;
-  model.rts_trail_i = limits.rts_trail;
-  model.intr_low_i = limits.intr_low;
-  model.intr_gap_i = limits.intr_gap;
-  model.search_window_ms_i = limits.search_window_ms;
-  model.search_window_bits_i = limits.search_window_bits;
-  model.baud_control_ms_i = limits.baud_control_ms;
+void set_parameters(Model& model, const dsdpv1::Config& config) {
+#define DSDPV1_PARAMETER(name, ...) model.name##_i = config.name;
+#define DSDPV1_RSU_TICKS(...)
 #ifdef DSDPV1_RTL_RSU
-  model.spi_reply_gap_i = limits.spi_reply_gap;
-  model.spi_write_gap_i = limits.spi_write_gap;
-  model.serial_block_crc_i = limits.serial_block_crc;
-  model.u_timer_i = limits.u_timer;
-  model.uart_min_tsdr_i = limits.uart_min_tsdr;
-  model.uart_cfg_length_i = limits.uart_cfg_length;
   constexpr unsigned kGapBits = 16;
-  for (unsigned i = 0; i < limits.uart_gaps.size(); i += 2)
-    model.uart_gaps_i[i / 2] = limits.uart_gaps[i] | limits.uart_gaps[i + 1] << kGapBits;
+#define DSDPV1_RSU_LIST(name, ...)                     \
+  for (unsigned i = 0; i < config.name.size(); i += 2) \
+    model.name##_i[i / 2] = config.name[i] | config.name[i + 1] << kGapBits;
+#else
+#define DSDPV1_RSU_PARAMETER(...)
+#define DSDPV1_RSU_LIST(...)
 #endif
+#include "model/dsdpv1/parameters.inc"
 }
 
 void put(std::uint8_t* image, std::uint32_t write) {
@@ -98,7 +88,7 @@ std::uint32_t dsdpv1_rtl_layout() { return DSDPV1_RTL_LAYOUT; }
 
 void* dsdpv1_rtl_create(const RtlStart* start) {
   auto design = std::make_unique<Design>(*start);
-  set_limits(*design->model, *static_cast<const RtlLimits*>(start->parameters));
+  set_parameters(*design->model, *static_cast<const dsdpv1::Config*>(start->parameters));
 #ifdef SINGLE_FAULTS
   design->model->fault_i = static_cast<CData>(start->fault);
 #endif

@@ -38,7 +38,7 @@ function(dsdpv1_rtl_library target top library optimisation)
             ${${top}_places} ${${top}_files} ${adapter}
     WORKING_DIRECTORY ${rtl_dir}  # what it makes names sources as they are called here
     DEPENDS ${${top}_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
-            ${${top}_places} ${PROJECT_SOURCE_DIR}/cosim/rtl_library.hpp ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/limits.hpp ${PROJECT_SOURCE_DIR}/model/dsdpv1/pins.hpp
+            ${${top}_places} ${PROJECT_SOURCE_DIR}/cosim/rtl_library.hpp ${PROJECT_SOURCE_DIR}/model/dsdpv1/config.hpp ${PROJECT_SOURCE_DIR}/model/dsdpv1/parameters.inc ${PROJECT_SOURCE_DIR}/model/dsdpv1/pins.inc
     COMMENT "Verilating ${name}"
     VERBATIM)
   set_property(TARGET ${target} APPEND PROPERTY SOURCES ${library})

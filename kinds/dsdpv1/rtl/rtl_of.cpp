@@ -1,21 +1,15 @@
 #include "kinds/dsdpv1/rtl/rtl_of.hpp"
 
+#include <string>
+
 #include "cosim/reference_rtl.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/rtl/access_watch.hpp"
-#include "kinds/dsdpv1/rtl/limits.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
 
 const dsdpv1::Config& config_of(const tb::OwnSettings& chip) { return static_cast<const tb::Dsdpv1Settings&>(chip); }
-
-RtlLimits limits_of(const dsdpv1::Config& config) {
-  return {config.access_interval, config.ready_cycles,  config.rts_lead,         config.rts_trail,
-          config.intr_low,        config.intr_gap,      config.search_window_ms, config.search_window_bits,
-          config.baud_control_ms, config.spi_reply_gap, config.spi_write_gap,    config.serial_block_crc,
-          config.u_timer,         config.uart_min_tsdr, config.uart_cfg_length,  config.uart_gaps};
-}
 
 class Dsdpv1Rtl : public RtlOf {
  public:
@@ -26,7 +20,7 @@ class Dsdpv1Rtl : public RtlOf {
   RtlTiming timing(const tb::OwnSettings& chip) const override {
     RtlTiming timing;
     timing.at_once = mask(Pin::kReset) | mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kWr);
-    if (part_ != Part::kRsu) return timing;
+    if (!has_serial_ports(part_)) return timing;
     timing.at_once |= mask(Pin::kXss) | mask(Pin::kSck);
     timing.clock = number(Pin::kSck);
     timing.data = number(Pin::kMosi);
@@ -36,9 +30,8 @@ class Dsdpv1Rtl : public RtlOf {
   }
   std::unique_ptr<MemoryWatch> watch_memory() const override { return std::make_unique<AccessWatch>(part_); }
   std::unique_ptr<Rtl> make_reference(const tb::OwnSettings& chip, unsigned fault, std::uint32_t seed) const override {
-    const RtlLimits limits = limits_of(config_of(chip));
-    const char* top = part_ == Part::kRsu ? "dsdpv1_rsu" : "dsdpv1";
-    return make_design(reference_library(top, fault != 0), {2, seed, fault, &limits});
+    const std::string top = std::string("dsdpv1") + row(part_).rtl;
+    return make_design(reference_library(top, fault != 0), {2, seed, fault, &config_of(chip)});
   }
 
  private:
@@ -47,9 +40,6 @@ class Dsdpv1Rtl : public RtlOf {
 
 }  // namespace
 
-const RtlOf& rtl_of(Part part) {
-  static const Dsdpv1Rtl plain(Part::kDsdpv1), rsu(Part::kRsu);
-  return part == Part::kRsu ? rsu : plain;
-}
+std::unique_ptr<const RtlOf> make_rtl_of(Part part) { return std::make_unique<Dsdpv1Rtl>(part); }
 
 }  // namespace dsdpv1::cosim

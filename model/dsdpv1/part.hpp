@@ -1,0 +1,44 @@
+#pragma once
+// The parts that the model can be: a row for each.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace dsdpv1 {
+
+/// Which chip it is. DSDPV1-R is the DSDPV1 under another name; DSDPV1-RSU has SPI and UART beside the parallel port.
+enum class Part : std::uint8_t { kDsdpv1, kR, kRsu };
+
+/// What a part is called, and what it has beside table 1.
+struct PartRow {
+  const char* name;       ///< in scenarios and on command lines
+  const char* title;      ///< for people
+  bool has_serial_ports;  ///< SPI and UART, their pins and parameters (R1, R2)
+  const char* rtl;        ///< what the names of its RTL's files end in: dsdpv1_rsu, faults_rsu.txt
+};
+
+/// In the order of Part.
+constexpr std::array<PartRow, 3> kParts = {
+    {{"dsdpv1", "DSDPV1", false, ""}, {"dsdpv1_r", "DSDPV1-R", false, ""}, {"dsdpv1_rsu", "DSDPV1-RSU", true, "_rsu"}}};
+
+constexpr const PartRow& row(Part part) { return kParts[static_cast<std::size_t>(part)]; }
+constexpr unsigned serial_parts() {
+  unsigned parts = 0;
+  for (std::size_t i = 0; i < kParts.size(); ++i) parts |= kParts[i].has_serial_ports ? 1U << i : 0;
+  return parts;
+}
+/// Asked at each change of a serial pin: no table is read.
+constexpr bool has_serial_ports(Part part) {
+  constexpr unsigned kSerialParts = serial_parts();
+  return (kSerialParts >> static_cast<unsigned>(part) & 1U) != 0;
+}
+/// By its name in scenarios; nullopt: none is called so.
+constexpr std::optional<Part> part_called(std::string_view name) {
+  for (std::size_t i = 0; i < kParts.size(); ++i)
+    if (kParts[i].name == name) return static_cast<Part>(i);
+  return std::nullopt;
+}
+
+}  // namespace dsdpv1
