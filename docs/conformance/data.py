@@ -281,7 +281,8 @@ def read_entry(entry, rulings, documents):
     if not place and "ruled" not in entry:
         raise BadData(f"{entry.where}: a row needs the key at or ruled")
     owners = [rulings[name] for name in names(entry, "ruled", entry.where) if name in rulings] or clauses
-    return Entry(title, place, entry.where, names(entry, "ruled", entry.where), *(joined(getattr(owner, kind) for owner in owners) for kind in ("model", "rtl")))
+    model, rtl = (joined(getattr(owner, kind) for owner in owners) for kind in ("model", "rtl"))
+    return Entry(title, place, entry.where, names(entry, "ruled", entry.where), model, rtl)
 
 
 def read_index(root, rulings, documents):

@@ -3,9 +3,10 @@
 
     walks.py [--root FOLDER]
 
-A walk is a numbered list between `<!-- walk: NAME -->` and `<!-- /walk -->`. Each line begins with a file in backquotes; what else stands in backquotes are
-identifiers, or words of the command line, that the file contains. Two lines that follow each other are connected: one of the files, or its header, includes
-the other or its header, or an identifier that one of the lines names is in both. At the end stands how many rooms (folders) and types (classes, structs) the lines name.
+A walk is a numbered list between `<!-- walk: NAME -->` and `<!-- /walk -->`. Each line begins with a file in backquotes; what else stands in backquotes
+are identifiers, or words of the command line, that the file contains. Two lines that follow each other are connected: one of the files, or its header,
+includes the other or its header, or an identifier that one of the lines names is in both. At the end stands how many rooms (folders) and types (classes,
+structs) the lines name.
 One line a fault, exit 1 when there is any.
 """
 import argparse
