@@ -91,6 +91,16 @@ def check_clauses(root, data, known):
                "its ruling, or reason: why there can be none")
 
 
+def check_index(data):
+    for entry in data.index:
+        what = f"row {entry.title}"
+        for name in entry.rulings:
+            if name not in data.rulings:
+                yield f"{entry.where}: {what}: there is no ruling {name} in {source.RULINGS}"
+        if not entry.model:
+            yield f"{entry.where}: {what}: neither its rulings nor its clauses name a file of the model"
+
+
 def check_plan(data, known):
     for section in data.plan:
         for row in section.rows:
@@ -115,4 +125,5 @@ def check(root, data):
     for document in data.documents:
         yield from check_places(document)
     yield from check_clauses(root, data, known)
+    yield from check_index(data)
     yield from check_plan(data, known)

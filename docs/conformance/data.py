@@ -11,6 +11,7 @@ FOLDER = "docs/conformance"
 RULINGS = f"{FOLDER}/rulings.yaml"
 DOCUMENTS = [f"{FOLDER}/datasheet.yaml", f"{FOLDER}/manual.yaml"]
 PLAN = f"{FOLDER}/test_plan.yaml"
+INDEX = f"{FOLDER}/index.yaml"
 
 
 class BadData(Exception):
@@ -78,10 +79,23 @@ class Section:
 
 
 @dataclass
+class Entry:
+    """A row of the index: what a reader looks for, and where it is carried out."""
+
+    title: str
+    place: str  # of a document, empty: the documents are silent
+    where: str
+    rulings: list
+    model: list
+    rtl: list
+
+
+@dataclass
 class Data:
     rulings: dict
     documents: list
     plan: list
+    index: list
     texts: list = field(default_factory=list)  # (text, where): in which backquotes may name tests, too
 
 
@@ -110,15 +124,15 @@ def build(node, file):
     return result
 
 
-def read(root, file):
+def read(root, file, kind=yaml.MappingNode, what="a mapping"):
     try:
         node = yaml.compose((root / file).read_text(encoding="utf-8"))
     except yaml.MarkedYAMLError as error:
         raise BadData(f"{file}:{error.problem_mark.line + 1}: {error.problem}") from error
     except OSError as error:
         raise BadData(f"{file}:1: {error.strerror}") from error
-    if not isinstance(node, yaml.MappingNode):
-        raise BadData(f"{file}:1: the file must be a mapping")
+    if not isinstance(node, kind):
+        raise BadData(f"{file}:1: the file must be {what}")
     return build(node, file)
 
 
@@ -197,10 +211,10 @@ class Sources:
         return found or (tests(self.part, self.part.where) if key == "tests" else names(self.part, key, self.part.where))
 
 
-def at(clauses, place, where):
+def at(clauses, place, where, of="an earlier document"):
     found = [clause for clause in clauses if covers(clause, place)]
     if not found:
-        raise BadData(f"{where}: no clause of an earlier document is at {place}")
+        raise BadData(f"{where}: no clause of {of} is at {place}")
     return found
 
 
@@ -256,13 +270,33 @@ def read_plan(root):
     return result
 
 
+def read_entry(entry, rulings, documents):
+    keys(entry, "a row", [], ["at", "find", "ruled"])
+    place = entry.get("at", "")
+    parts = [part for document in documents for part in document.parts if place and part.title.startswith(place + " ")]
+    title = entry.get("find", parts[0].title[len(place) + 1:] if parts else "")
+    if not title:
+        raise BadData(f"{entry.where}: a row needs the key find, unless a part's title begins with its place")
+    clauses = at([clause for document in documents for clause in document.clauses], place, entry.where, "a document") if place else []
+    if not place and "ruled" not in entry:
+        raise BadData(f"{entry.where}: a row needs the key at or ruled")
+    owners = [rulings[name] for name in names(entry, "ruled", entry.where) if name in rulings] or clauses
+    model, rtl = (joined(getattr(owner, kind) for owner in owners) for kind in ("model", "rtl"))
+    return Entry(title, place, entry.where, names(entry, "ruled", entry.where), model, rtl)
+
+
+def read_index(root, rulings, documents):
+    file = read(root, INDEX, yaml.SequenceNode, "a list")
+    return [read_entry(mapping(entry, f"{INDEX}:1", "a row"), rulings, documents) for entry in file]
+
+
 def load(root):
     rulings = read_rulings(root)
     documents = []
     for name in DOCUMENTS:
         earlier = [clause for document in documents for clause in document.clauses]
         documents.append(read_document(root, name, rulings, earlier))
-    data = Data(rulings, documents, read_plan(root))
+    data = Data(rulings, documents, read_plan(root), read_index(root, rulings, documents))
     for section in data.plan:
         data.texts += [(section.text, section.where)]
         data.texts += [(cell, section.where) for row in section.rows for cell in row if isinstance(cell, str)]

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes docs/conformance.md and docs/test_plan.md from the YAML files of this folder, and checks these.
+"""Writes docs/conformance.md, docs/test_plan.md and the table of clauses in docs/architecture.md from the YAML files of this folder, and checks these.
 
-    generate.py                             write both; exit 1 and a line a fault when the data are not true or not complete
-    generate.py --check                     write nothing; exit 1 also when one of the two is stale
+    generate.py                             write them; exit 1 and a line a fault when the data are not true or not complete
+    generate.py --check                     write nothing; exit 1 also when one of them is stale
     generate.py --report PAGE --run TESTS   write the conformance page with the results of a run, TESTS being ctest's JUnit report; exit 1
                                             when a test of a clause failed or was not run
-    generate.py --record --run TESTS        take these results into last_run.txt, then write both
+    generate.py --record --run TESTS        take these results into last_run.txt, then write them
 
 Beside TESTS stands tests.commit, the commit that was tested; ./run test writes both.
 --root FOLDER: another project than the one this file is in. Bad data: one line, exit 2.
@@ -34,7 +34,8 @@ def used_names(data):
 
 def texts(root, data):
     run = results.read_record(root / results.RECORD)
-    return {"docs/conformance.md": pages.conformance(root, data, run), "docs/test_plan.md": pages.test_plan(data)}
+    return {"docs/conformance.md": pages.conformance(root, data, run), "docs/test_plan.md": pages.test_plan(data),
+            "docs/architecture.md": pages.architecture(root, data)}
 
 
 def write(root, data):

@@ -1,6 +1,8 @@
-"""Writes docs/conformance.md and docs/test_plan.md from the data and the results of a run."""
+"""Writes docs/conformance.md, docs/test_plan.md and a table of docs/architecture.md from the data and the results of a run."""
+import re
+
 import check
-from data import letters
+from data import BadData, letters
 
 ORIGIN = "<!-- Generated from docs/conformance/*.yaml by docs/conformance/generate.py (./run generate). Do not edit. -->\n"
 
@@ -130,3 +132,22 @@ def plan_section(data, section):
 
 def test_plan(data):
     return ORIGIN + "# Test plan\n" + "".join(plan_section(data, section) for section in data.plan)
+
+
+# --------------------------------------------------------------------------------------------------------- architecture
+INDEX = re.compile(r"(<!-- clauses -->\n).*?(<!-- /clauses -->)", re.S)
+
+
+def index(root, data):
+    text = head("clause", "what", "ruling", "model", "RTL")
+    return text + "".join(row(entry.place or "-", entry.title, ", ".join(entry.rulings) or "-", files(root, "model", entry.model),
+                              files(root, "rtl", entry.rtl)) for entry in data.index)
+
+
+def architecture(root, data):
+    """The page with its table; the rest of it is written by hand."""
+    name = "docs/architecture.md"
+    page = (root / name).read_text(encoding="utf-8") if (root / name).exists() else ""
+    if not INDEX.search(page):
+        raise BadData(f"{name}:1: the table between <!-- clauses --> and <!-- /clauses --> is missing")
+    return INDEX.sub(lambda found: found.group(1) + index(root, data) + found.group(2), page)

@@ -22,10 +22,12 @@ RIGHT = {
                                        "  - {at: 1, says: a number, ruled: [P1]}\n"
                                        "  - {at: T1-A, says: 'one|two', tests: [scenarios/one.yaml], model: [core.cpp]}\n"
                                        "  - {at: T2, says: a size, reason: not modelled}\n",
-    "docs/conformance/manual.yaml": "title: Manual\ntext: Its text.\nplaces: [M1]\nparts:\n- title: All\n  model: [core.cpp]\n"
+    "docs/conformance/manual.yaml": "title: Manual\ntext: Its text.\nplaces: [M1]\nparts:\n- title: M1 Words\n  model: [core.cpp]\n"
                                     "  clauses:\n  - {at: M1-1, says: the same, same_as: [T1]}\n",
     "docs/conformance/test_plan.yaml": "sections:\n- title: Pins\n  text: See `Core`.\n  rulings: P\n- title: V\n  rulings: V\n- title: SP\n  rulings: SP\n"
                                        "- title: Around\n  head: [part, tests]\n  rows:\n  - [all, [Core.Works]]\n",
+    "docs/conformance/index.yaml": "- {at: 1, find: a number, ruled: [P1]}\n- {at: T1, find: a letter}\n- {find: silence, ruled: [V1]}\n- {at: M1}\n",
+    "docs/architecture.md": "By hand.\n<!-- clauses -->\n<!-- /clauses -->\nBy hand.\n",
     "model/core.cpp": "",
     "rtl_ref/core.sv": "",
     "scenarios/one.yaml": "",
@@ -101,6 +103,23 @@ class Conformance(unittest.TestCase):
         self.assertEqual(output, "docs/conformance.md:1: stale; ./run generate writes it again\n"
                                  "docs/test_plan.md:1: stale; ./run generate writes it again\n")
 
+    def test_the_table_of_the_architecture(self):
+        self.expect()
+        core, rtl = "[core.cpp](../model/core.cpp)", "[core.sv](../rtl_ref/core.sv)"
+        self.assertEqual(self.text("docs/architecture.md"), "By hand.\n<!-- clauses -->\n| clause | what | ruling | model | RTL |\n|---|---|---|---|---|\n"
+                         f"| 1 | a number | P1 | {core} | {rtl} |\n| T1 | a letter | - | {core} | - |\n| - | silence | V1 | {core} | - |\n"
+                         f"| M1 | Words | - | {core} | - |\n<!-- /clauses -->\nBy hand.\n")
+        self.change("docs/architecture.md", "a letter", "a word")
+        self.assertEqual(self.generate("--check"), (1, "docs/architecture.md:1: stale; ./run generate writes it again\n"))
+
+    def test_a_row_of_that_table_with_a_ruling_that_does_not_exist(self):
+        self.change("docs/conformance/index.yaml", "[V1]", "[V1, V9]")
+        self.expect(f"docs/conformance/index.yaml:3: row silence: there is no ruling V9 in {RULINGS}")
+
+    def test_a_row_of_that_table_without_a_file(self):
+        self.change("docs/conformance/index.yaml", "{at: T1,", "{at: T2,")
+        self.expect("docs/conformance/index.yaml:2: row a letter: neither its rulings nor its clauses name a file of the model")
+
     # --------------------------------------------------------------------------------------------------------- clauses
     def test_a_clause_without_a_test_is_found_and_listed(self):
         self.change(SHEET, "ruled: [P1]", "model: [core.cpp]")
@@ -136,6 +155,7 @@ class Conformance(unittest.TestCase):
 
     def test_a_clause_without_a_file_of_the_model(self):
         self.change(SHEET, "tests: [scenarios/one.yaml], model: [core.cpp]", "tests: [scenarios/one.yaml]")
+        self.change("docs/conformance/index.yaml", "- {at: T1, find: a letter}\n", "")
         self.expect(f"{SHEET}:8: clause T1-A has tests but no file")
 
     def test_a_place_without_a_clause(self):
@@ -220,6 +240,18 @@ class Conformance(unittest.TestCase):
     def test_a_repeated_place_that_no_earlier_clause_has(self):
         self.change("docs/conformance/manual.yaml", "[T1]", "[T9]")
         self.expect_bad("docs/conformance/manual.yaml:8: no clause of an earlier document is at T9")
+
+    def test_a_row_of_the_table_at_no_place(self):
+        self.change("docs/conformance/index.yaml", "{at: T1,", "{at: T9,")
+        self.expect_bad("docs/conformance/index.yaml:2: no clause of a document is at T9")
+
+    def test_a_row_of_the_table_without_a_name(self):
+        self.change("docs/conformance/index.yaml", ", find: a letter", "")
+        self.expect_bad("docs/conformance/index.yaml:2: a row needs the key find, unless a part's title begins with its place")
+
+    def test_a_page_without_the_table(self):
+        self.change("docs/architecture.md", "<!-- clauses -->", "")
+        self.assertEqual(self.generate(), (2, "docs/architecture.md:1: the table between <!-- clauses --> and <!-- /clauses --> is missing\n"))
 
     def test_what_is_no_yaml(self):
         self.change(SHEET, "{at: 1", "{at: 1: 2")
