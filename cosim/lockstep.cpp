@@ -75,7 +75,7 @@ void Lockstep::set(Tick at, PinNumber pin, Level level) {
   advance(at);
   if (model_->level(pin) == level) return;
   note(at, Side::kInput, pin, level);
-  hear(at, pin, level);
+  watch_change(at, pin, level);
   model_->set(at, pin, level);
   rtl_.set(at, pin, level);
 }
@@ -85,7 +85,7 @@ void Lockstep::note(Tick at, Side side, PinNumber pin, Level level) {
   if (on_pin_) on_pin_(at, side, pin, level);
 }
 
-void Lockstep::hear(Tick at, PinNumber pin, Level level) {
+void Lockstep::watch_change(Tick at, PinNumber pin, Level level) {
   watch_->change(at, pin, level);
   if (const std::optional<Tick> end = watch_->take_end()) ended_ = end;
 }
@@ -115,7 +115,7 @@ void Lockstep::look_at_memory(Tick to) {
 void Lockstep::model_changed(Tick at, PinNumber pin, Level level) {
   note(at, Side::kModel, pin, level);
   if (!difference_) comparator_.model_changed(at, pin, level);
-  hear(at, pin, level);
+  watch_change(at, pin, level);
   if (sink_.call != nullptr && (watched_ & tb::mask_of(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 

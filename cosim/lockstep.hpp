@@ -89,7 +89,7 @@ class Lockstep : public tb::PinDevice {
   void model_changed(Tick at, PinNumber pin, Level level);
   void rtl_changed(Tick at, PinNumber pin, Level level);
   void note(Tick at, Side side, PinNumber pin, Level level);
-  void hear(Tick at, PinNumber pin, Level level);
+  void watch_change(Tick at, PinNumber pin, Level level);
   void look_at_memory(Tick to);
   void access_ended(Tick at);
   void compare_memory(Tick at);

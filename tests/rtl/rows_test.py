@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0 OR MIT
-"""The tops of rtl_ref/ have the parameters and pins of the model's rows: names, defaults, widths, directions; the README their ranges."""
+"""The tops of rtl_ref/ have the parameters and pins of the model's rows: names, defaults, widths, directions; docs/rtl.md their ranges."""
 import pathlib
 import re
 import sys
@@ -48,8 +48,8 @@ class Tops(unittest.TestCase):
             expected = inputs | set(ports_of_pins(rsu)) | {("input", "", "clk_i")}
             self.assertEqual(set(PORT.findall(read(f"rtl_ref/{top}/{top}.sv"))), expected, top)
 
-    def test_have_their_ranges_in_the_readme(self):
-        lines = [line for line in read("rtl_ref/README.md").splitlines() if line.startswith("| `")]
+    def test_have_their_ranges_in_the_page(self):
+        lines = [line for line in read("docs/rtl.md").splitlines() if line.startswith("| `")]
         for _, name, _, least, most in parameters(rsu=True):
             (line,) = [line for line in lines if f"`{name}_i`" in line]
             values = re.findall(r"\d+", re.sub(r"(?<=\d) (?=\d{3})", "", line.split("|")[-2]))
