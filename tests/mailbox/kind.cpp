@@ -66,6 +66,7 @@ constexpr tb::BoardPins kBoardPins = {number(Pin::kReset), number(Pin::kPbrxd), 
 class View : public tb::PinChip, private SpiPins {
  public:
   using PinChip::PinChip;
+  using PinChip::level;
 
   void reset_host(Tick at) override {
     set(at, Pin::kXss, 1);
