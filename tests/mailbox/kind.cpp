@@ -65,8 +65,8 @@ constexpr tb::BoardPins kBoardPins = {number(Pin::kReset), number(Pin::kPbrxd), 
 
 class View : public tb::PinChip, private SpiPins {
  public:
-  using PinChip::PinChip;
   using PinChip::level;
+  using PinChip::PinChip;
 
   void reset_host(Tick at) override {
     set(at, Pin::kXss, 1);
