@@ -1,6 +1,10 @@
 // The core against the Verilated reference RTL, and their lockstep against that RTL alone. Both sides of a ratio are
 // measured in turns, in CPU time.
+#include <algorithm>
+#include <array>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "cosim/random/campaign.hpp"
 #include "cosim/random/play_options.hpp"
@@ -63,40 +67,42 @@ double core_vs_rtl() {
 // ----------------------------------------------------------------------------------------------------------- lockstep
 constexpr std::uint64_t kSeed = 1, kCycles = 1'000'000;
 
+using Levels = std::array<Level, dsdpv1::kPinCount>;
+
 /// What was at the inputs of one RTL: evaluations in a row with nothing new but the clock, then other levels.
 struct Recording {
   struct Span {
-    cosim::RtlInputs in;  ///< at the first evaluation
+    bool clk = false;
+    Levels levels{};  ///< at the first evaluation
     std::uint64_t evaluations = 0;
   };
   std::vector<Span> spans;
 };
 
-bool only_clock_differs(const cosim::RtlInputs& a, const cosim::RtlInputs& b) {
-  return a.clk != b.clk && a.reset == b.reset && a.r_req == b.r_req && a.r_sta == b.r_sta && a.csr == b.csr &&
-         a.rd == b.rd && a.wr == b.wr && a.pbrxd == b.pbrxd && a.a == b.a && a.d == b.d;
-}
-
 /// The RTL, with its inputs written down.
-class RecordingTop : public cosim::RtlTop {
+class RecordingRtl : public cosim::Rtl {
  public:
-  RecordingTop(std::unique_ptr<cosim::RtlTop> top, Recording& recording)
-      : top_(std::move(top)), recording_(recording) {}
+  RecordingRtl(std::unique_ptr<cosim::Rtl> rtl, Recording& recording) : rtl_(std::move(rtl)), recording_(recording) {}
 
-  void eval() override {
-    if (!recording_.spans.empty() && only_clock_differs(in, top_->in))
+  void eval(bool clk, Level* levels) override {
+    const bool same = std::equal(last_.begin(), last_.end(), levels);  // outputs are as the last evaluation left them
+    if (same && clk != clk_ && !recording_.spans.empty()) {
       ++recording_.spans.back().evaluations;
-    else
-      recording_.spans.push_back({in, 1});
-    top_->in = in;
-    top_->eval();
-    out = top_->out;
+    } else {
+      recording_.spans.push_back({clk, {}, 1});
+      std::copy_n(levels, last_.size(), recording_.spans.back().levels.begin());
+    }
+    clk_ = clk;
+    rtl_->eval(clk, levels);
+    std::copy_n(levels, last_.size(), last_.begin());
   }
-  bool dpram(cosim::DpramImage& image) const override { return top_->dpram(image); }
+  bool memory(std::uint8_t* image) const override { return rtl_->memory(image); }
 
  private:
-  std::unique_ptr<cosim::RtlTop> top_;
+  std::unique_ptr<cosim::Rtl> rtl_;
   Recording& recording_;
+  bool clk_ = false;
+  Levels last_{};
 };
 
 std::unique_ptr<cosim::Rtl> make_rtl() { return cosim::reference_top(cosim::quick_options(), 0, kSeed)(); }
@@ -111,19 +117,16 @@ std::uint64_t play_case(std::uint64_t number, const cosim::MakeTop& make) {
 
 Recording record_case(std::uint64_t number) {
   Recording recording;
-  play_case(number, [&recording] { return std::make_unique<RecordingTop>(make_rtl(), recording); });
+  play_case(number, [&recording] { return std::make_unique<RecordingRtl>(make_rtl(), recording); });
   return recording;
 }
 
 void play_alone(const Recording& recording) {
-  const std::unique_ptr<cosim::RtlTop> top = make_rtl();
+  const std::unique_ptr<cosim::Rtl> rtl = make_rtl();
   for (const Recording::Span& span : recording.spans) {
-    top->in = span.in;
-    top->eval();
-    for (std::uint64_t i = 1; i < span.evaluations; ++i) {
-      top->in.clk = !top->in.clk;
-      top->eval();
-    }
+    Levels levels = span.levels;
+    bool clk = span.clk;
+    for (std::uint64_t i = 0; i < span.evaluations; ++i, clk = !clk) rtl->eval(clk, levels.data());
   }
 }
 
