@@ -47,7 +47,7 @@ Lockstep::Lockstep(std::unique_ptr<tb::PinDevice> model, std::unique_ptr<Rtl> rt
       history_(options.history_cycles, kind),
       watch_(kind.rtl()->watch_memory()),
       image_(static_cast<std::size_t>(kind.cells())) {
-  for (PinNumber pin = 0; pin < kind.pins().size(); ++pin) {
+  for (PinNumber pin = 0; pin < end_of(kind.pins()); ++pin) {
     const Level level = model_->level(pin);
     history_.begin(Side::kInput, pin, level);
     history_.begin(Side::kModel, pin, level);

@@ -17,6 +17,8 @@ using tb::PinNumber;
 
 constexpr std::size_t kMostPins = 32;
 constexpr PinNumber kNoPin = kMostPins;
+/// The number behind the last one.
+inline PinNumber end_of(const tb::PinTable& pins) { return static_cast<PinNumber>(pins.size()); }
 
 /// A design in RTL. Nobody tells it the time: it has CLK.
 class Rtl {

@@ -13,7 +13,7 @@ constexpr Tick kHalfCycle = profibus::kTicksPerCycle / 2;
 RtlChip::RtlChip(std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind, const RtlTiming& timing,
                  const tb::PinDevice& fresh, TickEnds ends)
     : rtl_(std::move(rtl)), timing_(timing), ends_(ends) {
-  for (PinNumber pin = 0; pin < kind.pins().size(); ++pin)
+  for (PinNumber pin = 0; pin < end_of(kind.pins()); ++pin)
     if (kind.pins()[pin].input)
       levels_.at(pin) = fresh.level(pin);
     else

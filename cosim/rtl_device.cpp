@@ -6,7 +6,7 @@
 namespace dsdpv1::cosim {
 
 PinNumber data_output(const tb::PinTable& pins) {
-  for (PinNumber pin = 0; pin < pins.size(); ++pin)
+  for (PinNumber pin = 0; pin < end_of(pins); ++pin)
     if (!pins[pin].input && pins[pin].bus != nullptr) return pin;
   return kNoPin;
 }

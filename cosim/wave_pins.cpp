@@ -70,7 +70,7 @@ std::vector<tb::compare::NamedPair> pairs_of(const PinMap& map, const tb::PinTab
 }
 
 PinSurroundings::PinSurroundings(const tb::ChipKind& kind) : kind_(kind), watch_(kind.rtl()->watch_memory()) {
-  for (PinNumber pin = 0; pin < kind.pins().size(); ++pin) {
+  for (PinNumber pin = 0; pin < end_of(kind.pins()); ++pin) {
     const tb::PinInfo& info = kind.pins()[pin];
     if (info.bus != nullptr && !info.input) continue;
     pins_.push_back(pin);

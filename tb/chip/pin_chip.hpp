@@ -13,7 +13,7 @@ namespace dsdpv1::tb {
 
 /// Which of a chip's pins are wired to what on its board.
 struct BoardPins {
-  PinNumber reset, rxd, txd, rts, interrupt;
+  PinNumber reset = 0, rxd = 0, txd = 0, rts = 0, interrupt = 0;
   PinMask told = 0;  ///< outputs whose changes PinChip::host_pin_changed is told of
 };
 

@@ -15,7 +15,7 @@ class AccessWatch : public MemoryWatch {
  public:
   explicit AccessWatch(Part part);
   /// D is what the user drives.
-  void change(Tick at, PinNumber pin, Level level) override;
+  void change(Tick at, PinNumber changed, Level to) override;
   std::optional<Tick> take_end() override { return std::exchange(end_, std::nullopt); }
   bool worth_a_look(Tick end) override;
   void compared(Tick end) override;
