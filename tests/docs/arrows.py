@@ -7,10 +7,10 @@ A row of the page's table is a room (a folder with C or C++ files) and the rooms
 `apps/*` is one room of several folders, whose arrows among each other are not looked at. A room includes only rooms that stand above it, so there
 is no circle. The page's second table names the single includes that may go against that for now. One line a fault, exit 1 when there is any.
 """
-import argparse
-import pathlib
 import re
 import sys
+
+import faults
 
 PAGE = "docs/architecture.md"
 TABLE = re.compile(r"<!-- arrows -->\n(.*?)<!-- /arrows -->", re.S)
@@ -90,13 +90,5 @@ def check(root):
             yield f"{PAGE}:1: {file} does not include {header} any more"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
-    faults = list(check(parser.parse_args().root))
-    print("\n".join(faults) if faults else "arrows: right")
-    return 1 if faults else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(faults.main(__doc__, check, "arrows: right"))

@@ -1,9 +1,8 @@
 """Breaks a small project on purpose, to see that arrows.py finds each kind of fault and nothing else."""
-import pathlib
-import tempfile
 import unittest
 
 import arrows
+import small_project
 
 PAGE = """<!-- arrows -->
 | room | includes |
@@ -27,18 +26,8 @@ RIGHT = {
 }
 
 
-class Rooms(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.root = pathlib.Path(self.folder.name)
-        for name, text in RIGHT.items():
-            self.write(name, text)
-
-    def write(self, name, text):
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+class Rooms(small_project.SmallProject):
+    RIGHT = RIGHT
 
     def expect(self, *faults):
         self.assertEqual(list(arrows.check(self.root)), list(faults))

@@ -1,9 +1,8 @@
 """Breaks a small project on purpose, to see that check_docs.py finds each kind of fault and nothing else."""
-import pathlib
-import tempfile
 import unittest
 
 import check_docs
+import small_project
 
 RIGHT = {
     "README.md": "# Top\n"
@@ -19,24 +18,12 @@ RIGHT = {
 }
 
 
-class Project(unittest.TestCase):
+class Project(small_project.SmallProject):
+    RIGHT = RIGHT
+
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.root = pathlib.Path(self.folder.name)
-        for name, text in RIGHT.items():
-            self.write(name, text)
+        super().setUp()
         (self.root / "sim").chmod(0o755)
-
-    def write(self, name, text):
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-
-    def change(self, name, old, new):
-        text = (self.root / name).read_text(encoding="utf-8")
-        self.assertIn(old, text)
-        self.write(name, text.replace(old, new))
 
     def faults(self):
         found = []

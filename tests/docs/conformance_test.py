@@ -3,9 +3,10 @@ import contextlib
 import io
 import pathlib
 import sys
-import tempfile
 import unittest
 import unittest.mock
+
+import small_project
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "docs/conformance"))
 import check  # noqa: E402
@@ -42,23 +43,8 @@ SHEET = "docs/conformance/datasheet.yaml"
 RULINGS = "docs/conformance/rulings.yaml"
 
 
-class Conformance(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.root = pathlib.Path(self.folder.name)
-        for name, text in RIGHT.items():
-            path = self.root / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-
-    def text(self, name):
-        return (self.root / name).read_text(encoding="utf-8")
-
-    def change(self, name, old, new):
-        text = self.text(name)
-        self.assertIn(old, text)
-        (self.root / name).write_text(text.replace(old, new), encoding="utf-8")
+class Conformance(small_project.SmallProject):
+    RIGHT = RIGHT
 
     def generate(self, *arguments):
         """Exit status, and all that is printed."""

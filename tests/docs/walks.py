@@ -11,9 +11,10 @@ One line a fault, exit 1 when there is any.
 """
 import argparse
 import itertools
-import pathlib
 import re
 import sys
+
+import faults
 
 PAGE = "docs/architecture.md"
 WALK = re.compile(r"<!-- walk: ([\w ]+) -->\n(.*?)<!-- /walk -->", re.S)
@@ -102,13 +103,5 @@ def check(root):
             yield f"{PAGE}:{number}: {fault}"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
-    faults = list(check(parser.parse_args().root))
-    print("\n".join(faults) if faults else "walks: right")
-    return 1 if faults else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(faults.main(__doc__, check, "walks: right"))

@@ -1,8 +1,7 @@
 """Breaks a small project's walks on purpose, to see that walks.py finds each kind of fault and nothing else."""
-import pathlib
-import tempfile
 import unittest
 
+import small_project
 import walks
 
 WALK = """<!-- walk: {} -->
@@ -22,20 +21,10 @@ RIGHT = {
 }
 
 
-class Walks(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.root = pathlib.Path(self.folder.name)
-        for name, text in RIGHT.items():
-            self.write(name, text)
+class Walks(small_project.SmallProject):
+    RIGHT = RIGHT
 
-    def write(self, name, text):
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-
-    def change(self, old, new):
+    def change_walk(self, old, new):
         """In the first walk alone."""
         self.assertIn(old, RIGHT["docs/architecture.md"])
         self.write("docs/architecture.md", RIGHT["docs/architecture.md"].replace(old, new, 1))
@@ -47,36 +36,36 @@ class Walks(unittest.TestCase):
         self.expect()
 
     def test_a_file_that_is_gone(self):
-        self.change("`low/a.hpp`", "`low/c.hpp`")
+        self.change_walk("`low/a.hpp`", "`low/c.hpp`")
         self.expect("2: there is no file low/c.hpp")
 
     def test_a_name_that_is_gone(self):
-        self.change("has `level`", "has `Block::height`")
+        self.change_walk("has `level`", "has `Block::height`")
         self.expect("2: low/a.hpp does not contain height")
 
     def test_a_part_of_a_word_is_no_name(self):
-        self.change("has `level`", "has `leve`")
+        self.change_walk("has `level`", "has `leve`")
         self.expect("2: low/a.hpp does not contain leve")
 
     def test_lines_that_are_not_connected(self):
         self.write("high/c.cpp", "// --look\nint other;\n")
-        self.change("`high/b.cpp`: `level`", "`high/c.cpp`: `other`")
+        self.change_walk("`high/b.cpp`: `level`", "`high/c.cpp`: `other`")
         self.expect("4: high/c.cpp and low/a.cpp neither include each other nor share an identifier that is named")
 
     def test_a_header_connects(self):
-        self.change("`level` is looked at", "`seen` is called")
+        self.change_walk("`level` is looked at", "`seen` is called")
         self.expect()
 
     def test_a_walk_that_is_too_long(self):
-        self.change("1. `low/a.hpp`", "1. `low/a.cpp`\n" * 9 + "1. `low/a.hpp`")
+        self.change_walk("1. `low/a.hpp`", "1. `low/a.cpp`\n" * 9 + "1. `low/a.hpp`")
         self.expect("12: the walk has 12 lines, allowed are 10")
 
     def test_wrong_counts(self):
-        self.change("2 rooms, 1 types.", "3 rooms, 1 types.")
+        self.change_walk("2 rooms, 1 types.", "3 rooms, 1 types.")
         self.expect("4: below the walk must stand: 2 rooms, 1 types.")
 
     def test_a_walk_that_is_missing(self):
-        self.change("walk: a key", "walk: a lock")
+        self.change_walk("walk: a key", "walk: a lock")
         self.expect("1: the walk of a key is missing")
 
 
