@@ -174,8 +174,8 @@ Level dpsim_chip::heard_level() const {
   return before < heard_->start || heard_->level(before) ? 1 : 0;
 }
 
-std::array<dpsim_chip::Levels, dpsim_chip::kMostPins> dpsim_chip::levels_of(const capi::Kind& its_kind) const {
-  std::array<Levels, kMostPins> levels{};
+std::array<dpsim_chip::Levels, tb::kMostPins> dpsim_chip::levels_of(const capi::Kind& its_kind) const {
+  std::array<Levels, tb::kMostPins> levels{};
   const tb::PinTable& pins = its_kind.chip.pins();
   for (std::size_t i = 0; i < pins.size(); ++i) {
     if (!pins[i].input || (bus != nullptr && i == its_kind.chip.board_pins().rxd)) continue;

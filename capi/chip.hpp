@@ -93,21 +93,20 @@ struct dpsim_chip {
   capi::ChipEvents events;
 
  private:
-  static constexpr std::size_t kMostPins = 64;
   struct Levels {
     Level low = 0;
     std::uint16_t count = 0;  ///< from `low` on; 0: it is not to be set
     bool has(Level level) const { return static_cast<std::uint16_t>(level - low) < count; }
   };
   dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, std::unique_ptr<tb::PinDevice> device);
-  std::array<Levels, kMostPins> levels_of(const capi::Kind& kind) const;
+  std::array<Levels, tb::kMostPins> levels_of(const capi::Kind& kind) const;
   [[noreturn]] void refuse(std::uint16_t number, Level level) const;
   void set_watched(Tick at, PinNumber pin, Level level);
   Level heard_level() const;
   static void tell(void* self, Tick at, PinNumber pin, Level level);
   static void keep(void* self, Tick at, PinNumber pin, Level level);
 
-  std::array<Levels, kMostPins> levels_;  ///< by pin
+  std::array<Levels, tb::kMostPins> levels_;  ///< by pin
   const std::unique_ptr<tb::PinDevice> device_;
   tb::PinMask watched_ = 0;
   tb::PinSink sink_;

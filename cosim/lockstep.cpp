@@ -40,8 +40,7 @@ Lockstep::Lockstep(std::unique_ptr<tb::PinDevice> model, std::unique_ptr<Rtl> rt
                    const tb::OwnSettings& chip, const LockstepOptions& options)
     : kind_(kind),
       model_(std::move(model)),
-      ends_later_(kind.rtl()->timing(chip).clock != kNoPin),
-      rtl_(std::move(rtl), kind, kind.rtl()->timing(chip), *model_, ends_later_ ? TickEnds::kLater : TickEnds::kAtOnce),
+      rtl_(std::move(rtl), kind, chip, *model_, TickEnds::kLater),
       options_(options),
       comparator_(kind.pins(), options.tolerances),
       history_(options.history_cycles, kind),
@@ -93,11 +92,11 @@ void Lockstep::watch_change(Tick at, PinNumber pin, Level level) {
 /// The model is stopped wherever one of its accesses ends, because the RTL's memory can be seen at its present time
 /// only.
 void Lockstep::advance(Tick to) {
-  if (ends_later_) look_at_memory(to);
+  if (ends_later()) look_at_memory(to);
   for (Tick next = model_->next_event(); next <= to && !difference_; next = model_->next_event()) {
     model_->advance(next);
     if (!ended_) continue;
-    if (ends_later_)
+    if (ends_later())
       look_at_memory(to);
     else
       access_ended(*std::exchange(ended_, std::nullopt));
@@ -126,7 +125,7 @@ void Lockstep::rtl_changed(Tick at, PinNumber pin, Level level) {
 
 void Lockstep::access_ended(Tick at) {
   if (!watch_->worth_a_look(at) || !options_.compare_dpram) return;
-  rtl_.advance(ends_later_ ? at + 1 : at);
+  rtl_.advance(ends_later() ? at + 1 : at);
   settle(at);
   if (!difference_) compare_memory(at);
 }

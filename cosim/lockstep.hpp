@@ -90,6 +90,7 @@ class Lockstep : public tb::PinDevice {
   void rtl_changed(Tick at, PinNumber pin, Level level);
   void note(Tick at, Side side, PinNumber pin, Level level);
   void watch_change(Tick at, PinNumber pin, Level level);
+  bool ends_later() const { return rtl_.ends() == TickEnds::kLater; }
   void look_at_memory(Tick to);
   void access_ended(Tick at);
   void compare_memory(Tick at);
@@ -98,7 +99,6 @@ class Lockstep : public tb::PinDevice {
 
   const tb::ChipKind& kind_;
   std::unique_ptr<tb::PinDevice> model_;
-  const bool ends_later_;  ///< TickEnds::kLater
   RtlChip rtl_;
   LockstepOptions options_;
   PinComparator comparator_;

@@ -11,9 +11,9 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// Throws for a kind that has no RTL.
-const RtlOf& rtl_of(const tb::ChipKind& kind) {
-  if (kind.rtl() != nullptr) return *kind.rtl();
+/// Throws for a kind that has none.
+std::unique_ptr<Rtl> rtl_of(const MakeRtl& make, const tb::ChipKind& kind, const tb::ChipRequest& request) {
+  if (kind.rtl() != nullptr) return make(request.name, kind, request.settings);
   std::vector<std::string> with_rtl;
   for (const tb::ChipKind* each : tb::chip_kinds())
     if (each->rtl() != nullptr) with_rtl.emplace_back(each->name());
@@ -26,10 +26,9 @@ class RtlExecution : public tb::Execution {
   explicit RtlExecution(MakeRtl make) : make_(std::move(make)) {}
 
   std::unique_ptr<tb::ChipView> make_chip(const tb::ChipKind& kind, const tb::ChipRequest& request) override {
-    const RtlTiming timing = rtl_of(kind).timing(request.settings);
-    std::unique_ptr<Rtl> rtl = make_(request.name, kind, request.settings);
+    std::unique_ptr<Rtl> rtl = rtl_of(make_, kind, request);
     return add_chip(kind, request,
-                    std::make_unique<RtlDevice>(kind.make_device(request), std::move(rtl), kind, timing));
+                    std::make_unique<RtlDevice>(kind.make_device(request), std::move(rtl), kind, request.settings));
   }
   void run(tb::Tick end, const std::function<bool()>& stopped) override {
     while (!stopped() && timeline_.step(end)) {
@@ -47,8 +46,7 @@ std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
 }
 
 std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const tb::ChipKind& kind, const tb::ChipRequest& request) {
-  rtl_of(kind);
-  std::unique_ptr<Rtl> rtl = make_(request.name, kind, request.settings);
+  std::unique_ptr<Rtl> rtl = rtl_of(make_, kind, request);
   auto device = std::make_unique<Lockstep>(kind.make_device(request), std::move(rtl), kind, request.settings, options_);
   chips_.push_back({request.name, device.get()});
   return add_chip(kind, request, std::move(device));

@@ -4,13 +4,6 @@
 
 namespace dsdpv1::cosim {
 
-tb::PinMask PinComparator::data_of(const tb::PinTable& pins) {
-  tb::PinMask mask = 0;
-  for (PinNumber pin = 0; pin < end_of(pins); ++pin)
-    if (!pins[pin].input && pins[pin].bus != nullptr) mask |= tb::mask_of(pin);
-  return mask;
-}
-
 void PinComparator::begin(PinNumber pin, Level model, Level rtl) {
   states_.at(pin).model = model;
   states_.at(pin).rtl = rtl;

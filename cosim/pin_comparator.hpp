@@ -27,7 +27,7 @@ using Tolerances = std::array<int, kMostPins>;
 class PinComparator {
  public:
   explicit PinComparator(const tb::PinTable& pins, const Tolerances& tolerances = {})
-      : data_(data_of(pins)), tolerances_(tolerances) {}
+      : data_(tb::data_of(pins)), tolerances_(tolerances) {}
 
   /// The levels at the beginning; without a call 0.
   void begin(PinNumber pin, Level model, Level rtl);
@@ -55,7 +55,6 @@ class PinComparator {
     bool model_touched = false, rtl_touched = false;
     std::deque<Late> model_ahead, rtl_ahead;  ///< tolerant pins: changes that the other side has not made yet
   };
-  static tb::PinMask data_of(const tb::PinTable& pins);
   Tick tolerance(PinNumber pin) const { return tolerances_.at(pin) * bus::kTicksPerCycle; }
   bool matches(PinNumber pin, Level model, Level rtl) const {
     return model == rtl || (model == tb::kLevelX && (data_ & tb::mask_of(pin)) != 0);
@@ -66,7 +65,7 @@ class PinComparator {
   std::optional<PinDifference> compare_tolerant(Tick at, PinNumber pin);
   std::optional<PinDifference> overdue(Tick horizon);
 
-  const tb::PinMask data_;  ///< outputs on a bus
+  const tb::PinMask data_;  ///< on a bus
   const Tolerances tolerances_;
   std::array<State, kMostPins> states_;
   std::vector<Change> model_, rtl_;

@@ -61,9 +61,7 @@ RtlLibrary load_reference(const std::string& name) {
   std::string why_not;
   const RtlLibrary library = load_library(path, why_not);
   if (!why_not.empty()) fail("the reference RTL cannot be loaded: " + why_not);
-  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD);
-  const auto layout = symbol<std::uint32_t (*)()>(handle, "layout");
-  if (layout == nullptr || layout() != DSDPV1_RTL_LAYOUT)
+  if (library.layout == nullptr || library.layout() != DSDPV1_RTL_LAYOUT)
     fail(path.string() + " is of another build than this program");
   return library;
 }
@@ -79,6 +77,7 @@ RtlLibrary load_library(const std::string& path, std::string& why_not) {
   RtlLibrary library;
   library.create = symbol<decltype(library.create)>(handle, "create");
   library.destroy = symbol<decltype(library.destroy)>(handle, "destroy");
+  library.layout = symbol<decltype(library.layout)>(handle, "layout");
   library.eval = symbol<decltype(library.eval)>(handle, "eval");
   library.memory = symbol<decltype(library.memory)>(handle, "memory");
   library.trace = symbol<decltype(library.trace)>(handle, "trace");

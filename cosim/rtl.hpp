@@ -15,7 +15,7 @@ using bus::Tick;
 using tb::Level;
 using tb::PinNumber;
 
-constexpr std::size_t kMostPins = 32;
+using tb::kMostPins;
 constexpr PinNumber kNoPin = kMostPins;
 /// The number behind the last one.
 inline PinNumber end_of(const tb::PinTable& pins) { return static_cast<PinNumber>(pins.size()); }
@@ -36,10 +36,9 @@ class Rtl {
 
 /// How the ticks of inputs become evaluations.
 struct RtlTiming {
-  tb::PinMask at_once =
-      0;  ///< inputs that act at their own tick; all others are looked at by an edge of CLK or of these
-  PinNumber clock = kNoPin;    ///< a second clock: where both have an edge they are evaluated together, see RtlChip
-  PinNumber data = kNoPin;     ///< the input that `clock` takes as it was before
+  tb::PinMask at_once = 0;   ///< inputs that act at their own tick; others are looked at by an edge of CLK or of these
+  PinNumber clock = kNoPin;  ///< a second clock: where both have an edge they are evaluated together, see RtlChip
+  PinNumber data = kNoPin;   ///< the input that `clock` takes as it was before
   PinNumber delayed = kNoPin;  ///< an output whose changes between 0 and 1 come `delay` ticks later
   Tick delay = 0;
 };

@@ -6,13 +6,15 @@
 namespace dsdpv1::cosim {
 namespace {
 
-constexpr Tick kHalfCycle = profibus::kTicksPerCycle / 2;
+constexpr Tick kHalfCycle = bus::kTicksPerCycle / 2;
 
 }  // namespace
 
-RtlChip::RtlChip(std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind, const RtlTiming& timing,
+RtlChip::RtlChip(std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind, const tb::OwnSettings& chip,
                  const tb::PinDevice& fresh, TickEnds ends)
-    : rtl_(std::move(rtl)), timing_(timing), ends_(ends) {
+    : rtl_(std::move(rtl)),
+      timing_(kind.rtl()->timing(chip)),
+      ends_(timing_.clock == kNoPin ? TickEnds::kAtOnce : ends) {
   for (PinNumber pin = 0; pin < end_of(kind.pins()); ++pin)
     if (kind.pins()[pin].input)
       levels_.at(pin) = fresh.level(pin);
@@ -35,7 +37,7 @@ void RtlChip::power_up(PinNumber reset) {
 void RtlChip::set(Tick at, PinNumber pin, Level level) {
   advance(at);
   if (ends_ == TickEnds::kLater || pin == timing_.data) return held_.push_back({at, pin, level});
-  levels_.at(pin) = level;
+  apply(pin, level);
   if (acts_at_once(pin)) eval(at);
 }
 
@@ -64,10 +66,10 @@ void RtlChip::end_tick() {
   if (clk) clock_edge();
   const auto second = std::stable_partition(held_.begin(), held_.end(),
                                             [this](const Change& change) { return change.pin == timing_.clock; });
-  if (second != held_.begin()) levels_.at(timing_.clock) = held_.front().level;
+  if (second != held_.begin()) apply(timing_.clock, held_.front().level);
   if (clk || second != held_.begin()) eval(now_);
   for (const Change& change : held_) {
-    levels_.at(change.pin) = change.level;
+    apply(change.pin, change.level);
     if (acts_at_once(change.pin)) eval(now_);
   }
   held_.clear();
@@ -75,7 +77,7 @@ void RtlChip::end_tick() {
 
 /// RtlTiming::data of a tick that is over: the second clock's edge at that tick has not seen its change.
 void RtlChip::apply_held() {
-  for (const Change& change : held_) levels_.at(change.pin) = change.level;
+  for (const Change& change : held_) apply(change.pin, change.level);
   held_.clear();
 }
 
@@ -83,6 +85,7 @@ void RtlChip::eval(Tick at) {
   rtl_->moment(at);
   if (!coming_.empty()) move_delayed(at);
   rtl_->eval(clk_, levels_.data());
+  if (levels_ == last_) return;
   for (const PinNumber pin : outputs_) {
     const Level now = levels_[pin], then = std::exchange(last_[pin], now);
     if (now == then) continue;

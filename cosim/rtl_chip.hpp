@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "cosim/rtl.hpp"
-#include "model/profibus/time.hpp"
 
 namespace dsdpv1::cosim {
 
@@ -27,7 +26,8 @@ enum class TickEnds : std::uint8_t {
 class RtlChip {
  public:
   /// RESET is low, the other inputs are as those of `fresh`, a device before its first call.
-  RtlChip(std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind, const RtlTiming& timing, const tb::PinDevice& fresh,
+  /// Without a second clock ticks are evaluated at once.
+  RtlChip(std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind, const tb::OwnSettings& chip, const tb::PinDevice& fresh,
           TickEnds ends = TickEnds::kAtOnce);
 
   /// Changes an input pin at `at` (>= every earlier call's), after everything up to and including `at` was evaluated.
@@ -42,6 +42,7 @@ class RtlChip {
   /// Reports changes of the output pins in `pins`. One sink; a second call replaces it.
   void watch(const tb::PinSink& sink, tb::PinMask pins);
   const Rtl& rtl() const { return *rtl_; }
+  TickEnds ends() const { return ends_; }
 
  private:
   struct Change {
@@ -51,6 +52,8 @@ class RtlChip {
   };
   using Levels = std::array<Level, kMostPins>;
   void power_up(PinNumber reset);
+  /// An input has this level from the next evaluation on.
+  void apply(PinNumber pin, Level level) { levels_.at(pin) = last_.at(pin) = level; }
   bool acts_at_once(PinNumber pin) const { return (timing_.at_once & tb::mask_of(pin)) != 0; }
   void end_tick();
   void apply_held();
@@ -64,7 +67,7 @@ class RtlChip {
   const RtlTiming timing_;
   const TickEnds ends_;
   std::vector<PinNumber> outputs_;
-  Levels levels_{}, last_{};  ///< with those of the last evaluation; before it
+  Levels levels_{}, last_{};  ///< outputs of the last evaluation; of the one before it, within one: the same otherwise
   bool clk_ = false;
   tb::PinSink sink_;
   tb::PinMask watched_ = 0;

@@ -12,8 +12,8 @@ PinNumber data_output(const tb::PinTable& pins) {
 }
 
 RtlDevice::RtlDevice(std::unique_ptr<tb::PinDevice> core, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
-                     const RtlTiming& timing)
-    : core_(std::move(core)), rtl_(std::move(rtl), kind, timing, *core_), data_(data_output(kind.pins())) {
+                     const tb::OwnSettings& chip)
+    : core_(std::move(core)), rtl_(std::move(rtl), kind, chip, *core_), data_(data_output(kind.pins())) {
   core_->watch({[](void* self, Tick at, PinNumber pin, Level level) {
                   static_cast<RtlDevice*>(self)->core_changes_.push_back({at, pin, level});
                 },

@@ -12,9 +12,9 @@ namespace dsdpv1::cosim {
 
 class RtlDevice : public tb::PinDevice {
  public:
-  /// `core`, before its first call, and `rtl` with the parameters that `timing` is of.
+  /// `core`, fresh from ChipKind::make_device, and `rtl` with these parameters. Of a kind that has an RtlOf.
   RtlDevice(std::unique_ptr<tb::PinDevice> core, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
-            const RtlTiming& timing);
+            const tb::OwnSettings& chip);
 
   void set(Tick at, PinNumber pin, Level level) override;
   void advance(Tick to) override;

@@ -17,6 +17,7 @@ struct RtlStart {
 struct RtlLibrary {
   void* (*create)(const RtlStart* start) = nullptr;
   void (*destroy)(void* design) = nullptr;
+  std::uint32_t (*layout)() = nullptr;  ///< of what it shares with the program; of the reference RTL
   void (*eval)(void* design, bool clk, std::int16_t* levels) = nullptr;  ///< as Rtl::eval
   void (*memory)(void* design, std::uint8_t* image) = nullptr;           ///< null: it cannot be seen
   void (*trace)(void* design, const char* file) = nullptr;               ///< and dump: only of a traced build

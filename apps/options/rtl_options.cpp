@@ -14,9 +14,10 @@ void add_chip_options(CLI::App& app, RtlChip& chip) {
 }
 
 Part RtlChip::part() const {
-  std::vector<std::pair<std::string, Part>> parts;
-  for (const PartRow& row : kParts) parts.emplace_back(row.name, *part_called(row.name));
-  return value_of<Part>("dsdpv1-sim --chip", chip, parts);
+  std::vector<std::string> names;
+  for (const PartRow& row : kParts) names.emplace_back(row.name);
+  check_word("dsdpv1-sim --chip", chip, names);
+  return *part_called(chip);
 }
 
 HostMode RtlChip::host() const {

@@ -103,10 +103,12 @@ void Bench::add_slave(const scenario::Slave& slave) {
   made.chip().listen(observers_, slaves.size() - 1, wanted);
 }
 
-/// Nobody but the wave wants to hear of runs, of the inside and of actions, nobody without checks of reads.
+/// Nobody but the wave wants to hear of runs, of the inside (where it shows that) and of actions, nobody without checks
+/// of reads.
 ChipNews Bench::wanted_news(const ChipView& chip) const {
   const bool wave = waves_.has_value();
-  return {wave && takes_runs() && chip.tells_runs(), checks_.on() || !options_.observers.empty(), wave, wave};
+  return {wave && takes_runs() && chip.tells_runs(), checks_.on() || !options_.observers.empty(),
+          wave && options_.wave.inside, wave};
 }
 
 const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {

@@ -22,7 +22,6 @@ class PinExecution : public Execution {
 std::unique_ptr<ChipView> Execution::add_chip(const ChipKind& kind, const ChipRequest& request,
                                               std::unique_ptr<PinDevice> device) {
   std::unique_ptr<PinChip> chip = kind.make_pin_chip(request, std::move(device), segment_);
-  if (request.inside) chip->watch_inside();
   timeline_.add(*chip);
   return chip;
 }

@@ -12,13 +12,6 @@ namespace {
 static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody == bus::kForNobody &&
               profibus::kBroadcast == bus::kBroadcast);
 
-PinMask data_of(const PinTable& pins) {
-  PinMask mask = 0;
-  for (std::size_t pin = 0; pin < pins.size(); ++pin)
-    if (pins[pin].bus != nullptr) mask |= mask_of(static_cast<PinNumber>(pin));
-  return mask;
-}
-
 }  // namespace
 
 PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, const PinTable& pins,
@@ -78,7 +71,7 @@ void PinChip::run(Tick now) {
   PinDevice& chip = device();
   catch_up(now);
   chip.advance(now);
-  if (tells_inside_ && wanted_.inside) chip.look_inside(now, number_, *listener_);
+  if (wanted_.inside) chip.look_inside(now, number_, *listener_);
   if (chip.left_run()) {
     segment_.cut_run(now);
     chip.leave_run(now);
@@ -139,8 +132,7 @@ bool PinChip::run_begins(const bus::CharacterRun& run) {
   catch_up(run.start);
   const bool taken =
       device_->hear(run.start, {run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
-  announce(next());  // the same as before, as long as the telegram is not for this station
-  update_hearing();
+  plan_again();  // the same as before, as long as the telegram is not for this station
   return taken;
 }
 

@@ -36,8 +36,6 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   bool tells_runs() const override { return true; }
   void pause_access() override { pauses_ = true; }
   void watch(Tick now, PinMask pins) override;
-  /// From now on inner signals are told: of a core with Engine::kStep.
-  void watch_inside() { tells_inside_ = true; }
 
   // --- For somebody at the user's pins who is no user CPU of the bench. The bench has come to `at`.
   void set_pin(Tick at, PinNumber pin, Level level);
@@ -103,7 +101,7 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   bus::Segment& segment_;
   bus::StationId station_;
   LineDriver line_;
-  bool reports_host_ = false, reports_rxd_ = false, reports_txd_ = false, tells_inside_ = false, catching_up_ = false;
+  bool reports_host_ = false, reports_rxd_ = false, reports_txd_ = false, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
   std::vector<Level> inputs_;  ///< by pin, as told last
 };

@@ -25,8 +25,9 @@ struct PinInfo {
   bool released = false;      ///< an output that may be kLevelZ
 };
 
-/// At most 32 pins.
+/// At most kMostPins.
 using PinTable = std::vector<PinInfo>;
+constexpr std::size_t kMostPins = 32;
 
 /// Pins that a viewer of waves shows together, by the names that they have in waves.
 struct PinGroup {
@@ -35,23 +36,29 @@ struct PinGroup {
 };
 
 constexpr PinMask mask_of(PinNumber pin) { return PinMask{1} << pin; }
-/// All inputs of a chip.
-inline PinMask inputs_of(const PinTable& pins) {
+/// Those of a chip's pins that are `wanted`.
+template <class Wanted>
+PinMask pins_where(const PinTable& pins, const Wanted& wanted) {
   PinMask mask = 0;
   for (std::size_t pin = 0; pin < pins.size(); ++pin)
-    if (pins[pin].input) mask |= mask_of(static_cast<PinNumber>(pin));
+    if (wanted(pins[pin])) mask |= mask_of(static_cast<PinNumber>(pin));
   return mask;
 }
-inline PinMask outputs_of(const PinTable& pins) {
-  PinMask mask = 0;
-  for (std::size_t pin = 0; pin < pins.size(); ++pin)
-    if (!pins[pin].input) mask |= mask_of(static_cast<PinNumber>(pin));
-  return mask;
+/// All inputs of a chip.
+inline PinMask inputs_of(const PinTable& pins) {
+  return pins_where(
+      pins, [](const PinInfo& pin) { return pin.input; });
+}
+/// Those that are a direction of a bus.
+inline PinMask data_of(const PinTable& pins) {
+  return pins_where(
+      pins, [](const PinInfo& pin) { return pin.bus != nullptr; });
 }
 /// All pins of a chip.
 inline PinMask all_of(const PinTable& pins) {
-  return pins.size() >= 32 ? ~PinMask{0} : (PinMask{1} << pins.size()) - 1;
+  return pins.size() >= kMostPins ? ~PinMask{0} : (PinMask{1} << pins.size()) - 1;
 }
+inline PinMask outputs_of(const PinTable& pins) { return all_of(pins) & ~inputs_of(pins); }
 
 /// "1", "7FF", "z", "x".
 std::string level_text(const PinInfo& pin, Level level);
