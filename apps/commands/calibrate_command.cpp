@@ -16,13 +16,17 @@
 namespace dsdpv1::app {
 namespace {
 
+/// The chip that captures are of.
+const tb::ChipKind& kind() { return *tb::chip_kinds().front(); }
+
 /// Of --signal, and of a map of pins.
 std::vector<std::string> pin_names() {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < calibrate::kWireCount; ++i)
-    names.push_back(calibrate::name(static_cast<calibrate::Wire>(i)));
-  names.emplace_back("A");
-  names.emplace_back("D");
+  std::vector<std::string> names, buses;
+  for (const calibrate::WireInfo& wire : kind().claims()->wires()) {
+    names.push_back(wire.name);
+    if (!wire.bus.empty() && wire.bit == 0) buses.push_back(wire.bus);
+  }
+  names.insert(names.end(), buses.begin(), buses.end());
   return names;
 }
 
@@ -42,7 +46,7 @@ void take_signal(const std::string& text, calibrate::Names& names) {
 /// A map of pins says of what differs from the names of the reference RTL how it is called.
 void take_map(const std::string& path, calibrate::Names& names) {
   if (path.empty()) return;
-  const tb::PinTable& pins = tb::chip_kinds().front()->pins();
+  const tb::PinTable& pins = kind().pins();
   const cosim::PinMap map = cosim::load_pin_map(path, pins), usual = cosim::default_pin_map(pins);
   for (const auto& [pin, port] : map.pins) {
     const cosim::Port& other = usual.pins.at(pin);
@@ -103,11 +107,11 @@ class Calibrate : public Command {
     for (const std::string& text : signals_) take_signal(text, names_);
     take_map(map_, names_);
     const std::optional<double> rate = given_rate();
-    calibrate::RecordTaker taker(names_);
+    calibrate::RecordTaker taker(kind().claims()->wires(), names_);
     CaptureFile file(file_);
     take_sampling(file.read_levels(taker));
     if (rate) sampling_.rate = rate;
-    const calibrate::Result result = calibrate::calibrate(file.name(), taker.record(), sampling_, station_);
+    const calibrate::Result result = calibrate::calibrate(file.name(), taker.record(), sampling_, station_, kind());
     write_wanted(chip_, calibrate::chip_block(result));
     write_wanted(json_, calibrate::json(result));
     {

@@ -12,6 +12,7 @@
 #include "kinds/dsdpv1/chip/core_device.hpp"
 #include "kinds/dsdpv1/chip/dsdpv1_pin_chip.hpp"
 #include "kinds/dsdpv1/chip/user_maker.hpp"
+#include "kinds/dsdpv1/claims/rulings.hpp"
 #include "kinds/dsdpv1/keys/codes.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/pins/diagrams.hpp"
@@ -129,6 +130,7 @@ class Dsdpv1Kind : public ChipKind {
   const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }
 
   const cosim::RtlOf* rtl() const override { return rtl_.get(); }
+  const calibrate::Claims* claims() const override { return &calibrate::dsdpv1_claims(); }
   std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {
     return std::make_unique<CoreDevice>(config_of(request));
   }

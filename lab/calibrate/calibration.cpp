@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <set>
 
 #include "io/input/suggest.hpp"
 
@@ -41,30 +43,48 @@ double found_rate(const Record& record, double unit) {
   return 0;
 }
 
-TimeBase time_of(const Record& record, const Sampling& sampling, Result& result) {
+struct Samples {
+  double period = 0, jitter = 0;  ///< ns
+  bool rate_found = false;        ///< by the times alone
+};
+
+Samples samples_of(const Record& record, const Sampling& sampling) {
+  Samples samples;
   double period = sampling.unit;
   if (sampling.rate) {
     period = kTicksPerSecond / *sampling.rate;
   } else if (const double rate = found_rate(record, sampling.unit); rate > 0) {
     period = kTicksPerSecond / rate;
-    result.rate_found = true;
+    samples.rate_found = true;
   }
-  const bool sampled = sampling.rate || result.rate_found;
-  result.sample_ns = period / kTicksPerNs;
-  result.jitter_ns = sampled ? sampling.jitter_ns : 0;
+  samples.period = period / kTicksPerNs;
+  samples.jitter = sampling.rate || samples.rate_found ? sampling.jitter_ns : 0;
+  return samples;
+}
+
+TimeBase time_of(const Samples& samples) {
+  constexpr auto kTicksPerCycle = static_cast<double>(bus::kTicksPerCycle);
   TimeBase time;
-  time.period = std::max(period, 1.0) / static_cast<double>(bus::kTicksPerCycle);
-  time.jitter = result.jitter_ns * kTicksPerNs / static_cast<double>(bus::kTicksPerCycle);
+  time.period = std::max(samples.period * kTicksPerNs, 1.0) / kTicksPerCycle;
+  time.jitter = samples.jitter * kTicksPerNs / kTicksPerCycle;
   return time;
 }
 
 // --- verdicts
 
-std::string missing(const Record& record, const std::vector<Wire>& needs, bool accesses) {
+/// Wires of a group are called by its name, once and behind the others.
+std::string missing(const Record& record, const std::vector<Wire>& needs) {
   std::vector<std::string> names;
-  for (const Wire wire : needs)
-    if (!record.sees(wire)) names.push_back(name(wire));
-  if (accesses && !record.sees_accesses()) names.emplace_back("pins of the host port");
+  std::set<std::string> groups;
+  for (const Wire wire : needs) {
+    const WireInfo& info = record.table[static_cast<std::size_t>(wire)];
+    if (record.sees(wire)) continue;
+    if (info.group == nullptr)
+      names.push_back(info.name);
+    else
+      groups.insert(info.group);
+  }
+  names.insert(names.end(), groups.begin(), groups.end());
   return names.empty() ? "" : "not in the capture: " + tb::join(names);
 }
 
@@ -77,20 +97,21 @@ std::string span_text(const Fit& fit) {
   return lo == hi ? fmt::format("{}", lo) : fmt::format("{} to {}", lo, hi);
 }
 
-ParameterResult result_of(const ParameterRow& row, const Record& record, const Fit& fit) {
+ParameterResult result_of(const ParameterRow& row, const tb::keys::Field& field, const Record& record, const Fit& fit) {
   ParameterResult result;
   result.row = &row;
+  result.field = &field;
   result.fit = fit;
-  const long long usual = default_of(row);
-  result.chosen = usual;
+  const long long usual = std::strtoll(field.default_text.c_str(), nullptr, 10);
+  result.usual = result.chosen = usual;
   if (fit.estimate.count == 0) {
-    const std::string pins = missing(record, row.needs, false);
+    const std::string pins = missing(record, row.needs);
     result.words = !pins.empty() ? pins : fit.not_shown.empty() ? "did not occur" : fit.not_shown;
     return result;
   }
   const bool bounded = !fit.at_most && !fit.at_least;
   if (bounded) result.value = fit.estimate.whole();
-  const tb::keys::Range range = field_of(row).type.range;
+  const tb::keys::Range range = field.type.range;
   const bool fits = fit.estimate.span.contains(static_cast<double>(usual));
   result.verdict = !fits ? Verdict::kContradicted : bounded ? Verdict::kConfirmed : Verdict::kNotContradicted;
   if (!fits) {
@@ -115,31 +136,30 @@ ClaimResult result_of(const Claim& claim, const Record& record, const Judge& jud
     result.verdict = Verdict::kContradicted;
   else if (result.tally.holds > 0)
     result.verdict = Verdict::kConfirmed;
-  else if (const std::string pins = missing(record, claim.needs, claim.accesses); !pins.empty())
+  else if (const std::string pins = missing(record, claim.needs); !pins.empty())
     result.words = pins;
   else
     result.words = result.tally.coarse > 0 ? "the samples are too far apart" : "did not occur";
   return result;
 }
 
-std::vector<ClaimResult> claim_results(const Record& record, const Judge& judge) {
+std::vector<ClaimResult> claim_results(const Claims& claims, const Record& record, const Judge& judge) {
   std::vector<ClaimResult> results;
-  const Claims claims = all_claims();
-  for (const Ruling& ruling : rulings()) {
+  for (const Ruling& ruling : claims.rulings()) {
     if (ruling.hidden != nullptr) {
       results.push_back({ruling.id, "", Verdict::kNotShown, {}, ruling.hidden});
       continue;
     }
-    for (const Claim* claim : claims)
+    for (const Claim* claim : claims.claims())
       if (claim->ruling == ruling.id) results.push_back(result_of(*claim, record, judge));
   }
   return results;
 }
 
-std::vector<std::string> wires_of(const Record& record) {
+std::vector<std::string> wires_seen(const Record& record) {
   std::vector<std::string> wires;
-  for (std::size_t i = 0; i < kWireCount; ++i)
-    if (record.traces.at(i).seen) wires.push_back(name(static_cast<Wire>(i)));
+  for (std::size_t i = 0; i < record.traces.size(); ++i)
+    if (record.traces[i].seen) wires.push_back(record.table[i].name);
   return wires;
 }
 
@@ -160,33 +180,23 @@ bool Result::agrees() const {
   return std::none_of(parameters.begin(), parameters.end(), wrong) && std::none_of(claims.begin(), claims.end(), wrong);
 }
 
-Result calibrate(const std::string& file, const Record& record, const Sampling& sampling, std::optional<int> station) {
-  Result result;
+Result calibrate(const std::string& file, const Record& record, const Sampling& sampling, std::optional<int> station,
+                 const tb::ChipKind& kind) {
+  const Claims& claims = *kind.claims();
+  const Samples samples = samples_of(record, sampling);
+  Result result(claims.measure(record, {time_of(samples), sampling.clock_ppm, station}));
   result.file = file;
   result.end = record.end;
-  result.wires = wires_of(record);
-  Scene scene{record, time_of(record, sampling, result), station};
-  fill(scene);
-  Found& found = result.found;
-  measure_clock(scene, sampling.clock_ppm, found);
-  find_resets(scene);
-  measure_access(scene, found);
-  measure_ready(scene, found);
-  measure_interrupt(scene, found);
-  measure_answers(scene, found);
-  measure_tsdr(scene, found);
-  measure_search(scene, found);
-  measure_watchdog(scene, found);
-  measure_telegrams(scene, found);
-  measure_user(scene, found);
-  measure_reset(scene, found);
-  result.requests = scene.exchanges.size();
-  result.answers = scene.sent.size();
-  result.accesses = scene.accesses.size();
-  result.user_accesses = scene.user.size();
-  for (const ParameterRow& row : parameters())
-    result.parameters.push_back(result_of(row, record, found.fit(row.parameter)));
-  result.claims = claim_results(record, found.judge);
+  result.table = &record.table;
+  result.wires = wires_seen(record);
+  result.sample_ns = samples.period;
+  result.jitter_ns = samples.jitter;
+  result.rate_found = samples.rate_found;
+  for (std::size_t i = 0; i < claims.parameters().size(); ++i) {
+    const ParameterRow& row = claims.parameters()[i];
+    result.parameters.push_back(result_of(row, *kind.chip_keys().find(row.key), record, result.found.fits[i]));
+  }
+  result.claims = claim_results(claims, record, result.found.judge);
   return result;
 }
 

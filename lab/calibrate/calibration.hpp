@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "kinds/dsdpv1/claims/rulings.hpp"
+#include "lab/calibrate/claims.hpp"
+#include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::calibrate {
 
@@ -26,6 +27,8 @@ struct Sampling {
 
 struct ParameterResult {
   const ParameterRow* row = nullptr;
+  const tb::keys::Field* field = nullptr;  ///< the scenario's description of it
+  long long usual = 0;                     ///< its default
   Verdict verdict = Verdict::kNotShown;
   Fit fit;
   std::optional<long long> value;  ///< when only one fits
@@ -41,12 +44,14 @@ struct ClaimResult {
 };
 
 struct Result {
+  explicit Result(Found all) : found(std::move(all)) {}
+
   std::string file;
   Tick end = 0;
   double sample_ns = 0, jitter_ns = 0;
-  bool rate_found = false;         ///< by the times alone
-  std::vector<std::string> wires;  ///< "PBTXD (D3)"
-  std::size_t requests = 0, answers = 0, accesses = 0, user_accesses = 0;
+  bool rate_found = false;  ///< by the times alone
+  const WireTable* table = nullptr;
+  std::vector<std::string> wires;  ///< of them those in the capture
   Found found;
   std::vector<ParameterResult> parameters;
   std::vector<ClaimResult> claims;  ///< in the order of docs/chip.md
@@ -55,7 +60,9 @@ struct Result {
   bool agrees() const;
 };
 
-Result calibrate(const std::string& file, const Record& record, const Sampling& sampling, std::optional<int> station);
+/// `kind` must have claims.
+Result calibrate(const std::string& file, const Record& record, const Sampling& sampling, std::optional<int> station,
+                 const tb::ChipKind& kind);
 
 // How it is told.
 std::string text(const Result& result, bool all);

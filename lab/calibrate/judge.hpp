@@ -12,8 +12,7 @@ namespace dsdpv1::calibrate {
 struct Claim {
   std::string ruling;  ///< "S3"; "facts": those at the end of docs/chip.md
   std::string says;
-  std::vector<Wire> needs;  ///< pins that must be seen
-  bool accesses = false;    ///< besides all pins of the host port
+  std::vector<Wire> needs;  ///< wires that must be seen
 };
 
 struct Contradiction {

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "io/input/suggest.hpp"
 #include "lab/calibrate/calibration.hpp"
@@ -20,13 +21,16 @@ std::string line(const std::string& heading, const std::string& what) {
   return fmt::format("{:<14} {}\n", heading, what);
 }
 
-/// A and D in one word when all of them are there.
-std::string wires_text(std::vector<std::string> wires) {
-  for (const auto& [bus, count] : {std::pair('A', kAddressWires), std::pair('D', kDataWires)}) {
-    const auto is_bus = [bus = bus](const std::string& wire) { return wire[0] == bus; };
-    if (std::count_if(wires.begin(), wires.end(), is_bus) != static_cast<std::ptrdiff_t>(count)) continue;
+/// A bus in one word, behind the others, when all of it is there.
+std::string wires_text(const WireTable& table, std::vector<std::string> wires) {
+  std::map<std::string, std::set<std::string>> buses;
+  for (const WireInfo& wire : table)
+    if (!wire.bus.empty()) buses[wire.bus].insert(wire.name);
+  for (const auto& [bus, names] : buses) {
+    const auto is_bus = [&names = names](const std::string& wire) { return names.count(wire) != 0; };
+    if (static_cast<std::size_t>(std::count_if(wires.begin(), wires.end(), is_bus)) != names.size()) continue;
     wires.erase(std::remove_if(wires.begin(), wires.end(), is_bus), wires.end());
-    wires.emplace_back(1, bus);
+    wires.push_back(bus);
   }
   return tb::join(wires);
 }
@@ -47,9 +51,8 @@ std::string parameter_table(const Result& result) {
   for (const ParameterResult& each : result.parameters) {
     const bool shown = each.verdict != Verdict::kNotShown;
     const Estimate& estimate = each.fit.estimate;
-    table.add({ruling_of(*each.row), each.row->key, std::to_string(default_of(*each.row)), shown ? each.words : "-",
-               field_of(*each.row).type.unit,
-               shown ? word(each.verdict) : std::string(word(each.verdict)) + ": " + each.words,
+    table.add({each.row->ruling, each.row->key, std::to_string(each.usual), shown ? each.words : "-",
+               each.field->type.unit, shown ? word(each.verdict) : std::string(word(each.verdict)) + ": " + each.words,
                std::to_string(estimate.count), std::to_string(estimate.outliers.size()),
                worst_text(estimate.outliers)});
   }
@@ -117,9 +120,9 @@ nlohmann::ordered_json clock_json(const Estimate& clock) {
 }
 
 nlohmann::ordered_json parameter_json(const ParameterResult& each) {
-  nlohmann::ordered_json json = {{"parameter", each.row->key},        {"ruling", ruling_of(*each.row)},
-                                 {"default", default_of(*each.row)},  {"unit", field_of(*each.row).type.unit},
-                                 {"measured_by", each.row->measured}, {"verdict", word(each.verdict)}};
+  nlohmann::ordered_json json = {
+      {"parameter", each.row->key},    {"ruling", each.row->ruling},        {"default", each.usual},
+      {"unit", each.field->type.unit}, {"measured_by", each.row->measured}, {"verdict", word(each.verdict)}};
   if (each.verdict == Verdict::kNotShown) {
     json["why"] = each.words;
     return json;
@@ -155,13 +158,14 @@ nlohmann::ordered_json claim_json(const ClaimResult& claim) {
 std::string text(const Result& result, bool all) {
   std::string text =
       line("capture", fmt::format("{}: {} pins, {}", result.file, result.wires.size(), time_text(result.end)));
-  text += line("pins", wires_text(result.wires));
+  text += line("pins", wires_text(*result.table, result.wires));
   text += line("samples", fmt::format("every {:.3f} ns{}, jitter up to {:.1f} ns", result.sample_ns,
                                       result.rate_found ? " (by the times of the changes)" : "", result.jitter_ns));
   text += line("chip's clock", ppm_text(result.found.clock));
   text += line("master's clock", ppm_text(result.found.master_clock));
-  text += line("seen", fmt::format("{} requests, {} answers, {} accesses of the chip, {} of the user", result.requests,
-                                   result.answers, result.accesses, result.user_accesses));
+  text += line("seen",
+               fmt::format("{} requests, {} answers, {} accesses of the chip, {} of the user", result.found.requests,
+                           result.found.answers, result.found.accesses, result.found.user_accesses));
   text += "\n" + parameter_table(result) + "\n" + claim_table(result, all) + "\n" + (all ? hidden_text(result) : "") +
           summary(result) + "\n";
   return text;
@@ -188,7 +192,7 @@ std::string chip_block(const Result& result) {
   for (const ParameterResult& each : result.parameters) {
     const bool shown = each.verdict != Verdict::kNotShown;
     any = any || shown;
-    text += fmt::format("  {}{}: {}  # {} {}\n", shown ? "" : "# ", each.row->key, each.chosen, ruling_of(*each.row),
+    text += fmt::format("  {}{}: {}  # {} {}\n", shown ? "" : "# ", each.row->key, each.chosen, each.row->ruling,
                         shown ? "measured: " + each.words : "not shown: " + each.words);
   }
   return any ? text : text + "  {}\n";

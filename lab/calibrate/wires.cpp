@@ -13,18 +13,7 @@ namespace {
 
 using bus::capture::CaptureError;
 
-constexpr std::array<const char*, static_cast<std::size_t>(Wire::kA)> kPins = {
-#define DSDPV1_PIN(pin, name, ...) name,
-#define DSDPV1_BUS(...)
-#define DSDPV1_RSU_PIN(...)
-#include "model/dsdpv1/pins.inc"
-};
-
-Wire wire_at(std::size_t place) { return static_cast<Wire>(place); }
 std::size_t place_of(Wire wire) { return static_cast<std::size_t>(wire); }
-bool is_address(Wire wire) { return wire >= Wire::kA && wire < Wire::kD; }
-bool is_data(Wire wire) { return wire >= Wire::kD; }
-std::size_t bit_of(Wire wire) { return place_of(wire) - place_of(is_data(wire) ? Wire::kD : Wire::kA); }
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -38,12 +27,12 @@ bool in_scope(const std::string& signal, const std::string& scope) {
 }
 
 /// How a signal may be called: "l_sta", as rtl_ref has it "l_sta_o", bits "a3", "a[3]", "a_i[3]".
-std::vector<std::string> spellings(Wire wire) {
-  if (!is_address(wire) && !is_data(wire)) {
-    const std::string pin = lower(name(wire));
+std::vector<std::string> spellings(const WireInfo& wire) {
+  if (wire.bus.empty()) {
+    const std::string pin = lower(wire.name);
     return {pin, pin + "_i", pin + "_o"};
   }
-  const std::string bus = is_data(wire) ? "d" : "a", bit = std::to_string(bit_of(wire));
+  const std::string bus = lower(wire.bus), bit = std::to_string(wire.bit);
   return {bus + bit, bus + "[" + bit + "]", bus + "_i[" + bit + "]"};
 }
 
@@ -55,10 +44,11 @@ std::vector<std::string> first_of(std::vector<std::string> names) {
 
 }  // namespace
 
-std::string name(Wire wire) {
-  if (is_data(wire)) return "D" + std::to_string(bit_of(wire));
-  if (is_address(wire)) return "A" + std::to_string(bit_of(wire));
-  return kPins.at(place_of(wire));
+std::vector<Wire> wires_of(const WireTable& table, const std::string& group) {
+  std::vector<Wire> wires;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (table[i].group != nullptr && table[i].group == group) wires.push_back(static_cast<Wire>(i));
+  return wires;
 }
 
 std::size_t Trace::count_until(Tick at) const {
@@ -92,12 +82,6 @@ bool Record::sees(const std::vector<Wire>& wires) const {
       wires.begin(), wires.end(), [this](Wire wire) { return sees(wire); });
 }
 
-bool Record::sees_accesses() const {
-  for (std::size_t place = place_of(Wire::kA); place < kWireCount; ++place)
-    if (!traces[place].seen) return false;
-  return sees({Wire::kCsr, Wire::kRd, Wire::kWr});
-}
-
 std::uint32_t Record::number(Wire first, std::size_t count, Tick at) const {
   std::uint32_t value = 0;
   for (std::size_t bit = 0; bit < count; ++bit) value |= (traces.at(place_of(first) + bit).at(at) ? 1U : 0U) << bit;
@@ -105,7 +89,7 @@ std::uint32_t Record::number(Wire first, std::size_t count, Tick at) const {
 }
 
 std::vector<std::size_t> RecordTaker::choose(const std::vector<std::string>& signals) {
-  for (std::size_t place = 0; place < kWireCount; ++place) look_for(wire_at(place), signals);
+  for (std::size_t place = 0; place < table_.size(); ++place) look_for(static_cast<Wire>(place), signals);
   leave_out_lone_data();
   if (chosen_.empty())
     throw CaptureError("shows no pin of the chip, its signals are " + tb::join(first_of(signals)) +
@@ -114,19 +98,18 @@ std::vector<std::size_t> RecordTaker::choose(const std::vector<std::string>& sig
 }
 
 void RecordTaker::look_for(Wire wire, const std::vector<std::string>& signals) {
-  const bool bus = is_address(wire) || is_data(wire);
+  const WireInfo& info = table_[place_of(wire)];
   std::size_t found = Trace::kNone;
   bool inverted = false;
-  const auto single = names_.given.find(name(wire));
-  const auto vector = names_.given.find(is_data(wire) ? "D" : "A");
+  const auto single = names_.given.find(info.name), vector = names_.given.find(info.bus);
   if (single != names_.given.end()) {
-    found = given_place(wire, single->second, "", signals);
+    found = given_place(info, single->second, "", signals);
     inverted = single->second.inverted;
-  } else if (bus && vector != names_.given.end()) {
-    found = given_place(wire, vector->second, "[" + std::to_string(bit_of(wire)) + "]", signals);
+  } else if (!info.bus.empty() && vector != names_.given.end()) {
+    found = given_place(info, vector->second, "[" + std::to_string(info.bit) + "]", signals);
     inverted = vector->second.inverted;
   } else if (!names_.only_given) {
-    found = named_place(wire, signals);
+    found = named_place(info, signals);
   }
   if (found == Trace::kNone) return;
   places_.push_back(found);
@@ -135,7 +118,7 @@ void RecordTaker::look_for(Wire wire, const std::vector<std::string>& signals) {
   record_.names.at(place_of(wire)) = signals[found];
 }
 
-std::size_t RecordTaker::given_place(Wire wire, const Names::Given& given, const std::string& suffix,
+std::size_t RecordTaker::given_place(const WireInfo& wire, const Names::Given& given, const std::string& suffix,
                                      const std::vector<std::string>& signals) const {
   const std::string wanted = given.signal + suffix;
   std::size_t found = Trace::kNone;
@@ -147,16 +130,16 @@ std::size_t RecordTaker::given_place(Wire wire, const Names::Given& given, const
     if (!end || !in_scope(signal, names_.scope)) continue;
     if (found != Trace::kNone)
       throw CaptureError(
-          fmt::format("{} for {} means {} and {}, allowed is one of them", wanted, name(wire), signals[found], signal));
+          fmt::format("{} for {} means {} and {}, allowed is one of them", wanted, wire.name, signals[found], signal));
     found = i;
   }
   if (found == Trace::kNone)
-    throw CaptureError(fmt::format("has no signal {} for {}{}, allowed are {}", wanted, name(wire),
+    throw CaptureError(fmt::format("has no signal {} for {}{}, allowed are {}", wanted, wire.name,
                                    tb::did_you_mean(wanted, signals), tb::join(first_of(signals))));
   return found;
 }
 
-std::size_t RecordTaker::named_place(Wire wire, const std::vector<std::string>& signals) const {
+std::size_t RecordTaker::named_place(const WireInfo& wire, const std::vector<std::string>& signals) const {
   const std::vector<std::string> allowed = spellings(wire);
   std::size_t found = Trace::kNone;
   for (std::size_t i = 0; i < signals.size(); ++i) {
@@ -164,7 +147,7 @@ std::size_t RecordTaker::named_place(Wire wire, const std::vector<std::string>& 
     if (!right || !in_scope(signals[i], names_.scope)) continue;
     if (found != Trace::kNone)
       throw CaptureError(fmt::format("has {} twice, as {} and {}, allowed is one: --scope or --signal {}=NAME",
-                                     name(wire), signals[found], signals[i], name(wire)));
+                                     wire.name, signals[found], signals[i], wire.name));
     found = i;
   }
   return found;
@@ -172,11 +155,16 @@ std::size_t RecordTaker::named_place(Wire wire, const std::vector<std::string>& 
 
 /// D0 to D7 are also what logic analysers call their channels.
 void RecordTaker::leave_out_lone_data() {
-  if (record_.sees(Wire::kCsr) || record_.sees(Wire::kRd) || record_.sees(Wire::kWr) || record_.sees(Wire::kA)) return;
+  const auto is_data = [this](const Chosen& chosen) { return table_[place_of(chosen.wire)].bus == "D"; };
+  const auto is_of_port = [&](const Chosen& chosen) {
+    return table_[place_of(chosen.wire)].group != nullptr && !is_data(chosen);
+  };
+  if (std::any_of(chosen_.begin(), chosen_.end(), is_of_port)) return;
   for (std::size_t i = chosen_.size(); i-- > 0;) {
-    const Wire wire = chosen_[i].wire;
-    if (!is_data(wire) || names_.given.count(name(wire)) != 0 || names_.given.count("D") != 0) continue;
-    record_.traces.at(place_of(wire)).seen = false;
+    const std::size_t place = place_of(chosen_[i].wire);
+    const bool given = names_.given.count(table_[place].name) != 0 || names_.given.count("D") != 0;
+    if (!is_data(chosen_[i]) || given) continue;
+    record_.traces.at(place).seen = false;
     chosen_.erase(chosen_.begin() + static_cast<std::ptrdiff_t>(i));
     places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -186,10 +174,9 @@ void RecordTaker::level(Tick at, std::size_t which, bool level) {
   const Chosen& chosen = chosen_[which];
   Trace& trace = record_.traces.at(place_of(chosen.wire));
   const bool now = level != chosen.inverted;
-  bool& begun = begun_.at(place_of(chosen.wire));
-  if (!begun) {
+  if (!begun_.at(place_of(chosen.wire))) {
     trace.first = now;
-    begun = true;
+    begun_.at(place_of(chosen.wire)) = true;
     return;
   }
   if (trace.level(trace.edges.size()) == now) return;

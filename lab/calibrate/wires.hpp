@@ -1,6 +1,5 @@
 #pragma once
-// The wires of the chip that a capture shows: any subset of table 1, each with its edges.
-#include <array>
+// The wires of a chip that a capture shows: any subset of its kind's table, each with its edges.
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -9,27 +8,24 @@
 
 #include "bus/capture/level_taker.hpp"
 #include "bus/time.hpp"
-#include "model/dsdpv1/pins.hpp"
 
 namespace dsdpv1::calibrate {
 
 using bus::Tick;
 
-constexpr std::size_t kAddressWires = dsdpv1::width(dsdpv1::Pin::kA), kDataWires = dsdpv1::width(dsdpv1::Pin::kDIn);
+/// Its place in the WireTable.
+enum class Wire : std::uint8_t {};
 
-/// Single pins of table 1; A0 to A10 and D0 to D7 follow kA and kD.
-enum class Wire : std::uint8_t {
-#define DSDPV1_PIN(pin, ...) pin,
-#define DSDPV1_BUS(...)
-#define DSDPV1_RSU_PIN(...)
-#include "model/dsdpv1/pins.inc"
-  kA,
-  kD = kA + kAddressWires,
+struct WireInfo {
+  std::string name;  ///< the datasheet's: "PBTXD", "A10"
+  std::string bus;   ///< of one wire of several: "A"
+  std::size_t bit = 0;
+  const char* group = nullptr;  ///< what is called by one name where not all of it is there: "pins of the host port"
 };
-constexpr std::size_t kWireCount = static_cast<std::size_t>(Wire::kD) + kDataWires;
+using WireTable = std::vector<WireInfo>;
 
-/// Table 1's name: "L_REQ", "A10".
-std::string name(Wire wire);
+/// Those of a group.
+std::vector<Wire> wires_of(const WireTable& table, const std::string& group);
 
 /// What one wire did.
 struct Trace {
@@ -55,19 +51,18 @@ struct Trace {
 
 /// What a capture shows.
 struct Record {
-  std::array<Trace, kWireCount> traces;
-  std::array<std::string, kWireCount> names;  ///< in the capture
+  /// `table` must outlive it.
+  explicit Record(const WireTable& all) : table(all), traces(all.size()), names(all.size()) {}
+
+  const WireTable& table;
+  std::vector<Trace> traces;
+  std::vector<std::string> names;  ///< in the capture
   Tick end = 0;
 
   const Trace& operator[](Wire wire) const { return traces.at(static_cast<std::size_t>(wire)); }
   bool sees(Wire wire) const { return (*this)[wire].seen; }
   bool sees(const std::vector<Wire>& wires) const;
-  /// CSR, RD, WR, all of A and D.
-  bool sees_accesses() const;
-  std::uint32_t address(Tick at) const { return number(Wire::kA, kAddressWires, at); }
-  std::uint32_t data(Tick at) const { return number(Wire::kD, kDataWires, at); }
-
- private:
+  /// The value of a bus, whose wires follow `first`.
   std::uint32_t number(Wire first, std::size_t count, Tick at) const;
 };
 
@@ -78,14 +73,16 @@ struct Names {
     std::string signal;
     bool inverted = false;
   };
-  std::map<std::string, Given> given;  ///< by the pin's name: table 1, A and D as vectors, A0.., D0..
+  std::map<std::string, Given> given;  ///< by the wire's name, or the bus's
   bool only_given = false;
 };
 
 /// Takes from a recording the wires of the chip.
 class RecordTaker : public bus::capture::LevelTaker {
  public:
-  explicit RecordTaker(Names names) : names_(std::move(names)) {}
+  /// `table` must outlive the record.
+  RecordTaker(const WireTable& table, Names names)
+      : table_(table), names_(std::move(names)), record_(table), begun_(table.size()) {}
 
   /// Throws CaptureError when no pin of the chip is there, one is there twice, or one that was given is missing.
   std::vector<std::size_t> choose(const std::vector<std::string>& signals) override;
@@ -103,16 +100,17 @@ class RecordTaker : public bus::capture::LevelTaker {
     bool inverted;
   };
   void look_for(Wire wire, const std::vector<std::string>& signals);
-  std::size_t given_place(Wire wire, const Names::Given& given, const std::string& suffix,
+  std::size_t given_place(const WireInfo& wire, const Names::Given& given, const std::string& suffix,
                           const std::vector<std::string>& signals) const;
-  std::size_t named_place(Wire wire, const std::vector<std::string>& signals) const;
+  std::size_t named_place(const WireInfo& wire, const std::vector<std::string>& signals) const;
   void leave_out_lone_data();
 
+  const WireTable& table_;
   Names names_;
   Record record_;
   std::vector<std::size_t> places_;
   std::vector<Chosen> chosen_;
-  std::array<bool, kWireCount> begun_{};
+  std::vector<bool> begun_;
   std::size_t changes_ = 0;
 };
 

@@ -24,6 +24,9 @@
 namespace dsdpv1::cosim {
 class RtlOf;
 }
+namespace dsdpv1::calibrate {
+class Claims;
+}
 
 namespace dsdpv1::tb {
 
@@ -168,6 +171,8 @@ class ChipKind {
   // --- Faculties that a kind may lack: null.
   /// For RTL beside the model: --engine rtl and lockstep, cosim, rtl-random.
   virtual const cosim::RtlOf* rtl() const { return nullptr; }
+  /// What captures of its pins can show of its rulings, for calibrate.
+  virtual const calibrate::Claims* claims() const { return nullptr; }
 
   // --- What happens.
   /// Of its events.

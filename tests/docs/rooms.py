@@ -46,10 +46,6 @@ NAME_A_CHIP = {
         cosim/random/play_wave.hpp cosim/random/player.cpp cosim/random/player.hpp cosim/random/random_master.cpp
         cosim/random/random_master.hpp cosim/random/random_setup.hpp cosim/random/stimulus.hpp cosim/random/stimulus_result.cpp
     """.split(),
-    "one class a kind of chip": """
-        lab/calibrate/found.hpp lab/calibrate/scene.cpp lab/calibrate/scene.hpp lab/calibrate/search.cpp lab/calibrate/watchdog.cpp
-        lab/calibrate/wires.cpp lab/calibrate/wires.hpp
-    """.split(),
 }
 FORBIDDEN += [(room, A_CHIP, "no chip by name") for room in GENERAL_ROOMS]
 FORBIDDEN += [(room, ITS_CELLS, "no chip's pins and cells") for room in GENERAL_ROOMS]

@@ -5,24 +5,24 @@
 #include <cmath>
 #include <utility>
 
-#include "lab/calibrate/found.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
 
-const Claim kTogether = {"H1", "L_REQ and L_STA rise and fall together", {Wire::kLReq, Wire::kLSta}};
-const Claim kHeldOff = {"H1", "the chip waits while R_REQ or R_STA is high", {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
+const Claim kTogether = {"H1", "L_REQ and L_STA rise and fall together", {wire::kLReq, wire::kLSta}};
+const Claim kHeldOff = {"H1", "the chip waits while R_REQ or R_STA is high", {wire::kLReq, wire::kRReq, wire::kRSta}};
 const Claim kAtOnce = {"H1",
                        "an access that waited starts when both have fallen, 2 to 3 cycles later",
-                       {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
-const Claim kInterval = {"H1", "accesses start one interval after the other, never earlier", {Wire::kLReq}};
+                       {wire::kLReq, wire::kRReq, wire::kRSta}};
+const Claim kInterval = {"H1", "accesses start one interval after the other, never earlier", {wire::kLReq}};
 const Claim kRace = {
-    "H2", "the chip starts no access later than 2 cycles after R_REQ rose", {Wire::kLReq, Wire::kRReq}};
-const Claim kEmpty = {"H3", "an access with nothing to do takes 7 cycles, none less", {Wire::kLReq}};
-const Claim kStartUp = {"H6", "the start-up access takes 2054 cycles", {Wire::kLReq}};
+    "H2", "the chip starts no access later than 2 cycles after R_REQ rose", {wire::kLReq, wire::kRReq}};
+const Claim kEmpty = {"H3", "an access with nothing to do takes 7 cycles, none less", {wire::kLReq}};
+const Claim kStartUp = {"H6", "the start-up access takes 2054 cycles", {wire::kLReq}};
 const Claim kOverdue = {"H8",
                         "an overdue access starts one cycle after the end of the one before",
-                        {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
+                        {wire::kLReq, wire::kRReq, wire::kRSta}};
 
 std::string cycles_text(const Span& span) { return fmt::format("{:.1f} to {:.1f} cycles", span.lo, span.hi); }
 
@@ -45,9 +45,9 @@ void judge_edges(const Scene& scene, Found& found, Wire one, Wire other, const c
 }
 
 void judge_together(const Scene& scene, Found& found) {
-  if (!scene.record[Wire::kLReq].seen || !scene.record[Wire::kLSta].seen) return;
-  judge_edges(scene, found, Wire::kLReq, Wire::kLSta, "L_REQ {}, L_STA does not");
-  judge_edges(scene, found, Wire::kLSta, Wire::kLReq, "L_STA {}, L_REQ does not");
+  if (!scene.record[wire::kLReq].seen || !scene.record[wire::kLSta].seen) return;
+  judge_edges(scene, found, wire::kLReq, wire::kLSta, "L_REQ {}, L_STA does not");
+  judge_edges(scene, found, wire::kLSta, wire::kLReq, "L_STA {}, L_REQ does not");
 }
 
 // --- the interval
@@ -139,7 +139,7 @@ void fit_interval(Scene& scene, Found& found) {
   std::vector<Instance> instances;
   for (std::size_t i = 0; i + 1 < scene.accesses.size(); ++i)
     if (undisturbed(scene, i)) instances.push_back(interval_of(scene, i));
-  Fit& fit = found.fit(Parameter::kAccessInterval);
+  Fit& fit = found.fit(parameter::kAccessInterval);
   fit.estimate = estimate(instances);
   if (fit.estimate.count == 0) {
     fit.not_shown = "no two accesses without the user between them";
@@ -152,7 +152,7 @@ void fit_interval(Scene& scene, Found& found) {
 
 /// What comes too early is against the ruling; what comes late too, where the user's pins show that it did not ask.
 void judge_interval(const Scene& scene, Found& found) {
-  Estimate& interval = found.fit(Parameter::kAccessInterval).estimate;
+  Estimate& interval = found.fit(parameter::kAccessInterval).estimate;
   if (interval.count == 0) return;
   std::vector<Outlier> real;
   for (const Outlier& outlier : interval.outliers) {
@@ -169,7 +169,7 @@ void judge_interval(const Scene& scene, Found& found) {
 /// When both had fallen last before `at`; nothing when one is high or nobody asked.
 std::optional<Tick> released_before(const Scene& scene, Tick at) {
   Tick released = -1;
-  for (const Wire wire : {Wire::kRReq, Wire::kRSta}) {
+  for (const Wire wire : {wire::kRReq, wire::kRSta}) {
     const Trace& trace = scene.record[wire];
     if (trace.at(at)) return std::nullopt;
     const std::size_t edge = trace.last(at, false);
@@ -181,8 +181,8 @@ std::optional<Tick> released_before(const Scene& scene, Tick at) {
 /// How long one of the user's pins had been high when the chip looked, 2 cycles before `at`; 0 when none was.
 bool held_when_looked(const Scene& scene, Tick at) {
   const Tick doubt = scene.time.ticks(scene.time.doubt() + 0.5), looked = at - scene.time.ticks(2);
-  return scene.record[Wire::kRReq].high(looked - doubt - bus::kTicksPerCycle, looked + doubt) ||
-         scene.record[Wire::kRSta].high(looked - doubt - bus::kTicksPerCycle, looked + doubt);
+  return scene.record[wire::kRReq].high(looked - doubt - bus::kTicksPerCycle, looked + doubt) ||
+         scene.record[wire::kRSta].high(looked - doubt - bus::kTicksPerCycle, looked + doubt);
 }
 
 /// Where samples may lie so far apart that a release between two holds is not seen, what would be wrong is not known.
@@ -200,7 +200,7 @@ void judge_start(const Scene& scene, std::size_t i, const Fit& interval, Found& 
   const Tick at = scene.accesses[i].start;
   judge_fine(scene, kHeldOff, !held_when_looked(scene, at), at, "an access starts while the user holds the DPRAM",
              found);
-  const Trace& request = scene.record[Wire::kRReq];
+  const Trace& request = scene.record[wire::kRReq];
   if (const std::size_t rose = request.last(at, true); request.at(at) && rose != Trace::kNone) {
     const Span after = scene.time.between(request.edges[rose], at);
     judge_fine(scene, kRace, after.lo <= 2, at, "an access starts long after R_REQ rose", found);
@@ -219,7 +219,7 @@ void judge_user_pins(const Scene& scene, Found& found) {
   for (std::size_t i = 0; i < scene.accesses.size(); ++i) {
     const ChipAccess& access = scene.accesses[i];  // a start-up access waits, too (H6)
     if (scene.is_start_up(access) || !scene.in_reset(access.start - scene.time.ticks(8), access.start))
-      judge_start(scene, i, found.fit(Parameter::kAccessInterval), found);
+      judge_start(scene, i, found.fit(parameter::kAccessInterval), found);
   }
 }
 
@@ -277,7 +277,7 @@ std::vector<Instance> lengths_without_user(const Scene& scene) {
 void judge_share(const Scene& scene, Found& found) {
   constexpr std::size_t kEnough = 20;
   constexpr double kExchange = 660;  // cycles: one byte of outputs and a short answer at 12 Mbit/s, with TSDR and T_SYN
-  if (!scene.sees_user() || 3 * found.fit(Parameter::kAccessInterval).estimate.span.hi > kExchange) return;
+  if (!scene.sees_user() || 3 * found.fit(parameter::kAccessInterval).estimate.span.hi > kExchange) return;
   std::vector<Instance> lengths = lengths_without_user(scene);
   const std::size_t all = lengths.size();
   if (all < kEnough) return;
@@ -308,7 +308,7 @@ void judge_start_up(const Scene& scene, Found& found) {
 }
 
 void judge_overdue(const Scene& scene, Found& found) {
-  const Fit& interval = found.fit(Parameter::kAccessInterval);
+  const Fit& interval = found.fit(parameter::kAccessInterval);
   if (interval.estimate.count == 0) return;
   for (std::size_t i = 0; i + 1 < scene.accesses.size(); ++i) {
     const ChipAccess &one = scene.accesses[i], &two = scene.accesses[i + 1];
@@ -332,7 +332,7 @@ void judge_overdue(const Scene& scene, Found& found) {
 void measure_access(Scene& scene, Found& found) {
   judge_start_up(scene, found);
   if (scene.may_miss_accesses()) {
-    found.fit(Parameter::kAccessInterval).not_shown = kTooCoarse;
+    found.fit(parameter::kAccessInterval).not_shown = kTooCoarse;
     for (const Claim* claim : access_claims())
       if (claim != &kStartUp) found.judge.coarse(*claim);
     return;
@@ -346,6 +346,8 @@ void measure_access(Scene& scene, Found& found) {
   judge_overdue(scene, found);
 }
 
-Claims access_claims() { return {&kInterval, &kTogether, &kHeldOff, &kAtOnce, &kRace, &kEmpty, &kStartUp, &kOverdue}; }
+ClaimList access_claims() {
+  return {&kInterval, &kTogether, &kHeldOff, &kAtOnce, &kRace, &kEmpty, &kStartUp, &kOverdue};
+}
 
 }  // namespace dsdpv1::calibrate

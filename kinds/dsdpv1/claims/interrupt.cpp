@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <limits>
 
-#include "lab/calibrate/found.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
 #include "model/dsdpv1/chip.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
 
-const Claim kPulses = {"P7", "every pulse of INTR0 is as long as the others", {Wire::kIntr0}};
+const Claim kPulses = {"P7", "every pulse of INTR0 is as long as the others", {wire::kIntr0}};
 const Claim kInAccess = {
-    "P7", "INTR0 falls while the chip has the DPRAM, or when the gap ends", {Wire::kIntr0, Wire::kLReq}};
-const Claim kReady = {"D7", "READY rises while the chip reads the DPRAM", {Wire::kReady, Wire::kLReq}};
+    "P7", "INTR0 falls while the chip has the DPRAM, or when the gap ends", {wire::kIntr0, wire::kLReq}};
+const Claim kReady = {"D7", "READY rises while the chip reads the DPRAM", {wire::kReady, wire::kLReq}};
 
 struct Pulse {
   Tick fall = 0, rise = 0;
@@ -21,18 +21,18 @@ struct Pulse {
 
 std::vector<Pulse> pulses_of(const Scene& scene) {
   std::vector<Pulse> pulses;
-  const Trace& trace = scene.record[Wire::kIntr0];
+  const Trace& trace = scene.record[wire::kIntr0];
   for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2)
     if (!scene.in_reset(trace.edges[edge], trace.edges[edge + 1] + scene.time.margin()))  // not cut by one
       pulses.push_back({trace.edges[edge], trace.edges[edge + 1]});
   return pulses;
 }
 
-bool sees_accesses(const Scene& scene) { return scene.record.sees(Wire::kLReq) && !scene.may_miss_accesses(); }
+bool sees_accesses(const Scene& scene) { return scene.record.sees(wire::kLReq) && !scene.may_miss_accesses(); }
 
 /// Whether the chip has the DPRAM at `at`, or had it just before.
 bool owned(const Scene& scene, Tick at) {
-  const Trace& trace = scene.record[Wire::kLReq];
+  const Trace& trace = scene.record[wire::kLReq];
   const Tick about = scene.time.ticks(1) + scene.time.margin();
   return !trace.low(at - about, at + about);
 }
@@ -69,7 +69,7 @@ std::vector<Pulse> whole_pulses(const Scene& scene, std::vector<Pulse> pulses) {
 
 void fit_low(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
   const std::vector<Pulse> whole = whole_pulses(scene, pulses);
-  Fit& fit = found.fit(Parameter::kIntrLow);
+  Fit& fit = found.fit(parameter::kIntrLow);
   fit.estimate = length_of(scene, whole);
   if (pulses.empty()) fit.not_shown = "INTR0 has no pulse";
   if (whole.size() == 1 && may_be_cut(scene, whole.front()) && fit.estimate.span.hi < dsdpv1::Config{}.intr_low) {
@@ -96,7 +96,7 @@ void fit_gap(const Scene& scene, const std::vector<Pulse>& pulses, Found& found)
     shortest = std::min(shortest, gap.hi);
     if (sees_accesses(scene) && !owned(scene, to)) waited.push_back({to, gap, scene.time.best(from, to)});
   }
-  Fit& fit = found.fit(Parameter::kIntrGap);
+  Fit& fit = found.fit(parameter::kIntrGap);
   fit.estimate = estimate(waited, &scene.time);
   if (!waited.empty()) return;
   if (shortest >= 1e12) {
@@ -109,7 +109,7 @@ void fit_gap(const Scene& scene, const std::vector<Pulse>& pulses, Found& found)
 }
 
 void judge_falls(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
-  const Fit& gap = found.fit(Parameter::kIntrGap);
+  const Fit& gap = found.fit(parameter::kIntrGap);
   for (std::size_t i = 0; i < pulses.size(); ++i) {
     const bool waited =
         i > 0 && !gap.at_most && overlap(scene.time.between(pulses[i - 1].rise, pulses[i].fall), gap.estimate.span);
@@ -120,7 +120,7 @@ void judge_falls(const Scene& scene, const std::vector<Pulse>& pulses, Found& fo
 }
 
 void judge_ready(const Scene& scene, Found& found) {
-  const Trace& ready = scene.record[Wire::kReady];
+  const Trace& ready = scene.record[wire::kReady];
   for (std::size_t edge = ready.next(0, true); edge < ready.edges.size(); edge += 2)
     found.judge.judge(kReady, owned(scene, ready.edges[edge]), ready.edges[edge],
                       "READY rises without an access of the chip");
@@ -135,6 +135,6 @@ void measure_interrupt(const Scene& scene, Found& found) {
   if (sees_accesses(scene)) judge_falls(scene, pulses, found), judge_ready(scene, found);
 }
 
-Claims interrupt_claims() { return {&kPulses, &kInAccess, &kReady}; }
+ClaimList interrupt_claims() { return {&kPulses, &kInAccess, &kReady}; }
 
 }  // namespace dsdpv1::calibrate

@@ -11,9 +11,9 @@ bool may_be_in_reset(const Scene& scene, const UserAccess& read) {
 }
 
 bool before_start_up(const Scene& scene, const UserAccess& read) {
-  const Trace& reset = scene.record[Wire::kReset];
+  const Trace& reset = scene.record[wire::kReset];
   const std::size_t rose = reset.last(read.start, true);
-  if (rose == Trace::kNone || !scene.record.sees(Wire::kLReq)) return false;
+  if (rose == Trace::kNone || !scene.record.sees(wire::kLReq)) return false;
   const auto next = std::lower_bound(scene.accesses.begin(), scene.accesses.end(), read.end,
                                      [](const ChipAccess& access, Tick at) { return access.start < at; });
   return next == scene.accesses.begin() || std::prev(next)->start < reset.edges[rose];
@@ -25,8 +25,8 @@ bool has_dpram(const Scene& scene, const UserAccess& read) {
     return !trace.seen || (level ? trace.high(from, to) : trace.low(from, to));
   };
   const Tick from = read.start - scene.time.margin(), to = read.start + scene.time.margin();
-  return is(Wire::kRReq, true, read.start, read.end) && is(Wire::kRSta, true, read.start, read.end) &&
-         is(Wire::kLReq, false, from, to) && is(Wire::kLSta, false, from, to);
+  return is(wire::kRReq, true, read.start, read.end) && is(wire::kRSta, true, read.start, read.end) &&
+         is(wire::kLReq, false, from, to) && is(wire::kLSta, false, from, to);
 }
 
 /// A write takes effect at the third edge of CLK after WR rose, a read samples at the first.

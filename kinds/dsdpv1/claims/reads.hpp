@@ -1,6 +1,6 @@
 #pragma once
 // Which of the user's reads say something of the chip.
-#include "lab/calibrate/scene.hpp"
+#include "kinds/dsdpv1/claims/scene.hpp"
 
 namespace dsdpv1::calibrate {
 

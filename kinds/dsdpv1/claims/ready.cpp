@@ -1,8 +1,8 @@
 // D1: when B004 is written.
 #include <algorithm>
 
+#include "kinds/dsdpv1/claims/found.hpp"
 #include "kinds/dsdpv1/claims/reads.hpp"
-#include "lab/calibrate/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
@@ -21,7 +21,7 @@ class SinceRelease {
   /// R is 2 to 3 cycles after RESET rose; without RESET it is where the start-up access begins, if the user did not ask
   /// before the chip looked.
   static std::optional<SinceRelease> of(const Scene& scene, const ChipAccess& start_up) {
-    const Trace& reset = scene.record[Wire::kReset];
+    const Trace& reset = scene.record[wire::kReset];
     const std::size_t rose = reset.last(start_up.start, true);
     if (reset.seen && rose != Trace::kNone) return SinceRelease{scene, reset.edges[rose], {2, 3}};
     const Tick before = start_up.start - scene.time.ticks(4) - scene.time.margin();
@@ -52,7 +52,7 @@ void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until,
     if (access.write) return;
     const std::optional<Standing> standing = standing_data(scene, access);
     if (!standing || !is_known(scene, access)) continue;
-    const std::uint32_t data = scene.record.data(standing->to);
+    const std::uint32_t data = data_at(scene.record, standing->to);
     std::size_t before = start_up;
     while (before + 1 < scene.accesses.size() && scene.accesses[before + 1].start < access.start) ++before;
     if (before == start_up) continue;
@@ -81,7 +81,7 @@ void bound_by_length(const Scene& scene, std::size_t start_up, std::size_t until
 
 void measure_ready(const Scene& scene, Found& found) {
   constexpr double kFar = 1e12;
-  Fit& fit = found.fit(Parameter::kReadyCycles);
+  Fit& fit = found.fit(parameter::kReadyCycles);
   if (scene.may_miss_accesses()) {
     fit.not_shown = kTooCoarse;
     return;

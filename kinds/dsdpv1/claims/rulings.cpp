@@ -1,10 +1,9 @@
 #include "kinds/dsdpv1/claims/rulings.hpp"
 
-#include <cstdlib>
 #include <map>
 #include <string>
 
-#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
@@ -17,9 +16,7 @@ const char* const kWithS1 = "it is judged with S1";
 const char* const kWithS11 = "it is judged with S11";
 const char* const kModels = "it is about the model";
 
-}  // namespace
-
-const std::vector<Ruling>& rulings() {
+const std::vector<Ruling>& all_rulings() {
   static const std::vector<Ruling> all = {
       {"P1", nullptr},  {"P2", nullptr},  {"P3", nullptr},   {"P4", kNoPin},    {"P5", nullptr},  {"P6", nullptr},
       {"P7", nullptr},  {"P8", kUsers},   {"P9", nullptr},   {"P10", nullptr},  {"P11", kUsers},  {"P12", kUsers},
@@ -39,42 +36,86 @@ const std::vector<Ruling>& rulings() {
   return all;
 }
 
-Claims all_claims() {
-  Claims all;
-  for (const Claims& claims : {clock_claims(), access_claims(), interrupt_claims(), tsdr_claims(), answer_claims(),
-                               search_claims(), watchdog_claims(), telegram_claims(), user_claims(), reset_claims()})
-    all.insert(all.end(), claims.begin(), claims.end());
-  return all;
-}
-
-const std::vector<ParameterRow>& parameters() {
-  using W = Wire;
-  constexpr const char* kSearch = "begin of the search to the telegram that ends it";
-  static const std::vector<ParameterRow> all = {
-      {Parameter::kRtsLead, "rts_lead", "PBRTS rises to the answer's first start bit", {W::kPbrts, W::kPbtxd}},
-      {Parameter::kRtsTrail, "rts_trail", "end of the last stop bit to the fall of PBRTS", {W::kPbrts, W::kPbtxd}},
-      {Parameter::kIntrLow, "intr_low", "INTR0 low", {W::kIntr0}},
-      {Parameter::kIntrGap, "intr_gap", "INTR0 high before a pulse that waited", {W::kIntr0}},
-      {Parameter::kAccessInterval, "access_interval", "rises of L_REQ, the user's pins low", {W::kLReq}},
-      {Parameter::kReadyCycles, "ready_cycles", "release of RESET (R) to the access that writes B004", {W::kLReq}},
-      {Parameter::kSearchWindowMs, "search_window_ms", kSearch, {W::kPbrxd, W::kBr}},
-      {Parameter::kSearchWindowBits, "search_window_bits", kSearch, {W::kPbrxd, W::kBr}},
-      {Parameter::kBaudControlMs, "baud_control_ms", "last telegram to the fall of BR", {W::kPbrxd, W::kPbtxd, W::kBr}},
-  };
-  return all;
-}
-
-const char* ruling_of(const ParameterRow& row) {
+const char* ruling_of(const std::string& key) {
   static const std::map<std::string, const char*> rulings = {
 #define DSDPV1_PARAMETER(name, initial, least, most, unit, ruling, text) {#name, ruling},
 #define DSDPV1_RSU_LIST(name, initial, least, most, unit, ruling, text) {#name, ruling},
 #include "model/dsdpv1/parameters.inc"
   };
-  return rulings.at(row.key);
+  return rulings.at(key);
 }
 
-const tb::keys::Field& field_of(const ParameterRow& row) { return *tb::dsdpv1_chip_keys().find(row.key); }
+/// In the order of parameter::
+std::vector<ParameterRow> parameter_rows() {
+  const auto row = [](const char* key, const char* measured, std::vector<Wire> needs) {
+    return ParameterRow{key, ruling_of(key), measured, std::move(needs)};
+  };
+  constexpr const char* kSearch = "begin of the search to the telegram that ends it";
+  return {
+      row("rts_lead", "PBRTS rises to the answer's first start bit", {wire::kPbrts, wire::kPbtxd}),
+      row("rts_trail", "end of the last stop bit to the fall of PBRTS", {wire::kPbrts, wire::kPbtxd}),
+      row("intr_low", "INTR0 low", {wire::kIntr0}),
+      row("intr_gap", "INTR0 high before a pulse that waited", {wire::kIntr0}),
+      row("access_interval", "rises of L_REQ, the user's pins low", {wire::kLReq}),
+      row("ready_cycles", "release of RESET (R) to the access that writes B004", {wire::kLReq}),
+      row("search_window_ms", kSearch, {wire::kPbrxd, wire::kBr}),
+      row("search_window_bits", kSearch, {wire::kPbrxd, wire::kBr}),
+      row("baud_control_ms", "last telegram to the fall of BR", {wire::kPbrxd, wire::kPbtxd, wire::kBr}),
+  };
+}
 
-long long default_of(const ParameterRow& row) { return std::strtoll(field_of(row).default_text.c_str(), nullptr, 10); }
+template <class... Lists>
+std::vector<const Claim*> joined(const Lists&... lists) {
+  std::vector<const Claim*> all;
+  (all.insert(all.end(), lists.begin(), lists.end()), ...);
+  return all;
+}
+
+class Dsdpv1Claims : public Claims {
+ public:
+  const WireTable& wires() const override { return calibrate::wires(); }
+  const std::vector<Ruling>& rulings() const override { return all_rulings(); }
+  const std::vector<const Claim*>& claims() const override {
+    static const std::vector<const Claim*> all =
+        joined(clock_claims(), access_claims(), interrupt_claims(), tsdr_claims(), answer_claims(), search_claims(),
+               watchdog_claims(), telegram_claims(), user_claims(), reset_claims());
+    return all;
+  }
+  const std::vector<ParameterRow>& parameters() const override {
+    static const std::vector<ParameterRow> all = parameter_rows();
+    return all;
+  }
+  Found measure(const Record& record, const Circumstances& circumstances) const override;
+};
+
+Found Dsdpv1Claims::measure(const Record& record, const Circumstances& circumstances) const {
+  Scene scene{record, circumstances.time, circumstances.station};
+  Found found(parameters().size());
+  fill(scene);
+  measure_clock(scene, circumstances.clock_ppm, found);
+  find_resets(scene);
+  measure_access(scene, found);
+  measure_ready(scene, found);
+  measure_interrupt(scene, found);
+  measure_answers(scene, found);
+  measure_tsdr(scene, found);
+  measure_search(scene, found);
+  measure_watchdog(scene, found);
+  measure_telegrams(scene, found);
+  measure_user(scene, found);
+  measure_reset(scene, found);
+  found.requests = scene.exchanges.size();
+  found.answers = scene.sent.size();
+  found.accesses = scene.accesses.size();
+  found.user_accesses = scene.user.size();
+  return found;
+}
+
+}  // namespace
+
+const Claims& dsdpv1_claims() {
+  static const Dsdpv1Claims claims;
+  return claims;
+}
 
 }  // namespace dsdpv1::calibrate

@@ -1,7 +1,7 @@
 // Start-up accesses (H6), and with them the resets of a capture without RESET.
 #include <algorithm>
 
-#include "lab/calibrate/scene.hpp"
+#include "kinds/dsdpv1/claims/scene.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
@@ -17,7 +17,7 @@ Tick before(const Scene& scene, std::size_t i) { return i == 0 ? 0 : scene.acces
 
 /// What RESET says, where it says something.
 std::optional<bool> released_before(const Scene& scene, std::size_t i) {
-  const Trace& reset = scene.record[Wire::kReset];
+  const Trace& reset = scene.record[wire::kReset];
   if (!reset.seen) return std::nullopt;
   const std::size_t rose = reset.last(scene.accesses[i].start, true);
   if (rose != Trace::kNone && reset.edges[rose] > before(scene, i)) return true;
@@ -31,7 +31,7 @@ bool may_be_uninitialised(const Scene& scene, const ChipAccess& access) {
     const Trace& trace = scene.record[wire];
     return !trace.seen || (level ? trace.high(from, to) : trace.low(from, to));
   };
-  return is(Wire::kReady, false) && is(Wire::kBr, false) && is(Wire::kPbf, true) && is(Wire::kPbrts, false);
+  return is(wire::kReady, false) && is(wire::kBr, false) && is(wire::kPbf, true) && is(wire::kPbrts, false);
 }
 
 /// Nobody kept the chip, and yet it made no access for long.
@@ -58,12 +58,12 @@ bool is_start_up(const Scene& scene, std::size_t i) {
   if (length.hi <= kLonger) return false;
   if (was_silent(scene, i)) return true;
   return may_be_uninitialised(scene, access) &&
-         (scene.record.sees(Wire::kReady) || is_too_long(scene, length) || has_right_length(scene, length));
+         (scene.record.sees(wire::kReady) || is_too_long(scene, length) || has_right_length(scene, length));
 }
 
 /// READY falls by nothing else; the chip is back with its next access.
 void find_falls_of_ready(Scene& scene) {
-  const Trace& ready = scene.record[Wire::kReady];
+  const Trace& ready = scene.record[wire::kReady];
   for (std::size_t edge = ready.next(0, false); edge < ready.edges.size(); edge += 2) {
     const Tick fall = ready.edges[edge];
     const auto next = std::upper_bound(scene.accesses.begin(), scene.accesses.end(), fall,
@@ -77,21 +77,21 @@ void find_falls_of_ready(Scene& scene) {
 
 void find_resets(Scene& scene) {
   for (std::size_t i = 0; i < scene.accesses.size(); ++i) scene.accesses[i].start_up = is_start_up(scene, i);
-  if (scene.record.sees(Wire::kReset)) return;
+  if (scene.record.sees(wire::kReset)) return;
   for (std::size_t i = 0; i < scene.accesses.size(); ++i)
     if (scene.accesses[i].start_up) scene.resets.push_back({before(scene, i), scene.accesses[i].start});
   find_falls_of_ready(scene);
 }
 
 bool Scene::in_reset(Tick from, Tick to) const {
-  if (record.sees(Wire::kReset)) return !record[Wire::kReset].high(from, to);
+  if (record.sees(wire::kReset)) return !record[wire::kReset].high(from, to);
   return std::any_of(resets.begin(), resets.end(),
                      [&](const Reset& reset) { return reset.from <= to && from < reset.to; });
 }
 
 bool Scene::may_hide_reset(Tick from, Tick to) const {
-  const bool shown = record.sees(Wire::kReset) || record.sees(Wire::kReady) || record.sees(Wire::kLReq);
-  return !shown && !record[Wire::kBr].high(from, to) && !record[Wire::kPbf].low(from, to);
+  const bool shown = record.sees(wire::kReset) || record.sees(wire::kReady) || record.sees(wire::kLReq);
+  return !shown && !record[wire::kBr].high(from, to) && !record[wire::kPbf].low(from, to);
 }
 
 }  // namespace dsdpv1::calibrate

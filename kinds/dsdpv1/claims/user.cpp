@@ -4,18 +4,25 @@
 #include <algorithm>
 #include <map>
 
+#include "kinds/dsdpv1/claims/found.hpp"
 #include "kinds/dsdpv1/claims/reads.hpp"
-#include "lab/calibrate/found.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
 
-const Claim kData = {"P5", "D stands 31.25 ns after RD and CSR fell, until one of them rises", {}, true};
-const Claim kRam = {"P6", "what the user wrote is there while it holds the DPRAM", {Wire::kLReq}, true};
-const Claim kVersion = {"D1", "B000 to B003 are 01 0D 07 01, B004 is 00 or C5", {}, true};
-const Claim kCrc = {"D2", "a block that the user reads has the right CRC of what D3 says", {}, true};
-const Claim kTaken = {"H5", "flags of B010 that the user set are 0 after an access of the chip", {Wire::kLReq}, true};
+std::vector<Wire> with_host_port(Wire wire) {
+  std::vector<Wire> wires = host_port();
+  wires.push_back(wire);
+  return wires;
+}
+
+const Claim kData = {"P5", "D stands 31.25 ns after RD and CSR fell, until one of them rises", host_port()};
+const Claim kRam = {"P6", "what the user wrote is there while it holds the DPRAM", with_host_port(wire::kLReq)};
+const Claim kVersion = {"D1", "B000 to B003 are 01 0D 07 01, B004 is 00 or C5", host_port()};
+const Claim kCrc = {"D2", "a block that the user reads has the right CRC of what D3 says", host_port()};
+const Claim kTaken = {"H5", "flags of B010 that the user set are 0 after an access of the chip",
+                      with_host_port(wire::kLReq)};
 
 std::uint16_t crc_of(const bus::Bytes& bytes) {
   constexpr std::uint16_t kPolynomial = 0xA001;
@@ -90,11 +97,11 @@ class UserJudge {
     const std::optional<Standing> standing = standing_data(scene_, access);
     if (!standing) return found_.judge.coarse(kData);
     judge_data(*standing);
-    access.data = static_cast<std::uint8_t>(scene_.record.data(standing->to));
+    access.data = static_cast<std::uint8_t>(data_at(scene_.record, standing->to));
     judge_version(access);
-    if (const auto found = written_.find(access.address); found != written_.end() && scene_.record.sees(Wire::kLReq))
+    if (const auto found = written_.find(access.address); found != written_.end() && scene_.record.sees(wire::kLReq))
       check(kRam, access, found->second);
-    if (access.address == dsdpv1::regs::kUserCommand1 && flags_before_ != 0 && scene_.record.sees(Wire::kLReq)) {
+    if (access.address == dsdpv1::regs::kUserCommand1 && flags_before_ != 0 && scene_.record.sees(wire::kLReq)) {
       found_.judge.judge(kTaken, (access.data & flags_before_) == 0, access.end, "a flag still stands");
       flags_before_ = 0;
     }
@@ -108,7 +115,7 @@ class UserJudge {
   bool stands_at_end(const UserAccess& access) const {
     const Tick from = access.end - scene_.time.ticks(scene_.time.doubt()),
                to = access.end + scene_.time.ticks(2 * scene_.time.jitter);
-    const auto* const first = scene_.record.traces.begin() + static_cast<std::ptrdiff_t>(Wire::kA);
+    const auto first = scene_.record.traces.begin() + static_cast<std::ptrdiff_t>(wire::kA);
     return std::all_of(first, scene_.record.traces.end(),
                        [&](const Trace& wire) { return wire.count_until(from) == wire.count_until(to); });
   }
@@ -144,13 +151,13 @@ class UserJudge {
     if (users_.count(access.address) != 0) return;  // P6: it holds that until the chip rewrites it
     if (access.address < kVersion4.size()) check(kVersion, access, kVersion4.at(access.address));
     if (access.address != dsdpv1::regs::kValidFlag) return;
-    if (access.data != 0 || (valid_ && scene_.record.sees(Wire::kLReq))) check(kVersion, access, kValid);
+    if (access.data != 0 || (valid_ && scene_.record.sees(wire::kLReq))) check(kVersion, access, kValid);
     valid_ = valid_ || access.data == kValid;
   }
   /// No wire of D changes between 1.5 cycles behind RD's fall and its rise.
   void judge_data(const Standing& standing) {
     for (std::size_t bit = 0; bit < kDataWires; ++bit) {
-      const Trace& wire = scene_.record.traces.at(static_cast<std::size_t>(Wire::kD) + bit);
+      const Trace& wire = scene_.record.traces.at(static_cast<std::size_t>(wire::kD) + bit);
       if (wire.count_until(standing.from) == wire.count_until(standing.to)) continue;
       return found_.judge.fails(kData, wire.edges[wire.count_until(standing.from)],
                                 fmt::format("D{} changes while RD is low", bit));
@@ -202,6 +209,6 @@ void measure_user(const Scene& scene, Found& found) {
   for (const Claim* claim : user_claims()) found.judge.coarse(*claim);
 }
 
-Claims user_claims() { return {&kData, &kRam, &kVersion, &kCrc, &kTaken}; }
+ClaimList user_claims() { return {&kData, &kRam, &kVersion, &kCrc, &kTaken}; }
 
 }  // namespace dsdpv1::calibrate

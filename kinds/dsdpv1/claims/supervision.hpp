@@ -3,7 +3,7 @@
 // the telegrams and BR; where these do not tell, it is not known.
 #include <optional>
 
-#include "lab/calibrate/scene.hpp"
+#include "kinds/dsdpv1/claims/scene.hpp"
 
 namespace dsdpv1::calibrate {
 

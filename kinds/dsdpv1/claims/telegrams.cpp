@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lab/calibrate/found.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
@@ -29,7 +29,7 @@ struct Asked {
   /// The state counts where the request is decided, between its end and the answer, but for a repetition (S26).
   bool outside_exchange() const {
     const Tick from = exchange.request->end() - scene.time.margin();
-    return !exchange.repeats && scene.record[Wire::kPbf].high(from, exchange.answer->start);
+    return !exchange.repeats && scene.record[wire::kPbf].high(from, exchange.answer->start);
   }
 };
 
@@ -43,7 +43,7 @@ struct Rule {
 constexpr std::size_t kShortestDiagnosis = 6;
 constexpr std::uint8_t kResponseFunctions = 0x0F;
 
-std::vector<Wire> line() { return {Wire::kPbrxd, Wire::kPbtxd}; }
+std::vector<Wire> line() { return {wire::kPbrxd, wire::kPbtxd}; }
 
 namespace sap = bus::sap;
 namespace fc = bus::fc;
@@ -57,9 +57,9 @@ const std::vector<Rule> kRules = {
      }},
     {{"S13",
       "outside of data exchange the default SAP and SAP 56 are refused",
-      {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}},
+      {wire::kPbrxd, wire::kPbtxd, wire::kPbf}},
      [](const Asked& a) {
-       return a.is_srd() && a.scene.record.sees(Wire::kPbf) && (!a.request.dsap || a.to(sap::kReadInputs)) &&
+       return a.is_srd() && a.scene.record.sees(wire::kPbf) && (!a.request.dsap || a.to(sap::kReadInputs)) &&
               a.outside_exchange();
      },
      [](const Asked& a) { return a.refused(); }},
@@ -163,7 +163,7 @@ const std::vector<Rule> kRules = {
 };
 
 const Claim kRepeated = {
-    "S26", "a request that is repeated gets the same answer", {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
+    "S26", "a request that is repeated gets the same answer", {wire::kPbrxd, wire::kPbtxd, wire::kBr}};
 const Claim kSdn = {"S20", "SDN is not answered", line()};
 const Claim kNobody = {"S32", "a request of master 127 is not answered", line()};
 const Claim kGlobal = {"S20", "Global_Control is not answered", line()};
@@ -194,7 +194,7 @@ bool remembered(const Scene& scene, const Exchange& first, const Exchange& secon
     return !telegram.right && telegram.start > from && telegram.start < to;
   };
   if (std::any_of(scene.received.begin(), scene.received.end(), between)) return false;
-  return scene.record.sees(Wire::kBr) && scene.record[Wire::kBr].high(from, to) && !scene.in_reset(from, to);
+  return scene.record.sees(wire::kBr) && scene.record[wire::kBr].high(from, to) && !scene.in_reset(from, to);
 }
 
 void judge_repetition(const Scene& scene, const Exchange& before, const Exchange& exchange, Found& found) {
@@ -237,8 +237,8 @@ void measure_telegrams(const Scene& scene, Found& found) {
   }
 }
 
-Claims telegram_claims() {
-  Claims claims;
+ClaimList telegram_claims() {
+  ClaimList claims;
   for (const Rule& rule : kRules) claims.push_back(&rule.claim);
   for (const Claim* claim : {&kRepeated, &kSdn, &kNobody, &kGlobal}) claims.push_back(claim);
   return claims;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "kinds/dsdpv1/claims/wires.hpp"
 #include "lab/calibrate/line.hpp"
 
 namespace dsdpv1::calibrate {
@@ -70,7 +71,7 @@ struct Scene {
   /// Whether the user's request pins are low, as far as they are seen, from `from` to `to`.
   bool user_lets(Tick from, Tick to) const;
   /// Whether both of them are in the capture.
-  bool sees_user() const { return record.sees({Wire::kRReq, Wire::kRSta}); }
+  bool sees_user() const { return record.sees({wire::kRReq, wire::kRSta}); }
   /// The shortest accesses of the chip may lie between two samples.
   bool may_miss_accesses() const { return time.doubt() >= kEmptyAccess; }
   /// RESET was low between them, or may have been by what shows it otherwise.

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include "bus/wire/uart.hpp"
-#include "lab/calibrate/found.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
 
-const Claim kClock = {"P1", "CLK is 48 MHz, as far as two crystals may differ", {Wire::kPbtxd}};
+const Claim kClock = {"P1", "CLK is 48 MHz, as far as two crystals may differ", {wire::kPbtxd}};
 
 /// Bits from the first start bit to the last edge of a telegram, the one to its last stop bit's level.
 int bits_to_last_edge(const bus::Bytes& bytes) {
@@ -35,8 +35,8 @@ Estimate clock_of(const std::vector<LineTelegram>& telegrams, const Trace& trace
 }  // namespace
 
 void measure_clock(Scene& scene, double limit_ppm, Found& found) {
-  found.master_clock = clock_of(scene.received, scene.record[Wire::kPbrxd], scene.time);
-  found.clock = clock_of(scene.sent, scene.record[Wire::kPbtxd], scene.time);
+  found.master_clock = clock_of(scene.received, scene.record[wire::kPbrxd], scene.time);
+  found.clock = clock_of(scene.sent, scene.record[wire::kPbtxd], scene.time);
   const Span possible{1 - limit_ppm * 1e-6, 1 + limit_ppm * 1e-6};
   scene.time.scale = possible;
   if (found.clock.count == 0) return;
@@ -51,6 +51,6 @@ void measure_clock(Scene& scene, double limit_ppm, Found& found) {
   }
 }
 
-Claims clock_claims() { return {&kClock}; }
+ClaimList clock_claims() { return {&kClock}; }
 
 }  // namespace dsdpv1::calibrate

@@ -5,23 +5,23 @@
 #include <cmath>
 #include <limits>
 
-#include "lab/calibrate/found.hpp"
-#include "lab/calibrate/supervision.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
+#include "kinds/dsdpv1/claims/supervision.hpp"
 #include "model/dsdpv1/chip.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kWatchdog = {
-    "S1", "the watchdog of Set_Prm ends DATA_EXCH after its time", {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}};
+    "S1", "the watchdog of Set_Prm ends DATA_EXCH after its time", {wire::kPbrxd, wire::kPbtxd, wire::kPbf}};
 const Claim kBrFalls = {"S1",
                         "BR falls the same whole number of ms after the last telegram, or the watchdog's end",
-                        {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
+                        {wire::kPbrxd, wire::kPbtxd, wire::kBr}};
 
 /// A new initialisation may be taken there: an access of the chip that has read more than its flags.
 bool long_access(const Scene& scene, Tick at) {
   constexpr double kLeast = 10;
-  if (!scene.record.sees(Wire::kLReq)) return true;
+  if (!scene.record.sees(wire::kLReq)) return true;
   const Tick about = scene.time.margin() + scene.time.ticks(1);
   const auto after = std::upper_bound(scene.accesses.begin(), scene.accesses.end(), at + about,
                                       [](Tick when, const ChipAccess& access) { return when < access.start; });
@@ -38,13 +38,13 @@ bool ended_otherwise(const Scene& scene, Tick at) {
   };
   const Tick about = scene.time.margin();
   const bool initialised =
-      scene.record.sees(Wire::kBr) ? !scene.record[Wire::kBr].high(at - about, at + about) : long_access(scene, at);
+      scene.record.sees(wire::kBr) ? !scene.record[wire::kBr].high(at - about, at + about) : long_access(scene, at);
   return initialised || std::any_of(scene.exchanges.begin(), scene.exchanges.end(), decided);
 }
 
 void judge_watchdog(const Scene& scene, Found& found) {
   Supervision supervision(scene);
-  const Trace& pbf = scene.record[Wire::kPbf];
+  const Trace& pbf = scene.record[wire::kPbf];
   for (std::size_t edge = pbf.next(0, true); edge < pbf.edges.size(); edge += 2) {
     const Tick at = pbf.edges[edge];
     const auto& prm = supervision.before(at).prm;  // in force, since PBF was low
@@ -89,7 +89,7 @@ std::vector<Running> runs_on(const Scene& scene) {
 void judge_unended(const Scene& scene, Found& found) {
   for (const Running& each : runs_on(scene))
     if (each.supervised.state == Supervised::State::kDpControl && each.passed.lo > 2 &&
-        scene.record[Wire::kPbf].low(each.supervised.last.edge, each.at))
+        scene.record[wire::kPbf].low(each.supervised.last.edge, each.at))
       found.judge.fails(kWatchdog, each.at, fmt::format("PBF is low {:.1f} cycles after its end", each.passed.lo));
 }
 
@@ -98,11 +98,11 @@ enum class Initialised : std::uint8_t { kNo, kPerhaps, kYes };
 
 /// It ends DATA_EXCH, and is in a long access of the chip; the end of BAUD_CONTROL leaves the state as it is (S1).
 Initialised initialised_at(const Scene& scene, Tick at) {
-  const Trace& pbf = scene.record[Wire::kPbf];
+  const Trace& pbf = scene.record[wire::kPbf];
   const Tick from = at - scene.time.margin(), to = at + scene.time.margin();
   if (!long_access(scene, at) || pbf.low(from, to)) return Initialised::kNo;
   const bool rises = pbf.seen && !pbf.high(from, to);
-  return rises || scene.record.sees(Wire::kLReq) ? Initialised::kYes : Initialised::kPerhaps;
+  return rises || scene.record.sees(wire::kLReq) ? Initialised::kYes : Initialised::kPerhaps;
 }
 
 /// BR falls.
@@ -123,7 +123,7 @@ struct Falls {
 /// Where BR does not fall though the time runs.
 void find_silences(const Scene& scene, Falls& falls) {
   for (const Running& each : runs_on(scene)) {
-    if (!scene.record[Wire::kBr].high(each.supervised.last.edge, each.at)) continue;
+    if (!scene.record[wire::kBr].high(each.supervised.last.edge, each.at)) continue;
     falls.not_yet.push_back({each.at, {each.passed.lo / kCyclesPerMs, each.passed.hi / kCyclesPerMs}});
     falls.longest = std::max(falls.longest, falls.not_yet.back().ms.lo);
   }
@@ -132,7 +132,7 @@ void find_silences(const Scene& scene, Falls& falls) {
 Falls falls_of(const Scene& scene) {
   Falls falls;
   Supervision supervision(scene);
-  const Trace& br = scene.record[Wire::kBr];
+  const Trace& br = scene.record[wire::kBr];
   for (std::size_t edge = br.next(0, false); edge < br.edges.size(); edge += 2) {
     const Tick at = br.edges[edge];
     if (scene.in_reset(at - scene.time.margin(), at)) continue;
@@ -191,7 +191,7 @@ void fit_time(const std::vector<Fall>& ends, Fit& fit) {
 
 /// What does not agree is a new initialisation, where there may be one.
 void judge_falls(const Falls& falls, Found& found) {
-  Fit& fit = found.fit(Parameter::kBaudControlMs);
+  Fit& fit = found.fit(parameter::kBaudControlMs);
   for (const Fall& fall : falls.all) {
     const bool known = fit.estimate.count != 0 && !fit.at_least,
                right = known && is_whole(fall.ms) && overlap(fall.ms, fit.estimate.span);
@@ -223,18 +223,18 @@ void judge_falls(const Falls& falls, Found& found) {
 void fit_baud_control(const Scene& scene, Found& found) {
   Falls falls = falls_of(scene);
   find_silences(scene, falls);
-  fit_time(ends_of_time(falls), found.fit(Parameter::kBaudControlMs));
+  fit_time(ends_of_time(falls), found.fit(parameter::kBaudControlMs));
   judge_falls(falls, found);
 }
 
 }  // namespace
 
 void measure_watchdog(const Scene& scene, Found& found) {
-  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd, Wire::kBr})) fit_baud_control(scene, found);
-  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}))
+  if (scene.record.sees({wire::kPbrxd, wire::kPbtxd, wire::kBr})) fit_baud_control(scene, found);
+  if (scene.record.sees({wire::kPbrxd, wire::kPbtxd, wire::kPbf}))
     judge_watchdog(scene, found), judge_unended(scene, found);
 }
 
-Claims watchdog_claims() { return {&kWatchdog, &kBrFalls}; }
+ClaimList watchdog_claims() { return {&kWatchdog, &kBrFalls}; }
 
 }  // namespace dsdpv1::calibrate

@@ -2,13 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/lab/calibrate/made_pins.hpp"
+#include "tests/kinds/dsdpv1/claims/made_pins.hpp"
 
 namespace dsdpv1 {
 namespace {
 
 using calibrate::Verdict;
 using calibrate::Wire;
+namespace wire = calibrate::wire;
 using calibrate_test::claim;
 using calibrate_test::contradicted;
 using calibrate_test::MadePins;
@@ -21,10 +22,10 @@ constexpr double kCut = 2'071;  ///< cycle of the reset that add_cut_work makes
 void add_cut_work(MadePins& made) {
   made.accesses(100, 2'060);
   made.access(2'068, 3);
-  made.show({Wire::kIntr0}, true);
-  made.low(Wire::kIntr0, 105, 169);
-  made.low(Wire::kIntr0, 1'065, 1'129);
-  made.low(Wire::kIntr0, 2'025, kCut);
+  made.show({wire::kIntr0}, true);
+  made.low(wire::kIntr0, 105, 169);
+  made.low(wire::kIntr0, 1'065, 1'129);
+  made.low(wire::kIntr0, 2'025, kCut);
 }
 
 /// The start-up access and what follows.
@@ -36,8 +37,8 @@ void add_start_up(MadePins& made, double start, double cycles = 2'054) {
 
 MadePins made_accesses(bool user = true) {
   MadePins made;
-  made.show({Wire::kLReq, Wire::kLSta});
-  if (user) made.show({Wire::kRReq, Wire::kRSta});
+  made.show({wire::kLReq, wire::kLSta});
+  if (user) made.show({wire::kRReq, wire::kRSta});
   return made;
 }
 
@@ -54,29 +55,29 @@ TEST(CalibrateReset, WithoutItsPinIsShownByTheStartUpAccess) {
 
 TEST(CalibrateReset, WithoutItsPinIsShownByTheFallOfReady) {
   MadePins interrupt;  // without L_REQ
-  interrupt.show({Wire::kReady}, true);
-  interrupt.show({Wire::kLReq}, false);
+  interrupt.show({wire::kReady}, true);
+  interrupt.show({wire::kLReq}, false);
   add_cut_work(interrupt);
-  interrupt.set(kCut, Wire::kReady, false);
+  interrupt.set(kCut, wire::kReady, false);
   EXPECT_THAT(contradicted(interrupt.judged(50'000)), IsEmpty()) << "it ends within the reset";
   MadePins only_ready;
-  only_ready.show({Wire::kReady}, true);
-  only_ready.show({Wire::kIntr0}, true);
-  only_ready.low(Wire::kIntr0, 105, 169);
-  only_ready.low(Wire::kIntr0, 1'065, 1'129);
-  only_ready.low(Wire::kIntr0, 2'025, kCut);
-  only_ready.set(kCut + 0.5, Wire::kReady, false);
+  only_ready.show({wire::kReady}, true);
+  only_ready.show({wire::kIntr0}, true);
+  only_ready.low(wire::kIntr0, 105, 169);
+  only_ready.low(wire::kIntr0, 1'065, 1'129);
+  only_ready.low(wire::kIntr0, 2'025, kCut);
+  only_ready.set(kCut + 0.5, wire::kReady, false);
   EXPECT_THAT(contradicted(only_ready.judged(50'000)), IsEmpty()) << "the channels are half a cycle apart";
 }
 
 /// Pulses of INTR0 of these lengths, and nothing that shows a reset.
-calibrate::Result judged_pulses(const std::vector<double>& lengths, Wire beside = Wire::kIntr0) {
+calibrate::Result judged_pulses(const std::vector<double>& lengths, Wire beside = wire::kIntr0) {
   MadePins made;
-  made.show({Wire::kIntr0}, true);
-  if (beside != Wire::kIntr0) made.show({beside}, true);
+  made.show({wire::kIntr0}, true);
+  if (beside != wire::kIntr0) made.show({beside}, true);
   double at = 100;
   for (const double length : lengths) {
-    made.low(Wire::kIntr0, at, at + length);
+    made.low(wire::kIntr0, at, at + length);
     at += 10'000;
   }
   return made.judged(at);
@@ -101,14 +102,14 @@ TEST(CalibrateReset, DoesNotMakeAPulseLonger) {
 }
 
 TEST(CalibrateReset, LetsBrFall) {
-  EXPECT_EQ(claim(judged_pulses({64, 64, 46}, Wire::kBr), "P7", "as long").tally.fails, 1U);
+  EXPECT_EQ(claim(judged_pulses({64, 64, 46}, wire::kBr), "P7", "as long").tally.fails, 1U);
 }
 
 TEST(CalibrateReset, CutsWhatEndsJustBeforeItShows) {
   MadePins made = made_accesses();
-  made.show({Wire::kReset}, true);
+  made.show({wire::kReset}, true);
   add_cut_work(made);
-  made.low(Wire::kReset, kCut + 0.5, 3'000);  // the channels are half a cycle apart
+  made.low(wire::kReset, kCut + 0.5, 3'000);  // the channels are half a cycle apart
   add_start_up(made, 3'002.5);
   EXPECT_THAT(contradicted(made.judged(8'000)), IsEmpty());
 }
@@ -126,8 +127,8 @@ TEST(CalibrateStartUp, WaitsForTheUserToo) {
   for (const bool pin : {true, false}) {
     MadePins made = made_accesses();
     made.accesses(100, 2'060);
-    if (pin) made.show({Wire::kReset}, true), made.low(Wire::kReset, 90'000, 99'997.5);
-    made.high(Wire::kRReq, 99'990, 101'000);
+    if (pin) made.show({wire::kReset}, true), made.low(wire::kReset, 90'000, 99'997.5);
+    made.high(wire::kRReq, 99'990, 101'000);
     add_start_up(made, 100'000);
     EXPECT_EQ(claim(made.judged(105'000), "H1", "waits").verdict, Verdict::kContradicted) << pin;
   }
@@ -137,7 +138,7 @@ TEST(CalibrateStartUp, WaitsForTheUserToo) {
 MadePins with_long_access(double cycles) {
   MadePins made = made_accesses();
   made.accesses(100, 1'000);
-  made.high(Wire::kRReq, 1'000, 20'000);
+  made.high(wire::kRReq, 1'000, 20'000);
   made.access(20'002.5, cycles);
   made.accesses(20'002.5 + cycles + 1, 30'000);
   return made;
@@ -146,29 +147,30 @@ MadePins with_long_access(double cycles) {
 TEST(CalibrateStartUp, IsNotALongAccessInTheOperation) {
   EXPECT_THAT(contradicted(with_long_access(2'204).judged(31'000)), IsEmpty()) << "only its length tells";
   for (const double cycles : {2'054, 2'204})
-    for (const Wire wire : {Wire::kReady, Wire::kBr}) {
+    for (const Wire wire : {wire::kReady, wire::kBr}) {
       MadePins made = with_long_access(cycles);
       made.show({wire}, true);
-      EXPECT_EQ(claim(made.judged(31'000), "H6", "").verdict, Verdict::kNotShown) << name(wire) << " " << cycles;
+      EXPECT_EQ(claim(made.judged(31'000), "H6", "").verdict, Verdict::kNotShown)
+          << calibrate::name_of(wire) << " " << cycles;
     }
   MadePins exchanging = with_long_access(2'204);
-  exchanging.show({Wire::kPbf}, false);
-  exchanging.show({Wire::kReset}, true);
+  exchanging.show({wire::kPbf}, false);
+  exchanging.show({wire::kReset}, true);
   EXPECT_EQ(claim(exchanging.judged(31'000), "H6", "").verdict, Verdict::kNotShown);
 }
 
 TEST(CalibrateStartUp, OfAnotherLengthIsContradictedWhereAResetShows) {
   MadePins released = made_accesses();
-  released.show({Wire::kReset});
-  released.set(100, Wire::kReset, true);
+  released.show({wire::kReset});
+  released.set(100, wire::kReset, true);
   add_start_up(released, 102.5, 1'400);
   EXPECT_EQ(claim(released.judged(5'000), "H6", "").verdict, Verdict::kContradicted);
   MadePins not_ready = made_accesses();
-  not_ready.show({Wire::kReady});
+  not_ready.show({wire::kReady});
   add_start_up(not_ready, 102.5, 2'100);
   EXPECT_EQ(claim(not_ready.judged(5'000), "H6", "").verdict, Verdict::kContradicted);
   MadePins silent = made_accesses();
-  silent.show({Wire::kBr}, true);  // whatever is wrong there
+  silent.show({wire::kBr}, true);  // whatever is wrong there
   silent.accesses(100, 2'060);
   add_start_up(silent, 100'000, 2'100);
   EXPECT_EQ(claim(silent.judged(105'000), "H6", "").verdict, Verdict::kContradicted);

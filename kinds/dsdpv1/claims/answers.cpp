@@ -5,19 +5,19 @@
 #include <cmath>
 
 #include "bus/wire/uart.hpp"
-#include "lab/calibrate/found.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
 
-const Claim kLead = {"P2", "PBRTS rises the same time before each answer", {Wire::kPbtxd, Wire::kPbrts}};
-const Claim kTrail = {"P2", "PBRTS falls the same time after each answer", {Wire::kPbtxd, Wire::kPbrts}};
-const Claim kDriven = {"P2", "PBTXD is low only while PBRTS is high", {Wire::kPbtxd, Wire::kPbrts}};
-const Claim kBits = {"S2", "every edge of an answer is a whole number of bit times from its start", {Wire::kPbtxd}};
-const Claim kAnswered = {"S3", "a right request to the station is answered", {Wire::kPbrxd, Wire::kPbtxd}};
-const Claim kAsked = {"S3", "nothing is sent that nobody asked for", {Wire::kPbrxd, Wire::kPbtxd}};
+const Claim kLead = {"P2", "PBRTS rises the same time before each answer", {wire::kPbtxd, wire::kPbrts}};
+const Claim kTrail = {"P2", "PBRTS falls the same time after each answer", {wire::kPbtxd, wire::kPbrts}};
+const Claim kDriven = {"P2", "PBTXD is low only while PBRTS is high", {wire::kPbtxd, wire::kPbrts}};
+const Claim kBits = {"S2", "every edge of an answer is a whole number of bit times from its start", {wire::kPbtxd}};
+const Claim kAnswered = {"S3", "a right request to the station is answered", {wire::kPbrxd, wire::kPbtxd}};
+const Claim kAsked = {"S3", "nothing is sent that nobody asked for", {wire::kPbrxd, wire::kPbtxd}};
 const Claim kSyn = {
-    "S3", "a request after less than 33 bit times of idle is not answered", {Wire::kPbrxd, Wire::kPbtxd}};
+    "S3", "a request after less than 33 bit times of idle is not answered", {wire::kPbrxd, wire::kPbtxd}};
 
 // --- PBRTS
 
@@ -27,7 +27,7 @@ struct Driver {
 
 /// PBRTS round answer `i`: its rise behind the beginning of the answer before, its fall before the next one.
 void measure_driver(const Scene& scene, std::size_t i, Driver& driver, Found& found) {
-  const Trace& rts = scene.record[Wire::kPbrts];
+  const Trace& rts = scene.record[wire::kPbrts];
   const LineTelegram& sent = scene.sent[i];
   const Tick begun = sent.start + scene.time.margin(), before = i > 0 ? scene.sent[i - 1].start : -1,
              next = i + 1 < scene.sent.size() ? scene.sent[i + 1].start : scene.record.end;
@@ -60,12 +60,12 @@ void fit_driver(const Scene& scene, Found& found) {
       found.judge.fails(claim, outlier.at, fmt::format("{:+.1f} cycles from the others", outlier.by));
     for (std::size_t i = to.estimate.outliers.size(); i < to.estimate.count; ++i) found.judge.holds(claim);
   };
-  fit(Parameter::kRtsLead, kLead, driver.leads);
-  fit(Parameter::kRtsTrail, kTrail, driver.trails);
+  fit(parameter::kRtsLead, kLead, driver.leads);
+  fit(parameter::kRtsTrail, kTrail, driver.trails);
 }
 
 void judge_driven(const Scene& scene, Found& found) {
-  const Trace &txd = scene.record[Wire::kPbtxd], &rts = scene.record[Wire::kPbrts];
+  const Trace &txd = scene.record[wire::kPbtxd], &rts = scene.record[wire::kPbrts];
   for (std::size_t edge = txd.next(0, false); edge < txd.edges.size(); edge += 2) {
     const Tick at = txd.edges[edge], about = scene.time.margin();
     found.judge.judge(kDriven, !rts.low(at - about, at + about), at, "PBTXD falls while PBRTS is low");
@@ -76,7 +76,7 @@ void judge_driven(const Scene& scene, Found& found) {
 
 /// The levels of a telegram change where its bits do.
 void judge_bits(const Scene& scene, const LineTelegram& sent, Found& found) {
-  const Trace& txd = scene.record[Wire::kPbtxd];
+  const Trace& txd = scene.record[wire::kPbtxd];
   std::size_t edge = txd.count_until(sent.start);
   bool level = false;
   for (std::size_t i = 1; i < sent.bytes.size() * bus::kCharacterBits; ++i) {
@@ -105,7 +105,7 @@ bool is_cut(const Scene& scene, const LineTelegram& sent) {
     const std::size_t fall = trace.next(std::max(from, sent.start), false);
     return trace.seen && fall != Trace::kNone && trace.edges[fall] <= to;
   };
-  return falls(Wire::kReset) || falls(Wire::kBr) || (!scene.record.sees(Wire::kBr) && sent.breaks_off());
+  return falls(wire::kReset) || falls(wire::kBr) || (!scene.record.sees(wire::kBr) && sent.breaks_off());
 }
 
 // --- answered or not
@@ -140,11 +140,11 @@ bool chip_listens(const Scene& scene, std::size_t i) {
   while (behind < all.size() && !wants_answer(all[behind])) ++behind;
   if (request.gap || before == 0 || behind >= all.size() || !same(all[before - 1]) || !same(all[behind])) return false;
   const Tick from = request.start, to = request.end();
-  const bool found = scene.record.sees(Wire::kBr)
-                         ? scene.record[Wire::kBr].high(from, to)
+  const bool found = scene.record.sees(wire::kBr)
+                         ? scene.record[wire::kBr].high(from, to)
                          : all[behind].exchanged() && request.start - all[before - 1].answer->end() < kLongestSilence;
   return !scene.in_reset(from, to) && found &&
-         (!scene.record.sees(Wire::kReady) || scene.record[Wire::kReady].high(from, to));
+         (!scene.record.sees(wire::kReady) || scene.record[wire::kReady].high(from, to));
 }
 
 void judge_answered(const Scene& scene, Found& found) {
@@ -184,7 +184,7 @@ void judge_asked(const Scene& scene, Found& found) {
 }  // namespace
 
 void measure_answers(const Scene& scene, Found& found) {
-  if (scene.record.sees({Wire::kPbtxd, Wire::kPbrts})) fit_driver(scene, found), judge_driven(scene, found);
+  if (scene.record.sees({wire::kPbtxd, wire::kPbrts})) fit_driver(scene, found), judge_driven(scene, found);
   for (const LineTelegram& sent : scene.sent)
     if (sent.right)
       judge_bits(scene, sent, found);
@@ -196,6 +196,6 @@ void measure_answers(const Scene& scene, Found& found) {
   judge_asked(scene, found);
 }
 
-Claims answer_claims() { return {&kLead, &kTrail, &kDriven, &kBits, &kAnswered, &kAsked, &kSyn}; }
+ClaimList answer_claims() { return {&kLead, &kTrail, &kDriven, &kBits, &kAnswered, &kAsked, &kSyn}; }
 
 }  // namespace dsdpv1::calibrate

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "made_capture.hpp"
+#include "tests/kinds/dsdpv1/claims/made_capture.hpp"
 
 namespace dsdpv1::calibrate_test {
 namespace {
@@ -16,17 +16,17 @@ const Bytes kOutputs = {1, 2};
 /// A station that found its rate, with BR, READY and PBF.
 class WatchedStation : public MadeCapture {
  public:
-  WatchedStation() : MadeCapture(k1M5, {Wire::kBr, Wire::kPbf, Wire::kLReq}) { find_rate(); }
+  WatchedStation() : MadeCapture(k1M5, {wire::kBr, wire::kPbf, wire::kLReq}) { find_rate(); }
   /// Set_Prm, Chk_Cfg and a data exchange; PBF falls.
   void start_up(std::uint8_t wd) {
     exchange(set_prm(kLock | (wd != 0 ? kWdOn : 0), wd), bus::make_sc());
     exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
-    set(Wire::kPbf, false);
+    set(wire::kPbf, false);
     exchange(data_exchange(kOutputs), data_answer({3, 4}));
   }
   /// So long after a decision.
-  void fall_of_br(Tick decision, double ms) { at(Wire::kBr, decision, ms, false); }
-  void end_exchange(Tick decision, double ms) { at(Wire::kPbf, decision, ms, true); }
+  void fall_of_br(Tick decision, double ms) { at(wire::kBr, decision, ms, false); }
+  void end_exchange(Tick decision, double ms) { at(wire::kPbf, decision, ms, true); }
   /// A request and its answer; the time of its decision.
   Tick decided(const Telegram& asked, const Telegram& answered) {
     request(asked);
@@ -88,8 +88,8 @@ TEST(CalibrateWatchdog, ASetPrmThatIsRefusedEndsItAsTheDiagnosisShows) {
 }
 
 TEST(CalibrateWatchdog, PrmReqCountsInADiagnosisFromMemoryToo) {
-  MadeCapture capture(k1M5, {Wire::kBr, Wire::kLReq});
-  capture.begins_high(Wire::kBr);
+  MadeCapture capture(k1M5, {wire::kBr, wire::kLReq});
+  capture.begins_high(wire::kBr);
   Telegram asked = srd(bus::sap::kSlaveDiag);
   asked.fc |= bus::fc::kFcv;
   capture.request(asked);  // before the capture there may have been the same
@@ -98,7 +98,7 @@ TEST(CalibrateWatchdog, PrmReqCountsInADiagnosisFromMemoryToo) {
   const Tick decision = capture.now();
   capture.wait_cycles(static_cast<double>(end - decision) / static_cast<double>(bus::kTicksPerCycle));
   capture.answer(diagnosis(0x02, 0x01));
-  capture.set_at(Wire::kBr, decision + 600 * bus::kTicksPerMs, false);
+  capture.set_at(wire::kBr, decision + 600 * bus::kTicksPerMs, false);
   capture.wait_ms(601);
   expect_600(capture.judge());
 }
@@ -152,17 +152,17 @@ TEST(CalibrateWatchdog, AnotherMasterThatKeepsItAliveIsContradicted) {
 
 /// The watchdog is 20 ms, then what `change` makes of it; PBF rises so many ms after the last telegram.
 calibrate::Result coarse_watchdog(const std::function<void(MadeCapture&)>& change, double ms) {
-  MadeCapture capture(k12M, {Wire::kBr, Wire::kPbf});
-  capture.begins_high(Wire::kBr);
+  MadeCapture capture(k12M, {wire::kBr, wire::kPbf});
+  capture.begins_high(wire::kBr);
   const auto start = [&] {
     capture.exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
-    capture.set(Wire::kPbf, false);
+    capture.set(wire::kPbf, false);
     capture.exchange(data_exchange(kOutputs), data_answer({3, 4}));
   };
   capture.exchange(set_prm(kLock | kWdOn, 2), bus::make_sc());
   start();
   change(capture);
-  capture.set(Wire::kPbf, true);
+  capture.set(wire::kPbf, true);
   start();
   capture.request(data_exchange(kOutputs));
   const Tick end = capture.now();
@@ -170,7 +170,7 @@ calibrate::Result coarse_watchdog(const std::function<void(MadeCapture&)>& chang
   const Tick decision = capture.now();
   capture.wait_cycles(static_cast<double>(end - decision) / static_cast<double>(bus::kTicksPerCycle));
   capture.answer(data_answer({3, 4}));
-  capture.set_at(Wire::kPbf, decision + static_cast<Tick>(ms * bus::kTicksPerMs), true);
+  capture.set_at(wire::kPbf, decision + static_cast<Tick>(ms * bus::kTicksPerMs), true);
   capture.wait_ms(ms);
   return capture.judge_sampled(24e6);
 }
@@ -207,11 +207,11 @@ TEST(CalibrateWatchdog, WithoutATelegramToTheStationBrFallsAfterItsRise) {
 }
 
 TEST(CalibrateWatchdog, OfWhatRanBeforeTheCaptureNothingIsSaid) {
-  MadeCapture capture(k1M5, {Wire::kBr});
-  capture.begins_high(Wire::kBr);
+  MadeCapture capture(k1M5, {wire::kBr});
+  capture.begins_high(wire::kBr);
   capture.exchange(data_exchange(kOutputs), data_answer({3, 4}));
   capture.wait_ms(640);
-  capture.set(Wire::kBr, false);
+  capture.set(wire::kBr, false);
   EXPECT_EQ(parameter(capture.judge(), "baud_control_ms").verdict, Verdict::kNotShown);
 }
 
@@ -257,8 +257,8 @@ TEST(CalibrateWatchdog, ABrThatFallsSometimesIsContradicted) {
 }
 
 TEST(CalibrateWatchdog, WithoutPbtxdNothingIsSaidOfBr) {
-  MadeCapture capture(k1M5, {Wire::kBr});
-  capture.hide(Wire::kPbtxd);
+  MadeCapture capture(k1M5, {wire::kBr});
+  capture.hide(wire::kPbtxd);
   capture.find_rate();
   for (int i = 0; i < 8; ++i) {
     capture.request(data_exchange(kOutputs));
@@ -273,31 +273,31 @@ TEST(CalibrateWatchdog, WithoutPbtxdNothingIsSaidOfBr) {
 calibrate::Result reset_after_30_ms(const std::vector<Wire>& pins, bool start_up) {
   const auto has = [&](Wire wire) { return std::find(pins.begin(), pins.end(), wire) != pins.end(); };
   MadeCapture capture(k1M5, pins);
-  for (const Wire wire : {Wire::kBr, Wire::kReady})
+  for (const Wire wire : {wire::kBr, wire::kReady})
     if (has(wire)) capture.begins_high(wire);
   capture.exchange(set_prm(kLock | kWdOn, 4), bus::make_sc());
   capture.exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
-  capture.set(Wire::kPbf, false);
+  capture.set(wire::kPbf, false);
   capture.exchange(data_exchange(kOutputs), data_answer({3, 4}));
   capture.wait_ms(30);
-  if (has(Wire::kLReq)) capture.pulse(Wire::kLReq, 7 * bus::kTicksPerCycle);
+  if (has(wire::kLReq)) capture.pulse(wire::kLReq, 7 * bus::kTicksPerCycle);
   capture.wait_cycles(20);
-  capture.set(Wire::kPbf, true);
-  for (const Wire wire : {Wire::kBr, Wire::kReady})
+  capture.set(wire::kPbf, true);
+  for (const Wire wire : {wire::kBr, wire::kReady})
     if (has(wire)) capture.set(wire, false);
   capture.wait_ms(5);
-  if (has(Wire::kLReq)) capture.pulse(Wire::kLReq, (start_up ? 2054 : 7) * bus::kTicksPerCycle);
+  if (has(wire::kLReq)) capture.pulse(wire::kLReq, (start_up ? 2054 : 7) * bus::kTicksPerCycle);
   capture.wait_ms(1);
   return capture.judge();
 }
 
 TEST(CalibrateWatchdog, AResetMayShowInReadyOrInAStartUpAlone) {
   for (const std::vector<Wire>& pins :
-       {std::vector<Wire>{Wire::kPbf, Wire::kLReq}, {Wire::kPbf, Wire::kBr, Wire::kLReq}}) {
+       {std::vector<Wire>{wire::kPbf, wire::kLReq}, {wire::kPbf, wire::kBr, wire::kLReq}}) {
     EXPECT_EQ(contradicted(reset_after_30_ms(pins, true)), "") << pins.size();
     EXPECT_NE(contradicted(reset_after_30_ms(pins, false)), "") << pins.size();
   }
-  EXPECT_EQ(contradicted(reset_after_30_ms({Wire::kPbf, Wire::kReady, Wire::kLReq}, false)), "");
+  EXPECT_EQ(contradicted(reset_after_30_ms({wire::kPbf, wire::kReady, wire::kLReq}, false)), "");
 }
 
 /// BR falls so long after the last telegram, in an access of so many cycles; PBF is not in the capture.
@@ -306,12 +306,12 @@ calibrate::Result after(double ms, double access) {
   station.start_up(0);
   const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
   station.wait_ms(100);
-  station.pulse(Wire::kLReq, 7 * bus::kTicksPerCycle);
+  station.pulse(wire::kLReq, 7 * bus::kTicksPerCycle);
   station.fall_of_br(last, ms);
-  station.set_at(Wire::kLReq, station.now() - 5 * bus::kTicksPerCycle, true);
-  station.set_at(Wire::kLReq, station.now() + static_cast<Tick>((access - 5) * bus::kTicksPerCycle), false);
+  station.set_at(wire::kLReq, station.now() - 5 * bus::kTicksPerCycle, true);
+  station.set_at(wire::kLReq, station.now() + static_cast<Tick>((access - 5) * bus::kTicksPerCycle), false);
   station.wait_ms(1);
-  station.hide(Wire::kPbf);
+  station.hide(wire::kPbf);
   return station.judge();
 }
 
@@ -338,10 +338,10 @@ calibrate::Result initialised_and_silent(const std::vector<Wire>& pins) {
     capture.answer(status(0));
     const Tick fall = end + static_cast<Tick>(capture.bit() + 3.5 * bus::kTicksPerCycle + ms * bus::kTicksPerMs);
     if (pins.size() > 1) {
-      capture.set_at(Wire::kLReq, fall - 5 * bus::kTicksPerCycle, true);
-      capture.set_at(Wire::kLReq, fall + (ms > 100 ? 2 : 50) * bus::kTicksPerCycle, false);
+      capture.set_at(wire::kLReq, fall - 5 * bus::kTicksPerCycle, true);
+      capture.set_at(wire::kLReq, fall + (ms > 100 ? 2 : 50) * bus::kTicksPerCycle, false);
     }
-    capture.set_at(Wire::kBr, fall, false);
+    capture.set_at(wire::kBr, fall, false);
     capture.wait_ms(ms + 1);
     if (ms < 100) capture.find_rate();
   }
@@ -349,8 +349,8 @@ calibrate::Result initialised_and_silent(const std::vector<Wire>& pins) {
 }
 
 TEST(CalibrateWatchdog, AnInitialisationIsNotTakenForTheEndOfBaudControl) {
-  expect_600(initialised_and_silent({Wire::kBr, Wire::kLReq}));
-  expect_600(initialised_and_silent({Wire::kBr}));
+  expect_600(initialised_and_silent({wire::kBr, wire::kLReq}));
+  expect_600(initialised_and_silent({wire::kBr}));
 }
 
 /// BR falls so long after the last telegram to a station in DATA_EXCH. PBF is not in the capture, rises with BR or
@@ -362,8 +362,8 @@ calibrate::ParameterResult single_fall(double ms, Pbf pbf) {
   const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
   station.fall_of_br(last, ms);
   if (pbf == Pbf::kRises) station.end_exchange(last, ms);
-  if (pbf == Pbf::kHidden) station.hide(Wire::kPbf);
-  station.hide(Wire::kLReq);
+  if (pbf == Pbf::kHidden) station.hide(wire::kPbf);
+  station.hide(wire::kLReq);
   const calibrate::Result result = station.judge();
   EXPECT_EQ(contradicted(result), "") << ms;
   return parameter(result, "baud_control_ms");

@@ -2,13 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/lab/calibrate/made_pins.hpp"
+#include "tests/kinds/dsdpv1/claims/made_pins.hpp"
 
 namespace dsdpv1 {
 namespace {
 
 using calibrate::Verdict;
 using calibrate::Wire;
+namespace wire = calibrate::wire;
 using calibrate_test::claim;
 using calibrate_test::contradicted;
 using testing::IsEmpty;
@@ -17,51 +18,51 @@ using testing::IsEmpty;
 class MadeHold : public calibrate_test::MadePins {
  public:
   explicit MadeHold(bool request = true) {
-    show({Wire::kLReq, Wire::kLSta, Wire::kRReq, Wire::kRSta});
+    show({wire::kLReq, wire::kLSta, wire::kRReq, wire::kRSta});
     show_host_port();
     accesses(100, 400);
-    if (request) high(Wire::kRReq, 410, 2'000);
-    high(Wire::kRSta, 418, 2'000);
+    if (request) high(wire::kRReq, 410, 2'000);
+    high(wire::kRSta, 418, 2'000);
   }
 };
 
 TEST(CalibrateUserAccess, BeginsWithTheLaterOfTheStrobesAndEndsWithTheEarlier) {
   MadeHold made;
-  made.number(500, Wire::kA, calibrate::kAddressWires, 0x000);
-  made.set(500, Wire::kRd, false);
-  made.set(600, Wire::kCsr, false);
-  made.number(601.5, Wire::kD, calibrate::kDataWires, 0x01);
-  made.set(606, Wire::kCsr, true);
-  made.number(606, Wire::kD, calibrate::kDataWires, 0xFF);  // released: the bus floats up
-  made.set(700, Wire::kRd, true);
+  made.number(500, wire::kA, calibrate::kAddressWires, 0x000);
+  made.set(500, wire::kRd, false);
+  made.set(600, wire::kCsr, false);
+  made.number(601.5, wire::kD, calibrate::kDataWires, 0x01);
+  made.set(606, wire::kCsr, true);
+  made.number(606, wire::kD, calibrate::kDataWires, 0xFF);  // released: the bus floats up
+  made.set(700, wire::kRd, true);
   const calibrate::Result result = made.judged(3'000);
   EXPECT_THAT(contradicted(result), IsEmpty());
-  EXPECT_EQ(result.user_accesses, 1U);
+  EXPECT_EQ(result.found.user_accesses, 1U);
   EXPECT_EQ(claim(result, "P5", "").tally.holds, 1U);
   EXPECT_EQ(claim(result, "D1", "").tally.holds, 1U);
 }
 
 TEST(CalibrateUserAccess, IsOneForEachTimeThatCsrFallsWhileRdIsLow) {
   MadeHold made;
-  made.set(500, Wire::kRd, false);
+  made.set(500, wire::kRd, false);
   for (unsigned address = 0; address < 4; ++address) {
     constexpr std::array<unsigned, 4> kVersion = {0x01, 0x0D, 0x07, 0x01};
-    made.number(599 + 20 * address, Wire::kA, calibrate::kAddressWires, address);
-    made.number(602 + 20 * address, Wire::kD, calibrate::kDataWires, kVersion.at(address));
-    made.low(Wire::kCsr, 600 + 20 * address, 610 + 20 * address);
+    made.number(599 + 20 * address, wire::kA, calibrate::kAddressWires, address);
+    made.number(602 + 20 * address, wire::kD, calibrate::kDataWires, kVersion.at(address));
+    made.low(wire::kCsr, 600 + 20 * address, 610 + 20 * address);
   }
-  made.set(800, Wire::kRd, true);
+  made.set(800, wire::kRd, true);
   EXPECT_EQ(claim(made.judged(3'000), "D1", "").tally.holds, 4U);
 }
 
 TEST(CalibrateUserAccess, WritesNothingWhereCsrRisesBeforeWr) {
   MadeHold made;
   made.write(500, 0x130, 0x11);
-  made.number(599, Wire::kA, calibrate::kAddressWires, 0x130);
-  made.number(599, Wire::kD, calibrate::kDataWires, 0x22);
-  made.set(600, Wire::kWr, false);
-  made.low(Wire::kCsr, 600, 605);
-  made.set(606, Wire::kWr, true);
+  made.number(599, wire::kA, calibrate::kAddressWires, 0x130);
+  made.number(599, wire::kD, calibrate::kDataWires, 0x22);
+  made.set(600, wire::kWr, false);
+  made.low(wire::kCsr, 600, 605);
+  made.set(606, wire::kWr, true);
   made.read(700, 0x130, 0x11);
   EXPECT_THAT(contradicted(made.judged(3'000)), IsEmpty());
 }
@@ -103,14 +104,14 @@ TEST(CalibrateRead, WithoutTheDpramIsNotJudged) {
 
 TEST(CalibrateRead, InResetAndBeforeTheStartUpIsNotJudged) {
   MadeHold made;
-  made.show({Wire::kReset}, true);
-  made.low(Wire::kReset, 500, 700);
+  made.show({wire::kReset}, true);
+  made.low(wire::kReset, 500, 700);
   made.read(600, 0x001, 0xFF);  // P10: D is released
   made.read(702, 0x001, 0xFF);  // before R
   made.read(800, 0x001, 0x55);  // P12: held off, the start-up has not been
   made.access(2'002.5, 2'054);
-  made.high(Wire::kRReq, 4'070, 5'000);
-  made.high(Wire::kRSta, 4'080, 5'000);
+  made.high(wire::kRReq, 4'070, 5'000);
+  made.high(wire::kRSta, 4'080, 5'000);
   made.read(4'100, 0x001, 0x0D);
   const calibrate::Result result = made.judged(6'000);
   EXPECT_EQ(claim(result, "D1", "").tally.fails, 0U);
@@ -126,16 +127,16 @@ TEST(CalibrateRead, InAResetThatNoPinShowsIsNotJudged) {
     return claim(made.judged(3'000), "D1", "").verdict;
   };
   EXPECT_EQ(judged({}), Verdict::kNotShown);
-  for (const Wire wire : {Wire::kReset, Wire::kReady, Wire::kBr})
-    EXPECT_EQ(judged({wire}), Verdict::kContradicted) << name(wire);
+  for (const Wire wire : {wire::kReset, wire::kReady, wire::kBr})
+    EXPECT_EQ(judged({wire}), Verdict::kContradicted) << calibrate::name_of(wire);
 }
 
 TEST(CalibrateRead, OfACellThatTheUserHasEverWrittenShowsNoVersion) {
   MadeHold made;
   made.write(500, 0x001, 0x00);
   made.accesses(2'003, 2'100);
-  made.high(Wire::kRReq, 2'110, 3'000);
-  made.high(Wire::kRSta, 2'120, 3'000);
+  made.high(wire::kRReq, 2'110, 3'000);
+  made.high(wire::kRSta, 2'120, 3'000);
   made.read(2'200, 0x001, 0x00);
   EXPECT_THAT(contradicted(made.judged(4'000)), IsEmpty());
 }
@@ -184,11 +185,11 @@ TEST(CalibrateWrite, ThatMayLieBetweenTwoSamplesLeavesCellsUnknown) {
 TEST(CalibrateWrite, WhoseDataChangeWithinASampleOfItsEndIsNotKnown) {
   for (const bool before : {true, false}) {  // 25 ns before WR rises, or 17 ns after it: the same sample
     MadeHold made;
-    made.number(599, Wire::kA, calibrate::kAddressWires, 0x130);
-    made.number(599, Wire::kD, calibrate::kDataWires, 0x11);
-    made.low(Wire::kCsr, 600, 614);
-    made.low(Wire::kWr, 600.3, before ? 611.7 : 610.2);
-    made.number(before ? 610.5 : 611.0, Wire::kD, calibrate::kDataWires, 0x22);
+    made.number(599, wire::kA, calibrate::kAddressWires, 0x130);
+    made.number(599, wire::kD, calibrate::kDataWires, 0x11);
+    made.low(wire::kCsr, 600, 614);
+    made.low(wire::kWr, 600.3, before ? 611.7 : 610.2);
+    made.number(before ? 610.5 : 611.0, wire::kD, calibrate::kDataWires, 0x22);
     made.user(800, false, 0x130, before ? 0x22 : 0x11, 10);
     EXPECT_THAT(contradicted(made.sampled(3'000, 24e6)), IsEmpty()) << before;
   }
@@ -205,8 +206,8 @@ void read_wrong_outputs(MadeHold& made, int at) {
 /// The chip has the DPRAM, then again the user: from `at` + 120 to `at` + 1'000.
 void hold_again(MadeHold& made, int at) {
   made.accesses(at + 3, at + 100);
-  made.high(Wire::kRReq, at + 110, at + 1'000);
-  made.high(Wire::kRSta, at + 120, at + 1'000);
+  made.high(wire::kRReq, at + 110, at + 1'000);
+  made.high(wire::kRSta, at + 120, at + 1'000);
 }
 
 TEST(CalibrateRead, OfABlockThatTheUserHasWrittenShowsNoCrc) {
@@ -240,9 +241,9 @@ TEST(CalibrateRead, OfABlockThatTheChipHasWrittenSinceShowsItsCrc) {
 
 TEST(CalibrateRead, AfterAStartUpIsOfTheChipAgain) {
   MadeHold made;
-  made.show({Wire::kReset}, true);
+  made.show({wire::kReset}, true);
   made.write(500, 0x001, 0x00);
-  made.low(Wire::kReset, 2'500, 2'600);
+  made.low(wire::kReset, 2'500, 2'600);
   made.access(2'602.5, 2'054);
   hold_again(made, 5'000);
   made.read(5'200, 0x001, 0x00);
@@ -265,8 +266,8 @@ TEST(CalibrateFlags, ThatAreReservedStayAsTheUserSetThem) {
     MadeHold made;
     made.write(500, 0x010, 0x3F);
     made.accesses(2'003, 2'100);
-    made.high(Wire::kRReq, 2'110, 3'000);
-    made.high(Wire::kRSta, 2'120, 3'000);
+    made.high(wire::kRReq, 2'110, 3'000);
+    made.high(wire::kRSta, 2'120, 3'000);
     made.read(2'200, 0x010, read);
     EXPECT_EQ(claim(made.judged(4'000), "H5", "").verdict, read == 0x38 ? Verdict::kConfirmed : Verdict::kContradicted);
   }

@@ -2,13 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/lab/calibrate/made_pins.hpp"
+#include "tests/kinds/dsdpv1/claims/made_pins.hpp"
 
 namespace dsdpv1 {
 namespace {
 
 using calibrate::Verdict;
 using calibrate::Wire;
+namespace wire = calibrate::wire;
 using calibrate_test::claim;
 using calibrate_test::contradicted;
 using testing::IsEmpty;
@@ -21,8 +22,8 @@ calibrate::Result judged(double cycles, double ppm, int busy = 0, bool user = tr
   constexpr int kAccesses = 3'000;
   const double interval = 48 * (1 + ppm * 1e-6);
   calibrate_test::MadePins made;
-  made.show({Wire::kLReq, Wire::kLSta});
-  if (user) made.show({Wire::kRReq, Wire::kRSta});
+  made.show({wire::kLReq, wire::kLSta});
+  if (user) made.show({wire::kRReq, wire::kRSta});
   for (int i = 0; i < kAccesses; ++i) made.access(100 + interval * i, busy != 0 && i % busy == 0 ? cycles + 5 : cycles);
   return made.sampled(200 + interval * kAccesses, k24MHz);
 }

@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/calibrate/calibration.hpp"
-#include "tests/lab/calibrate/made_capture.hpp"
+#include "tests/kinds/dsdpv1/claims/made_capture.hpp"
 
 namespace dsdpv1::calibrate_test {
 
@@ -35,7 +34,7 @@ class MadePins {
   }
   /// An access of the chip.
   void access(double at, double cycles) {
-    for (const Wire wire : {Wire::kLReq, Wire::kLSta})
+    for (const Wire wire : {wire::kLReq, wire::kLSta})
       if (trace(wire).seen) high(wire, at, at + cycles);
   }
   /// Accesses one interval of 48 cycles after the other, from `from` on as long as they begin before `to`.
@@ -43,20 +42,20 @@ class MadePins {
     for (int i = 0; from + 48 * i < to; ++i) access(from + 48 * i, cycles);
   }
   void show_host_port() {
-    show({Wire::kCsr, Wire::kRd, Wire::kWr}, true);
-    for (std::size_t i = 0; i < calibrate::kAddressWires; ++i) show({bit(Wire::kA, i)});
-    for (std::size_t i = 0; i < calibrate::kDataWires; ++i) show({bit(Wire::kD, i)});
+    show({wire::kCsr, wire::kRd, wire::kWr}, true);
+    for (std::size_t i = 0; i < calibrate::kAddressWires; ++i) show({bit(wire::kA, i)});
+    for (std::size_t i = 0; i < calibrate::kDataWires; ++i) show({bit(wire::kD, i)});
   }
   void number(double at, Wire first, std::size_t wires, unsigned value) {
     for (std::size_t i = 0; i < wires; ++i) set(at, bit(first, i), (value >> i & 1U) != 0);
   }
   /// RD (WR) and CSR low for so many cycles, A from a cycle before on; of a read D from 1.5 cycles on.
   void user(double at, bool write, unsigned address, unsigned data, double cycles = 6) {
-    number(at - 1, Wire::kA, calibrate::kAddressWires, address);
-    number(write ? at : at + 1.5, Wire::kD, calibrate::kDataWires, data);
-    low(Wire::kCsr, at, at + cycles);
-    low(write ? Wire::kWr : Wire::kRd, at, at + cycles);
-    if (!write) number(at + cycles, Wire::kD, calibrate::kDataWires, 0xFF);  // released: it floats up
+    number(at - 1, wire::kA, calibrate::kAddressWires, address);
+    number(write ? at : at + 1.5, wire::kD, calibrate::kDataWires, data);
+    low(wire::kCsr, at, at + cycles);
+    low(write ? wire::kWr : wire::kRd, at, at + cycles);
+    if (!write) number(at + cycles, wire::kD, calibrate::kDataWires, 0xFF);  // released: it floats up
   }
   void read(double at, unsigned address, unsigned data) { user(at, false, address, data); }
   void write(double at, unsigned address, unsigned data) { user(at, true, address, data); }
@@ -89,7 +88,7 @@ class MadePins {
  private:
   calibrate::Result judged(double end, const calibrate::Sampling& sampling) {
     record_.end = tick(end);
-    return calibrate::calibrate("made", record_, sampling, {});
+    return calibrate::calibrate("made", record_, sampling, {}, *tb::chip_kinds().front());
   }
   static Wire bit(Wire first, std::size_t number) {
     return static_cast<Wire>(static_cast<std::size_t>(first) + number);
@@ -99,7 +98,7 @@ class MadePins {
   }
   calibrate::Trace& trace(Wire wire) { return record_.traces.at(static_cast<std::size_t>(wire)); }
 
-  calibrate::Record record_;
+  calibrate::Record record_{calibrate::wires()};
 };
 
 }  // namespace dsdpv1::calibrate_test

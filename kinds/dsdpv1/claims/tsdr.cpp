@@ -3,17 +3,17 @@
 
 #include <algorithm>
 
-#include "lab/calibrate/dp_service.hpp"
-#include "lab/calibrate/found.hpp"
+#include "kinds/dsdpv1/claims/dp_service.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kTsdr = {
-    "S3", "an answer begins min_TSDR after the request, and at most a cycle more", {Wire::kPbrxd, Wire::kPbtxd}};
+    "S3", "an answer begins min_TSDR after the request, and at most a cycle more", {wire::kPbrxd, wire::kPbtxd}};
 const Claim kMinTsdr = {"S11",
                         "min_TSDR of Set_Prm counts from the answer to it, or the verdict, on, 11 at least",
-                        {Wire::kPbrxd, Wire::kPbtxd}};
+                        {wire::kPbrxd, wire::kPbtxd}};
 
 /// A min_TSDR as it counts at the request's rate (S11, S30).
 int bits_at(const LineTelegram& request, int bits) {
@@ -60,9 +60,9 @@ class TsdrJudge {
   }
   /// The fall of BR is a new initialisation, or the end of BAUD_CONTROL, which leaves it.
   void take_restarts(Tick at) {
-    for (const Wire wire : {Wire::kReset, Wire::kReady})
+    for (const Wire wire : {wire::kReset, wire::kReady})
       if (has_edge(wire, at)) restart();
-    if (has_edge(Wire::kBr, at) && !now_.empty()) {
+    if (has_edge(wire::kBr, at) && !now_.empty()) {
       give_up_asked();
       now_.push_back(bus::kMinTsdrBits);
     }
@@ -145,7 +145,7 @@ class TsdrJudge {
       return learns(cycles, request);
     }
     // Without BR a new initialisation is only known not to have been before what shows DATA_EXCH.
-    const bool restarted = !scene_.record.sees(Wire::kBr) && (!exchange.exchanged() || exchange.repeats) &&
+    const bool restarted = !scene_.record.sees(wire::kBr) && (!exchange.exchanged() || exchange.repeats) &&
                            fits(cycles, request, bus::kMinTsdrBits);
     if (restarted) restart();
     return restarted;
@@ -191,6 +191,6 @@ void measure_tsdr(const Scene& scene, Found& found) {
   for (const Exchange& exchange : scene.exchanges) judge.judge(exchange);
 }
 
-Claims tsdr_claims() { return {&kTsdr, &kMinTsdr}; }
+ClaimList tsdr_claims() { return {&kTsdr, &kMinTsdr}; }
 
 }  // namespace dsdpv1::calibrate

@@ -1,4 +1,4 @@
-#include "made_capture.hpp"
+#include "tests/kinds/dsdpv1/claims/made_capture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,8 +46,8 @@ MadeCapture::MadeCapture(int baud, const std::vector<Wire>& pins) : baud_(baud) 
   const auto add = [this](Wire wire, bool level) {
     record_.traces.at(static_cast<std::size_t>(wire)) = {true, level, {}};
   };
-  add(Wire::kPbrxd, true), add(Wire::kPbtxd, true), add(Wire::kPbrts, false);
-  for (const Wire wire : pins) add(wire, wire == Wire::kIntr0 || wire == Wire::kPbf);
+  add(wire::kPbrxd, true), add(wire::kPbtxd, true), add(wire::kPbrts, false);
+  for (const Wire wire : pins) add(wire, wire == wire::kIntr0 || wire == wire::kPbf);
 }
 
 void MadeCapture::set_at(Wire wire, Tick at, bool level) {
@@ -75,7 +75,7 @@ void MadeCapture::request(const Telegram& telegram, double idle) { request(bus::
 
 void MadeCapture::request(const Bytes& bytes, double idle) {
   wait_bits(idle);
-  send(Wire::kPbrxd, bytes);
+  send(wire::kPbrxd, bytes);
 }
 
 void MadeCapture::request_unread(const Telegram& telegram) {
@@ -86,32 +86,32 @@ void MadeCapture::request_unread(const Telegram& telegram) {
 
 void MadeCapture::answer(const Telegram& telegram, double tsdr) {
   wait_bits(tsdr), wait_cycles(0.5);
-  set_at(Wire::kPbrts, now_ - static_cast<Tick>(lead_ * bus::kTicksPerCycle), true);
-  send(Wire::kPbtxd, bus::encode(telegram));
-  set_at(Wire::kPbrts, now_ + static_cast<Tick>(trail_ * bus::kTicksPerCycle), false);
+  set_at(wire::kPbrts, now_ - static_cast<Tick>(lead_ * bus::kTicksPerCycle), true);
+  send(wire::kPbtxd, bus::encode(telegram));
+  set_at(wire::kPbrts, now_ + static_cast<Tick>(trail_ * bus::kTicksPerCycle), false);
 }
 
 void MadeCapture::answer_undriven(const Telegram& telegram, double tsdr) {
   wait_bits(tsdr), wait_cycles(0.5);
-  send(Wire::kPbtxd, bus::encode(telegram));
+  send(wire::kPbtxd, bus::encode(telegram));
 }
 
 void MadeCapture::cut_answer(const Telegram& telegram, std::size_t characters, int bits) {
   wait_bits(11), wait_cycles(0.5);
-  set_at(Wire::kPbrts, now_ - static_cast<Tick>(lead_ * bus::kTicksPerCycle), true);
+  set_at(wire::kPbrts, now_ - static_cast<Tick>(lead_ * bus::kTicksPerCycle), true);
   const Bytes bytes = bus::encode(telegram);
-  send(Wire::kPbtxd, Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(characters)));
+  send(wire::kPbtxd, Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(characters)));
   for (int i = 0; i < bits; ++i) {
-    set_at(Wire::kPbtxd, now_, (bus::Character::of(bytes.at(characters)).bits >> i & 1) != 0);
+    set_at(wire::kPbtxd, now_, (bus::Character::of(bytes.at(characters)).bits >> i & 1) != 0);
     wait_bits(1);
   }
-  set_at(Wire::kPbtxd, now_, true), set_at(Wire::kPbrts, now_, false);
+  set_at(wire::kPbtxd, now_, true), set_at(wire::kPbrts, now_, false);
 }
 
 void MadeCapture::find_rate() {
   request(fdl_status(kMaster, kStation + 1), 100);
   decide();
-  set(Wire::kBr, true);
+  set(wire::kBr, true);
 }
 
 void MadeCapture::stretch(double ppm) {
@@ -153,7 +153,7 @@ calibrate::Result MadeCapture::judge_sampled(double rate) {
   sampled.end = now_ + bus::kTicksPerMs;
   calibrate::Sampling sampling;
   sampling.rate = rate;
-  return calibrate::calibrate("made", sampled, sampling, kStation);
+  return calibrate::calibrate("made", sampled, sampling, kStation, *tb::chip_kinds().front());
 }
 
 calibrate::Result MadeCapture::judge() {
@@ -161,7 +161,7 @@ calibrate::Result MadeCapture::judge() {
   calibrate::Sampling sampling;
   sampling.rate = 480e6;
   sampling.jitter_ns = 0.5;
-  return calibrate::calibrate("made", record_, sampling, kStation);
+  return calibrate::calibrate("made", record_, sampling, kStation, *tb::chip_kinds().front());
 }
 
 const calibrate::ClaimResult& claim(const calibrate::Result& result, const std::string& ruling,

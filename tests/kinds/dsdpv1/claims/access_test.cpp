@@ -2,13 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/lab/calibrate/made_pins.hpp"
+#include "tests/kinds/dsdpv1/claims/made_pins.hpp"
 
 namespace dsdpv1 {
 namespace {
 
 using calibrate::Verdict;
 using calibrate::Wire;
+namespace wire = calibrate::wire;
 using calibrate_test::claim;
 using calibrate_test::contradicted;
 using calibrate_test::parameter;
@@ -16,13 +17,13 @@ using testing::IsEmpty;
 
 class MadeAccesses : public calibrate_test::MadePins {
  public:
-  MadeAccesses() { show({Wire::kLReq, Wire::kLSta}); }
+  MadeAccesses() { show({wire::kLReq, wire::kLSta}); }
 };
 
 /// Holds of 400 cycles; each leaves the chip something to do, and 60 cycles behind it an access without.
 void add_long_holds(MadeAccesses& made) {
   for (int at = 100; at < 30'000; at += 500) {
-    made.high(Wire::kRReq, at, at + 400);
+    made.high(wire::kRReq, at, at + 400);
     made.access(at + 403, 25);
     made.access(at + 451, 7);
   }
@@ -30,9 +31,9 @@ void add_long_holds(MadeAccesses& made) {
 
 TEST(CalibrateAccess, AfterAHoldOfTheUserHasSomethingToDo) {
   MadeAccesses made;
-  made.show({Wire::kRReq, Wire::kRSta});
+  made.show({wire::kRReq, wire::kRSta});
   for (int at = 100; at < 30'000; at += 500) {
-    made.high(Wire::kRReq, at, at + 400);
+    made.high(wire::kRReq, at, at + 400);
     made.access(at + 403, 25);
     if (at == 100) made.access(at + 451, 7);
   }
@@ -41,18 +42,18 @@ TEST(CalibrateAccess, AfterAHoldOfTheUserHasSomethingToDo) {
 
 TEST(CalibrateAccess, WithNothingToDoOfAnotherLengthIsAgainstH3) {
   MadeAccesses made;
-  made.show({Wire::kRReq, Wire::kRSta});
+  made.show({wire::kRReq, wire::kRSta});
   made.accesses(100, 5'000, 8);
   EXPECT_EQ(claim(made.judged(6'000), "H3", "").verdict, Verdict::kContradicted);
   MadeAccesses held;
-  held.show({Wire::kRReq, Wire::kRSta});
+  held.show({wire::kRReq, wire::kRSta});
   add_long_holds(held);
   EXPECT_EQ(claim(held.judged(31'000), "H3", "").tally.holds, 60U);
 }
 
 TEST(CalibrateAccess, OfAChipThatLooksSeldomMayAlwaysHaveSomethingToDo) {
   MadeAccesses made;
-  made.show({Wire::kRReq, Wire::kRSta});
+  made.show({wire::kRReq, wire::kRSta});
   for (int at = 100; at < 30'000; at += 600) made.access(at, 25);
   EXPECT_THAT(contradicted(made.judged(31'000)), IsEmpty());
 }
@@ -81,16 +82,16 @@ MadeAccesses with_start_up(double start) {
 
 /// The user has the DPRAM until cycle `released`.
 void hold_until(double released, MadeAccesses& made) {
-  made.show({Wire::kRReq}, true);
-  made.show({Wire::kRSta});
-  made.set(released, Wire::kRReq, false);
+  made.show({wire::kRReq}, true);
+  made.show({wire::kRSta});
+  made.set(released, wire::kRReq, false);
 }
 
 TEST(CalibrateReady, CountsFromTheReleaseOfResetAndNotFromTheStartUpAccess) {
   MadeAccesses made = with_start_up(1'002.5);
   hold_until(1'000, made);
-  made.show({Wire::kReset});
-  made.set(99.5, Wire::kReset, true);
+  made.show({wire::kReset});
+  made.set(99.5, wire::kReset, true);
   const calibrate::ParameterResult found = parameter(made.judged(8'000), "ready_cycles");
   EXPECT_EQ(found.verdict, Verdict::kConfirmed) << found.words;
   EXPECT_LT(found.fit.estimate.span.width(), 55);
@@ -112,8 +113,8 @@ MadeAccesses with_valid_flag_read() {
   MadeAccesses made = with_start_up(102);
   hold_until(40, made);
   made.show_host_port();
-  made.high(Wire::kRReq, 6'000, 7'000);
-  made.high(Wire::kRSta, 6'010, 7'000);
+  made.high(wire::kRReq, 6'000, 7'000);
+  made.high(wire::kRSta, 6'010, 7'000);
   made.read(6'100, 0x004, 0xC5);
   return made;
 }
@@ -136,8 +137,8 @@ TEST(CalibrateReady, IsNotWhatIsReadWithoutTheDpram) {
 TEST(CalibrateReady, OfReadsThatExcludeEachOtherIsNotShown) {
   MadeAccesses made = with_valid_flag_read();
   made.accesses(7'003, 7'100);
-  made.high(Wire::kRReq, 7'110, 8'000);
-  made.high(Wire::kRSta, 7'120, 8'000);
+  made.high(wire::kRReq, 7'110, 8'000);
+  made.high(wire::kRSta, 7'120, 8'000);
   made.read(7'200, 0x004, 0x00);
   EXPECT_EQ(parameter(made.judged(9'000), "ready_cycles").verdict, Verdict::kNotShown);
 }
@@ -145,11 +146,11 @@ TEST(CalibrateReady, OfReadsThatExcludeEachOtherIsNotShown) {
 TEST(CalibrateAccess, ThatMayLieBetweenTwoSamplesShowsNothing) {
   for (const double rate : {6e6, 4e6, 2e6}) {
     MadeAccesses made;
-    made.show({Wire::kRReq, Wire::kRSta});
-    made.show({Wire::kIntr0}, true);
+    made.show({wire::kRReq, wire::kRSta});
+    made.show({wire::kIntr0}, true);
     for (int i = 0; i < 2'000; ++i) made.access(100 + 48.003 * i, 7);
-    made.low(Wire::kIntr0, 105, 169);
-    made.low(Wire::kIntr0, 48'108, 48'172);
+    made.low(wire::kIntr0, 105, 169);
+    made.low(wire::kIntr0, 48'108, 48'172);
     const calibrate::Result result = made.sampled(97'000, rate);
     EXPECT_THAT(contradicted(result), IsEmpty()) << rate;
     EXPECT_EQ(parameter(result, "access_interval").verdict, Verdict::kNotShown) << rate;
@@ -158,10 +159,10 @@ TEST(CalibrateAccess, ThatMayLieBetweenTwoSamplesShowsNothing) {
 
 TEST(CalibrateAccess, InAReleaseThatLiesBetweenTwoSamplesIsNotAgainstH1) {
   MadeAccesses made;
-  made.show({Wire::kRReq, Wire::kRSta});
+  made.show({wire::kRReq, wire::kRSta});
   made.accesses(100, 1'000);
-  made.high(Wire::kRReq, 1'000, 2'000.5);
-  made.high(Wire::kRReq, 2'003.9, 2'500);  // 70 ns
+  made.high(wire::kRReq, 1'000, 2'000.5);
+  made.high(wire::kRReq, 2'003.9, 2'500);  // 70 ns
   made.access(2'003, 7);
   made.access(2'503, 7);
   EXPECT_THAT(contradicted(made.sampled(2'520, 12e6)), IsEmpty());
@@ -170,9 +171,9 @@ TEST(CalibrateAccess, InAReleaseThatLiesBetweenTwoSamplesIsNotAgainstH1) {
 TEST(CalibrateHandshake, ChipThatStartsMoreThanTwoCyclesAfterTheRequestIsAgainstH2) {
   for (const double late : {1.9, 2.5}) {
     MadeAccesses made;
-    made.show({Wire::kRReq, Wire::kRSta});
+    made.show({wire::kRReq, wire::kRSta});
     made.accesses(100, 1'000);
-    made.high(Wire::kRReq, 1'012 - late, 1'050);
+    made.high(wire::kRReq, 1'012 - late, 1'050);
     made.access(1'012, 7);
     made.access(1'060, 7);
     const calibrate::Result result = made.judged(2'000);
@@ -182,18 +183,18 @@ TEST(CalibrateHandshake, ChipThatStartsMoreThanTwoCyclesAfterTheRequestIsAgainst
 
 TEST(CalibrateIntr0, GapOfWhichOnlyABoundIsSeenIsNotConfirmed) {
   MadeAccesses made;
-  made.show({Wire::kIntr0}, true);
+  made.show({wire::kIntr0}, true);
   made.accesses(100, 3'000);
-  made.low(Wire::kIntr0, 105, 169);
-  made.low(Wire::kIntr0, 1'065, 1'129);
+  made.low(wire::kIntr0, 105, 169);
+  made.low(wire::kIntr0, 1'065, 1'129);
   const calibrate::ParameterResult gap = parameter(made.judged(4'000), "intr_gap");
   EXPECT_EQ(gap.words, "at most 896");
   EXPECT_STREQ(word(gap.verdict), "not contradicted");
   MadeAccesses shorter;
-  shorter.show({Wire::kIntr0}, true);
+  shorter.show({wire::kIntr0}, true);
   shorter.accesses(100, 3'000);
-  shorter.low(Wire::kIntr0, 105, 169);
-  shorter.low(Wire::kIntr0, 201, 265);
+  shorter.low(wire::kIntr0, 105, 169);
+  shorter.low(wire::kIntr0, 201, 265);
   EXPECT_EQ(parameter(shorter.judged(4'000), "intr_gap").verdict, Verdict::kContradicted);
 }
 

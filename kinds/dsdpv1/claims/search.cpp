@@ -4,21 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/calibrate/found.hpp"
+#include "kinds/dsdpv1/claims/found.hpp"
 #include "model/dsdpv1/chip.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
 
-const Claim kLocks = {"S1", "a right SD1, SD2 or SD3 ends the search", {Wire::kPbrxd, Wire::kBr}};
+const Claim kLocks = {"S1", "a right SD1, SD2 or SD3 ends the search", {wire::kPbrxd, wire::kBr}};
 const Claim kDecided = {
-    "S10", "BR rises at the decision of a telegram, 1 bit time after it", {Wire::kPbrxd, Wire::kBr}};
+    "S10", "BR rises at the decision of a telegram, 1 bit time after it", {wire::kPbrxd, wire::kBr}};
 const Claim kSilent = {
-    "S9", "the telegram that ends the search is not answered", {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
+    "S9", "the telegram that ends the search is not answered", {wire::kPbrxd, wire::kPbtxd, wire::kBr}};
 const Claim kFoundFirst = {
-    "P3", "an answer is sent only while BR and READY are high", {Wire::kPbtxd, Wire::kBr, Wire::kReady}};
+    "P3", "an answer is sent only while BR and READY are high", {wire::kPbtxd, wire::kBr, wire::kReady}};
 const Claim kExchange = {
-    "P3", "outputs are taken, and inputs sent, only while PBF is low", {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}};
+    "P3", "outputs are taken, and inputs sent, only while PBF is low", {wire::kPbrxd, wire::kPbtxd, wire::kPbf}};
 
 bool locks(const LineTelegram& telegram) {
   using Kind = bus::TelegramKind;
@@ -43,7 +43,7 @@ double windows_before(int baud, double ms, double bits) {
 }
 
 std::optional<Tick> search_start(const Scene& scene, Tick found_at) {
-  const Trace &br = scene.record[Wire::kBr], &ready = scene.record[Wire::kReady];
+  const Trace &br = scene.record[wire::kBr], &ready = scene.record[wire::kReady];
   const std::size_t fell = br.last(found_at - 1, false), rose = ready.last(found_at - 1, true);
   Tick start = -1;
   if (fell != Trace::kNone) start = br.edges[fell];
@@ -69,7 +69,7 @@ bool ends_unread(const Scene& scene, Tick at) {
     return scene.time.between(edge, at).lo < 3 * bus::kCharacterBits * TimeBase::nominal(bus::baud(baud).bit);
   };
   if (scene.received.empty() || at < scene.received.front().start) {
-    const Trace& line = scene.record[Wire::kPbrxd];
+    const Trace& line = scene.record[wire::kPbrxd];
     const std::size_t edges = line.count_until(at);
     return near(edges > 0 ? line.edges[edges - 1] : 0, scene.received.empty() ? kSlowest : scene.received.front().baud);
   }
@@ -111,7 +111,7 @@ Lock lock_of(const Scene& scene, Tick start, std::size_t by) {
 
 std::vector<Lock> locks_of(const Scene& scene, Found& found) {
   std::vector<Lock> all;
-  const Trace& br = scene.record[Wire::kBr];
+  const Trace& br = scene.record[wire::kBr];
   for (std::size_t edge = br.next(0, true); edge < br.edges.size(); edge += 2) {
     const Tick at = br.edges[edge];
     const std::size_t by = telegram_ending(scene, at);
@@ -213,7 +213,7 @@ void set_window(Fit& fit, const Range& range, double least, double most, std::si
 void fit_windows(const Scene& scene, Found& found) {
   std::vector<Lock> all = locks_of(scene, found);
   if (std::none_of(all.begin(), all.end(), [](const Lock& lock) { return lock.cycles.lo > 0; })) all.clear();
-  Fit &ms_fit = found.fit(Parameter::kSearchWindowMs), &bits_fit = found.fit(Parameter::kSearchWindowBits);
+  Fit &ms_fit = found.fit(parameter::kSearchWindowMs), &bits_fit = found.fit(parameter::kSearchWindowBits);
   const Windows windows = all.empty() ? Windows{} : windows_of(all);
   if (!windows.ms.any) {
     ms_fit.not_shown = bits_fit.not_shown = all.empty() ? "no search with telegrams at 6M or slower during most of it"
@@ -229,23 +229,23 @@ void fit_windows(const Scene& scene, Found& found) {
 void judge_pins(const Scene& scene, Found& found) {
   const Record& record = scene.record;
   const Tick about = scene.time.margin();
-  if (record.sees({Wire::kBr, Wire::kReady}))
+  if (record.sees({wire::kBr, wire::kReady}))
     for (const LineTelegram& sent : scene.sent)
       found.judge.judge(kFoundFirst,
-                        !record[Wire::kBr].low(sent.start - about, sent.start + about) &&
-                            !record[Wire::kReady].low(sent.start - about, sent.start + about),
+                        !record[wire::kBr].low(sent.start - about, sent.start + about) &&
+                            !record[wire::kReady].low(sent.start - about, sent.start + about),
                         sent.start, "an answer while BR or READY is low");
-  if (!record.sees(Wire::kPbf)) return;
+  if (!record.sees(wire::kPbf)) return;
   for (const Exchange& exchange : scene.exchanges) {
     if (exchange.repeats || !exchange.exchanged()) continue;  // S26
     const Tick at = exchange.request->end();
-    found.judge.judge(kExchange, !record[Wire::kPbf].high(at - about, exchange.answer->start), exchange.answer->start,
+    found.judge.judge(kExchange, !record[wire::kPbf].high(at - about, exchange.answer->start), exchange.answer->start,
                       "a data exchange is answered while PBF is high");
   }
 }
 
 void judge_silence(const Scene& scene, Found& found) {
-  const Trace& br = scene.record[Wire::kBr];
+  const Trace& br = scene.record[wire::kBr];
   for (const Exchange& exchange : scene.exchanges) {
     const LineTelegram& request = *exchange.request;
     const std::size_t rise = br.next(request.last_start, true);
@@ -259,13 +259,13 @@ void judge_silence(const Scene& scene, Found& found) {
 
 void measure_search(const Scene& scene, Found& found) {
   const Record& record = scene.record;
-  if (record.sees({Wire::kPbrxd, Wire::kBr})) {
+  if (record.sees({wire::kPbrxd, wire::kBr})) {
     fit_windows(scene, found);
     judge_silence(scene, found);
   }
   judge_pins(scene, found);
 }
 
-Claims search_claims() { return {&kLocks, &kDecided, &kSilent, &kFoundFirst, &kExchange}; }
+ClaimList search_claims() { return {&kLocks, &kDecided, &kSilent, &kFoundFirst, &kExchange}; }
 
 }  // namespace dsdpv1::calibrate

@@ -19,7 +19,7 @@ TEST(CalibrateRulings, AreThoseOfTheDocument) {
     if (line.rfind("- **", 0) == 0) written.push_back(line.substr(4, line.find("**", 4) - 4));
   ASSERT_GT(written.size(), 80U);
   std::vector<std::string> table;
-  for (const calibrate::Ruling& ruling : calibrate::rulings()) table.emplace_back(ruling.id);
+  for (const calibrate::Ruling& ruling : calibrate::dsdpv1_claims().rulings()) table.emplace_back(ruling.id);
   ASSERT_EQ(table.back(), "facts");
   table.pop_back();
   EXPECT_EQ(table, written);
@@ -27,8 +27,8 @@ TEST(CalibrateRulings, AreThoseOfTheDocument) {
 
 TEST(CalibrateRulings, HaveClaimsOrAReasonWhyNot) {
   std::set<std::string> claimed;
-  for (const calibrate::Claim* claim : calibrate::all_claims()) claimed.insert(claim->ruling);
-  for (const calibrate::Ruling& ruling : calibrate::rulings())
+  for (const calibrate::Claim* claim : calibrate::dsdpv1_claims().claims()) claimed.insert(claim->ruling);
+  for (const calibrate::Ruling& ruling : calibrate::dsdpv1_claims().rulings())
     EXPECT_EQ(claimed.erase(ruling.id) == 1, ruling.hidden == nullptr) << ruling.id;
   EXPECT_TRUE(claimed.empty()) << *claimed.begin() << " is no ruling";
 }
@@ -38,7 +38,7 @@ TEST(CalibrateParameters, AreThoseOfAScenario) {
   for (const tb::keys::Field& field : tb::dsdpv1_chip_keys().fields)
     if (field.type.kind == tb::keys::Kind::kInteger) keys.insert(field.name);
   std::set<std::string> rows;
-  for (const calibrate::ParameterRow& row : calibrate::parameters()) rows.insert(row.key);
+  for (const calibrate::ParameterRow& row : calibrate::dsdpv1_claims().parameters()) rows.insert(row.key);
   EXPECT_EQ(rows, keys);
 }
 

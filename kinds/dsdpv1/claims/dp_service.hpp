@@ -1,6 +1,6 @@
 #pragma once
 // What Set_Prm and Slave_Diag say of the chip's state.
-#include "lab/calibrate/scene.hpp"
+#include "kinds/dsdpv1/claims/scene.hpp"
 
 namespace dsdpv1::calibrate {
 

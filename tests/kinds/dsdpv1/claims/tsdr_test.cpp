@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "made_capture.hpp"
+#include "tests/kinds/dsdpv1/claims/made_capture.hpp"
 
 namespace dsdpv1::calibrate_test {
 namespace {
@@ -16,8 +16,8 @@ constexpr double kMaxTsdr = 150;  ///< at 1.5M
 /// A station whose start is in the capture, with BR.
 class TsdrStation : public MadeCapture {
  public:
-  TsdrStation() : MadeCapture(k1M5, {Wire::kReset, Wire::kBr}) {
-    set(Wire::kReset, true);
+  TsdrStation() : MadeCapture(k1M5, {wire::kReset, wire::kBr}) {
+    set(wire::kReset, true);
     find_rate();
   }
   void prm(std::uint8_t status, std::uint8_t min_tsdr, double tsdr) {
@@ -121,7 +121,7 @@ TEST(CalibrateTsdr, AVerdictCountsAlsoAfterAMinTsdrWithoutLockAndUnlock) {
 TEST(CalibrateTsdr, ANewInitialisationMakesItEleven) {
   TsdrStation station;
   station.prm(kLock, 15, 15), station.cfg(15), station.data(15);
-  station.set(Wire::kBr, false);
+  station.set(wire::kBr, false);
   station.wait_ms(1);
   station.find_rate();
   station.exchange(srd(sap::kSlaveDiag), diagnosis(0x02, 0x01), 11);
@@ -131,7 +131,7 @@ TEST(CalibrateTsdr, ANewInitialisationMakesItEleven) {
 TEST(CalibrateTsdr, TheEndOfBaudControlLeavesIt) {
   TsdrStation station;
   station.prm(kLock, 15, 15), station.cfg(15), station.data(15);
-  station.set(Wire::kBr, false);
+  station.set(wire::kBr, false);
   station.wait_ms(1);
   station.find_rate();
   station.data(15);

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "made_capture.hpp"
+#include "tests/kinds/dsdpv1/claims/made_capture.hpp"
 
 namespace dsdpv1::calibrate_test {
 namespace {
@@ -31,7 +31,7 @@ Verdict unanswered_after(double ms, const std::vector<Wire>& pins) {
 TEST(CalibrateAnswers, WithoutBrTheFirstRequestAfterASilenceMayHaveEndedTheSearch) {
   EXPECT_EQ(unanswered_after(601, {}), Verdict::kConfirmed);
   EXPECT_EQ(unanswered_after(1, {}), Verdict::kContradicted);
-  EXPECT_EQ(unanswered_after(100, {Wire::kBr}), Verdict::kContradicted);
+  EXPECT_EQ(unanswered_after(100, {wire::kBr}), Verdict::kContradicted);
 }
 
 TEST(CalibrateAnswers, WithoutBrAnUnansweredRequestMayHaveFollowedAnInitialisation) {
@@ -119,7 +119,7 @@ TEST(CalibrateAnswers, AGlitchDoesNotEndIdleTime) {
     MadeCapture capture(k1M5);
     exchange_data(capture, 2);
     capture.wait_bits(40);
-    capture.pulse(Wire::kPbrxd, 10 * bus::kTicksPerCycle);
+    capture.pulse(wire::kPbrxd, 10 * bus::kTicksPerCycle);
     capture.request(data_exchange({1}), before);
     capture.answer(data_answer({2}));
     const calibrate::Result result = capture.judge();
@@ -133,7 +133,7 @@ TEST(CalibrateAnswers, InACoarseCaptureAShortLowLevelMayBeAGlitch) {
     MadeCapture capture(k12M);
     exchange_data(capture, 2);
     capture.wait_bits(40);
-    capture.pulse(Wire::kPbrxd, static_cast<Tick>(cycles * bus::kTicksPerCycle));
+    capture.pulse(wire::kPbrxd, static_cast<Tick>(cycles * bus::kTicksPerCycle));
     capture.request(data_exchange({1}), 20);
     capture.answer(data_answer({2}));
     return claim(capture.judge_sampled(24e6), "S3", "33 bit times").verdict;
@@ -146,7 +146,7 @@ TEST(CalibrateAnswers, AGlitchOfTheChipIsToldAsWhatItSends) {
   MadeCapture capture(k1M5);
   exchange_data(capture, 2);
   capture.wait_bits(40);
-  capture.pulse(Wire::kPbtxd, 10 * bus::kTicksPerCycle);
+  capture.pulse(wire::kPbtxd, 10 * bus::kTicksPerCycle);
   exchange_data(capture, 1);
   EXPECT_EQ(claim(capture.judge(), "S2", "every edge").verdict, Verdict::kContradicted);
 }
@@ -194,8 +194,8 @@ calibrate::Result disturbed(double after, double cycles) {
   exchange_data(capture, 2);
   capture.request(data_exchange({1}));
   const auto at = capture.now() + static_cast<Tick>(after * capture.bit());
-  capture.set_at(Wire::kPbrxd, at, false);
-  capture.set_at(Wire::kPbrxd, at + static_cast<Tick>(cycles * bus::kTicksPerCycle), true);
+  capture.set_at(wire::kPbrxd, at, false);
+  capture.set_at(wire::kPbrxd, at + static_cast<Tick>(cycles * bus::kTicksPerCycle), true);
   capture.answer(data_answer({2}));
   exchange_data(capture, 2);
   return capture.judge();
@@ -251,14 +251,14 @@ Verdict cut_by(const std::vector<Wire>& pins) {
 }
 
 TEST(CalibrateAnswers, AnAnswerThatAResetOrAnInitialisationCutsIsNoContradiction) {
-  EXPECT_EQ(cut_by({Wire::kBr}), Verdict::kConfirmed);
-  EXPECT_EQ(cut_by({Wire::kReset}), Verdict::kConfirmed);
+  EXPECT_EQ(cut_by({wire::kBr}), Verdict::kConfirmed);
+  EXPECT_EQ(cut_by({wire::kReset}), Verdict::kConfirmed);
   EXPECT_EQ(cut_by({}), Verdict::kConfirmed) << "without BR an initialisation may have cut it";
 }
 
 TEST(CalibrateAnswers, AnAnswerThatNothingCutsIsContradicted) {
-  MadeCapture capture(k1M5, {Wire::kBr});
-  capture.begins_high(Wire::kBr);
+  MadeCapture capture(k1M5, {wire::kBr});
+  capture.begins_high(wire::kBr);
   exchange_data(capture, 2);
   capture.request(data_exchange({1}));
   capture.cut_answer(data_answer({2}), 4, 3);
@@ -291,9 +291,9 @@ TEST(CalibrateAnswers, ADriverThatEndsBeforeTheAnswerHasNoTrail) {
 
 TEST(CalibrateAnswers, ADriverThatStaysEnabledIsContradicted) {
   MadeCapture capture(k1M5);
-  capture.begins_high(Wire::kPbrts);
+  capture.begins_high(wire::kPbrts);
   exchange_data(capture, 1);  // its PBRTS falls
-  capture.set_at(Wire::kPbrts, capture.now() + 100 * bus::kTicksPerCycle, true);
+  capture.set_at(wire::kPbrts, capture.now() + 100 * bus::kTicksPerCycle, true);
   for (int i = 0; i < 2; ++i) {
     capture.request(data_exchange({1}));
     capture.answer_undriven(data_answer({2}));

@@ -1,4 +1,4 @@
-#include "lab/calibrate/scene.hpp"
+#include "kinds/dsdpv1/claims/scene.hpp"
 
 #include <algorithm>
 #include <set>
@@ -41,7 +41,7 @@ Tick first_whole(const std::vector<LineTelegram>& telegrams, const Trace& trace)
 void leave_out_begun(Scene& scene) {
   const auto right = first_right(scene.received);
   scene.received.erase(scene.received.cbegin(), right);
-  leave_out_before(scene.sent, scene.received.empty() ? first_whole(scene.sent, scene.record[Wire::kPbtxd])
+  leave_out_before(scene.sent, scene.received.empty() ? first_whole(scene.sent, scene.record[wire::kPbtxd])
                                                       : scene.received.front().start);
 }
 
@@ -166,7 +166,7 @@ void find_repetitions(Scene& scene) {
 }
 
 void find_accesses(Scene& scene) {
-  const Trace& trace = scene.record[Wire::kLReq].seen ? scene.record[Wire::kLReq] : scene.record[Wire::kLSta];
+  const Trace& trace = scene.record[wire::kLReq].seen ? scene.record[wire::kLReq] : scene.record[wire::kLSta];
   for (std::size_t edge = trace.next(0, true); edge < trace.edges.size(); edge += 2) {
     const bool ends = edge + 1 < trace.edges.size();
     scene.accesses.push_back({trace.edges[edge], ends ? trace.edges[edge + 1] : bus::kNever, ends});
@@ -182,7 +182,7 @@ Tick edge_behind(const Trace& trace, Tick from, bool level) {
 /// P5, P11: an access is where CSR and the strobe are both low. Where CSR rises before WR nothing is written.
 void find_user_accesses(Scene& scene, Wire strobe) {
   const Record& record = scene.record;
-  const Trace &trace = record[strobe], &select = record[Wire::kCsr];
+  const Trace &trace = record[strobe], &select = record[wire::kCsr];
   const Tick sample =
       std::max<Tick>(1, static_cast<Tick>(scene.time.period * static_cast<double>(bus::kTicksPerCycle)));
   for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2) {
@@ -190,9 +190,9 @@ void find_user_accesses(Scene& scene, Wire strobe) {
     Tick start = select.at(fall) ? edge_behind(select, fall, false) : fall;
     for (; start < rise; start = edge_behind(select, start, false)) {
       const Tick end = std::min(rise, edge_behind(select, start + 1, true)), before = std::max(start, end - sample);
-      if (strobe == Wire::kRd || end == rise)
-        scene.user.push_back(
-            {start, end, strobe == Wire::kWr, record.address(before), static_cast<std::uint8_t>(record.data(before))});
+      if (strobe == wire::kRd || end == rise)
+        scene.user.push_back({start, end, strobe == wire::kWr, address_at(record, before),
+                              static_cast<std::uint8_t>(data_at(record, before))});
       start = end;
     }
   }
@@ -220,28 +220,28 @@ bool Exchange::exchanged() const {
 }
 
 bool Scene::user_lets(Tick from, Tick to) const {
-  return (!record.sees(Wire::kRReq) || record[Wire::kRReq].low(from, to)) &&
-         (!record.sees(Wire::kRSta) || record[Wire::kRSta].low(from, to));
+  return (!record.sees(wire::kRReq) || record[wire::kRReq].low(from, to)) &&
+         (!record.sees(wire::kRSta) || record[wire::kRSta].low(from, to));
 }
 
 void fill(Scene& scene) {
-  if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_received(scene.record[Wire::kPbrxd], scene.time);
-  if (scene.record.sees(Wire::kPbtxd))
-    scene.sent = telegrams_sent(scene.record[Wire::kPbtxd], scene.time, scene.received);
-  leave_out_cut(scene.received, scene.record[Wire::kPbrxd], scene.record.end);
-  leave_out_cut(scene.sent, scene.record[Wire::kPbtxd], scene.record.end);
+  if (scene.record.sees(wire::kPbrxd)) scene.received = telegrams_received(scene.record[wire::kPbrxd], scene.time);
+  if (scene.record.sees(wire::kPbtxd))
+    scene.sent = telegrams_sent(scene.record[wire::kPbtxd], scene.time, scene.received);
+  leave_out_cut(scene.received, scene.record[wire::kPbrxd], scene.record.end);
+  leave_out_cut(scene.sent, scene.record[wire::kPbtxd], scene.record.end);
   leave_out_own(scene.received, scene.sent, scene.time);
   leave_out_begun(scene);
-  if (!scene.received.empty() && scene.record.sees(Wire::kPbtxd)) {
+  if (!scene.received.empty() && scene.record.sees(wire::kPbtxd)) {
     pair_up(scene);
     keep_own(scene);
     measure_idle(scene);
     find_repetitions(scene);
   }
   find_accesses(scene);
-  if (!scene.record.sees_accesses()) return;
-  find_user_accesses(scene, Wire::kRd);
-  find_user_accesses(scene, Wire::kWr);
+  if (!scene.record.sees(host_port())) return;
+  find_user_accesses(scene, wire::kRd);
+  find_user_accesses(scene, wire::kWr);
   std::sort(scene.user.begin(), scene.user.end(),
             [](const UserAccess& a, const UserAccess& b) { return a.end < b.end; });
 }

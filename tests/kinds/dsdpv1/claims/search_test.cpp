@@ -1,7 +1,7 @@
 // S1, S10: what ends the search, and when, in captures made for it.
 #include <gtest/gtest.h>
 
-#include "made_capture.hpp"
+#include "tests/kinds/dsdpv1/claims/made_capture.hpp"
 
 namespace dsdpv1::calibrate_test {
 namespace {
@@ -14,11 +14,11 @@ struct Verdicts {
 
 /// BR rises so many bit times after the decision of a telegram to another station.
 Verdicts rise(double bits) {
-  MadeCapture capture(k1M5, {Wire::kBr});
+  MadeCapture capture(k1M5, {wire::kBr});
   capture.request(fdl_status(kMaster, kStation + 1), 100);
   capture.decide();
   capture.wait_bits(bits);
-  capture.set(Wire::kBr, true);
+  capture.set(wire::kBr, true);
   const calibrate::Result result = capture.judge();
   return {claim(result, "S1", "ends the search").verdict, claim(result, "S10", "BR rises").verdict};
 }
@@ -38,12 +38,12 @@ TEST(CalibrateSearch, AnotherMomentIsAgainstS10Alone) {
 
 TEST(CalibrateSearch, MayEndWithATelegramThatACoarseCaptureDoesNotShow) {
   const auto judged = [](double bits) {
-    MadeCapture capture(k12M, {Wire::kBr});
+    MadeCapture capture(k12M, {wire::kBr});
     for (int i = 0; i < 2; ++i) capture.request(fdl_status(kMaster, kStation + 1), 100);
     capture.request_unread(fdl_status(kMaster, kStation + 1));
     capture.decide();
     capture.wait_bits(bits);
-    capture.set(Wire::kBr, true);
+    capture.set(wire::kBr, true);
     return claim(capture.judge_sampled(24e6), "S1", "ends the search").verdict;
   };
   EXPECT_EQ(judged(0), Verdict::kNotShown);
@@ -51,7 +51,7 @@ TEST(CalibrateSearch, MayEndWithATelegramThatACoarseCaptureDoesNotShow) {
 }
 
 TEST(CalibrateSearch, MayEndWithTheTelegramInWhichTheCaptureBegins) {
-  MadeCapture whole(k1M5, {Wire::kBr});
+  MadeCapture whole(k1M5, {wire::kBr});
   whole.find_rate();
   const Tick rise = whole.now();
   whole.exchange(fdl_status(), status(0));

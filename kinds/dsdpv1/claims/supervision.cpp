@@ -1,6 +1,6 @@
-#include "lab/calibrate/supervision.hpp"
+#include "kinds/dsdpv1/claims/supervision.hpp"
 
-#include "lab/calibrate/dp_service.hpp"
+#include "kinds/dsdpv1/claims/dp_service.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {
@@ -104,8 +104,8 @@ void Supervision::baud_control(const Moment& now) {
 
 /// While the rate is searched no watchdog runs or starts (S29).
 void Supervision::rate_found(Tick at) {
-  if (at <= searched_ || !scene_.record.sees(Wire::kBr)) return;
-  const Trace& br = scene_.record[Wire::kBr];
+  if (at <= searched_ || !scene_.record.sees(wire::kBr)) return;
+  const Trace& br = scene_.record[wire::kBr];
   const std::size_t rise = br.last(at, true);
   if (rise != Trace::kNone && br.edges[rise] > searched_) {
     baud_control({br.edges[rise], {0, 0}});

@@ -1,7 +1,7 @@
 // What telegrams say (S5, S13, S20, S21, S26, facts), in captures made for it.
 #include <gtest/gtest.h>
 
-#include "made_capture.hpp"
+#include "tests/kinds/dsdpv1/claims/made_capture.hpp"
 
 namespace dsdpv1::calibrate_test {
 namespace {
@@ -21,12 +21,12 @@ Verdict verdict(const Telegram& asked, const Telegram& answered, const std::stri
 
 /// A data exchange, then the end of DATA_EXCH, then one with this FCB.
 calibrate::Result after_the_end(unsigned fcb) {
-  MadeCapture capture(k1M5, {Wire::kBr, Wire::kPbf});
+  MadeCapture capture(k1M5, {wire::kBr, wire::kPbf});
   capture.find_rate();
-  capture.set(Wire::kPbf, false);
+  capture.set(wire::kPbf, false);
   capture.exchange(data_exchange({1}, fc::kFcv | fc::kFcb), data_answer({2}));
   capture.wait_ms(10);
-  capture.set(Wire::kPbf, true);
+  capture.set(wire::kPbf, true);
   capture.exchange(data_exchange({1}, fcb), data_answer({2}));
   return capture.judge();
 }
@@ -50,21 +50,21 @@ TEST(CalibrateTelegrams, AnotherFcbIsNoRepetition) {
 }
 
 TEST(CalibrateTelegrams, ARepetitionCountsThoughWhatIsBetweenWasIllegible) {
-  MadeCapture capture(k1M5, {Wire::kBr, Wire::kPbf});
+  MadeCapture capture(k1M5, {wire::kBr, wire::kPbf});
   capture.find_rate();
-  capture.set(Wire::kPbf, false);
+  capture.set(wire::kPbf, false);
   capture.exchange(data_exchange({1}, fc::kFcv), data_answer({2}));
-  capture.set(Wire::kPbf, true);
+  capture.set(wire::kPbf, true);
   capture.request(Bytes{0x68, 0x05, 0x04, 0x68});
   capture.exchange(data_exchange({1}, fc::kFcv), data_answer({2}));
   EXPECT_EQ(contradicted(capture.judge()), "");
 }
 
 TEST(CalibrateTelegrams, DataExchangeMayBeginBetweenTheRequestAndItsDecision) {
-  MadeCapture capture(k1M5, {Wire::kBr, Wire::kPbf});
+  MadeCapture capture(k1M5, {wire::kBr, wire::kPbf});
   capture.find_rate();
   capture.request(data_exchange({1}));
-  capture.set_at(Wire::kPbf, capture.now() + static_cast<Tick>(capture.bit() / 2), false);
+  capture.set_at(wire::kPbf, capture.now() + static_cast<Tick>(capture.bit() / 2), false);
   capture.answer(data_answer({2}));
   EXPECT_EQ(contradicted(capture.judge()), "");
 }

@@ -2,6 +2,7 @@
 // A capture that nobody took: telegrams and pins of a station 5 as a test wants them, exact to a tenth of a cycle.
 #include <string>
 
+#include "kinds/dsdpv1/claims/wires.hpp"
 #include "lab/calibrate/calibration.hpp"
 
 namespace dsdpv1::calibrate_test {
@@ -10,6 +11,7 @@ using bus::Bytes;
 using bus::Telegram;
 using bus::Tick;
 using calibrate::Wire;
+namespace wire = calibrate::wire;
 
 constexpr std::uint8_t kStation = 5, kMaster = 2, kOther = 3;       ///< kOther: a second master
 constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40, kWdOn = 0x08;  ///< of table 19
@@ -86,7 +88,7 @@ class MadeCapture {
   int baud_;
   Tick now_ = bus::kTicksPerMs;
   double lead_ = 4, trail_ = 4;
-  calibrate::Record record_;
+  calibrate::Record record_{calibrate::wires()};
 };
 
 /// The claim of this ruling whose text has these words; fails the test when there is none.
