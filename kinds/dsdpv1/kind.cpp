@@ -254,11 +254,4 @@ const ChipKind& kind_of(Part part) {
   return kinds.at(static_cast<std::size_t>(part));
 }
 
-Part part_of(const ChipKind& kind, const char* what) {
-  for (std::size_t i = 0; i < kParts.size(); ++i)
-    if (&kind == &kind_of(static_cast<Part>(i))) return static_cast<Part>(i);
-  throw InputError(fmt::format("{} for chips of the kinds {}, {} and {}, the scenario has {}", what, kParts[0].name,
-                               kParts[1].name, kParts[2].name, kind.name()));
-}
-
 }  // namespace dsdpv1::tb

@@ -13,7 +13,6 @@
 #include "kinds/dsdpv1/chip/core_device.hpp"
 #include "kinds/dsdpv1/chip/dsdpv1_pin_chip.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
-#include "kinds/dsdpv1/kind.hpp"
 #include "kinds/dsdpv1/pins/pin_table.hpp"
 #include "kinds/dsdpv1/tlm/tlm_chip.hpp"
 #include "kinds/dsdpv1/tlm/tlm_host_bus.hpp"
@@ -76,10 +75,12 @@ class TlmChipView : public ChipView {
 class TlmExecution : public Execution {
  public:
   std::unique_ptr<ChipView> make_chip(const ChipKind& kind, const ChipRequest& request) override {
-    if (!has_serial_ports(part_of(kind, "--view tlm is"))) return make_view(request, dsdpv1::systemc::TlmOptions());
+    const auto* settings = dynamic_cast<const Dsdpv1Settings*>(&request.settings);
+    if (settings == nullptr)
+      throw InputError(fmt::format("--view tlm is not for chips of the kind {}, allowed is --view pins", kind.name()));
+    if (!has_serial_ports(settings->part)) return make_view(request, dsdpv1::systemc::TlmOptions());
     dsdpv1::systemc::RsuTlmOptions options;
-    const auto& settings = static_cast<const Dsdpv1Settings&>(request.settings);
-    options.straps = {settings.mode, settings.address, settings.uart_rate, settings.interval};
+    options.straps = {settings->mode, settings->address, settings->uart_rate, settings->interval};
     return make_view(request, options);
   }
 
