@@ -158,6 +158,9 @@ function(dsdpv1_install_bus_and_checks)
   dsdpv1_install_moved_headers(tb/chip/checks tb/checks)
   dsdpv1_install_moved_headers(kinds/dsdpv1/checks tb/dsdpv1/checks)
   dsdpv1_install_moved_headers(kinds/dsdpv1/pins tb/dsdpv1/pins pin_table)
+  foreach(header host_telegram serial_settings spi_frame_reader)  # the readers that the checks share
+    install(FILES kinds/dsdpv1/port/${header}.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/kinds/dsdpv1/port COMPONENT checks)
+  endforeach()
   dsdpv1_install_pc(checks dsdpv1-checks "checks of handshake, bus timing and use of the DSDPV1's DPRAM"
                     LIBS dsdpv1_checks dsdpv1_check_recorder dsdpv1_pins REQUIRES dsdpv1-core dsdpv1-bus fmt)
 endfunction()

@@ -41,15 +41,6 @@ std::string said_pause(const OfChip& order) {
 std::string said_talk_over(const OfChip& order) { return fmt::format("talks over {} replies", order.times); }
 std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_REQ and L_STA"; }
 
-class Dsdpv1AccessReader : public AccessReader {
- public:
-  void pin(bus::Tick at, PinNumber pin, Level level) override { last_.pin(at, static_cast<dsdpv1::Pin>(pin), level); }
-  std::string words() const override { return last_.words(); }
-
- private:
-  LastAccess last_;
-};
-
 class Dsdpv1Kind : public ChipKind {
  public:
   explicit Dsdpv1Kind(Part part) : part_(part), rtl_(cosim::make_rtl_of(part)) {}
@@ -97,7 +88,7 @@ class Dsdpv1Kind : public ChipKind {
     const bool has_cell = dsdpv1::text_template(event.reason).find("B{a:3x}") != std::string::npos;
     return has_cell ? fmt::format("B{:03X}", event.a) : "";
   }
-  std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Dsdpv1AccessReader>(); }
+  std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<LastAccess>(); }
   std::unique_ptr<HostReader> make_host_reader(const OwnSettings& chip) const override {
     return host_reader_of(static_cast<const Dsdpv1Settings&>(chip));
   }
@@ -110,20 +101,8 @@ class Dsdpv1Kind : public ChipKind {
   PinMask checked_pins() const override { return checks::Checks::pins(part_); }
   std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
                                                   const OwnSettings* chip) const override {
-    checks::SerialSettings serial;
-    if (chip != nullptr) {
-      const auto& settings = static_cast<const Dsdpv1Settings&>(*chip);
-      const Straps straps = straps_of(settings);
-      serial = {straps[0],
-                straps[1],
-                straps[2],
-                straps[3],
-                settings.spi_write_gap,
-                settings.spi_reply_gap,
-                settings.spi_miso_delay,
-                settings.uart_gaps,
-                settings.uart_min_tsdr};
-    }
+    const SerialSettings serial =
+        chip != nullptr ? serial_settings_of(static_cast<const Dsdpv1Settings&>(*chip)) : SerialSettings();
     return std::make_unique<checks::Checks>(limits, part_, serial);
   }
   const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }

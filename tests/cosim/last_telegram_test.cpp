@@ -14,7 +14,7 @@ const std::vector<std::uint8_t> kRead = {0x01, 0x00, 0x14, 0x01, 0x18, 0xCF};
 template <class Edges>
 void play(tb::LastAccess& access, Tick begin, const Edges& edges, std::size_t count = 1'000'000) {
   for (std::size_t i = 0; i < std::min(count, edges.size()); ++i)
-    if (edges[i].pin != Pin::kMiso) access.pin(begin + edges[i].at, edges[i].pin, edges[i].level ? 1 : 0);
+    if (edges[i].pin != Pin::kMiso) access.pin(begin + edges[i].at, number(edges[i].pin), edges[i].level ? 1 : 0);
 }
 
 TEST(LastTelegram, OfSpiIsItsFrameSoFar) {
@@ -32,7 +32,7 @@ TEST(LastTelegram, OfSpiIsItsFrameSoFar) {
 
 TEST(LastTelegram, OfTheUartIsThatAfterTheLastSilence) {
   tb::LastAccess access;
-  access.pin(0, Pin::kUbr, 7);
+  access.pin(0, number(Pin::kUbr), 7);
   const UartTelegram telegram(kRead, UartTiming());
   play(access, 250'000, telegram);
   EXPECT_EQ(access.words(), "UART telegram of 6 bytes from cycle 1000 (20.833 us): 01 00 14 01 18 CF");
@@ -54,9 +54,9 @@ TEST(LastTelegram, TheFirstOfARunIsNoted) {
 TEST(LastTelegram, AnAccessAfterItIsTheLast) {
   tb::LastAccess access;
   play(access, 250'000, SpiFrame(kRead, SpiTiming()));
-  access.pin(500'000, Pin::kA, 0x410);
-  access.pin(500'000, Pin::kCsr, 0);
-  access.pin(500'000, Pin::kRd, 0);
+  access.pin(500'000, number(Pin::kA), 0x410);
+  access.pin(500'000, number(Pin::kCsr), 0);
+  access.pin(500'000, number(Pin::kRd), 0);
   EXPECT_EQ(access.words(), "read B410 at cycle 2000 (41.667 us)");
 }
 

@@ -1,5 +1,7 @@
 #include "kinds/dsdpv1/checks/blocks.hpp"
 
+#include "kinds/dsdpv1/port/crc16.hpp"
+
 namespace dsdpv1::checks {
 namespace {
 
@@ -29,14 +31,13 @@ std::optional<unsigned> covered(const Block& block, const Look& look) {
 }
 
 std::optional<std::uint16_t> crc_over(Address first, unsigned count, const Look& look) {
-  unsigned crc = 0xFFFF;
+  tb::Crc16 crc;
   for (unsigned i = 0; i < count; ++i) {
     const std::optional<std::uint8_t> byte = look(static_cast<Address>(first + i));
     if (!byte) return std::nullopt;
-    crc ^= *byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1) ^ 0xA001U : crc >> 1;
+    crc.add(*byte);
   }
-  return static_cast<std::uint16_t>(crc);
+  return crc.value();
 }
 
 }  // namespace dsdpv1::checks

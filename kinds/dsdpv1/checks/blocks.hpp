@@ -55,7 +55,7 @@ using Look = std::function<std::optional<std::uint8_t>(Address)>;
 /// How many bytes the CRC of a block of the user covers; absent when a byte is not known, or the length cannot be right
 /// (D12, V14: the chip refuses such a block unread).
 std::optional<unsigned> covered(const Block& block, const Look& look);
-/// The CRC over `count` bytes from `first` (4.2, D2). Written apart from the driver's and the chip's, which it judges.
+/// The CRC over `count` bytes from `first` (4.2, D2); absent when a byte is not known.
 std::optional<std::uint16_t> crc_over(Address first, unsigned count, const Look& look);
 
 }  // namespace dsdpv1::checks

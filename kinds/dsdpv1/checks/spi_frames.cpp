@@ -13,16 +13,9 @@ constexpr std::size_t kReplyHeader = 2;
 
 }  // namespace
 
-void SpiFrames::Wire::set(Tick at, bool to) {
-  if (changed != at) earlier = level;
-  changed = at;
-  level = to;
-}
-
 void SpiFrames::reset() {
   service_.reset();
-  fell_.reset();
-  rose_.reset();
+  forget_frame();
   last_write_.reset();
   owned_since_.reset();
   exclusive_since_.reset();
@@ -30,39 +23,23 @@ void SpiFrames::reset() {
 }
 
 void SpiFrames::pin(Tick at, Pin pin, Level level) {
-  end_frame_before(at);
-  switch (pin) {
-    case Pin::kXss: return xss(at, level != 0);
-    case Pin::kSck: return level != 0 ? sck_rose(at) : void();
-    case Pin::kMosi: return mosi_.set(at, level != 0);
-    case Pin::kMiso: return miso_.set(at, level != 0);  // released: as high
-    case Pin::kPbrts: return service_.pbrts(at, level != 0);
-    default: return;
-  }
+  read(at, pin, level);
+  if (pin == Pin::kPbrts) service_.pbrts(at, level != 0);
 }
 
 // --- frames ----------------------------------------------------------------------------------------------------------
 
-void SpiFrames::xss(Tick at, bool level) {
-  if (level) {
-    rose_ = at;
-    return;
-  }
+void SpiFrames::frame_began(Tick at) {
   judge_gap(at);
   heard_ = heard(at);
-  fell_ = at;
-  rose_.reset();
-  bits_ = 0;
   request_.clear();
   reply_.clear();
   for_card_ = complete_ = false;
 }
 
-void SpiFrames::end_frame_before(Tick at) {
-  if (!rose_ || !fell_ || *rose_ >= at) return;
+void SpiFrames::frame_ended(Tick at) {
   settle();
-  if (exclusive_since_) owner_gone(*std::exchange(exclusive_since_, std::nullopt), *rose_);
-  fell_.reset();
+  if (exclusive_since_) owner_gone(*std::exchange(exclusive_since_, std::nullopt), at);
 }
 
 void SpiFrames::judge_gap(Tick at) {
@@ -78,23 +55,16 @@ bool SpiFrames::heard(Tick fell) const {
   return !last_write_ || fell / kTicksPerCycle >= *last_write_ / kTicksPerCycle + Tick{settings_.spi_write_gap};
 }
 
-void SpiFrames::sck_rose(Tick at) {
-  if (!selected(at)) return;
-  out_ = (out_ << 1 | (mosi_.before(at) ? 1U : 0U)) & 0xFFU;
-  in_ = (in_ << 1 | (miso_.before(at) ? 1U : 0U)) & 0xFFU;
-  if (++bits_ % 8 != 0 || !heard_) return;
-  complete_ ? reply_byte(at, static_cast<std::uint8_t>(in_)) : request_byte(at, static_cast<std::uint8_t>(out_));
+void SpiFrames::byte(Tick at, std::uint8_t mosi, std::uint8_t miso) {
+  if (heard_) complete_ ? reply_byte(at, miso) : request_byte(at, mosi);
 }
 
 // --- telegrams -------------------------------------------------------------------------------------------------------
 
 void SpiFrames::request_byte(Tick at, std::uint8_t byte) {
-  if (bits_ > 8 && !for_card_) return;
+  if (!request_.empty() && !for_card_) return;
   request_.add(byte);
-  if (bits_ == 8) {
-    const auto address = static_cast<unsigned>(settings_.address);
-    for_card_ = request_.begins() && (address == 1 || address == 2) && request_.card() == address;
-  }
+  for_card_ = request_.begins() && settings_.is_own(request_.card());
   if (for_card_ && request_.complete()) request_complete(at);
 }
 
@@ -162,12 +132,12 @@ std::optional<Tick> SpiFrames::held_off_since() const {
 }
 
 void SpiFrames::telegram(Tick now, const bus::WireTelegram& telegram) {
-  end_frame_before(now);
+  pass(now);
   service_.telegram(now, telegram, held_off_since());
 }
 
 void SpiFrames::finish(Tick end) {
-  end_frame_before(end + 1);
+  pass(end + 1);
   settle();
   service_.finish(end, held_off_since());
   if (owned_since_) release(end);

@@ -7,12 +7,12 @@
 #include "kinds/dsdpv1/checks/host_telegram.hpp"
 #include "kinds/dsdpv1/checks/serial_settings.hpp"
 #include "kinds/dsdpv1/checks/service.hpp"
+#include "kinds/dsdpv1/port/spi_frame_reader.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
 namespace dsdpv1::checks {
 
-/// Pins that change at the same tick may be told in any order.
-class SpiFrames {
+class SpiFrames : private tb::SpiFrameReader {
  public:
   /// `settings` outlives it.
   SpiFrames(Recorder& recorder, const SerialSettings& settings)
@@ -26,23 +26,14 @@ class SpiFrames {
   void finish(Tick end);
 
  private:
-  /// A pin whose level strictly before a tick can be asked for.
-  struct Wire {
-    Tick changed = -1;
-    bool level = true, earlier = true;
-
-    void set(Tick at, bool to);
-    bool before(Tick at) const { return changed == at ? earlier : level; }
-  };
   /// What a telegram does when the chip does not refuse it.
   enum class Effect : std::uint8_t { kNone, kClaim, kRelease, kReadAndWrite };
 
-  bool selected(Tick at) const { return fell_ && *fell_ < at && (!rose_ || at <= *rose_); }
-  void xss(Tick at, bool level);
-  void end_frame_before(Tick at);
+  void frame_began(Tick at) override;
+  void byte(Tick at, std::uint8_t mosi, std::uint8_t miso) override;
+  void frame_ended(Tick at) override;
   void judge_gap(Tick at);
   bool heard(Tick fell) const;
-  void sck_rose(Tick at);
   void request_byte(Tick at, std::uint8_t byte);
   void request_complete(Tick at);
   void reply_byte(Tick at, std::uint8_t byte);
@@ -56,10 +47,7 @@ class SpiFrames {
   Recorder& recorder_;
   const SerialSettings& settings_;
   Service service_;
-  Wire mosi_{-1, false, false}, miso_;  ///< levels of a chip fresh from construction
-  std::optional<Tick> fell_, rose_;     ///< XSS: begin and end of the frame
-  bool heard_ = false;
-  unsigned bits_ = 0, out_ = 0, in_ = 0;
+  bool heard_ = false;  ///< the frame
   HostTelegram request_{SerialPort::kSpi};
   bool for_card_ = false, complete_ = false;
   unsigned idle_bytes_ = 0;                            ///< of FF after the request

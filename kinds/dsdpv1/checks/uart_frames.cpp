@@ -3,19 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace dsdpv1::checks {
 namespace {
 
-constexpr std::array<Tick, 8> kBitCycles = {5000, 2500, 1250, 833, 417, 208, 104, 26};  // UA1
-constexpr std::uint8_t kFirstCode = 1, kLastCode = 7;                                   // of B019 (UA3)
-constexpr Tick kSynchroniser = 2 * kTicksPerCycle;                                      // P9
+constexpr Tick kSynchroniser = 2 * kTicksPerCycle;  // P9
 
 }  // namespace
-
-Tick UartFrames::bit() const { return kBitCycles.at(static_cast<std::size_t>(settings_.rate & 7)); }
 
 /// The margin in bit times stands beside that in ns.
 void UartFrames::value(Check check, Tick at, Tick measured, const std::string& what) {
@@ -91,10 +86,7 @@ void UartFrames::character(const RxdCharacter& character) {
 
 void UartFrames::begin_telegram() {
   request_.clear();
-  const bool by_cell = interval_cell_ >= kFirstCode && interval_cell_ <= kLastCode;
-  const Tick halves =
-      settings_.uart_gaps.at(by_cell ? interval_cell_ : static_cast<std::size_t>(settings_.interval & 7));
-  gap_ = halves * kBitsPerCharacter * bit() / 2;
+  gap_ = settings_.silence(interval_cell_) * kBitsPerCharacter * bit() / 2;
 }
 
 bool UartFrames::in_time(const RxdCharacter& character) {
@@ -146,8 +138,7 @@ void UartFrames::judge_stop(Tick next_edge) {
 
 void UartFrames::request_complete(const RxdCharacter& last) {
   state_ = State::kWait;
-  const bool has_card = settings_.address == 1 || settings_.address == 2;
-  if (!has_card || request_.card() != static_cast<unsigned>(settings_.address)) return;
+  if (!settings_.is_own(request_.card())) return;
   state_ = State::kReply;
   asked_ = last.fell + kBitsPerCharacter * bit_ticks();
   tsdr_ = std::max<Tick>(settings_.uart_min_tsdr, tsdr_cell_);

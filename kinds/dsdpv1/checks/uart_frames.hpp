@@ -46,7 +46,7 @@ class UartFrames {
     bool level;
   };
 
-  Tick bit() const;
+  Tick bit() const { return settings_.bit(); }
   void advance(Tick at);
   void note_rxd(Tick at, bool level);
   void rxd(Tick at, bool level);

@@ -6,6 +6,7 @@
 
 #include "kinds/dsdpv1/claims/found.hpp"
 #include "kinds/dsdpv1/claims/reads.hpp"
+#include "kinds/dsdpv1/port/crc16.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace dsdpv1::calibrate {
@@ -23,16 +24,6 @@ const Claim kVersion = {"D1", "B000 to B003 are 01 0D 07 01, B004 is 00 or C5", 
 const Claim kCrc = {"D2", "a block that the user reads has the right CRC of what D3 says", host_port()};
 const Claim kTaken = {"H5", "flags of B010 that the user set are 0 after an access of the chip",
                       with_host_port(wire::kLReq)};
-
-std::uint16_t crc_of(const bus::Bytes& bytes) {
-  constexpr std::uint16_t kPolynomial = 0xA001;
-  unsigned crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int i = 0; i < 8; ++i) crc = (crc & 1U) != 0 ? crc >> 1U ^ kPolynomial : crc >> 1U;
-  }
-  return static_cast<std::uint16_t>(crc);
-}
 
 /// The bits that the chip clears (table 10).
 constexpr std::uint8_t kFlags = dsdpv1::regs::kUserCommand1Input | dsdpv1::regs::kUserCommand1Diag |
@@ -168,16 +159,17 @@ class UserJudge {
   void judge_crc(const Area& area, const UserAccess& access) {
     const auto length = read_.find(area.first + area.header - 1);
     if (length == read_.end()) return;
-    bus::Bytes bytes;
+    tb::Crc16 crc;
+    bool empty = true;
     for (std::uint32_t i = 0; i < area.header + length->second; ++i) {
       const auto byte = read_.find(area.first + i);
       if (byte == read_.end()) return;
-      bytes.push_back(byte->second);
+      crc.add(byte->second);
+      empty = empty && byte->second == 0;
     }
     const auto high = read_.find(area.crc);
     if (high == read_.end()) return;
-    const unsigned seen = static_cast<unsigned>(high->second) << 8U | access.data, right = crc_of(bytes);
-    const bool empty = std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte == 0; });
+    const unsigned seen = static_cast<unsigned>(high->second) << 8U | access.data, right = crc.value();
     if (seen == 0 && empty) return;  // as the start-up has left it
     if (seen == right)
       found_.judge.holds(kCrc);

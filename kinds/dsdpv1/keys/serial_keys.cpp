@@ -9,8 +9,6 @@
 #include "kinds/dsdpv1/port/spi_reader.hpp"
 #include "kinds/dsdpv1/port/uart_reader.hpp"
 #include "kinds/dsdpv1/user_cpu/orders.hpp"
-#include "model/dsdpv1/config.hpp"
-#include "model/profibus/time.hpp"
 
 namespace dsdpv1::tb {
 namespace {
@@ -119,16 +117,16 @@ void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const 
 
 }  // namespace
 
+SerialSettings serial_settings_of(const Dsdpv1Settings& chip) {
+  const Straps straps = straps_of(chip);
+  return {straps[0],          straps[1],           straps[2],      straps[3],         chip.spi_write_gap,
+          chip.spi_reply_gap, chip.spi_miso_delay, chip.uart_gaps, chip.uart_min_tsdr};
+}
+
 std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip) {
   if (chip.mode == HostMode::kSpi) return std::make_unique<SpiReader>();
-  if (chip.mode != HostMode::kUart) return nullptr;
-  constexpr Tick kHalfCharacters = 2, kBits = 11;
-  const Tick bit = profibus::kTicksPerCycle * kUbrCycles.at(static_cast<std::size_t>(chip.uart_rate));
-  std::array<Tick, 8> silences{};
-  std::transform(chip.uart_gaps.begin(), chip.uart_gaps.end(), silences.begin(),
-                 [bit](std::uint32_t gap) { return Tick{gap} * kBits * bit / kHalfCharacters; });
-  return std::make_unique<UartReader>(bit, silences, static_cast<unsigned>(chip.interval),
-                                      static_cast<unsigned>(chip.address));
+  if (chip.mode == HostMode::kUart) return std::make_unique<UartReader>(serial_settings_of(chip));
+  return nullptr;
 }
 
 void add_serial_ports(ObjectOf<Dsdpv1User>& user) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "board/stm32/fsmc_timing.hpp"
+#include "kinds/dsdpv1/port/serial_settings.hpp"
 #include "kinds/dsdpv1/user_cpu/cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_port.hpp"
 #include "model/dsdpv1/chip.hpp"
@@ -104,6 +105,7 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
                 int line);
 void check_order(const std::string& order, CpuKind kind, HostMode mode, const std::string& file, int line);
 
+SerialSettings serial_settings_of(const Dsdpv1Settings& chip);
 /// Reads the telegrams of the chip's serial port; null: it has the parallel one.
 std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip);
 

@@ -5,12 +5,13 @@
 #include <array>
 #include <vector>
 
-#include "model/dpram/crc16.hpp"
+#include "kinds/dsdpv1/port/crc16.hpp"
 
 namespace dsdpv1::tb {
 namespace {
 
 constexpr std::size_t kCrcBytes = 2;
+constexpr unsigned kCells = 0x800, kMostData = 245, kMostInputs = 244, kMostOverUart = 250;
 constexpr unsigned kFunctionError = 0x80;
 
 struct CrcOf {
@@ -21,8 +22,9 @@ struct CrcOf {
 /// Of a telegram with at least its CRC.
 CrcOf crc_of(const bus::Bytes& bytes) {
   const std::size_t covered = bytes.size() - kCrcBytes;
-  return {static_cast<unsigned>(bytes[covered]) << 8 | bytes[covered + 1],
-          dpram::crc16(bytes.data(), static_cast<int>(covered))};
+  Crc16 crc;
+  for (std::size_t i = 0; i < covered; ++i) crc.add(bytes[i]);
+  return {static_cast<unsigned>(bytes[covered]) << 8 | bytes[covered + 1], crc.value()};
 }
 
 const char* crc_word(const bus::Bytes& bytes) { return crc_of(bytes).right() ? "CRC right" : "CRC wrong"; }
@@ -60,20 +62,31 @@ std::string function_words(unsigned function) {
 
 std::optional<std::size_t> HostRequest::size_needed() const {
   if (bytes_.size() <= length_at()) return std::nullopt;
-  const std::size_t data = is_read() ? 0 : length();
+  const std::size_t data = kind() == TelegramKind::kRead ? 0 : length();
   return length_at() + 1 + data + kCrcBytes;
 }
 
-bool HostRequest::crc_right() const { return crc_of(bytes_).right(); }
+unsigned HostRequest::most_data() const {
+  return link_ == HostLink::kUart && kind() == TelegramKind::kWrite ? kMostOverUart : kMostData;
+}
+
+bool HostRequest::right() const {
+  if (!crc_of(bytes_).right()) return false;
+  if (kind() == TelegramKind::kExchange) return length() <= kMostInputs;
+  return length() >= 1 && length() <= most_data() && address() + length() <= kCells;
+}
 
 std::optional<std::uint8_t> HostRequest::written(unsigned cell) const {
-  if (command() != kWrite || !crc_right() || cell < address() || cell >= address() + length()) return std::nullopt;
+  if (kind() != TelegramKind::kWrite || !covers(cell)) return std::nullopt;
   return bytes_[length_at() + 1 + cell - address()];
 }
 
 const char* HostRequest::name() const {
-  if (command() == kThird) return link_ == HostLink::kUart ? "exchange" : "read and write";
-  return is_read() ? "read" : "write";
+  switch (kind()) {
+    case TelegramKind::kRead: return "read";
+    case TelegramKind::kWrite: return "write";
+    default: return link_ == HostLink::kUart ? "exchange" : "read and write";
+  }
 }
 
 std::string HostRequest::words() const {

@@ -1,5 +1,5 @@
 #pragma once
-// What the bytes of a DSDPV1-RSU's host telegrams mean (SP4, SP10, SP16, UA5, UA7 to UA13), in words.
+// What the bytes of a DSDPV1-RSU's host telegrams mean (SP4, SP10, SP16, UA5, UA7 to UA13), also in words.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,32 +11,42 @@ namespace dsdpv1::tb {
 
 enum class HostLink : std::uint8_t { kSpi, kUart };
 
+/// The third: over SPI read and write (SP16), over the UART exchange (UA7).
+enum class TelegramKind : std::uint8_t { kRead, kWrite, kExchange };
+
 /// A request of the user, byte by byte.
 class HostRequest {
  public:
   explicit HostRequest(HostLink link) : link_(link) {}
-  void clear() { bytes_.clear(); }
-  /// What comes after the longest telegram there is tells nothing more.
+  void clear() {
+    bytes_.clear();
+    size_ = 0;
+  }
   void add(std::uint8_t byte) {
-    if (bytes_.size() < kMost) bytes_.push_back(byte);
+    if (size_++ < kMost) bytes_.push_back(byte);
   }
   bool empty() const { return bytes_.empty(); }
+  std::size_t size() const { return size_; }
+  /// What comes after the longest telegram there is tells nothing more, and is left out.
   const bus::Bytes& bytes() const { return bytes_; }
 
   // From here on there is a byte.
   /// The first one is a telegram's (SP11).
-  bool begins() const { return command() <= kThird && (bytes_[0] & 0x1C) == 0; }
+  bool begins() const { return kind() <= TelegramKind::kExchange && (bytes_[0] & 0x1C) == 0; }
   unsigned card() const { return bytes_[0] & 3U; }
-  bool is_read() const { return command() == kRead; }
-  /// All that it needs by its length byte; absent while that has not come.
-  std::optional<std::size_t> size_needed() const;
+  TelegramKind kind() const { return static_cast<TelegramKind>(bytes_[0] >> 5U); }
   bool complete() const { return begins() && bytes_.size() == size_needed(); }
 
   // Of a complete one.
-  bool is_exchange() const { return link_ == HostLink::kUart && command() == kThird; }
+  bool is_exchange() const { return link_ == HostLink::kUart && kind() == TelegramKind::kExchange; }
   unsigned length() const { return bytes_[length_at()]; }
-  bool crc_right() const;
-  /// What a right write telegram writes there; absent for another.
+  unsigned address() const { return static_cast<unsigned>(bytes_[address_at()]) << 8 | bytes_[address_at() + 1]; }
+  /// CRC (R15), address and length are right (SP10, UA5): it is carried out unless the chip is busy (SP13). Of an
+  /// exchange the areas are not looked at (UA9).
+  bool right() const;
+  /// A read or write of this cell.
+  bool covers(unsigned cell) const { return cell >= address() && cell < address() + length(); }
+  /// What a write that covers the cell writes there; absent for another telegram.
   std::optional<std::uint8_t> written(unsigned cell) const;
 
   /// "write B020, length 23, card 1, CRC right"; of one that is not complete what is known.
@@ -46,17 +56,18 @@ class HostRequest {
 
  private:
   static constexpr std::size_t kMost = 512;
-  static constexpr unsigned kRead = 0, kWrite = 1, kThird = 2;  ///< the third: read and write, of the UART exchange
 
-  unsigned command() const { return bytes_[0] >> 5U; }
-  bool has_address() const { return link_ == HostLink::kUart || command() != kThird; }
+  bool has_address() const { return link_ == HostLink::kUart || kind() != TelegramKind::kExchange; }
   std::size_t address_at() const { return is_exchange() ? 2 : 1; }
   std::size_t length_at() const { return has_address() ? address_at() + 2 : 1; }
-  unsigned address() const { return static_cast<unsigned>(bytes_[address_at()]) << 8 | bytes_[address_at() + 1]; }
+  /// All that it needs by its length byte; absent while that has not come.
+  std::optional<std::size_t> size_needed() const;
+  unsigned most_data() const;
   const char* name() const;
 
   HostLink link_;
   bus::Bytes bytes_;
+  std::size_t size_ = 0;
 };
 
 /// The chip's reply to a request.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/profibus/time.hpp"
-
 namespace dsdpv1::tb {
 namespace {
 
@@ -18,10 +16,9 @@ constexpr const char* kNotHeard = "not heard: the chip replies";
 
 }  // namespace
 
-UartReader::UartReader(Tick bit, const std::array<Tick, 8>& silences, unsigned interval, unsigned card)
-    : silences_(silences), interval_(interval), card_(card) {
-  from_user_.set_bit(bit);
-  from_chip_.set_bit(bit);
+UartReader::UartReader(const SerialSettings& settings) : settings_(settings) {
+  from_user_.set_bit(settings.bit() * bus::kTicksPerCycle);
+  from_chip_.set_bit(settings.bit() * bus::kTicksPerCycle);
   from_user_.on_character = [this](const bus::ReceivedCharacter& each) { heard_from_user(each); };
   from_chip_.on_character = [this](const bus::ReceivedCharacter& each) { heard_from_chip(each); };
 }
@@ -83,7 +80,7 @@ void UartReader::heard_from_user(const bus::ReceivedCharacter& character) {
 
 void UartReader::begin_request(const bus::ReceivedCharacter& character) {
   request_start_ = character.start;
-  longest_silence_ = silences_.at(b019_ >= 1 && b019_ < silences_.size() ? b019_ : interval_);
+  longest_silence_ = settings_.silence(b019_) * bus::kCharacterBits * settings_.bit() * bus::kTicksPerCycle / 2;
   if (!heard(character)) spoilt_ = kNotHeard;
 }
 
@@ -95,8 +92,8 @@ bool UartReader::heard(const bus::ReceivedCharacter& character) const {
 /// A request that nothing is wrong with but perhaps its CRC is replied to.
 void UartReader::end_request(Tick end, const std::string& wrong) {
   if (spoilt_.empty() && request_.complete()) {
-    if (const auto code = request_.written(kIntervalCell)) b019_ = *code;
-    replying_ = request_.card() == card_ && (card_ == 1 || card_ == 2);
+    if (request_.right()) b019_ = request_.written(kIntervalCell).value_or(b019_);
+    replying_ = settings_.is_own(request_.card());
     if (replying_) asked_ = request_;
   }
   const HostTelegram telegram{request_start_, end, false, request_.words(), request_.bytes(), wrong};
@@ -108,7 +105,7 @@ void UartReader::end_request(Tick end, const std::string& wrong) {
 /// UA3: longer than this within a telegram drops it. In a break none is counted.
 Tick UartReader::silence_at() const {
   if (request_.empty() || from_user_.receiving() || !rxd_) return bus::kNever;
-  return idle_since_ + longest_silence_ + profibus::kTicksPerCycle + 1;
+  return idle_since_ + longest_silence_ + bus::kTicksPerCycle + 1;
 }
 
 void UartReader::silence(Tick now) {

@@ -1,12 +1,11 @@
 #pragma once
 // Reads the telegrams on RXD and TXD of a DSDPV1-RSU: characters as its strap UBR says, telegrams as UA2, UA3 and UA16
 // have them.
-#include <array>
-#include <optional>
 #include <string>
 
 #include "bus/wire/uart.hpp"
 #include "kinds/dsdpv1/port/host_telegram.hpp"
+#include "kinds/dsdpv1/port/serial_settings.hpp"
 #include "model/dsdpv1/pins.hpp"
 #include "tb/chip/host_reader.hpp"
 
@@ -15,8 +14,7 @@ namespace dsdpv1::tb {
 class UartReader : public HostReader {
  public:
   using Tick = bus::Tick;
-  /// `bit`, and for each code of B019 and UIV the longest silence within a telegram, in ticks; `interval` is UIV.
-  UartReader(Tick bit, const std::array<Tick, 8>& silences, unsigned interval, unsigned card);
+  explicit UartReader(const SerialSettings& settings);
 
   const char* port() const override { return "uart"; }
   PinMask pins() const override;
@@ -36,8 +34,7 @@ class UartReader : public HostReader {
   Tick silence_at() const;
 
   bus::UartReceiver from_user_, from_chip_;
-  std::array<Tick, 8> silences_;
-  unsigned interval_, card_;
+  SerialSettings settings_;
   unsigned b019_ = 0;                                              ///< as the user's telegrams have written it
   Tick longest_silence_ = 0;                                       ///< of the telegram that comes
   Tick idle_since_ = 0;                                            ///< RXD; meaningless while it is low

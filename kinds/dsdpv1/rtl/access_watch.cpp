@@ -33,7 +33,7 @@ void AccessWatch::change(Tick at, PinNumber changed, Level to) {
   }
   if (!differs) return;
   if (pin == Pin::kLReq) (to != 0 ? chip_start_ : chip_end_) = at;
-  user_.pin(at, pin, to);
+  user_.pin(at, changed, to);
 }
 
 /// With a serial port the DPRAM is the same in every cycle, so it may be compared at any.
