@@ -1,15 +1,13 @@
 #include "kinds/dsdpv1/checks/rxd_sampler.hpp"
 
+#include <bitset>
+
 namespace dsdpv1::checks {
 namespace {
 
 constexpr int kStartBit = 0, kFirstData = 1, kStopBit = 10;
 
-bool even(unsigned bits) {
-  bool even = true;
-  for (; bits != 0; bits &= bits - 1) even = !even;
-  return even;
-}
+bool even(unsigned bits) { return std::bitset<kStopBit>(bits).count() % 2 == 0; }
 
 }  // namespace
 

@@ -8,15 +8,16 @@
 #include "kinds/dsdpv1/checks/checks.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
+#include "tests/conformance/host_telegrams.hpp"
 #include "tests/kinds/dsdpv1/checks/uart_line.hpp"
 
 namespace dsdpv1 {
 namespace {
 
 using checks::Check;
-using checks_test::Bytes;
-using checks_test::sealed;
 using checks_test::Tick;
+using conformance::Bytes;
+using conformance::with_crc;
 
 constexpr Tick kBit = 26 * 250;
 
@@ -95,7 +96,7 @@ class Traffic {
       telegram = {static_cast<std::uint8_t>(0x40 | card), 0x00, 0x01, 0x30, 2, 1,
                   static_cast<std::uint8_t>(below(256))};
     if (one_in(15)) telegram[0] = static_cast<std::uint8_t>(below(256));
-    telegram = sealed(telegram, one_in(8) ? 1 : 0);
+    telegram = with_crc(telegram, one_in(8) ? 1 : 0);
     if (one_in(10)) telegram.resize(1 + static_cast<std::size_t>(below(static_cast<int>(telegram.size()))));
     return telegram;
   }

@@ -4,24 +4,25 @@
 #include <optional>
 
 #include "kinds/dsdpv1/checks/checks.hpp"
+#include "tests/conformance/host_telegrams.hpp"
 #include "tests/kinds/dsdpv1/checks/uart_line.hpp"
 
 namespace dsdpv1 {
 namespace {
 
 using checks::Check;
-using checks_test::Bytes;
 using checks_test::LineCharacter;
-using checks_test::sealed;
 using checks_test::Tick;
+using conformance::Bytes;
+using conformance::with_crc;
 
 constexpr Level kParallel = 0, kSpi = 1, kUart = 2;
 constexpr Tick kCycle = 250, kBit = 26 * kCycle, kCharacter = 11 * kBit;
 constexpr Tick kFirst = 100'000;             // a multiple of a cycle: the chip sees a fall there an edge later
 constexpr Tick kInterval = 7 * 11 * 26 / 2;  // UA3: 3.5 characters, in cycles
 
-const Bytes kRead = sealed({0x01, 0x00, 0x00, 0x01}), kOtherCard = sealed({0x02, 0x00, 0x00, 0x01}),
-            kReply = sealed({0x81, 0x00, 0x55});
+const Bytes kRead = with_crc({0x01, 0x00, 0x00, 0x01}), kOtherCard = with_crc({0x02, 0x00, 0x00, 0x01}),
+            kReply = with_crc({0x81, 0x00, 0x55});
 
 /// Where silence ends a telegram whose last character begins at `fell`: a start bit there is too late, or heard again.
 constexpr Tick silence_after(Tick fell) { return (fell / kCycle + 1 + 11 * 26 + kInterval + 1) * kCycle; }
@@ -98,7 +99,7 @@ TEST(RxdCharacterGap, CountsFromTheEndOfTheCharacterBefore) {
 
 TEST(RxdCharacterGap, OfTheNextTelegramIsThatOfB019) {
   Host host;
-  host.reply(host.send(kFirst, sealed({0x21, 0x00, 0x19, 0x01, 0x01})) + 11 * kBit + kCycle, sealed({0xA1, 0x00}));
+  host.reply(host.send(kFirst, with_crc({0x21, 0x00, 0x19, 0x01, 0x01})) + 11 * kBit + kCycle, with_crc({0xA1, 0x00}));
   const Tick first = 2'000'000;
   host.character(first, {kRead[0]});
   const Tick late = silence_after(first) - (kInterval - 2 * 11 * 26 / 2) * kCycle;  // UA3: code 1 is one character
@@ -108,7 +109,7 @@ TEST(RxdCharacterGap, OfTheNextTelegramIsThatOfB019) {
 
 TEST(RxdCharacterGap, IsThatOfB019UpToItsLastCode) {
   Host host;
-  host.reply(host.send(kFirst, sealed({0x21, 0x00, 0x19, 0x01, 0x07})) + 11 * kBit + kCycle, sealed({0xA1, 0x00}));
+  host.reply(host.send(kFirst, with_crc({0x21, 0x00, 0x19, 0x01, 0x07})) + 11 * kBit + kCycle, with_crc({0xA1, 0x00}));
   const Tick first = 2'000'000;
   host.character(first, {kRead[0]});
   const Tick late = silence_after(first) + (200 * 11 * 26 / 2 - kInterval) * kCycle;  // UA3: code 7 is 100 characters
@@ -265,8 +266,8 @@ TEST(TxdReply, IsNotBeforeItsBitTimesAndItsDelayIsMeasured) {
 
 TEST(TxdReply, IsAskedForAfterTheBitTimesOfB01A) {
   Host host;
-  const Tick first = host.send(kFirst, sealed({0x21, 0x00, 0x1A, 0x01, 0x14}));
-  Tick end = host.reply(first + 11 * kBit + kCycle, sealed({0xA1, 0x00}));
+  const Tick first = host.send(kFirst, with_crc({0x21, 0x00, 0x1A, 0x01, 0x14}));
+  Tick end = host.reply(first + 11 * kBit + kCycle, with_crc({0xA1, 0x00}));
   EXPECT_TRUE(host.violations.empty()) << "the write itself is replied to with the old time";
   end = host.send(end + kBit, kRead);
   host.reply(end + 20 * kBit - 1);

@@ -3,27 +3,12 @@
 #include <cstdint>
 #include <functional>
 #include <utility>
-#include <vector>
 
 #include "bus/time.hpp"
 
 namespace dsdpv1::checks_test {
 
 using bus::Tick;
-using Bytes = std::vector<std::uint8_t>;
-
-/// CRC behind, high byte first (R15), bit by bit.
-inline Bytes sealed(Bytes bytes, unsigned error = 0) {
-  unsigned crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1) ^ 0xA001U : crc >> 1;
-  }
-  crc ^= error;
-  bytes.push_back(static_cast<std::uint8_t>(crc >> 8));
-  bytes.push_back(static_cast<std::uint8_t>(crc & 0xFFU));
-  return bytes;
-}
 
 struct LineCharacter {
   std::uint8_t value = 0;
