@@ -33,7 +33,7 @@ void SpiFrames::frame_began(Tick at) {
   judge_gap(at);
   heard_ = heard(at);
   request_.clear();
-  reply_.clear();
+  reply_bytes_ = 0;
   for_card_ = complete_ = false;
 }
 
@@ -81,16 +81,15 @@ void SpiFrames::request_complete(Tick at) {
 }
 
 void SpiFrames::reply_byte(Tick at, std::uint8_t byte) {
-  if (reply_.empty()) judge_reply(at, byte != kIdle);
-  if (reply_.empty() && byte == kIdle) return;
-  reply_.push_back(byte);
-  if (reply_.size() == 1) {
+  if (reply_bytes_ == 0) judge_reply(at, byte != kIdle);
+  if (reply_bytes_ == 0 && byte == kIdle) return;
+  if (++reply_bytes_ == 1) {
     if (byte >> 5 == kErrorReply) effect_ = Effect::kNone;
     settle();
   }
   // Ownership that the host did not give back has ended by U_Timer (SP17).
   const bool read = request_.kind() == TelegramKind::kRead && request_.right() && request_.covers(kOwnershipCell);
-  if (read && owned_since_ && reply_.size() == kReplyHeader + kOwnershipCell - request_.address() + 1 &&
+  if (read && owned_since_ && reply_bytes_ == kReplyHeader + kOwnershipCell - request_.address() + 1 &&
       (byte & kOwner) == 0)
     release(at);
 }

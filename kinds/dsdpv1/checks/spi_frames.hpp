@@ -1,7 +1,7 @@
 #pragma once
 // The telegrams of a host on SPI: the 2.7 us after a write (SP9), and the ownership by B014 (SP12, SP16).
+#include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "kinds/dsdpv1/checks/check.hpp"
 #include "kinds/dsdpv1/checks/host_telegram.hpp"
@@ -12,7 +12,7 @@
 
 namespace dsdpv1::checks {
 
-class SpiFrames : private tb::SpiFrameReader {
+class SpiFrames final : private tb::SpiFrameReader {
  public:
   /// `settings` outlives it.
   SpiFrames(Recorder& recorder, const SerialSettings& settings)
@@ -51,7 +51,7 @@ class SpiFrames : private tb::SpiFrameReader {
   HostTelegram request_{SerialPort::kSpi};
   bool for_card_ = false, complete_ = false;
   unsigned idle_bytes_ = 0;                            ///< of FF after the request
-  std::vector<std::uint8_t> reply_;                    ///< from the first byte on that is not FF
+  std::size_t reply_bytes_ = 0;                        ///< from the first one on that is not FF
   Effect effect_ = Effect::kNone;                      ///< of this telegram, until its reply says that it is refused
   Tick asked_ = 0;                                     ///< last bit of the request
   std::optional<Tick> last_write_;                     ///< last bit of a write or read-and-write telegram

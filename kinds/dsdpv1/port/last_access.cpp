@@ -15,10 +15,10 @@ constexpr std::size_t kShown = 16;  ///< bytes; the longest frame has 513
 
 }  // namespace
 
-void LastAccess::pin(Tick at, PinNumber number, Level level) {
-  const auto pin = static_cast<Pin>(number);
-  read(at, pin, level);
-  switch (pin) {
+void LastAccess::pin(Tick at, PinNumber pin, Level level) {
+  const auto which = static_cast<Pin>(pin);
+  read(at, which, level);
+  switch (which) {
     case Pin::kCsr: csr_ = level; break;
     case Pin::kRd: return level == 0 ? strobe(at, false) : void();
     case Pin::kWr: return level != 0 ? strobe(at, true) : void();

@@ -22,7 +22,6 @@ class LastAccess : public AccessReader, private SpiFrameReader {
   void strobe(Tick at, bool write);
   void frame_began(Tick at) override { begin(at, "SPI frame"); }
   void byte(Tick /*at*/, std::uint8_t mosi, std::uint8_t /*miso*/) override { bytes_.push_back(mosi); }
-  void frame_ended(Tick /*at*/) override {}
   void rxd(Tick at, bool level);
   void sample_until(Tick at);
   void begin(Tick at, const char* what);
