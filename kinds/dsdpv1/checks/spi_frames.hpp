@@ -12,7 +12,7 @@
 
 namespace dsdpv1::checks {
 
-class SpiFrames final : private tb::SpiFrameReader {
+class SpiFrames : private tb::SpiFrameReader {
  public:
   /// `settings` outlives it.
   SpiFrames(Recorder& recorder, const SerialSettings& settings)

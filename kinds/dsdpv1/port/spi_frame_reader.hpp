@@ -11,10 +11,12 @@ namespace dsdpv1::tb {
 
 /// Whoever derives from it hears them.
 class SpiFrameReader {
+ public:
+  virtual ~SpiFrameReader() = default;
+
  protected:
   using Tick = bus::Tick;
   SpiFrameReader() = default;
-  ~SpiFrameReader() = default;
   SpiFrameReader(const SpiFrameReader&) = default;
   SpiFrameReader& operator=(const SpiFrameReader&) = default;
 
