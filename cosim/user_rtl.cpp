@@ -190,13 +190,9 @@ std::vector<std::string> reference_folders(const UserRtl& rtl) {
     throw tb::InputError(fmt::format("{}: the map of pins has reference: true, but {} is not there, allowed is a {}",
                                      rtl.command, root.string(), "program whose sources are where it was built"));
   std::vector<std::string> folders = {root.string(), (fs::path(rtl.sources) / "registers").string()};
-  for (const char* top : {"files.txt", "files_rsu.txt"}) {
-    std::ifstream list(root / top);
-    for (std::string file; std::getline(list, file);) {
-      const std::string folder = (root / file).parent_path().string();
-      if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
-    }
-  }
+  for (const auto& entry : fs::directory_iterator(root))
+    if (entry.is_directory()) folders.push_back(entry.path().string());
+  std::sort(folders.begin() + 2, folders.end());
   return folders;
 }
 

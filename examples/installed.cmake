@@ -65,7 +65,7 @@ if(there)
 endif()
 
 # The reference RTL with a planted defect, which its scoreboard finds.
-file(STRINGS ${DSDPV1_TREE}/rtl_ref/files.txt rtl)
+file(STRINGS ${DSDPV1_TREE}/rtl_ref/dsdpv1/files.txt rtl)
 list(TRANSFORM rtl PREPEND ${DSDPV1_TREE}/rtl_ref/)
 list(JOIN rtl " " rtl)
 if(there)

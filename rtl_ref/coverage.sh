@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: Apache-2.0 OR MIT
 # Coverage of the reference RTL by lines and toggles, of the DSDPV1 and of the DSDPV1-RSU's ports: model and RTL in lockstep on random stimuli and on
 # the directed ones, of the DSDPV1 also on all scenarios that end before 120 ms of simulated time; then tables, and what was not reached with its
-# explanation (coverage.txt, coverage_rsu.txt). Fails when a run differs, a line or bit that was not reached has no explanation, or an explanation
+# explanation (coverage.txt of the chip). Fails when a run differs, a line or bit that was not reached has no explanation, or an explanation
 # explains nothing.
 #   coverage.sh PROGRAM [FOLDER FOR RESULTS] [-u to rewrite the figures in docs/rtl.md]
-# PROGRAM is the one that loads the RTL that counts (target dsdpv1_rtl_coverage). CHIPS in the environment: one of the two only.
+# PROGRAM is the one that loads the RTL that counts (target dsdpv1_rtl_coverage). CHIPS in the environment: these only.
 set -eu
 program=$(realpath "$1")
 cd "$(dirname "$0")/.."
@@ -17,16 +17,15 @@ end_before_ms=120
 runs() {
   if [ "$1" = dsdpv1_rsu ]; then
     for mode in spi uart parallel; do echo "rtl-random --chip dsdpv1_rsu --mode $mode --cycles 2000000 --seed 1 --jobs 1"; done
-    for stimulus in tests/cosim/stimuli_rsu/*.stimulus; do echo "rtl-random --chip dsdpv1_rsu --replay $stimulus"; done
-    return
+  else
+    for scenario in scenarios/*.yaml; do
+      if grep -qE 'kind: (arm|dsdpv1_rsu)' "$scenario"; then continue; fi  # firmware that would have to be built first; other RTL
+      end=$(sed -n 's/^end: *\([0-9]*\)ms$/\1/p' "$scenario")
+      if [ "${end:-$end_before_ms}" -lt "$end_before_ms" ]; then echo "run $scenario --engine lockstep"; fi
+    done
+    for seed in 1 2; do echo "rtl-random --cycles 2000000 --seed $seed --jobs 1"; done
   fi
-  for scenario in scenarios/*.yaml; do
-    if grep -qE 'kind: (arm|dsdpv1_rsu)' "$scenario"; then continue; fi  # firmware that would have to be built first; other RTL
-    end=$(sed -n 's/^end: *\([0-9]*\)ms$/\1/p' "$scenario")
-    if [ "${end:-$end_before_ms}" -lt "$end_before_ms" ]; then echo "run $scenario --engine lockstep"; fi
-  done
-  for seed in 1 2; do echo "rtl-random --cycles 2000000 --seed $seed --jobs 1"; done
-  for stimulus in tests/cosim/stimuli/*.stimulus; do echo "rtl-random --replay $stimulus"; done
+  for stimulus in tests/cosim/stimuli/"$1"/*.stimulus; do echo "rtl-random --chip $1 --replay $stimulus"; done
 }
 
 # count CHIP [-u]
@@ -45,4 +44,4 @@ count() {
   python3 -B rtl_ref/coverage.py report "$folder/merged.dat" --chip "$1" ${2:+"$2"}
 }
 
-for chip in ${CHIPS:-dsdpv1 dsdpv1_rsu}; do count "$chip" "${3:-}"; done
+for chip in ${CHIPS:-$(cd rtl_ref && dirname */files.txt)}; do count "$chip" "${3:-}"; done

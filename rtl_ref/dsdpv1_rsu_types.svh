@@ -4,7 +4,7 @@
 // docs/microarchitecture_rsu.md, whose sections are meant by the numbers in these blocks.
 `ifndef DSDPV1_RSU_TYPES_SVH
 `define DSDPV1_RSU_TYPES_SVH
-`define DPRAM_CRC_MAY_NOT_COUNT  // SP15; therefore this header is the first of files_rsu.txt
+`define DPRAM_CRC_MAY_NOT_COUNT  // SP15; therefore this header is the first of dsdpv1_rsu/files.txt
 `include "dsdpv1_types.svh"
 /* verilator lint_off UNUSED */
 

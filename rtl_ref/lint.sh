@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0 OR MIT
 # Lints the reference RTL, DSDPV1 and DSDPV1-RSU, with all three tools in all its builds (normal, with faults, with limits of run time, with both), compares
-# the numbers of the faults in the sources with faults.txt and faults_rsu.txt, and looks for names that do not belong where they stand: a chip's, its
+# the numbers of the faults in the sources with the lists of faults, and looks for names that do not belong where they stand: a chip's, its
 # addresses' and registers' in profibus/, pins of a port in dpram/. Silent when all is well.
 set -eu
 cd "$(dirname "$0")"
@@ -23,8 +23,8 @@ stranger '\b(csr|rd|wr|d_oe|[rl]_(req|sta))(_[io])?\b|CSR|RD\b|WR\b|[RL]_(REQ|ST
   "a pin of a port named where the DPRAM's blocks are" dpram_types.svh dpram/*.sv
 
 for define in "" -DSINGLE_FAULTS -DDSDPV1_RUN_TIME_LIMITS "-DSINGLE_FAULTS -DDSDPV1_RUN_TIME_LIMITS"; do
-  for top in dsdpv1 dsdpv1_rsu; do
-    [ $top = dsdpv1 ] && files=$(cat files.txt) || files=$(cat files_rsu.txt)
+  for list in */files.txt; do
+    top=${list%/*} files=$(cat "$list")
     quiet verilator --lint-only -Wall $define -I. -I../registers --top-module $top $files
     quiet iverilog -g2012 -Wall $define -I. -I../registers -s $top -t null $files
     quiet yosys -q -e '.*' -p "read_verilog -sv $define -I. -I../registers $(echo $files); hierarchy -check -top $top; proc; check -assert"
@@ -39,5 +39,5 @@ numbers() {
   in_list=$(grep -v '^#' "$list" | cut -d' ' -f1 | sort -n)
   [ "$in_sources" = "$in_list" ] || { echo "$list and the FAULT(n) of the sources differ"; exit 1; }
 }
-numbers faults.txt profibus/*.sv dpram/*.sv dsdpv1/*.sv
-numbers faults_rsu.txt dsdpv1_rsu/*.sv
+numbers dsdpv1/faults.txt profibus/*.sv dpram/*.sv dsdpv1/*.sv
+numbers dsdpv1_rsu/faults.txt dsdpv1_rsu/*.sv

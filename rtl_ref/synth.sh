@@ -9,17 +9,17 @@ cd "$(dirname "$0")"
 out=${1:-../build/rtl-synth}
 mkdir -p "$out"
 
-# synthesize TOP FILES OPTION [-u]: with this option of synth_ice40
+# synthesize TOP OPTION [-u]: with this option of synth_ice40
 synthesize() {
   yosys -Q -l "$out/$1.yosys.log" -e 'implicitly declared' -p "
-    read_verilog -sv -I. -I../registers $(tr '\n' ' ' < "$2")
-    synth_ice40 $3 -top $1 -json $out/$1.json
+    read_verilog -sv -I. -I../registers $(tr '\n' ' ' < "$1/files.txt")
+    synth_ice40 $2 -top $1 -json $out/$1.json
     stat" > "$out/$1.yosys.out" 2>&1 || { tail -n 20 "$out/$1.yosys.out"; exit 1; }
   nextpnr-ice40 --hx8k --package ct256 --json "$out/$1.json" --freq 56 --timing-allow-fail --pcf-allow-unconstrained --seed 1 \
     --report "$out/$1.report.json" --asc "$out/$1.asc" > "$out/$1.nextpnr.log" 2>&1 || { tail -n 20 "$out/$1.nextpnr.log"; exit 1; }
   echo "$1"
-  python3 figures.py measured "$out/$1.report.json" --chip "$1" ${4:+"$4"}
+  python3 figures.py measured "$out/$1.report.json" --chip "$1" ${3:+"$3"}
 }
 # The mapper that knows delays (-abc9) makes the one that fills the device fast enough, and the other one larger (docs/rtl.md)
-synthesize dsdpv1 files.txt "" "${2:-}"
-synthesize dsdpv1_rsu files_rsu.txt -abc9 "${2:-}"
+synthesize dsdpv1 "" "${2:-}"
+synthesize dsdpv1_rsu -abc9 "${2:-}"

@@ -33,11 +33,13 @@ class RtlFaults : public Command {
 
   void options(CLI::App& app) override {
     add_chip_options(app, chip_);
-    app.add_option("--list", list_,
-                   "The list of faults; left out: rtl_ref/faults.txt or faults_rsu.txt of this source tree");
-    app.add_option("--directed", directed_,
-                   "Folder of stimulus files that are played first; left out: tests/cosim/stimuli or stimuli_rsu of "
-                   "this source tree");
+    app.add_option(
+        "--list", list_,
+        "The list of faults; left out: rtl_ref/dsdpv1/faults.txt or dsdpv1_rsu/faults.txt of this source tree");
+    app.add_option(
+        "--directed", directed_,
+        "Folder of stimulus files that are played first; left out: tests/cosim/stimuli/dsdpv1 or dsdpv1_rsu of "
+        "this source tree");
     app.add_option("--cycles", cycles_, "Random cycles for each fault at most")->capture_default_str();
     app.add_option("--seed", seed_, "Of the random cases")->capture_default_str();
     app.add_option("--jobs", jobs_, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
@@ -51,9 +53,9 @@ class RtlFaults : public Command {
   int carry_out() override {
     leave_nothing_on_signals();
     const Part part = chip_.part();
-    const std::string suffix = dsdpv1::row(part).rtl;
-    const std::string list = given_or_own(list_, "/rtl_ref/faults" + suffix + ".txt");
-    const std::string folder = given_or_own(directed_, "/tests/cosim/stimuli" + suffix);
+    const std::string rtl = dsdpv1::row(part).rtl;
+    const std::string list = given_or_own(list_, "/rtl_ref/" + rtl + "/faults.txt");
+    const std::string folder = given_or_own(directed_, "/tests/cosim/stimuli/" + rtl);
     const std::vector<cosim::Fault> faults = cosim::read_faults(list);
     const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, part);
     check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", tsv_}});

@@ -69,8 +69,9 @@ class Run : public Command {
                                          "Folder of golden traces (traces): every change of every pin is compared, the "
                                          "first difference ends the run (docs/traces.md)");
     CLI::Option* fault =
-        app.add_option("--fault", given_.fault,
-                       "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
+        app.add_option(
+               "--fault", given_.fault,
+               "With this single fault of rtl_ref/dsdpv1/faults.txt, or dsdpv1_rsu/faults.txt, in the reference RTL")
             ->check(CLI::Range(0, 255));
     CLI::Option* seed =
         app.add_option("--seed", given_.seed,

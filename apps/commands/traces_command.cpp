@@ -46,7 +46,7 @@ struct TracesArguments {
   std::vector<std::string> scenarios;  ///< names or paths; empty: all
   std::string folder;                  ///< of the goldens; empty: traces of the source tree
   std::string engine = "skip";
-  unsigned fault = 0;          ///< of rtl_ref/faults.txt, 0: none
+  unsigned fault = 0;          ///< of rtl_ref/dsdpv1/faults.txt, 0: none
   std::string golden, output;  ///< of wave: its name and the file
   std::optional<bool> progress;
 };

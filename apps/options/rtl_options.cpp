@@ -32,7 +32,7 @@ HostMode RtlChip::host() const {
 }
 
 CLI::Option* add_fault_option(CLI::App& app, unsigned& fault) {
-  return app.add_option("--fault", fault, "With this single fault of rtl_ref/faults.txt in the reference RTL")
+  return app.add_option("--fault", fault, "With this single fault of rtl_ref/dsdpv1/faults.txt in the reference RTL")
       ->check(CLI::Range(0, 255));
 }
 

@@ -17,7 +17,7 @@ struct RunArguments {
   std::string log, result, trace, report, junit;  ///< files, empty: not wanted
   CaptureArguments capture;
   std::string golden;                                        ///< folder of golden traces, empty: not compared with them
-  unsigned fault = 0;                                        ///< of rtl_ref/faults.txt, 0: none
+  unsigned fault = 0;                                        ///< of rtl_ref/dsdpv1/faults.txt, 0: none
   std::string difference = "lockstep.vcd";                   ///< wave of a lockstep run's first difference
   std::optional<bool> progress;                              ///< absent: on a terminal
   std::vector<std::string> set;                              ///< PATH=VALUE: keys other than in the file

@@ -11,7 +11,7 @@ struct Fault {
   unsigned number = 0;
   std::string block, stimulus, text;  ///< the directed stimulus that is played first
 };
-/// rtl_ref/faults.txt, faults_rsu.txt; throws tb::InputError.
+/// rtl_ref/dsdpv1/faults.txt, dsdpv1_rsu/faults.txt; throws tb::InputError.
 std::vector<Fault> read_faults(const std::string& path);
 
 struct NamedStimulus {

@@ -20,7 +20,7 @@ void set_parameters(PlayOptions& options, const std::vector<std::string>& settin
 /// Model and RTL with the parameters of `options`, side by side.
 std::unique_ptr<Lockstep> make_lockstep(const PlayOptions& options, std::unique_ptr<Rtl> rtl);
 
-/// The reference RTL with the parameters of `options` and, unless it is 0, a single fault of rtl_ref/faults.txt.
+/// The reference RTL with the parameters of `options` and, unless it is 0, a single fault of rtl_ref/dsdpv1/faults.txt.
 MakeTop reference_top(const PlayOptions& options, unsigned fault, std::uint32_t seed);
 
 }  // namespace dsdpv1::cosim

@@ -32,7 +32,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--simulator", choices=SIMULATORS, default="icarus")
     parser.add_argument("--test", choices=TESTS, action="append", help="left out: all; may be given more than once")
-    parser.add_argument("--fault", type=int, default=0, help="a number of rtl_ref/faults.txt, 0: none")
+    parser.add_argument("--fault", type=int, default=0, help="a number of rtl_ref/dsdpv1/faults.txt, 0: none")
     parser.add_argument("--scenario", type=pathlib.Path, default=ROOT / "scenarios" / "power_on_12m.yaml", help="whose pins are replayed")
     parser.add_argument("--end", type=float, default=100, help="of the replay, us")
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("sim_build"), help="folder for what the simulator makes")
@@ -42,7 +42,7 @@ def arguments():
 def run(given, test):
     """How many tests have failed."""
     runner, build = get_runner(given.simulator), given.build.resolve() / ("quick" if TESTS[test] else "as_the_chip")
-    runner.build(verilog_sources=[RTL / name for name in (RTL / "files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
+    runner.build(verilog_sources=[RTL / name for name in (RTL / "dsdpv1/files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
                  includes=[RTL, ROOT / "registers"], defines={"SINGLE_FAULTS": 1}, parameters=TESTS[test], timescale=("1ns", "1ps"), build_dir=build,
                  build_args=SIMULATORS[given.simulator])
     environment = {"MASTERS": str(ROOT / "examples" / "masters.yaml"), "FAULT": str(given.fault), "SCENARIO": str(given.scenario.resolve()), "END_US": str(given.end)}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The reference RTL in cocotb: a master brings it up through its pins, and the model looks at each of its outputs.
 
-The environment says what is played: FAULT, a number of rtl_ref/faults.txt that is switched on; SCENARIO, one whose pins are replayed; MASTERS, one
+The environment says what is played: FAULT, a number of rtl_ref/dsdpv1/faults.txt that is switched on; SCENARIO, one whose pins are replayed; MASTERS, one
 whose masters are on the line.
 """
 import os

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A PROFIBUS master brings a DSDPV1 to data exchange, in SystemVerilog: the chip is the library's model, its user CPU and the master are
 // bus functional models. With USE_RTL defined the reference RTL is in the model's place and the scoreboard beside it; with SINGLE_FAULTS too,
-// +fault=N plants the defect N of rtl_ref/faults.txt. docs/systemverilog.md says how to run it.
+// +fault=N plants the defect N of rtl_ref/dsdpv1/faults.txt. docs/systemverilog.md says how to run it.
 module data_exchange;
   timeunit 1ns;
   timeprecision 1ps;

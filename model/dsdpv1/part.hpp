@@ -16,12 +16,13 @@ struct PartRow {
   const char* name;       ///< in scenarios and on command lines
   const char* title;      ///< for people
   bool has_serial_ports;  ///< SPI and UART, their pins and parameters (R1, R2)
-  const char* rtl;        ///< what the names of its RTL's files end in: dsdpv1_rsu, faults_rsu.txt
+  const char* rtl;        ///< top of its reference RTL; folders of that, of its lists and of its stimuli are called so
 };
 
 /// In the order of Part.
-constexpr std::array<PartRow, 3> kParts = {
-    {{"dsdpv1", "DSDPV1", false, ""}, {"dsdpv1_r", "DSDPV1-R", false, ""}, {"dsdpv1_rsu", "DSDPV1-RSU", true, "_rsu"}}};
+constexpr std::array<PartRow, 3> kParts = {{{"dsdpv1", "DSDPV1", false, "dsdpv1"},
+                                            {"dsdpv1_r", "DSDPV1-R", false, "dsdpv1"},
+                                            {"dsdpv1_rsu", "DSDPV1-RSU", true, "dsdpv1_rsu"}}};
 
 constexpr const PartRow& row(Part part) { return kParts[static_cast<std::size_t>(part)]; }
 constexpr unsigned serial_parts() {

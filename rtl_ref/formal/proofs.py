@@ -22,9 +22,9 @@ class Proof:
     engine: str = "pdr"      # or "induction"
     depth: int = 0           # of the induction
     twin_depth: int = 0      # cycles in which the twin's violation is looked for
-    faults: tuple = ()       # the defects, a twin each: of faults.txt,
+    faults: tuple = ()       # the defects, a twin each: of dsdpv1/faults.txt or dsdpv1_rsu/faults.txt,
     edit: tuple = ()         # and file, old text, new text
-    files: str = "files.txt"
+    chip: str = "dsdpv1"     # whose files
 
 
 def states(block, file, edit, **more):
@@ -36,7 +36,7 @@ def states(block, file, edit, **more):
 def serial(name, title, top, bind, **more):
     """Of DSDPV1-RSU's serial ports."""
     return Proof(name=name, title=title, top=top, bind={f"dsdpv1_rsu/{block}.sv": properties for block, properties in bind.items()},
-                 files="files_rsu.txt", **more)
+                 chip="dsdpv1_rsu", **more)
 
 
 def assertions(name, title, names, **more):
@@ -143,7 +143,7 @@ PROOFS = (
            {"spi_port": "quiet_miso"}, faults=(132,)),
     serial("quiet_txd", "UART: TXD is high but from a telegram's judgement to its reply's end", "host_uart", {"host_uart": "quiet_txd"},
            edit=("dsdpv1_rsu/host_uart.sv", "assign fires = answers_q && !sends_q", "assign fires = !sends_q")),
-    *(states(block, f"dsdpv1_rsu/{block}.sv", edit, files="files_rsu.txt") for block, edit in (
+    *(states(block, f"dsdpv1_rsu/{block}.sv", edit, chip="dsdpv1_rsu") for block, edit in (
         ("host_telegram", ("default: field_d = field_q + 4'd1;", "default: field_d = field_q + 4'd3;")),
         ("host_commit", ("FLAG: state_d = spi_i ? CLEAR : CHOICE;", "FLAG: state_d = spi_i ? CLEAR : CHOICE | CLEAR;")),
         ("host_reply", ("LENGTH: state_d = no_length ? CRC_HIGH : DATA;", "LENGTH: state_d = no_length ? CRC_HIGH : state + 4'd5;")),

@@ -4,7 +4,7 @@
 """Unbounded proofs of the reference RTL, each with broken twins that have to fail.
 
 A proof takes copies of the RTL, binds its properties into one block (in front of endmodule), makes its surroundings free and
-proves the properties for ever. A twin is the same with one defect, from faults.txt or an edit, and has to have a trace from
+proves the properties for ever. A twin is the same with one defect, from a list of faults or an edit, and has to have a trace from
 RESET that violates them.
 """
 import argparse
@@ -38,12 +38,12 @@ def replace_once(text, old, new, where):
 
 
 def defects(proof):
-    """The defects of its twins: faults of faults.txt, and the edit."""
+    """The defects of its twins: faults of a list, and the edit."""
     return proof.faults + ((proof.edit,) if proof.edit else ())
 
 
 def files(proof):
-    return (RTL / proof.files).read_text(encoding="utf-8").split()
+    return (RTL / proof.chip / "files.txt").read_text(encoding="utf-8").split()
 
 
 def sources(proof, defect):

@@ -109,7 +109,7 @@ class RsuBench {
   void put_bus(int level);
 };
 
-// Groups of tests, a chip each or several; `fault` is one of faults_rsu.txt or 0
+// Groups of tests, a chip each or several; `fault` is one of dsdpv1_rsu/faults.txt or 0
 void rsu_spi(unsigned fault);
 void rsu_owner(unsigned fault);
 void rsu_uart(unsigned fault);

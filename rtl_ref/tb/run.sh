@@ -16,7 +16,7 @@ build() {
   shift
   mkdir -p "$folder"
   verilator --cc --exe --build -j 2 -Wall -O3 --x-initial 0 -CFLAGS -O1 -MAKEFLAGS "OPT_FAST=-O2 OPT_GLOBAL=-O1" -I. -I../registers --top-module dsdpv1 --Mdir "$folder" "$@" \
-    $(cat files.txt) "$(pwd)/tb/rtl_test.cpp" "$(pwd)/tb/ownership_test.cpp" "$(pwd)/tb/user_rules_test.cpp" "$(pwd)/tb/service_rules_test.cpp" "$(pwd)/tb/dpv1_test.cpp" -o rtl_test > "$folder/build.log" 2>&1 || { tail -n 30 "$folder/build.log"; exit 1; }
+    $(cat dsdpv1/files.txt) "$(pwd)/tb/rtl_test.cpp" "$(pwd)/tb/ownership_test.cpp" "$(pwd)/tb/user_rules_test.cpp" "$(pwd)/tb/service_rules_test.cpp" "$(pwd)/tb/dpv1_test.cpp" -o rtl_test > "$folder/build.log" 2>&1 || { tail -n 30 "$folder/build.log"; exit 1; }
 }
 
 # check RESULT BUILD [NAME=NUMBER...]: keeps what the test prints in RESULT.txt, and prints it when it fails

@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "examples" / "cocotb"))  # the simulation's Python
 def build(folder):
     """The simulation, as examples/cocotb/run.py makes it."""
     runner = get_runner("icarus")
-    runner.build(verilog_sources=[RTL / name for name in (RTL / "files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
+    runner.build(verilog_sources=[RTL / name for name in (RTL / "dsdpv1/files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
                  includes=[RTL, ROOT / "registers"], defines={"SINGLE_FAULTS": 1}, parameters={"SEARCH_WINDOW_MS": 1, "READY_CYCLES": 256},
                  timescale=("1ns", "1ps"), build_dir=folder, build_args=["-g2012"])
     return runner

@@ -17,8 +17,8 @@ import unittest
 from golden import GOLDEN, write_inputs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FAULT = 46  # of rtl_ref/faults.txt
-RSU_FAULT = 129  # of rtl_ref/faults_rsu.txt: bits of a reply in the other order
+FAULT = 46  # of rtl_ref/dsdpv1/faults.txt
+RSU_FAULT = 129  # of rtl_ref/dsdpv1_rsu/faults.txt: bits of a reply in the other order
 
 
 def call(command, folder):
@@ -116,7 +116,7 @@ class Icarus(Benches, unittest.TestCase):
         return call(["vvp", self.folder / f"{name}.vvp", *plusargs], ROOT)
 
     def compile(self, name, top):
-        rtl = {"replay": self.rtl("files.txt"), "serial_rtl": self.rtl("files_rsu.txt")}.get(name, [])
+        rtl = {"replay": self.rtl("dsdpv1"), "serial_rtl": self.rtl("dsdpv1_rsu")}.get(name, [])
         bindings = VPI.parent / "systemverilog"
         sources = [bindings / line for line in (bindings / "files.txt").read_text(encoding="ascii").split()]
         status, said = call(["iverilog", "-g2012", "-DDSDPV1_VPI", "-DDSDPV1_IMMEDIATE", "-I", bindings, "-I", ROOT / "rtl_ref", "-I", ROOT / "registers",
@@ -131,8 +131,8 @@ class Icarus(Benches, unittest.TestCase):
         self.assertIn("violations 1, rules", said)
 
     @staticmethod
-    def rtl(names):
-        return ["-DUSE_RTL", "-DSINGLE_FAULTS", *(ROOT / "rtl_ref" / line for line in (ROOT / "rtl_ref" / names).read_text(encoding="ascii").split())]
+    def rtl(chip):
+        return ["-DUSE_RTL", "-DSINGLE_FAULTS", *(ROOT / "rtl_ref" / line for line in (ROOT / "rtl_ref" / chip / "files.txt").read_text(encoding="ascii").split())]
 
 
 if __name__ == "__main__":

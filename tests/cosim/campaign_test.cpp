@@ -71,7 +71,7 @@ TEST(RtlFaults, OneThatCannotBeFoundIsCountedAndExitIs1) {
 TEST(RtlFaults, StimulusThatAFaultNamesIsPlayedFirst) {
   const app_test::Folder folder;
   for (const std::string name : {"c1", "check_cfg"})
-    fs::copy(DSDPV1_SOURCE_DIR "/tests/cosim/stimuli/" + name + ".stimulus", folder.file(name + ".stimulus"));
+    fs::copy(DSDPV1_SOURCE_DIR "/tests/cosim/stimuli/dsdpv1/" + name + ".stimulus", folder.file(name + ".stimulus"));
   std::ofstream(folder.file("faults.txt")) << "46 interrupt c1 INTR0 is low for 63 cycles\n"
                                            << "46 interrupt check_cfg INTR0 is low for 63 cycles\n";
   const app_test::Called called = call("rtl-faults --list faults.txt --directed . --cycles 10000", folder.path());
@@ -81,10 +81,10 @@ TEST(RtlFaults, StimulusThatAFaultNamesIsPlayedFirst) {
 
 TEST(RtlFaults, StimuliOfTheListsAreThere) {
   const std::string source = DSDPV1_SOURCE_DIR;
-  for (const std::string chip : {"", "_rsu"}) {
-    const std::vector<cosim::NamedStimulus> stimuli =
-        cosim::read_stimuli(source + "/tests/cosim/stimuli" + chip, chip.empty() ? Part::kDsdpv1 : Part::kRsu);
-    for (const cosim::Fault& fault : cosim::read_faults(source + "/rtl_ref/faults" + chip + ".txt")) {
+  for (const Part part : {Part::kDsdpv1, Part::kRsu}) {
+    const std::string rtl = row(part).rtl;
+    const std::vector<cosim::NamedStimulus> stimuli = cosim::read_stimuli(source + "/tests/cosim/stimuli/" + rtl, part);
+    for (const cosim::Fault& fault : cosim::read_faults(source + "/rtl_ref/" + rtl + "/faults.txt")) {
       const auto named = [&fault](const cosim::NamedStimulus& each) { return each.name == fault.stimulus; };
       EXPECT_TRUE(std::any_of(stimuli.begin(), stimuli.end(), named)) << fault.number << " names " << fault.stimulus;
     }

@@ -25,10 +25,12 @@ void plays(const Directed& directed, const std::string& options) {
   for (const std::string& told : directed.told) EXPECT_THAT(called.out, testing::HasSubstr(" " + told + " "));
 }
 
-TEST_P(DirectedStimulus, DoesNotDifferAndReachesWhatItIsFor) { plays(GetParam(), "--replay tests/cosim/stimuli/"); }
+TEST_P(DirectedStimulus, DoesNotDifferAndReachesWhatItIsFor) {
+  plays(GetParam(), "--replay tests/cosim/stimuli/dsdpv1/");
+}
 
 TEST_P(DirectedRsuStimulus, DoesNotDifferAndReachesWhatItIsFor) {
-  plays(GetParam(), "--chip dsdpv1_rsu --replay tests/cosim/stimuli_rsu/");
+  plays(GetParam(), "--chip dsdpv1_rsu --replay tests/cosim/stimuli/dsdpv1_rsu/");
 }
 
 void PrintTo(const Directed& each, std::ostream* out) { *out << each.name; }

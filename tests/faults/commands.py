@@ -11,7 +11,7 @@ slaves:
 masters:
   - {name: plc, address: 2, slaves: [{slave: demo, outputs: "01 02"}]}
 """
-RTL_FAULT = "12"  # of rtl_ref/faults.txt, one that is quickly found and shrunk
+RTL_FAULT = "12"  # of rtl_ref/dsdpv1/faults.txt, one that is quickly found and shrunk
 
 
 class Output:

@@ -15,7 +15,7 @@ from validate import faults, validator
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 VIOLATIONS = "scenarios/violations.yaml"  # has checks with violations, refusals, events
-FAULT = "12"  # of rtl_ref/faults.txt, one that is quickly found and shrunk
+FAULT = "12"  # of rtl_ref/dsdpv1/faults.txt, one that is quickly found and shrunk
 ANY_NAMES = ("telegrams", "codes", "situations")  # objects whose members may have any name
 
 

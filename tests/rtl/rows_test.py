@@ -9,7 +9,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARAMETER = re.compile(r'^DSDPV1_(PARAMETER|RSU_PARAMETER|RSU_LIST)\((\w+), \(?([\d, ]+)\)?, (\d+), (\d+), ', re.MULTILINE)
-PIN = re.compile(r'^DSDPV1_(PIN|BUS|RSU_PIN)\(\w+, "(\w+)", (\d+), k(In|Out)put, (\w+), ', re.MULTILINE)
+PIN = re.compile(r'^DSDPV1_(PIN|BUS|RSU_PIN)\(\w+, "(\w+)", (\d+), k(In|Out)put, (\w+), "\w+", \d+, (\w+)\)', re.MULTILINE)
 PORT = re.compile(r"^  (input|output) +logic +(?:\[(\d+):0\] +)?(\w+),?(?: *//.*)?$", re.MULTILINE)
 
 
@@ -23,10 +23,9 @@ def parameters(rsu):
 
 def ports_of_pins(rsu):
     """(direction, highest bit, name), as table 1 and R2 have them; D and what can be released have a side for each direction."""
-    for kind, pin, width, direction, level in PIN.findall(read("model/dsdpv1/pins.inc")):
+    for kind, _, width, direction, level, name in PIN.findall(read("model/dsdpv1/pins.inc")):
         if kind != "RSU_PIN" or rsu:
-            name, suffix = pin.lower().removesuffix("_in").removesuffix("_out"), "_i" if direction == "In" else "_o"
-            yield direction.lower() + "put", "" if width == "1" else str(int(width) - 1), name + suffix
+            yield direction.lower() + "put", "" if width == "1" else str(int(width) - 1), name + ("_i" if direction == "In" else "_o")
             if level == "kLevelZ" and direction == "Out":
                 yield "output", "", name + "_oe_o"
 

@@ -17,7 +17,7 @@ PinTable make_pins(int count) {
     const bool data = pin == dsdpv1::Pin::kDIn || pin == dsdpv1::Pin::kDOut;
     table.push_back({dsdpv1::name(pin), dsdpv1::width(pin), dsdpv1::is_input(pin), data ? "D" : nullptr,
                      pin == dsdpv1::Pin::kPbrxd || pin == dsdpv1::Pin::kPbtxd,
-                     pin == dsdpv1::Pin::kDOut || pin == dsdpv1::Pin::kMiso});
+                     !dsdpv1::is_input(pin) && dsdpv1::kPinRows[i].level == dsdpv1::kLevelZ});
   }
   return table;
 }
@@ -30,7 +30,7 @@ struct Shown {
 };
 
 constexpr Shown kShown[] = {
-#define DSDPV1_PIN(pin, name, width, direction, level, group, place) {group, place, name},
+#define DSDPV1_PIN(pin, name, width, direction, level, group, place, ...) {group, place, name},
 #include "model/dsdpv1/pins.inc"
     {"host", 5, "D"},  // D_IN and D_OUT: of waves that show the two directions of D by themselves
     {"spi", 4, "spi_request"},

@@ -1,5 +1,6 @@
 // The reference RTL as a shared library (cosim/rtl_library.hpp), compiled together with what Verilator makes of
-// rtl_ref/ (reference_rtl.cmake): of the top dsdpv1, or with DSDPV1_RTL_RSU of dsdpv1_rsu.
+// rtl_ref/ (reference_rtl.cmake), in which the top, dsdpv1 or dsdpv1_rsu, is called Vchip. A row of pins.inc or
+// parameters.inc is all that a port needs.
 #include <unistd.h>
 
 #include <atomic>
@@ -7,22 +8,21 @@
 #include <memory>
 #include <string>
 
-#ifdef DSDPV1_RTL_RSU
-#include "Vdsdpv1_rsu.h"
-#include "Vdsdpv1_rsu___024root.h"
-#define RTL_INSIDE(place) dsdpv1_rsu__DOT__##place
-using Model = Vdsdpv1_rsu;
-#else
-#include "Vdsdpv1.h"
-#include "Vdsdpv1___024root.h"
-#define RTL_INSIDE(place) dsdpv1__DOT__##place
-using Model = Vdsdpv1;
-#endif
+#include "Vchip.h"
+#include "Vchip___024root.h"
 #include "cosim/rtl_library.hpp"
 #include "model/dsdpv1/config.hpp"
 #include "verilated.h"
 #if VM_COVERAGE
 #include "verilated_cov.h"
+#endif
+
+#ifdef DSDPV1_RTL_OF_dsdpv1_rsu
+#define INSIDE(place) dsdpv1_rsu__DOT__##place
+#define OF_RSU(...) __VA_ARGS__
+#else
+#define INSIDE(place) dsdpv1__DOT__##place
+#define OF_RSU(...)
 #endif
 
 namespace {
@@ -37,28 +37,23 @@ struct Design {
   explicit Design(const RtlStart& start) {
     context.randReset(start.fill);
     context.randSeed(static_cast<int>(start.seed % 0x7FFF'FFFF + 1));
-    model = std::make_unique<Model>(&context);
+    model = std::make_unique<Vchip>(&context);
   }
   ~Design() { model->final(); }
 
   VerilatedContext context;
-  std::unique_ptr<Model> model;
+  std::unique_ptr<Vchip> model;
 };
 
-Model& model_of(void* design) { return *static_cast<Design*>(design)->model; }
+Vchip& model_of(void* design) { return *static_cast<Design*>(design)->model; }
 
-void set_parameters(Model& model, const dsdpv1::Config& config) {
+void set_parameters(Vchip& model, const dsdpv1::Config& config) {
 #define DSDPV1_PARAMETER(name, ...) model.name##_i = config.name;
+#define DSDPV1_RSU_PARAMETER(...) OF_RSU(DSDPV1_PARAMETER(__VA_ARGS__))
 #define DSDPV1_RSU_TICKS(...)
-#ifdef DSDPV1_RTL_RSU
-  constexpr unsigned kGapBits = 16;
-#define DSDPV1_RSU_LIST(name, ...)                     \
-  for (unsigned i = 0; i < config.name.size(); i += 2) \
-    model.name##_i[i / 2] = config.name[i] | config.name[i + 1] << kGapBits;
-#else
-#define DSDPV1_RSU_PARAMETER(...)
-#define DSDPV1_RSU_LIST(...)
-#endif
+#define DSDPV1_RSU_LIST(name, ...)                                                    \
+  OF_RSU(for (unsigned i = 0; i < config.name.size(); i += 2) model.name##_i[i / 2] = \
+             config.name[i] | config.name[i + 1] << 16U;)
 #include "model/dsdpv1/parameters.inc"
 }
 
@@ -66,19 +61,22 @@ void put(std::uint8_t* image, std::uint32_t write) {
   image[write >> 8 & (kDpramSize - 1)] = static_cast<std::uint8_t>(write & 0xFF);
 }
 
-std::int16_t driven(bool enabled, std::uint32_t level) {
-  return enabled ? static_cast<std::int16_t>(level) : dsdpv1::kLevelZ;
+/// Z of a bus that nobody drives becomes ones; the model likewise reads no bits from it.
+template <class Port>
+void set(Port& port, std::int16_t level) {
+  port = static_cast<Port>(level);
 }
 
-/// The levels of the pins, by their numbers.
-class Levels {
- public:
-  explicit Levels(std::int16_t* levels) : levels_(levels) {}
-  std::int16_t& operator[](Pin pin) const { return levels_[number(pin)]; }
-
- private:
-  std::int16_t* levels_;
-};
+// A pin as a port of the top: inputs NAME_i, outputs NAME_o, one that is Z while RESET is low has its NAME_oe_o.
+#define INPUT(pin, name, width, direction, level, group, place, port) INPUT_##direction(pin, port)
+#define INPUT_kInput(pin, port) set(model.port##_i, levels[number(Pin::pin)]);
+#define INPUT_kOutput(pin, port)
+#define OUTPUT(pin, name, width, direction, level, group, place, port) OUTPUT_##direction(pin, LEVEL_##level(port))
+#define OUTPUT_kInput(pin, level)
+#define OUTPUT_kOutput(pin, level) levels[number(Pin::pin)] = level;
+#define LEVEL_0(port) static_cast<std::int16_t>(model.port##_o)
+#define LEVEL_1 LEVEL_0
+#define LEVEL_kLevelZ(port) model.port##_oe_o != 0 ? LEVEL_0(port) : dsdpv1::kLevelZ
 
 }  // namespace
 
@@ -107,63 +105,31 @@ void dsdpv1_rtl_destroy(void* self) {
 #endif
 }
 
-/// The chip captures FF from a bus that nobody drives, as the model, which reads no bits from Z.
-void dsdpv1_rtl_eval(void* self, bool clk, std::int16_t* by_pin) {
-  Model& model = model_of(self);
-  const Levels levels(by_pin);
+void dsdpv1_rtl_eval(void* self, bool clk, std::int16_t* levels) {
+  Vchip& model = model_of(self);
   model.clk_i = clk;
-  model.reset_i = static_cast<CData>(levels[Pin::kReset]);
-  model.r_req_i = static_cast<CData>(levels[Pin::kRReq]);
-  model.r_sta_i = static_cast<CData>(levels[Pin::kRSta]);
-  model.csr_i = static_cast<CData>(levels[Pin::kCsr]);
-  model.rd_i = static_cast<CData>(levels[Pin::kRd]);
-  model.wr_i = static_cast<CData>(levels[Pin::kWr]);
-  model.a_i = static_cast<SData>(levels[Pin::kA]);
-  model.d_i = levels[Pin::kDIn] < 0 ? CData{0xFF} : static_cast<CData>(levels[Pin::kDIn]);
-  model.pbrxd_i = static_cast<CData>(levels[Pin::kPbrxd]);
-#ifdef DSDPV1_RTL_RSU
-  model.xss_i = static_cast<CData>(levels[Pin::kXss]);
-  model.sck_i = static_cast<CData>(levels[Pin::kSck]);
-  model.mosi_i = static_cast<CData>(levels[Pin::kMosi]);
-  model.rxd_i = static_cast<CData>(levels[Pin::kRxd]);
-  model.mode_i = static_cast<CData>(levels[Pin::kMode]);
-  model.adr_i = static_cast<CData>(levels[Pin::kAdr]);
-  model.ubr_i = static_cast<CData>(levels[Pin::kUbr]);
-  model.uiv_i = static_cast<CData>(levels[Pin::kUiv]);
-#endif
+#define DSDPV1_PIN INPUT
+#define DSDPV1_RSU_PIN(...) OF_RSU(INPUT(__VA_ARGS__))
+#include "model/dsdpv1/pins.inc"
   model.eval();
-  levels[Pin::kLReq] = model.l_req_o;
-  levels[Pin::kLSta] = model.l_sta_o;
-  levels[Pin::kDOut] = driven(model.d_oe_o != 0, model.d_o);
-  levels[Pin::kIntr0] = model.intr0_o;
-  levels[Pin::kPbtxd] = model.pbtxd_o;
-  levels[Pin::kPbrts] = model.pbrts_o;
-  levels[Pin::kPbf] = model.pbf_o;
-  levels[Pin::kBr] = model.br_o;
-  levels[Pin::kReady] = model.ready_o;
-#ifdef DSDPV1_RTL_RSU
-  levels[Pin::kMiso] = driven(model.miso_oe_o != 0, model.miso_o);
-  levels[Pin::kTxd] = model.txd_o;
-#endif
+#define DSDPV1_PIN OUTPUT
+#define DSDPV1_RSU_PIN(...) OF_RSU(OUTPUT(__VA_ARGS__))
+#include "model/dsdpv1/pins.inc"
 }
 
 /// Four memories interleaved by the low address bits, and up to two writes on their way to them, the older one first.
 void dsdpv1_rtl_memory(void* self, std::uint8_t* image) {
   const auto& root = *model_of(self).rootp;
   for (unsigned i = 0; i < kDpramSize; i += 4) {
-    image[i] = root.RTL_INSIDE(u_dpram__DOT__g_lane__BRA__0__KET____DOT__u_ram__DOT__memory_q)[i / 4];
-    image[i + 1] = root.RTL_INSIDE(u_dpram__DOT__g_lane__BRA__1__KET____DOT__u_ram__DOT__memory_q)[i / 4];
-    image[i + 2] = root.RTL_INSIDE(u_dpram__DOT__g_lane__BRA__2__KET____DOT__u_ram__DOT__memory_q)[i / 4];
-    image[i + 3] = root.RTL_INSIDE(u_dpram__DOT__g_lane__BRA__3__KET____DOT__u_ram__DOT__memory_q)[i / 4];
+    image[i] = root.INSIDE(u_dpram__DOT__g_lane__BRA__0__KET____DOT__u_ram__DOT__memory_q)[i / 4];
+    image[i + 1] = root.INSIDE(u_dpram__DOT__g_lane__BRA__1__KET____DOT__u_ram__DOT__memory_q)[i / 4];
+    image[i + 2] = root.INSIDE(u_dpram__DOT__g_lane__BRA__2__KET____DOT__u_ram__DOT__memory_q)[i / 4];
+    image[i + 3] = root.INSIDE(u_dpram__DOT__g_lane__BRA__3__KET____DOT__u_ram__DOT__memory_q)[i / 4];
   }
-  if (root.RTL_INSIDE(u_dpram__DOT__first_valid_q)) put(image, root.RTL_INSIDE(u_dpram__DOT__first_q));
-  if (root.RTL_INSIDE(u_dpram__DOT__second_valid_q)) put(image, root.RTL_INSIDE(u_dpram__DOT__second_q));
-#ifdef DSDPV1_RTL_RSU
-  constexpr unsigned kOwnership = 0x014;  // in SPI mode a register (5.4 of docs/microarchitecture_rsu.md)
-  if (root.RTL_INSIDE(spi) != 0)
-    image[kOwnership] = static_cast<std::uint8_t>(root.RTL_INSIDE(u_serial_port__DOT__u_ownership__DOT__host_q) << 1 |
-                                                  root.RTL_INSIDE(u_sequencer__DOT__own_q));
-#endif
+  if (root.INSIDE(u_dpram__DOT__first_valid_q)) put(image, root.INSIDE(u_dpram__DOT__first_q));
+  if (root.INSIDE(u_dpram__DOT__second_valid_q)) put(image, root.INSIDE(u_dpram__DOT__second_q));
+  // In SPI mode B014 is a register (5.4 of docs/microarchitecture_rsu.md).
+  OF_RSU(if (root.INSIDE(spi) != 0) image[0x014] = root.INSIDE(b014);)
 }
 
 }  // extern "C"

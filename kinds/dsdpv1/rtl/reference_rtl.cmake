@@ -1,51 +1,44 @@
-# The reference RTL as shared libraries in the folder rtl/ of the build, two for the DSDPV1 and two for the DSDPV1-RSU: the RTL as it is, and the one with single faults.
+# The reference RTL as shared libraries in the folder rtl/ of the build, two for each top: the RTL as it is, and the one with single faults.
 # Their target dsdpv1_rtl_libraries is part of `all` and of nothing else; the program loads them when it is asked for RTL (reference_rtl.hpp).
-set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the reference RTL: files.txt, files_rsu.txt and what they name")
+set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the reference RTL: a folder for each top with its files.txt, and what that names")
 mark_as_advanced(DSDPV1_RTL_DIR)
 set(rtl_dir ${DSDPV1_RTL_DIR})
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.txt ${rtl_dir}/files_rsu.txt)
-file(STRINGS ${rtl_dir}/files.txt dsdpv1_files)
-file(STRINGS ${rtl_dir}/files_rsu.txt dsdpv1_rsu_files)
-list(TRANSFORM dsdpv1_files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE dsdpv1_sources)
-list(TRANSFORM dsdpv1_rsu_files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE dsdpv1_rsu_sources)
-set(rtl_headers ${rtl_dir}/profibus_types.svh ${rtl_dir}/dpram_types.svh ${rtl_dir}/dsdpv1_types.svh ${rtl_dir}/dsdpv1_rsu_types.svh)
-# What the harness looks into.
-set(dsdpv1_places ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/public.vlt)
-set(dsdpv1_rsu_places ${dsdpv1_places} ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/public_rsu.vlt)
+file(GLOB lists CONFIGURE_DEPENDS ${rtl_dir}/*/files.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${lists})
+list(TRANSFORM lists REPLACE "^.*/(.*)/files.txt$" "\\1" OUTPUT_VARIABLE tops)
+file(GLOB rtl_headers CONFIGURE_DEPENDS ${rtl_dir}/*.svh)
+set(places ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/public.vlt)  # what the harness looks into
 
-# dsdpv1_rtl_library(TARGET TOP LIBRARY OPTIMISATION ARGUMENTS...): a part of TARGET, the RTL with this top (dsdpv1, dsdpv1_rsu) and adapter with these arguments for Verilator and
-# the macros (-D) among them. Verilator's own make keeps it out of the configuration, which every `./run` waits for.
+# dsdpv1_rtl_library(TARGET TOP LIBRARY OPTIMISATION ARGUMENTS...): a part of TARGET, the RTL with this top and adapter with these arguments for Verilator and the macros (-D) among
+# them. Verilator's own make keeps it out of the configuration, which every `./run` waits for.
 function(dsdpv1_rtl_library target top library optimisation)
   set(adapter ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/reference_library.cpp)
   cmake_path(REMOVE_EXTENSION library OUTPUT_VARIABLE sources_folder)
   cmake_path(GET library PARENT_PATH folder)
   cmake_path(GET library STEM name)
-  set(arguments ${ARGN})
-  if(top STREQUAL dsdpv1_rsu)
-    list(APPEND arguments -DDSDPV1_RTL_RSU)
-  endif()
-  set(macros ${arguments})
+  file(STRINGS ${rtl_dir}/${top}/files.txt files)
+  list(TRANSFORM files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE sources)
+  set(macros ${ARGN})
   list(FILTER macros INCLUDE REGEX "^-D")
   list(JOIN macros " " macros)
-  set(compile "${optimisation} -fPIC -std=c++17 -I${PROJECT_SOURCE_DIR} -DDSDPV1_RTL_LAYOUT=${DSDPV1_RTL_LAYOUT} ${macros}")
+  set(compile "${optimisation} -fPIC -std=c++17 -I${PROJECT_SOURCE_DIR} -DDSDPV1_RTL_LAYOUT=${DSDPV1_RTL_LAYOUT} -DDSDPV1_RTL_OF_${top} ${macros}")
   add_custom_command(
     OUTPUT ${library}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${sources_folder}  # what an earlier build left there may depend on headers that are gone
     COMMAND ${DSDPV1_VERILATOR} --cc --exe --build -O3 --x-assign fast --x-initial unique -DDSDPV1_RUN_TIME_LIMITS -I. -I${PROJECT_SOURCE_DIR}/registers
-            --top-module ${top} --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
-            -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${arguments}
-            ${${top}_places} ${${top}_files} ${adapter}
+            --top-module ${top} --prefix Vchip --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
+            -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${ARGN}
+            ${places} ${files} ${adapter}
     WORKING_DIRECTORY ${rtl_dir}  # what it makes names sources as they are called here
-    DEPENDS ${${top}_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
-            ${${top}_places} ${PROJECT_SOURCE_DIR}/cosim/rtl_library.hpp ${PROJECT_SOURCE_DIR}/model/dsdpv1/config.hpp ${PROJECT_SOURCE_DIR}/model/dsdpv1/parameters.inc ${PROJECT_SOURCE_DIR}/model/dsdpv1/pins.inc
+    DEPENDS ${sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter} ${places} ${rtl_shared}
     COMMENT "Verilating ${name}"
     VERBATIM)
   set_property(TARGET ${target} APPEND PROPERTY SOURCES ${library})
 endfunction()
 
 set(rtl_folder ${PROJECT_BINARY_DIR}/rtl)
-foreach(top dsdpv1 dsdpv1_rsu)
+foreach(top ${tops})
   dsdpv1_rtl_library(dsdpv1_rtl_libraries ${top} ${rtl_folder}/lib${top}_rtl.so -O3)
   dsdpv1_rtl_library(dsdpv1_rtl_libraries ${top} ${rtl_folder}/lib${top}_rtl_faults.so -O3 -DSINGLE_FAULTS)
 endforeach()
@@ -64,7 +57,7 @@ add_custom_command(
   DEPENDS dsdpv1-sim
   VERBATIM)
 add_custom_target(dsdpv1_rtl_coverage SOURCES ${coverage_folder}/dsdpv1-sim)
-foreach(top dsdpv1 dsdpv1_rsu)
+foreach(top ${tops})
   dsdpv1_rtl_library(dsdpv1_rtl_coverage ${top} ${coverage_folder}/rtl/lib${top}_rtl.so -O1
                      --coverage-line --coverage-toggle --coverage-max-width 64 --output-split 20000 --x-initial 0 -j 2)
 endforeach()

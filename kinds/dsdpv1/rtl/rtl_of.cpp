@@ -1,7 +1,5 @@
 #include "kinds/dsdpv1/rtl/rtl_of.hpp"
 
-#include <string>
-
 #include "cosim/reference_rtl.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/rtl/access_watch.hpp"
@@ -30,8 +28,7 @@ class Dsdpv1Rtl : public RtlOf {
   }
   std::unique_ptr<MemoryWatch> watch_memory() const override { return std::make_unique<AccessWatch>(part_); }
   std::unique_ptr<Rtl> make_reference(const tb::OwnSettings& chip, unsigned fault, std::uint32_t seed) const override {
-    const std::string top = std::string("dsdpv1") + row(part_).rtl;
-    return make_design(reference_library(top, fault != 0), {2, seed, fault, &config_of(chip)});
+    return make_design(reference_library(row(part_).rtl, fault != 0), {2, seed, fault, &config_of(chip)});
   }
 
  private:

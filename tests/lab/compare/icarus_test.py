@@ -18,7 +18,7 @@ GOLDEN, SLAVE = "bus_timing", "demo"
 END = 2_000_000_000  # ps; from power-on to data exchange
 INPUTS = {"RESET": 1, "R_REQ": 1, "R_STA": 1, "CSR": 1, "RD": 1, "WR": 1, "A": 11, "D": 8, "PBRXD": 1}
 BEGIN = "-250ns"  # of the wave of icarus_bench.sv
-FAULT = 46  # of rtl_ref/faults.txt
+FAULT = 46  # of rtl_ref/dsdpv1/faults.txt
 
 
 def changes(vcd, scope):
@@ -70,7 +70,7 @@ def expect(what, condition, said=""):
 def simulate(folder, wave, fault=0):
     """Under Icarus."""
     rtl = ROOT / "rtl_ref"
-    sources = [rtl / line for line in (rtl / "files.txt").read_text(encoding="ascii").split()]
+    sources = [rtl / line for line in (rtl / "dsdpv1/files.txt").read_text(encoding="ascii").split()]
     status, said = run(["iverilog", "-g2012", "-DSINGLE_FAULTS", "-I", rtl, "-I", ROOT / "registers", f"-Pbench.FAULT={fault}", "-s", "bench", "-o",
                         "bench.vvp", ROOT / "tests/lab/compare/icarus_bench.sv", *sources], folder)
     expect("iverilog", status == 0, said)
