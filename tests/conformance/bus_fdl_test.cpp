@@ -163,6 +163,15 @@ TEST_F(Fdl, RequestWithTheSameFcsButAnotherSapOrSourceIsExecuted) {
   }
 }
 
+TEST_F(Fdl, DataExchangeWithTheSameFcsButAnotherFunctionCodeIsExecuted) {
+  bench.to_data_exch();
+  dx(kFirst);
+  EXPECT_TRUE(dx(0x5C, {1, 4}).answered());  // low priority, 0x5D is high
+  EXPECT_TRUE(dx(kFcb0, {1, 3}).answered());
+  settle(bench);
+  EXPECT_EQ(output_area(bench), (Bytes{1, 3}));
+}
+
 TEST_F(Fdl, BytesInAnotherOrderAreTakenForTheSame) {
   bench.to_data_exch();
   const Exchange first = dx(kFcb0, {1, 2});

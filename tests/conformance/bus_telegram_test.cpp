@@ -187,6 +187,19 @@ TEST_F(Telegrams, WithAGapOfOneBitAreStillRight) {
   }
 }
 
+TEST(TelegramGaps, OfOneBitAreNoneAndOfOneCycleMoreAreOneAt12M) {
+  SlaveBench bench;
+  bench.to_data_exch();
+  const Bytes request = bus::encode(bus::make_telegram(5, 2, kFdlStatus));
+  for (const int millibits : {1000, 1250}) {
+    bus::WireFaults faults;
+    faults.gap_before = 3;
+    faults.gap_millibits = millibits;
+    const Exchange exchange = bench.requester.send(bench.timeline, bus::characters(request, faults), {.idle_bits = 60});
+    EXPECT_EQ(exchange.answered(), millibits == 1000) << millibits;
+  }
+}
+
 /// Offsets inside a cycle: the same request at every phase of CLK.
 constexpr Tick kPhases[] = {0, 1, 124, 125, 249};
 

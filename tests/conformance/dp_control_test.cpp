@@ -128,6 +128,20 @@ TEST_F(GlobalControl, SyncHandsTheOutputsToTheUserOnceACommand) {
   EXPECT_EQ(bench.fetch_outputs(), model.out1);
 }
 
+TEST_F(GlobalControl, OutputsOfASyncThatTheUserKeepsWaitingAreThoseOfTheCommand) {
+  start(prm());
+  control(kSync);
+  settle(bench);
+  exchange();
+  bench.acquire();
+  control(kSync);
+  const auto commanded = model.out1;
+  exchange();
+  bench.release();
+  settle(bench);
+  EXPECT_EQ(bench.fetch_outputs(), commanded);
+}
+
 TEST_F(GlobalControl, UnsyncWithoutSyncTellsTheUserNothing) {
   start(prm());
   bench.data_exchange({1, 2});

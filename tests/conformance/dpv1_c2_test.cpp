@@ -561,6 +561,65 @@ TEST_F(C2, PollDecidedInTheCycleInWhichFEndsIsTooLate) {
   }
 }
 
+// What a master sees of the end of a time is what the chip answers to a telegram decided in the cycle of it, and in the
+// one before.
+TEST_F(C2, RequestDecidedInTheCycleInWhichIEndsIsTooLate) {
+  for (const int late : {0, 1}) {
+    SCOPED_TRACE(late);
+    start();
+    ASSERT_TRUE(is_data(c2(kManagerSap, initiate_pdu(1))));
+    const Exchange connected = c2(kFirstChannel);
+    ASSERT_TRUE(is_data(connected));
+    const Cycle end = decided(connected) + 2 * kSendTimeoutUnit;
+    send_decided_at(bench, end - 1 + late, 0, bus::make_telegram(5, kClass2, kSrdFirst, {0x48}, kFirstChannel, kC2Ssap),
+                    true);
+    EXPECT_EQ(bench.count(Reason::kC2Timeout), late);
+    bench.chip.set(bench.now() + 250, Pin::kReset, 0);
+    bench.run_cycles(20);
+  }
+}
+
+TEST_F(C2, PollDecidedInTheCycleInWhichAnAbortedChannelIsFreeIsRefused) {
+  int refused = 0;
+  for (const bool by_request : {false, true}) {
+    for (const int late : {0, 1}) {
+      SCOPED_TRACE(late);
+      start();
+      const Exchange initiate = c2(kManagerSap, initiate_pdu(1));
+      Cycle aborted = decided(initiate) + kSendTimeoutUnit;
+      if (by_request) {
+        ASSERT_TRUE(is_data(c2(kFirstChannel)));
+        bench.run_cycles(kSendTimeoutUnit / 2);
+        aborted = decided(c2(kFirstChannel, {0x5D}));
+      }
+      send_decided_at(bench, aborted + kSendTimeoutUnit - 1 + late, 0,
+                      bus::make_telegram(5, kClass2, kSrdFirst, {}, kFirstChannel, kC2Ssap), true);
+      bench.run_cycles(1'000);
+      EXPECT_EQ(bench.count(Reason::kC2NotInUse), refused += late) << "else the answer is the abort";
+      bench.chip.set(bench.now() + 250, Pin::kReset, 0);
+      bench.run_cycles(20);
+    }
+  }
+}
+
+TEST_F(C2, TwiceALongSendTimeoutIsNoShortI) {
+  start();
+  ASSERT_EQ(connect(kClass2, 0x8001), kFirstChannel);  // twice that has 17 bits, the rest of them is 2
+  bench.run_cycles(2 * kSendTimeoutUnit + 1'000);
+  EXPECT_TRUE(is_sc(c2(kFirstChannel)));
+  EXPECT_EQ(bench.count(Reason::kC2Timeout), 0);
+}
+
+TEST_F(C2, FAndUMayEndInTheSameCycle) {
+  start();
+  ASSERT_EQ(connect(kClass2, 1), kFirstChannel);
+  const Exchange request = c2(kFirstChannel, read_request(1, 1, 1));
+  ASSERT_TRUE(is_sc(request));
+  run_to_cycle(bench, decided(request) + kSendTimeoutUnit);
+  EXPECT_EQ(bench.count(Reason::kC2Timeout), 1);
+  EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(3)));
+}
+
 TEST_F(C2, AbortedChannelIsFreeAfterAnotherSendTimeoutWithoutItsMaster) {
   start();
   ASSERT_EQ(connect(kClass2, 1), kFirstChannel);

@@ -69,7 +69,8 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
       twin_(engines == Engines::kStepAndSkip),
       skip_(with_engine(config, dsdpv1::Engine::kSkip)),
       step_(with_engine(config, dsdpv1::Engine::kStep)),
-      doze_(with_engine(config, dsdpv1::Engine::kSkip)) {
+      doze_(with_engine(config, dsdpv1::Engine::kSkip)),
+      rtl_(twin_ ? RtlTwin::make(config) : nullptr) {
   skip_.watch({&on_skip_pin, this}, twin_ ? outputs_of(config.part) : mask(Pin::kPbtxd) | mask(Pin::kPbrts));
   step_.watch({&on_step_pin, this}, outputs_of(config.part));
   doze_.watch({&on_doze_pin, this}, outputs_of(config.part) & ~kAccessPins);
@@ -79,11 +80,17 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
   if (twin_) doze_station_ = segment.attach("doze", &ear_);
 }
 
+/// What came after the last comparison: for tests that end with an answer.
+TwinChip::~TwinChip() {
+  if (rtl_) rtl_->compare(skip_.now());
+}
+
 void TwinChip::set(Tick at, Pin pin, Level level) {
   announce();
   skip_.set(at, pin, level);
   if (!twin_) return;
   step_.set(at, pin, level);
+  if (rtl_) rtl_->set(at, pin, level);
   doze().set(at, pin, level);
   leave_run_with_doze(at);
 }
@@ -94,6 +101,7 @@ void TwinChip::line_changed(Tick at, bool level) {
   skip_.set(at, Pin::kPbrxd, value);
   if (!twin_) return;
   step_.set(at, Pin::kPbrxd, value);
+  if (rtl_) rtl_->set(at, Pin::kPbrxd, value);
 }
 
 void TwinChip::Ear::line_changed(Tick at, bool level) {
@@ -153,6 +161,7 @@ void TwinChip::compare(Tick at) {
   skip_.advance(at);
   if (!twin_) return;
   step_.advance(at);
+  if (rtl_) rtl_->compare(at);
   doze().advance(at);
   leave_run_with_doze(at);
   compare_lists(trace_, step_trace_, compared_pins_, "step");

@@ -4,8 +4,10 @@
 // of characters, but for those of others, or else the line as late as it may (doze); fed with the same pins. Every
 // difference of pins or events fails the test, so each conformance test also proves that they agree. From time to time
 // one of them goes on from what it has saved (Chip::save), so that it also proves that nothing is forgotten there.
+// Where the environment asks for it the reference RTL is a fourth (rtl_twin.hpp).
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "bus/wire/segment.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
+#include "tests/conformance/rtl_twin.hpp"
 
 namespace dsdpv1::conformance {
 
@@ -42,6 +45,9 @@ enum class Engines : std::uint8_t { kStepAndSkip, kSkipAlone };
 class TwinChip : public bus::Agent, public bus::Listener {
  public:
   explicit TwinChip(bus::Segment& segment, dsdpv1::Config config = {}, Engines engines = Engines::kStepAndSkip);
+  ~TwinChip() override;
+  TwinChip(const TwinChip&) = delete;
+  TwinChip& operator=(const TwinChip&) = delete;
 
   void set(Tick at, Pin pin, Level level);
   Level level(Pin pin) const { return skip_.level(pin); }
@@ -95,6 +101,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
   const bool twin_;
   Ear ear_{*this};
   dsdpv1::Chip skip_, step_, doze_;
+  const std::unique_ptr<RtlTwin> rtl_;
   std::vector<Unheard> unheard_;  // changes of the line that doze_ has not been told yet
   std::vector<PinChange> trace_, step_trace_, unwatched_trace_, doze_trace_;  // unwatched: trace_ without L_REQ, L_STA
   std::vector<profibus::Event> events_, step_events_, doze_events_;

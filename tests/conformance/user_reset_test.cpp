@@ -77,6 +77,36 @@ TEST(UserReset, HostPortIsDeadInReset) {
   EXPECT_EQ(bench.peek(0x130), 0);
 }
 
+TEST(UserReset, ARdThatIsLowSinceBeforeTheReleaseIsNoAccess) {
+  SlaveBench bench;
+  bench.run_cycles(10);
+  for (const Pin pin : {Pin::kCsr, Pin::kRd}) bench.chip.set(bench.now(), pin, 0);
+  bench.run_cycles(5);
+  release_reset(bench, bench.now());
+  bench.run_cycles(10);
+  EXPECT_TRUE(bench.changes(Pin::kDOut).empty());
+}
+
+// P12: they are carried out, and the start-up access clears what it has not yet cleared.
+TEST(UserReset, WritesInTheStartUpStayWhereItHasClearedAlready) {
+  SlaveBench bench;
+  bench.run_cycles(10);
+  const Cycle r = release_reset(bench, bench.now());
+  run_to_cycle(bench, r + 1500);
+  for (std::uint8_t i = 0; i < 16; ++i) {
+    bench.write(static_cast<std::uint16_t>(0x100 + i), i + 1);
+    bench.write(static_cast<std::uint16_t>(0x7C0 + i), 0xFF);
+  }
+  bench.run_cycles(4);
+  EXPECT_LT(bench.now() / kCycleTicks, r + 0x7C0);
+  run_to_l_sta(bench, 0);
+  bench.acquire();
+  for (std::uint8_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(bench.read(static_cast<std::uint16_t>(0x100 + i)), i + 1);
+    EXPECT_EQ(bench.read(static_cast<std::uint16_t>(0x7C0 + i)), 0);
+  }
+}
+
 TEST(UserReset, ResetReleasesDWhileReading) {
   SlaveBench bench;
   bench.power_on();

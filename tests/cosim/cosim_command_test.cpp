@@ -140,6 +140,20 @@ TEST(OwnRtl, OfTheRsuIsTheSameAtItsSerialPort) {
   EXPECT_THAT(called.out, HasSubstr("telegrams of the host"));
 }
 
+/// In the libraries of the reference RTL the parameters of a top are inputs, here they are parameters.
+TEST(OwnRtl, OfTheDsdpv1WithOtherParametersIsTheSame) {
+  const app_test::Folder folder;
+  std::ofstream(folder.file("pins.yaml"))
+      << "reference: true\nparameters: {RTS_LEAD: 0, RTS_TRAIL: 32, SEARCH_WINDOW_MS: 3}\n";
+  const app_test::Called called =
+      call("rtl-random --set chip.rts_lead=0 --set chip.rts_trail=32 --set chip.search_window_ms=3 --rtl "
+           "rtl_ref/dsdpv1 --top dsdpv1 --pins '" +
+               folder.file("pins.yaml") + "' --build '" + folder.file("build") + "' --cycles 5000000 --stimulus '" +
+               folder.file("case") + "' --difference '" + folder.file("both.vcd") + "'",
+           kSource);
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+}
+
 TEST(OwnRtl, DefectIsFoundAtRandomShownFromInsideAndPlayedAgainExactly) {
   const app_test::Folder folder;
   copy_example(folder);
