@@ -172,6 +172,15 @@ TEST_F(Fdl, DataExchangeWithTheSameFcsButAnotherFunctionCodeIsExecuted) {
   EXPECT_EQ(output_area(bench), (Bytes{1, 3}));
 }
 
+TEST_F(Fdl, RequestWithTheSameFcsButAnotherSsapOrLengthHasItsOwnAnswer) {
+  bench.to_data_exch();
+  dx(kFirst);
+  EXPECT_EQ(send_fc(bench, kFcb0, kNoSap, 62, {1, 5}).answer().dsap, 62);
+  EXPECT_EQ(send_fc(bench, kFcb0, kNoSap, 61, {1, 6}).answer().dsap, 61);
+  EXPECT_TRUE(is_data(send_fc(bench, kFcb1, 60, 62, {})));
+  EXPECT_TRUE(is_rr(send_fc(bench, kFcb1, 60, 62, {0})));
+}
+
 TEST_F(Fdl, BytesInAnotherOrderAreTakenForTheSame) {
   bench.to_data_exch();
   const Exchange first = dx(kFcb0, {1, 2});

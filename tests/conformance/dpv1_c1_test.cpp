@@ -161,6 +161,10 @@ TEST_F(C1, B005CountsAtTheInitialisationAndNotLater) {
   bench.chip_accesses();
   ASSERT_TRUE(is_sc(send_fc(bench, kSrdFirst, 61, 62, prm.bytes())));
   EXPECT_EQ(bench.count(Reason::kPrmDpv1), 2) << "a later 1D is too late";
+  ASSERT_FALSE(bench.initialise(Init{.max_input = 255}));
+  ASSERT_TRUE(is_sc(send_fc(bench, kSrdFirst, 61, 62, prm.bytes())));
+  EXPECT_EQ(bench.count(Reason::kPrmDpv1), 3) << "a refused initialisation does not count";
+  EXPECT_EQ(diag(bench).at(0) & 0x40, 0x40);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
   ASSERT_TRUE(bench.initialise());
   bench.find_baud(0);
@@ -170,7 +174,8 @@ TEST_F(C1, B005CountsAtTheInitialisationAndNotLater) {
 
 TEST_F(C1, B005OfARefusedInitialisationDoesNotCount) {
   start();
-  for (const Init& refused : {Init{.crc_error = 1}, Init{.address = 127}, Init{.length = 220}}) {
+  for (const Init& refused :
+       {Init{.crc_error = 1}, Init{.address = 127}, Init{.max_input = 255}, Init{.length = 220}}) {
     bench.enable_dpv1(false);
     ASSERT_FALSE(bench.initialise(refused));
     bench.address = 5;

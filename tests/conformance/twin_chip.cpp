@@ -80,9 +80,10 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
   if (twin_) doze_station_ = segment.attach("doze", &ear_);
 }
 
-/// What came after the last comparison: for tests that end with an answer.
+/// What came after the last comparison, which ends before its tick: for tests that end with an answer.
 TwinChip::~TwinChip() {
-  if (rtl_) rtl_->compare(skip_.now());
+  constexpr Tick kAfterwards = 100 * profibus::kTicksPerCycle;
+  if (rtl_) rtl_->compare(skip_.now() + kAfterwards);
 }
 
 void TwinChip::set(Tick at, Pin pin, Level level) {
