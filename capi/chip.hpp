@@ -72,9 +72,13 @@ struct dpsim_chip {
   /// The input that is the line when the chip is on a bus.
   PinNumber line_pin() const { return kind.chip.board_pins().rxd; }
 
-  /// Sets a pin if it is an input and has such a level at a time that is not over; else throws.
-  void set_checked(std::uint64_t tick, std::uint16_t pin, Level level) {
+  /// Throws unless the pin is an input and has such a level.
+  void check(std::uint16_t pin, Level level) const {
     if (pin >= levels_.size() || !levels_[pin].has(level)) refuse(pin, level);
+  }
+  /// Sets such a pin at a time that is not over; else throws.
+  void set_checked(std::uint64_t tick, std::uint16_t pin, Level level) {
+    check(pin, level);
     const Tick at = capi::tick_from(tick, clock.now);
     set(at, static_cast<PinNumber>(pin), level);
     clock.now = at;

@@ -5,6 +5,7 @@ namespace dsdpv1 {
 namespace bus {}
 namespace capi {}
 namespace checks {}
+namespace cosim {}
 namespace profibus {}
 namespace tb {}
 }  // namespace dsdpv1
@@ -12,5 +13,6 @@ namespace tb {}
 namespace bus = dsdpv1::bus;
 namespace capi = dsdpv1::capi;
 namespace checks = dsdpv1::checks;
+namespace cosim = dsdpv1::cosim;
 namespace profibus = dsdpv1::profibus;
 namespace tb = dsdpv1::tb;

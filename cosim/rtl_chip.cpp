@@ -14,7 +14,8 @@ RtlChip::RtlChip(std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind, const tb::O
                  const tb::PinDevice& fresh, TickEnds ends)
     : rtl_(std::move(rtl)),
       timing_(kind.rtl()->timing(chip)),
-      ends_(timing_.clock == kNoPin ? TickEnds::kAtOnce : ends) {
+      ends_(timing_.clock == kNoPin ? TickEnds::kAtOnce : ends),
+      delayed_(timing_.delay) {
   for (PinNumber pin = 0; pin < end_of(kind.pins()); ++pin)
     if (kind.pins()[pin].input)
       levels_.at(pin) = fresh.level(pin);
@@ -51,7 +52,7 @@ void RtlChip::advance(Tick to) {
     eval(at);
   }
   now_ = to;
-  if (!coming_.empty()) move_delayed(to);
+  move_delayed(to);
 }
 
 void RtlChip::clock_edge() {
@@ -83,32 +84,18 @@ void RtlChip::apply_held() {
 
 void RtlChip::eval(Tick at) {
   rtl_->moment(at);
-  if (!coming_.empty()) move_delayed(at);
+  move_delayed(at);
   rtl_->eval(clk_, levels_.data());
   if (levels_ == last_) return;
   for (const PinNumber pin : outputs_) {
     const Level now = levels_[pin], then = std::exchange(last_[pin], now);
     if (now == then) continue;
-    if (pin == timing_.delayed)
-      change_delayed(at, then, now);
-    else
-      tell(at, pin, now);
+    if (pin != timing_.delayed || delayed_.change(at, then, now)) tell(at, pin, now);
   }
-}
-
-/// From one level to the other it comes later; what releases it or drives it again acts at once, and what is on its way
-/// is dropped.
-void RtlChip::change_delayed(Tick at, Level then, Level now) {
-  if (now != tb::kLevelZ && then != tb::kLevelZ) return coming_.push_back({at + timing_.delay, timing_.delayed, now});
-  coming_.clear();
-  tell(at, timing_.delayed, delayed_ = now);
 }
 
 void RtlChip::move_delayed(Tick to) {
-  for (; !coming_.empty() && coming_.front().at <= to; coming_.pop_front()) {
-    delayed_ = coming_.front().level;
-    tell(coming_.front().at, timing_.delayed, delayed_);
-  }
+  for (Tick at = delayed_.next(); at <= to; at = delayed_.next()) tell(at, timing_.delayed, delayed_.take());
 }
 
 void RtlChip::tell(Tick at, PinNumber pin, Level level) {
@@ -117,7 +104,7 @@ void RtlChip::tell(Tick at, PinNumber pin, Level level) {
 
 /// RtlTiming::data as it was set, also while it waits for the end of its tick.
 Level RtlChip::level(PinNumber pin) const {
-  if (pin == timing_.delayed) return delayed_;
+  if (pin == timing_.delayed) return delayed_.level();
   if (pin == timing_.data)
     for (auto change = held_.rbegin(); change != held_.rend(); ++change)
       if (change->pin == pin) return change->level;

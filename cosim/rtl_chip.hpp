@@ -6,10 +6,10 @@
 // clock; an output may follow its register later.
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <memory>
 #include <vector>
 
+#include "cosim/delayed_output.hpp"
 #include "cosim/rtl.hpp"
 
 namespace dsdpv1::cosim {
@@ -35,7 +35,7 @@ class RtlChip {
   /// Evaluates every edge of CLK up to and including tick `to`; with TickEnds::kLater those before it.
   void advance(Tick to);
   /// The next edge of CLK, rising or falling, or the delayed output's next change.
-  Tick next_event() const { return coming_.empty() ? next_edge_ : std::min(next_edge_, coming_.front().at); }
+  Tick next_event() const { return std::min(next_edge_, delayed_.next()); }
   Tick now() const { return now_; }
   /// A pin's level; kLevelX only when the design tells what it does not know.
   Level level(PinNumber pin) const;
@@ -59,7 +59,6 @@ class RtlChip {
   void apply_held();
   void clock_edge();
   void eval(Tick at);
-  void change_delayed(Tick at, Level then, Level now);
   void move_delayed(Tick to);
   void tell(Tick at, PinNumber pin, Level level);
 
@@ -72,9 +71,8 @@ class RtlChip {
   tb::PinSink sink_;
   tb::PinMask watched_ = 0;
   Tick next_edge_ = 0, now_ = 0;
-  std::vector<Change> held_;   ///< inputs at tick `now_`, which is not over
-  std::deque<Change> coming_;  ///< of the delayed output
-  Level delayed_ = tb::kLevelZ;
+  std::vector<Change> held_;  ///< inputs at tick `now_`, which is not over
+  DelayedOutput delayed_;
 };
 
 }  // namespace dsdpv1::cosim

@@ -121,12 +121,11 @@ void Checker::hear(uint64_t inputs, uint64_t outputs) {
 }
 
 void Checker::feed(const PackedPins& pins, uint64_t before, uint64_t now) {
-  for (uint64_t different = before ^ now; different != 0;) {
-    const PinPlace& place = pins.first_of(different);
-    const dpsim_level level = level_of(place, now);
-    if (level != DPSIM_X || place.released != 0) check(dpsim_checker_pin(checker_, now_, place.pin, level));
-    different &= ~place.all();
-  }
+  for_each_change(
+      pins, before, now,
+      [this](const PinPlace& place, dpsim_level level) {
+        if (level != DPSIM_X || place.released != 0) check(dpsim_checker_pin(checker_, now_, place.pin, level));
+      });
 }
 
 void Checker::step(uint64_t tick, uint64_t inputs, uint64_t outputs) {

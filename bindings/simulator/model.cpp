@@ -1,34 +1,42 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "bindings/simulator/model.hpp"
-
+// One chip of the C API on packed pins.
 #include <algorithm>
+#include <utility>
 
+#include "bindings/simulator/object.hpp"
 #include "bindings/simulator/options.hpp"
+#include "bindings/simulator/pins.hpp"
 #include "bindings/simulator/simulator.h"
 
 namespace dsdpv1::simulator {
 namespace {
 
-dpsim_chip* make_chip(const ChipOptions& options) {
-  std::vector<dpsim_parameter> parameters;
-  parameters.reserve(options.parameters.size());
-  for (const Option& each : options.parameters)
-    parameters.push_back({each.name.c_str(), number_of(each, INT32_MIN, INT32_MAX)});
-  dpsim_chip_options chosen{};
-  chosen.size = sizeof chosen;
-  chosen.kind = options.kind.c_str();
-  chosen.parameters = parameters.data();
-  chosen.parameter_count = parameters.size();
-  dpsim_chip* chip = nullptr;
-  check(dpsim_chip_create(&chosen, &chip));
-  return chip;
-}
+class Model final : public Object {
+ public:
+  explicit Model(const ChipOptions& options);
+  ~Model() override { dpsim_chip_destroy(chip_); }
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
 
-}  // namespace
+  /// Runs up to `tick`, a time before the present one counting as that, and gives the inputs their levels then.
+  void step(uint64_t tick, uint64_t inputs);
+  uint64_t outputs() const { return outputs_; }
+  /// When an output may change by itself.
+  uint64_t next_tick() const;
 
-Model::Model(const ChipOptions& options)
-    : pins_(pins_of_kind(options.kind)), chip_(make_chip(options)), inputs_(pins_.inputs.at_reset()) {
+ private:
+  static void changed(void* self, const dpsim_change* change);
+
+  const KindPins& pins_;
+  dpsim_chip* chip_ = nullptr;
+  uint64_t inputs_, outputs_ = 0;
+  uint64_t now_ = 0;
+};
+
+Model::Model(const ChipOptions& options) : pins_(pins_of_kind(options.kind)), inputs_(pins_.inputs.at_reset()) {
+  const NativeOptions native(options);
+  check(dpsim_chip_create(&native.chosen, &chip_));
   uint64_t pins = 0;
   for (const PinPlace& place : pins_.outputs.places()) {
     dpsim_level level = 0;
@@ -42,40 +50,14 @@ Model::Model(const ChipOptions& options)
 void Model::changed(void* self, const dpsim_change* change) {
   auto* model = static_cast<Model*>(self);
   model->outputs_ = with_level(model->outputs_, model->pins_.outputs.of_pin(change->pin), change->level);
-  ++model->changes_;
-}
-
-void Model::happened(void* self, const dpsim_chip_event* event) {
-  auto* model = static_cast<Model*>(self);
-  model->events_[model->event_count_++ % kRemembered] = *event;
-}
-
-void Model::remember_events() { check(dpsim_chip_on_event(chip_, happened, this)); }
-
-std::vector<std::string> Model::last_events() const {
-  std::vector<std::string> texts;
-  for (std::size_t i = event_count_ - std::min(event_count_, kRemembered); i < event_count_; ++i) {
-    char text[256];
-    const dpsim_chip_event& event = events_[i % kRemembered];
-    check(dpsim_chip_event_text(pins_.kind.c_str(), &event, text, sizeof text));
-    texts.push_back(time_text(event.tick) + "  " + text);
-  }
-  return texts;
 }
 
 void Model::step(uint64_t tick, uint64_t inputs) {
   now_ = std::max(now_, tick);
-  uint64_t different = inputs ^ inputs_;
-  if (different == 0) {
-    check(dpsim_chip_advance(chip_, now_));
-    return;
-  }
-  inputs_ = inputs;
-  while (different != 0) {
-    const PinPlace& place = pins_.inputs.first_of(different);
-    check(dpsim_chip_set(chip_, now_, place.pin, level_of(place, inputs)));
-    different &= ~place.all();
-  }
+  if (inputs == inputs_) return check(dpsim_chip_advance(chip_, now_));
+  for_each_change(
+      pins_.inputs, std::exchange(inputs_, inputs), inputs,
+      [this](const PinPlace& place, dpsim_level level) { check(dpsim_chip_set(chip_, now_, place.pin, level)); });
 }
 
 uint64_t Model::next_tick() const {
@@ -84,6 +66,7 @@ uint64_t Model::next_tick() const {
   return tick;
 }
 
+}  // namespace
 }  // namespace dsdpv1::simulator
 
 int32_t dsdpv1_model_create(const char* options) {

@@ -52,4 +52,14 @@ int64_t number_of(const Option& option, int64_t minimum, int64_t maximum) {
   return value;
 }
 
+NativeOptions::NativeOptions(const ChipOptions& options) {
+  parameters.reserve(options.parameters.size());
+  for (const Option& each : options.parameters)
+    parameters.push_back({each.name.c_str(), number_of(each, INT32_MIN, INT32_MAX)});
+  chosen.size = sizeof chosen;
+  chosen.kind = options.kind.c_str();
+  chosen.parameters = parameters.data();
+  chosen.parameter_count = parameters.size();
+}
+
 }  // namespace dsdpv1::simulator

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dsdpv1/dsdpv1.h"
+
 namespace dsdpv1::simulator {
 
 struct Option {
@@ -21,6 +23,12 @@ struct ChipOptions {
   std::vector<Option> parameters;
 };
 ChipOptions chip_options(const char* text);
+/// The same for the C API; good as long as `options`.
+struct NativeOptions {
+  explicit NativeOptions(const ChipOptions& options);
+  std::vector<dpsim_parameter> parameters = {};
+  dpsim_chip_options chosen = {};
+};
 
 /// Decimal, or 0x...; throws Error when it is no number from `minimum` to `maximum`.
 int64_t number_of(const Option& option, int64_t minimum, int64_t maximum);

@@ -99,6 +99,16 @@ inline uint64_t with_level(uint64_t pins, const PinPlace& place, dpsim_level lev
   return pins | (level == DPSIM_X ? place.unknown : static_cast<uint64_t>(level) << place.shift);
 }
 
+/// Calls `told` with the place and level of each pin that has another one in `now`.
+template <class Told>
+void for_each_change(const PackedPins& pins, uint64_t before, uint64_t now, const Told& told) {
+  for (uint64_t different = before ^ now; different != 0;) {
+    const PinPlace& place = pins.first_of(different);
+    told(place, level_of(place, now));
+    different &= ~place.all();
+  }
+}
+
 /// "5A", "Z", "X", "1".
 std::string level_text(const PinPlace& place, dpsim_level level);
 /// "cycle 76676 (1597.417 us)", "cycle 76672 + 122 ticks (1597.343 us)".

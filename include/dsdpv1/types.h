@@ -3,9 +3,9 @@
 /*
  * What all parts of the C API have in common: the version, errors, time, levels of pins.
  *
- * Objects. A chip, a bus with all that is on it, a checker, a GSD file and a run are objects behind opaque handles:
- * made by a function ..._create (or ..._load), released by ..._destroy, which takes NULL as well. A master, and a chip
- * on a bus, belong to their bus and end with it.
+ * Objects. A chip, a bus with all that is on it, a checker, a scoreboard, a GSD file and a run are objects behind
+ * opaque handles: made by a function ..._create (or ..._load), released by ..._destroy, which takes NULL as well. A
+ * master, and a chip on a bus, belong to their bus and end with it.
  *
  * Errors. A function that can fail returns a dpsim_status: DPSIM_OK (0), or a negative code; then nothing was done, and
  * dpsim_error_message() says in words what was wrong and what is allowed. Results are written through pointers, and
@@ -55,7 +55,7 @@ extern "C" {
 /* The ABI described here. MAJOR is the number of the library's SONAME: it changes when callers have to be compiled
    again. MINOR grows with each function or member that is added. */
 #define DPSIM_ABI_MAJOR 0
-#define DPSIM_ABI_MINOR 4
+#define DPSIM_ABI_MINOR 5
 
 /** The ABI of the library that is loaded: major * 65536 + minor. A caller that was compiled with this header works with
  * it when the major number is the same and the minor number is not less. Also in callbacks. */

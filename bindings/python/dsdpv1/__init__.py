@@ -27,6 +27,7 @@ from .gsd import Gsd, GsdInfo, Slave
 from .kinds import Kind, Parameter, Pin, kind_names, kind_of
 from .master import ConnectionStatus, Master, Master1, Master2, MasterStatus, RingStatus, SlaveStatus, WireFaults
 from .runs import Result, Run, run
+from .scoreboard import Difference, Scoreboard
 from .telegram import BROADCAST, Decoded, Heard, Telegram, decode, explain, table
 from .telegram import Kind as TelegramKind
 from .units import BAUDS, CYCLE, LINE, MS, NEVER, NS, US, S, X, Z, bit_ticks
@@ -36,8 +37,9 @@ __version__ = _text(_lib.dpsim_version())
 __all__ = [
     "BAUDS", "BROADCAST", "CHANGE", "CYCLE", "LINE", "MS", "NEVER", "NS", "S", "US", "X", "Z", "AccessTiming", "AcyclicOutcome", "ArgumentError", "Bus",
     "BusStatistics", "CheckResult", "Checker", "Chip", "ChipEvent", "ChipStatus", "ConnectionEndCause", "ConnectionState", "ConnectionStatus", "Decoded",
-    "DpState", "Error", "Event", "EventType", "Gsd", "GsdInfo", "Heard", "Initialisation", "InputError", "InternalError", "Kind", "Master", "Master1", "Master2",
-    "MasterStatus", "NotFoundError", "Outcome", "Parameter", "Pin", "Refuse", "Request", "Result", "RingState", "RingStatus", "Rule", "Run", "Severity", "Slave",
-    "SlaveState", "SlaveStatus", "StateError", "Station", "Telegram", "TelegramKind", "TimeError", "TsdrStatistics", "UnsupportedError", "User", "UserError", "Violation",
-    "WireFaults", "bit_ticks", "decode", "explain", "kind_names", "kind_of", "of_pin", "registers", "rules", "run", "table",
+    "Difference", "DpState", "Error", "Event", "EventType", "Gsd", "GsdInfo", "Heard", "Initialisation", "InputError", "InternalError", "Kind", "Master", "Master1",
+    "Master2", "MasterStatus", "NotFoundError", "Outcome", "Parameter", "Pin", "Refuse", "Request", "Result", "RingState", "RingStatus", "Rule", "Run",
+    "Scoreboard", "Severity", "Slave", "SlaveState", "SlaveStatus", "StateError", "Station", "Telegram", "TelegramKind", "TimeError", "TsdrStatistics",
+    "UnsupportedError", "User", "UserError", "Violation", "WireFaults", "bit_ticks", "decode", "explain", "kind_names", "kind_of", "of_pin", "registers", "rules",
+    "run", "table",
 ]

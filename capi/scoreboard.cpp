@@ -1,0 +1,194 @@
+// The model beside somebody's chip on the same inputs: the first difference of their outputs.
+#include "dsdpv1/scoreboard.h"
+#include "capi/names.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "capi/chip.hpp"
+#include "capi/sized.hpp"
+#include "cosim/delayed_output.hpp"
+
+using capi::Tick;
+using tb::Level;
+using tb::PinNumber;
+
+namespace {
+
+cosim::RtlTiming timing_of(const capi::Kind& kind, const capi::ChipPlan& plan) {
+  return kind.chip.rtl() == nullptr ? cosim::RtlTiming{} : kind.chip.rtl()->timing(*plan.settings);
+}
+
+/// Of both sides. That of an input never changes here.
+struct Levels {
+  Level model = 0, dut = 0;
+  bool moved = false;        ///< the model's, since they were alike
+  Tick since = bus::kNever;  ///< they are different
+  bool differ() const { return model != dut && model != tb::kLevelX; }
+};
+
+}  // namespace
+
+/// Changes of both sides come in order of time. A tick is over, and what it has ended with is compared, when something
+/// later comes.
+struct dpsim_scoreboard {
+ public:
+  dpsim_scoreboard(const capi::Kind& kind, const capi::ChipPlan& plan, const dpsim_scoreboard_options& options)
+      : chip_(kind, plan),
+        timing_(timing_of(kind, plan)),
+        tolerance_(options.tolerance),
+        warm_up_(options.warm_up),
+        begin_(warm_up_),
+        pad_(timing_.delay) {
+    for (const Level level : kind.reset_levels) pins_.push_back({level, level});
+    result_.tick = result_.input_tick = DPSIM_NEVER;
+    chip_.device().watch({changed, this}, tb::outputs_of(kind.chip.pins()));
+    chip_.events.tell(happened, this);
+  }
+
+  void pin(const dpsim_change& change) {
+    const tb::PinTable& table = chip_.kind.chip.pins();
+    const bool output = change.pin < table.size() && !table[change.pin].input;
+    if (output)
+      capi::need_range(table[change.pin].name, change.level, DPSIM_X, (1 << table[change.pin].width) - 1);
+    else
+      chip_.check(change.pin, change.level);
+    advance(change.tick);
+    if (output)
+      (change.pin == timing_.delayed ? register_ : pins_[change.pin].dut) = change.level;
+    else if (chip_.level(static_cast<PinNumber>(change.pin)) != change.level)
+      set_input(static_cast<PinNumber>(change.pin), change.level);
+  }
+
+  void advance(std::uint64_t tick) {
+    const Tick to = capi::tick_from(tick, now_);
+    if (to == now_) return;
+    if (register_ != settled_ && pad_.change(now_, settled_, register_)) pins_[timing_.delayed].dut = register_;
+    settled_ = register_;
+    chip_.advance(to);
+    reach(to);
+  }
+
+  dpsim_scoreboard_result result() const {
+    dpsim_scoreboard_result result = result_;
+    result.next = capi::tick_out(next());
+    return result;
+  }
+
+ private:
+  static void changed(void* self, Tick at, PinNumber pin, Level level) {
+    auto* own = static_cast<dpsim_scoreboard*>(self);
+    own->reach(at);
+    own->pins_[pin].model = level;
+    own->pins_[pin].moved = at >= own->begin_;
+  }
+
+  static void happened(void* self, const dpsim_chip_event* event) {
+    auto* own = static_cast<dpsim_scoreboard*>(self);
+    own->reach(static_cast<Tick>(event->tick));
+    if (own->found()) return;
+    auto* events = own->result_.events;
+    std::copy_backward(events, events + DPSIM_LAST_EVENTS - 1, events + DPSIM_LAST_EVENTS);
+    events[0] = *event;
+    if (own->result_.event_count < DPSIM_LAST_EVENTS) ++own->result_.event_count;
+  }
+
+  void set_input(PinNumber pin, Level level) {
+    if (!found()) {
+      result_.input = pin;
+      result_.input_level = level;
+      result_.input_tick = static_cast<std::uint64_t>(now_);
+    }
+    const bool is_reset = pin == chip_.kind.chip.board_pins().reset;
+    if (is_reset && begin_ > now_) begin_ = level == 0 ? now_ + warm_up_ : bus::kNever;
+    chip_.set(now_, pin, level);
+  }
+
+  void reach(Tick to) {
+    while (pad_.next() <= to) {
+      end_tick(pad_.next());
+      pins_[timing_.delayed].dut = pad_.take();
+    }
+    end_tick(to);
+  }
+
+  /// All levels stay up to `next`.
+  void end_tick(Tick next) {
+    if (next > begin_ && next > now_ && !found()) {
+      now_ = std::max(now_, begin_);
+      for (std::size_t pin = 0; pin < pins_.size(); ++pin) compare(pin, next);
+    }
+    now_ = std::max(now_, next);
+  }
+
+  /// Of several that have been different for too long the one counts that was the first.
+  void compare(std::size_t pin, Tick next) {
+    Levels& levels = pins_[pin];
+    if (!levels.differ()) {
+      if (levels.moved && levels.model != tb::kLevelX) ++result_.matched;
+      levels.moved = false;
+      levels.since = bus::kNever;
+      return;
+    }
+    levels.since = std::min(levels.since, now_);
+    const auto since = static_cast<std::uint64_t>(levels.since);
+    if (levels.since + tolerance_ >= next || since >= result_.tick) return;
+    result_.tick = since;
+    result_.pin = static_cast<std::uint16_t>(pin);
+    result_.model = levels.model;
+    result_.dut = levels.dut;
+  }
+
+  Tick next() const {
+    Tick at = std::min(chip_.device().next_event(), pad_.next());
+    if (register_ != settled_) at = std::min(at, now_ + 1);
+    if (found() || begin_ == bus::kNever) return at;
+    for (const Levels& each : pins_)
+      if (each.differ()) at = std::min(at, std::min(each.since, std::max(now_, begin_)) + tolerance_ + 1);
+    return at;
+  }
+
+  bool found() const { return result_.tick != DPSIM_NEVER; }
+
+  dpsim_chip chip_;
+  const cosim::RtlTiming timing_;
+  const Tick tolerance_, warm_up_;
+  Tick now_ = 0;  ///< the tick that is not over
+  Tick begin_;    ///< of the comparison; kNever: RESET is high
+  std::vector<Levels> pins_;
+  Level register_ = tb::kLevelZ, settled_ = tb::kLevelZ;  ///< RtlTiming::delayed of the DUT: now, and before this tick
+  cosim::DelayedOutput pad_;                              ///< its pin; needs memory, so not in the model's callbacks
+  dpsim_scoreboard_result result_{};
+};
+
+dpsim_status dpsim_scoreboard_create(const dpsim_chip_options* model, const dpsim_scoreboard_options* options,
+                                     dpsim_scoreboard** scoreboard) {
+  return capi::guarded(
+      __func__,
+      [&] {
+        capi::need(scoreboard, "scoreboard");
+        constexpr auto kMost = static_cast<std::int64_t>(DPSIM_LAST_TICK / 2);
+        const dpsim_chip_options chip = capi::options_of(model, "model");
+        const dpsim_scoreboard_options given = capi::options_of(options, "options");
+        capi::need_range("tolerance", given.tolerance, 0, kMost);
+        capi::need_range("warm_up", given.warm_up, 0, kMost);
+        const capi::Kind& kind = capi::kind_of(chip.kind);
+        *scoreboard = std::make_unique<dpsim_scoreboard>(kind, capi::plan_of(chip, kind, "model"), given).release();
+      });
+}
+
+void dpsim_scoreboard_destroy(dpsim_scoreboard* scoreboard) { delete scoreboard; }
+
+dpsim_status dpsim_scoreboard_compare(dpsim_scoreboard* scoreboard, const dpsim_change* changes, size_t count,
+                                      uint64_t until, dpsim_scoreboard_result* result) {
+  return capi::guarded(
+      __func__,
+      [&] {
+        capi::need(scoreboard, "scoreboard");
+        capi::need_buffer(changes, count, "changes");
+        if (result != nullptr) capi::check_size(*result, "result");
+        for (std::size_t i = 0; i < count; ++i) scoreboard->pin(changes[i]);
+        scoreboard->advance(until);
+        if (result != nullptr) capi::give(scoreboard->result(), result, "result");
+      });
+}
