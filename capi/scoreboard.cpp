@@ -1,13 +1,15 @@
 // The model beside somebody's chip on the same inputs: the first difference of their outputs.
-#include "dsdpv1/scoreboard.h"
 #include "capi/names.hpp"
+#include "dsdpv1/chip.h"
 
 #include <algorithm>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "capi/chip.hpp"
 #include "capi/sized.hpp"
-#include "cosim/delayed_output.hpp"
+#include "cosim/rtl.hpp"
 
 using capi::Tick;
 using tb::Level;
@@ -56,7 +58,7 @@ struct dpsim_scoreboard {
     advance(change.tick);
     if (output)
       (change.pin == timing_.delayed ? register_ : pins_[change.pin].dut) = change.level;
-    else if (chip_.level(static_cast<PinNumber>(change.pin)) != change.level)
+    else
       set_input(static_cast<PinNumber>(change.pin), change.level);
   }
 
@@ -69,10 +71,9 @@ struct dpsim_scoreboard {
     reach(to);
   }
 
-  dpsim_scoreboard_result result() const {
-    dpsim_scoreboard_result result = result_;
-    result.next = capi::tick_out(next());
-    return result;
+  const dpsim_scoreboard_result& result() {
+    result_.next = capi::tick_out(next());
+    return result_;
   }
 
  private:
@@ -94,6 +95,7 @@ struct dpsim_scoreboard {
   }
 
   void set_input(PinNumber pin, Level level) {
+    if (chip_.level(pin) == level) return;
     if (!found()) {
       result_.input = pin;
       result_.input_level = level;
@@ -103,6 +105,8 @@ struct dpsim_scoreboard {
     if (is_reset && begin_ > now_) begin_ = level == 0 ? now_ + warm_up_ : bus::kNever;
     chip_.set(now_, pin, level);
   }
+
+  bool found() const { return result_.tick != DPSIM_NEVER; }
 
   void reach(Tick to) {
     while (pad_.next() <= to) {
@@ -125,8 +129,7 @@ struct dpsim_scoreboard {
   void compare(std::size_t pin, Tick next) {
     Levels& levels = pins_[pin];
     if (!levels.differ()) {
-      if (levels.moved && levels.model != tb::kLevelX) ++result_.matched;
-      levels.moved = false;
+      result_.matched += std::exchange(levels.moved, false) ? 1 : 0;
       levels.since = bus::kNever;
       return;
     }
@@ -147,8 +150,6 @@ struct dpsim_scoreboard {
       if (each.differ()) at = std::min(at, std::min(each.since, std::max(now_, begin_)) + tolerance_ + 1);
     return at;
   }
-
-  bool found() const { return result_.tick != DPSIM_NEVER; }
 
   dpsim_chip chip_;
   const cosim::RtlTiming timing_;

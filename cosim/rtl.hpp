@@ -2,6 +2,7 @@
 // RTL of a chip beside the model: the one face between them. Levels are by the numbers of the kind's PinTable.
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -41,6 +42,40 @@ struct RtlTiming {
   PinNumber data = kNoPin;   ///< the input that `clock` takes as it was before
   PinNumber delayed = kNoPin;  ///< an output whose changes between 0 and 1 come `delay` ticks later
   Tick delay = 0;
+};
+
+/// RtlTiming::delayed. What releases it or drives it again acts at once, and what is on its way is dropped.
+class DelayedOutput {
+ public:
+  explicit DelayedOutput(Tick delay) : delay_(delay) {}
+
+  /// The register changes. True: so does the pin, now.
+  bool change(Tick at, Level then, Level now) {
+    if (now != tb::kLevelZ && then != tb::kLevelZ) {
+      coming_.push_back({at + delay_, now});
+      return false;
+    }
+    coming_.clear();
+    level_ = now;
+    return true;
+  }
+  /// When the pin changes by itself; the level that it has from then on.
+  Tick next() const { return coming_.empty() ? bus::kNever : coming_.front().at; }
+  Level take() {
+    level_ = coming_.front().level;
+    coming_.pop_front();
+    return level_;
+  }
+  Level level() const { return level_; }
+
+ private:
+  struct Change {
+    Tick at;
+    Level level;
+  };
+  const Tick delay_;
+  Level level_ = tb::kLevelZ;
+  std::deque<Change> coming_;
 };
 
 /// What the pins say of the memory that a chip shares with its user: when it may be compared with the RTL's, and who

@@ -9,7 +9,6 @@
 #include <memory>
 #include <vector>
 
-#include "cosim/delayed_output.hpp"
 #include "cosim/rtl.hpp"
 
 namespace dsdpv1::cosim {

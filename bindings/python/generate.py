@@ -14,7 +14,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-HEADERS = ("types", "chip", "gsd", "telegram", "bus", "master", "checks", "scoreboard", "run")  # in the order of their #include
+HEADERS = ("types", "chip", "gsd", "telegram", "bus", "master", "checks", "run")  # in the order of their #include
 # REUSE-IgnoreStart
 HEAD = '''# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0

@@ -14,57 +14,44 @@ namespace {
 
 class Model final : public Object {
  public:
-  explicit Model(const ChipOptions& options);
+  explicit Model(const ChipOptions& options)
+      : pins_(pins_of_kind(options.kind)), inputs_(pins_.inputs.at_reset()), outputs_(pins_.outputs.at_reset()) {
+    const NativeOptions native(options);
+    check(dpsim_chip_create(&native.chosen, &chip_));
+    uint64_t pins = 0;
+    for (const PinPlace& place : pins_.outputs.places()) pins |= DPSIM_PIN(place.pin);
+    check(dpsim_chip_watch(chip_, pins, changed, this));
+  }
   ~Model() override { dpsim_chip_destroy(chip_); }
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
   /// Runs up to `tick`, a time before the present one counting as that, and gives the inputs their levels then.
-  void step(uint64_t tick, uint64_t inputs);
+  void step(uint64_t tick, uint64_t inputs) {
+    now_ = std::max(now_, tick);
+    if (inputs == inputs_) return check(dpsim_chip_advance(chip_, now_));
+    for_each_change(
+        pins_.inputs, std::exchange(inputs_, inputs), inputs,
+        [this](const PinPlace& place, dpsim_level level) { check(dpsim_chip_set(chip_, now_, place.pin, level)); });
+  }
   uint64_t outputs() const { return outputs_; }
   /// When an output may change by itself.
-  uint64_t next_tick() const;
+  uint64_t next_tick() const {
+    uint64_t tick = 0;
+    check(dpsim_chip_next(chip_, &tick));
+    return tick;
+  }
 
  private:
-  static void changed(void* self, const dpsim_change* change);
+  static void changed(void* self, const dpsim_change* change) {
+    auto* model = static_cast<Model*>(self);
+    model->outputs_ = with_level(model->outputs_, model->pins_.outputs.of_pin(change->pin), change->level);
+  }
 
   const KindPins& pins_;
   dpsim_chip* chip_ = nullptr;
-  uint64_t inputs_, outputs_ = 0;
-  uint64_t now_ = 0;
+  uint64_t inputs_, outputs_, now_ = 0;
 };
-
-Model::Model(const ChipOptions& options) : pins_(pins_of_kind(options.kind)), inputs_(pins_.inputs.at_reset()) {
-  const NativeOptions native(options);
-  check(dpsim_chip_create(&native.chosen, &chip_));
-  uint64_t pins = 0;
-  for (const PinPlace& place : pins_.outputs.places()) {
-    dpsim_level level = 0;
-    check(dpsim_chip_level(chip_, place.pin, &level));
-    outputs_ = with_level(outputs_, place, level);
-    pins |= DPSIM_PIN(place.pin);
-  }
-  check(dpsim_chip_watch(chip_, pins, changed, this));
-}
-
-void Model::changed(void* self, const dpsim_change* change) {
-  auto* model = static_cast<Model*>(self);
-  model->outputs_ = with_level(model->outputs_, model->pins_.outputs.of_pin(change->pin), change->level);
-}
-
-void Model::step(uint64_t tick, uint64_t inputs) {
-  now_ = std::max(now_, tick);
-  if (inputs == inputs_) return check(dpsim_chip_advance(chip_, now_));
-  for_each_change(
-      pins_.inputs, std::exchange(inputs_, inputs), inputs,
-      [this](const PinPlace& place, dpsim_level level) { check(dpsim_chip_set(chip_, now_, place.pin, level)); });
-}
-
-uint64_t Model::next_tick() const {
-  uint64_t tick = 0;
-  check(dpsim_chip_next(chip_, &tick));
-  return tick;
-}
 
 }  // namespace
 }  // namespace dsdpv1::simulator

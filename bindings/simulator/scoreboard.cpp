@@ -16,13 +16,33 @@ namespace {
 
 class Scoreboard final : public Object {
  public:
-  Scoreboard(const ChipOptions& options, int64_t tolerance_ps);
+  Scoreboard(const ChipOptions& options, int64_t tolerance_ps)
+      : pins_(pins_of_kind(options.kind)), inputs_(pins_.inputs.at_reset()), outputs_(pins_.outputs.at_reset()) {
+    const NativeOptions native(options);
+    const uint64_t tolerance = dpsim_ticks_from(static_cast<uint64_t>(std::max<int64_t>(tolerance_ps, 0)), DPSIM_PS);
+    const dpsim_scoreboard_options chosen = {sizeof chosen, 0, static_cast<int64_t>(tolerance),
+                                             4 * DPSIM_TICKS_PER_CYCLE};
+    check(dpsim_scoreboard_create(&native.chosen, &chosen, &scoreboard_));
+    result_.size = sizeof result_;
+    result_.tick = DPSIM_NEVER;
+  }
   ~Scoreboard() override { dpsim_scoreboard_destroy(scoreboard_); }
   Scoreboard(const Scoreboard&) = delete;
   Scoreboard& operator=(const Scoreboard&) = delete;
 
   /// The pins at `tick`, a time before the present one counting as that.
-  void step(uint64_t tick, uint64_t inputs, uint64_t outputs);
+  void step(uint64_t tick, uint64_t inputs, uint64_t outputs) {
+    if (differs()) return;
+    now_ = std::max(now_, tick);
+    changes_.clear();
+    const auto add = [this](const PinPlace& pin, dpsim_level level) {
+      changes_.push_back({now_, 0, pin.pin, level, 0});
+    };
+    for_each_change(pins_.inputs, std::exchange(inputs_, inputs), inputs, add);
+    for_each_change(pins_.outputs, std::exchange(outputs_, outputs), outputs, add);
+    check(dpsim_scoreboard_compare(scoreboard_, changes_.data(), changes_.size(), now_, &result_));
+    if (differs()) say(text());
+  }
   const dpsim_scoreboard_result& result() const { return result_; }
   bool differs() const { return result_.tick != DPSIM_NEVER; }
 
@@ -35,28 +55,6 @@ class Scoreboard final : public Object {
   std::vector<dpsim_change> changes_;
   dpsim_scoreboard_result result_{};
 };
-
-Scoreboard::Scoreboard(const ChipOptions& options, int64_t tolerance_ps)
-    : pins_(pins_of_kind(options.kind)), inputs_(pins_.inputs.at_reset()), outputs_(pins_.outputs.at_reset()) {
-  dpsim_scoreboard_options chosen{};
-  chosen.size = sizeof chosen;
-  chosen.tolerance =
-      static_cast<int64_t>(dpsim_ticks_from(static_cast<uint64_t>(std::max<int64_t>(tolerance_ps, 0)), DPSIM_PS));
-  chosen.warm_up = 4 * DPSIM_TICKS_PER_CYCLE;
-  const NativeOptions native(options);
-  check(dpsim_scoreboard_create(&native.chosen, &chosen, &scoreboard_));
-  result_.size = sizeof result_;
-}
-
-void Scoreboard::step(uint64_t tick, uint64_t inputs, uint64_t outputs) {
-  now_ = std::max(now_, tick);
-  changes_.clear();
-  const auto add = [this](const PinPlace& pin, dpsim_level level) { changes_.push_back({now_, 0, pin.pin, level, 0}); };
-  for_each_change(pins_.inputs, std::exchange(inputs_, inputs), inputs, add);
-  for_each_change(pins_.outputs, std::exchange(outputs_, outputs), outputs, add);
-  check(dpsim_scoreboard_compare(scoreboard_, changes_.data(), changes_.size(), now_, &result_));
-  if (differs()) say(text());
-}
 
 std::string Scoreboard::text() const {
   const PinPlace& pin = pins_.outputs.of_pin(result_.pin);

@@ -57,12 +57,10 @@ DSDPV1_SIMULATOR_API int64_t dsdpv1_model_step(int32_t handle, int64_t half, int
 
 /* ---- the scoreboard: a model beside somebody's RTL ---- */
 
-/** A difference counts when it lasts longer than `tolerance_ps`. MISO is the pin's register: its pin follows
- * `spi_miso_delay` later. */
+/** That of the C API (dpsim_scoreboard_create); it compares from the fourth cycle with RESET low on. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_scoreboard_create(const char* options, int64_t tolerance_ps);
-/** The pins at this time. What is different is judged at the next time, when all of this one have settled: it returns 1
- * after the first difference (dsdpv1_message has the words) and compares nothing more, else 0. It compares from the
- * fourth cycle with RESET low on. */
+/** The pins at this time. Returns 1 after the first difference (dsdpv1_message has the words), else 0. `next` as above.
+ */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_scoreboard_step(int32_t handle, int64_t half, int64_t ps, int64_t inputs,
                                                     int64_t outputs, int64_t* next);
 /** Changes of the model's outputs that the RTL made as well. */

@@ -9,14 +9,13 @@
 #ifndef DPSIM_DSDPV1_H
 #define DPSIM_DSDPV1_H
 
-#include "dsdpv1/bus.h"        /* the segment with chips and monitor */
-#include "dsdpv1/checks.h"     /* rules of the user's side, from any pins */
-#include "dsdpv1/chip.h"       /* kinds, pins, parameters; one chip pin by pin */
-#include "dsdpv1/gsd.h"        /* GSD files */
-#include "dsdpv1/master.h"     /* masters of class 1 and 2 */
-#include "dsdpv1/run.h"        /* scenarios */
-#include "dsdpv1/scoreboard.h" /* the model beside somebody's chip: their first difference */
-#include "dsdpv1/telegram.h"   /* telegrams as fields, bytes, words */
-#include "dsdpv1/types.h"      /* version, errors, time, levels */
+#include "dsdpv1/bus.h"      /* the segment with chips and monitor */
+#include "dsdpv1/checks.h"   /* rules of the user's side, from any pins */
+#include "dsdpv1/chip.h"     /* kinds, pins, parameters; one chip pin by pin */
+#include "dsdpv1/gsd.h"      /* GSD files */
+#include "dsdpv1/master.h"   /* masters of class 1 and 2 */
+#include "dsdpv1/run.h"      /* scenarios */
+#include "dsdpv1/telegram.h" /* telegrams as fields, bytes, words */
+#include "dsdpv1/types.h"    /* version, errors, time, levels */
 
 #endif

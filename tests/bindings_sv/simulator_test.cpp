@@ -7,7 +7,6 @@
 
 #include "bindings/simulator/object.hpp"
 #include "bindings/simulator/pins.hpp"
-#include "bindings/simulator/scoreboard.hpp"
 #include "bindings/simulator/simulator.h"
 
 namespace dsdpv1::simulator {
@@ -210,38 +209,6 @@ TEST(SimulatorChecker, AShortWriteStrobeIsAViolationWithItsClause) {
   EXPECT_GT(dsdpv1_checker_applied(checker), 0);
   dsdpv1_close(checker);
   EXPECT_EQ(dsdpv1_checker_create("NO_SUCH_RULE=1", -1), 0);
-}
-
-TEST(SimulatorScoreboard, MisoOfRtlIsTheRegisterWhosePinFollows) {
-  const KindPins& pins = pins_of_kind("dsdpv1_rsu");
-  PadDelay pad({"dsdpv1_rsu", {{"spi_miso_delay", "90"}}}, pins);
-  const PinPlace& miso = pins.outputs.first_of(pins.outputs.mask("MISO"));
-  const auto at = [&](uint64_t tick, dpsim_level level) {
-    return level_of(miso, pad.pins_of(tick, with_level(pins.outputs.at_reset(), miso, level)));
-  };
-  EXPECT_EQ(at(0, DPSIM_Z), DPSIM_Z);
-  EXPECT_EQ(at(1000, 1), 1) << "driven at once";
-  EXPECT_EQ(at(2000, 0), 1);
-  EXPECT_EQ(pad.next_tick(), 2090U);
-  EXPECT_EQ(at(2089, 0), 1);
-  EXPECT_EQ(at(2090, 0), 0);
-  EXPECT_EQ(pad.next_tick(), DPSIM_NEVER);
-  EXPECT_EQ(at(3000, 1), 0);
-  EXPECT_EQ(at(3050, DPSIM_Z), DPSIM_Z) << "released at once, and what was on its way is dropped";
-  EXPECT_EQ(at(3200, DPSIM_Z), DPSIM_Z);
-  EXPECT_EQ(at(4000, 0), 0);
-  EXPECT_EQ(at(4000, 1), 1) << "the simulator has gone on within its time step";
-  EXPECT_EQ(at(5000, 0), 1);
-  EXPECT_EQ(at(5000, 1), 1);
-  EXPECT_EQ(pad.next_tick(), DPSIM_NEVER);
-  const uint64_t others = pins.outputs.at_reset() & ~miso.all();
-  EXPECT_EQ(pad.pins_of(3300, pins.outputs.at_reset()) & ~miso.all(), others);
-}
-
-TEST(SimulatorScoreboard, AKindWithoutMisoHasItsOutputsAsTheyAre) {
-  PadDelay none({"dsdpv1", {}}, pins_of_kind("dsdpv1"));
-  EXPECT_EQ(none.pins_of(5, 0x123), 0x123U);
-  EXPECT_EQ(none.next_tick(), DPSIM_NEVER);
 }
 
 TEST(SimulatorMaster, ARequestIsDoneWhenNobodyAnswers) {

@@ -32,6 +32,7 @@ struct Destroy {
   void operator()(dpsim_chip* chip) const { dpsim_chip_destroy(chip); }
   void operator()(dpsim_bus* bus) const { dpsim_bus_destroy(bus); }
   void operator()(dpsim_checker* checker) const { dpsim_checker_destroy(checker); }
+  void operator()(dpsim_scoreboard* scoreboard) const { dpsim_scoreboard_destroy(scoreboard); }
   void operator()(dpsim_gsd* gsd) const { dpsim_gsd_destroy(gsd); }
   void operator()(dpsim_run* run) const { dpsim_run_destroy(run); }
 };

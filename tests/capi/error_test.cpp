@@ -224,6 +224,8 @@ TEST(CapiError, NullIsNoObject) {
       [] { return dpsim_gsd_report(nullptr, nullptr, 0, 0, nullptr); },
       [] { return dpsim_checker_pin(nullptr, 0, 0, 0); },
       [] { return dpsim_checker_finish(nullptr, 0); },
+      [] { return dpsim_scoreboard_create(nullptr, nullptr, nullptr); },
+      [] { return dpsim_scoreboard_compare(nullptr, nullptr, 0, 0, nullptr); },
       [] { return dpsim_run_execute(nullptr, nullptr, nullptr); },
       [] { return dpsim_run_result(nullptr, nullptr); },
       [] { return dpsim_telegram_decode(nullptr, 1, nullptr, nullptr, nullptr); },
@@ -235,6 +237,7 @@ TEST(CapiError, NullIsNoObject) {
   dpsim_chip_destroy(nullptr);
   dpsim_bus_destroy(nullptr);
   dpsim_checker_destroy(nullptr);
+  dpsim_scoreboard_destroy(nullptr);
   dpsim_gsd_destroy(nullptr);
   dpsim_run_destroy(nullptr);
 }

@@ -143,6 +143,26 @@ class ChipTest(unittest.TestCase):
                         told = [(tick, level) for tick, _, _, level in run.pin(pin.name).tolist() if tick > 0]
                         self.assertEqual([(tick, level) for tick, _, _, level in dsdpv1.of_pin(changes, pin.number).tolist()], told, pin.name)
 
+    def test_the_model_beside_a_chip_names_the_first_difference(self):
+        chip = dsdpv1.Chip(parameters={"ready_cycles": 256})
+        chip.watch()
+        chip.set("RESET", 1, at=20 * CYCLE)
+        chip.advance(100 * US)
+        changes = chip.changes()
+        scoreboard = dsdpv1.Scoreboard(parameters={"ready_cycles": 256})
+        self.assertIsNone(scoreboard.compare(changes[:50], int(changes["tick"][49])))
+        self.assertIsNone(scoreboard.compare(changes[50:], 100 * US + 1))
+        self.assertEqual(scoreboard.matched, len(changes) - 1)
+        at = int(np.flatnonzero(changes["pin"] == chip.kind.pin("L_STA").number)[3])
+        late = np.delete(changes, at)
+        difference = dsdpv1.Scoreboard("dsdpv1", {"ready_cycles": 256}).compare(late, 100 * US)
+        tick, _, _, level = changes[at].tolist()
+        self.assertEqual((difference.tick, difference.pin, difference.model, difference.dut), (tick, "L_STA", level, 1 - level))
+        self.assertEqual(difference.last_input, (20 * CYCLE, "RESET", 1))
+        self.assertEqual([type(each) for each in difference.events], [dsdpv1.ChipEvent] * len(difference.events))
+        with self.assertRaisesRegex(dsdpv1.TimeError, "tick is 5, which is before the present tick"):
+            scoreboard.compare([(5, 0, 0, 1)], 5)
+
     def test_callbacks_tell_what_is_kept_else(self):
         kept, told, events = dsdpv1.Chip(), dsdpv1.Chip(), []
         heard = []

@@ -20,14 +20,13 @@ from ._library import text as _text
 from .bus import Bus, BusStatistics, Station, TsdrStatistics
 from .changes import CHANGE, of_pin
 from .checks import Checker, CheckResult, Rule, Violation, rules
-from .chip import AccessTiming, Chip, ChipEvent, ChipStatus, DpState, Severity
+from .chip import AccessTiming, Chip, ChipEvent, ChipStatus, Difference, DpState, Scoreboard, Severity
 from .errors import ArgumentError, Error, InputError, InternalError, NotFoundError, StateError, TimeError, UnsupportedError
 from .events import AcyclicOutcome, ConnectionEndCause, ConnectionState, Event, EventType, Outcome, RingState, SlaveState
 from .gsd import Gsd, GsdInfo, Slave
 from .kinds import Kind, Parameter, Pin, kind_names, kind_of
 from .master import ConnectionStatus, Master, Master1, Master2, MasterStatus, RingStatus, SlaveStatus, WireFaults
 from .runs import Result, Run, run
-from .scoreboard import Difference, Scoreboard
 from .telegram import BROADCAST, Decoded, Heard, Telegram, decode, explain, table
 from .telegram import Kind as TelegramKind
 from .units import BAUDS, CYCLE, LINE, MS, NEVER, NS, US, S, X, Z, bit_ticks

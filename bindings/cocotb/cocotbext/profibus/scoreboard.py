@@ -52,10 +52,9 @@ def _word(level: int) -> str:
 class Scoreboard:
     """Runs beside any testbench: it only looks at the DUT's pins. The DUT's clock has to be exact (Clock), rising edge n at tick 250 n.
 
-    Every 10 us of simulated time the changes of both sides are compared, as dsdpv1.Scoreboard does it. At the first difference the test fails with a
-    ScoreboardError; with `fails` False `difference` is set and nothing more is compared. What the model calls X (P5) matches everything. Inputs must
-    not change in the active phase of a rising edge: an input of that tick counts for the next one (P9). MISO of the DUT is the pin's register: from
-    one level to the other the pin follows spi_miso_delay later, as in lockstep (docs/microarchitecture_rsu.md, 5.1).
+    Every 10 us of simulated time the changes of both sides are compared, by the rules of dsdpv1.Scoreboard. At the first difference the test fails
+    with a ScoreboardError; with `fails` False `difference` is set and nothing more is compared. Inputs must not change in the active phase of a
+    rising edge: an input of that tick counts for the next one (P9).
     """
 
     def __init__(self, pins: ChipPins, parameters: typing.Optional[typing.Mapping[str, int]] = None, fails: bool = True, tolerance: int = 0) -> None:
