@@ -21,14 +21,6 @@ cosim::RtlTiming timing_of(const capi::Kind& kind, const capi::ChipPlan& plan) {
   return kind.chip.rtl() == nullptr ? cosim::RtlTiming{} : kind.chip.rtl()->timing(*plan.settings);
 }
 
-/// Of both sides. That of an input never changes here.
-struct Levels {
-  Level model = 0, dut = 0;
-  bool moved = false;        ///< the model's, since they were alike
-  Tick since = bus::kNever;  ///< they are different
-  bool differ() const { return model != dut && model != tb::kLevelX; }
-};
-
 }  // namespace
 
 /// Changes of both sides come in order of time. A tick is over, and what it has ended with is compared, when something
@@ -77,6 +69,14 @@ struct dpsim_scoreboard {
   }
 
  private:
+  /// Of both sides. That of an input never changes here.
+  struct Levels {
+    Level model = 0, dut = 0;
+    bool moved = false;        ///< the model's, since they were alike
+    Tick since = bus::kNever;  ///< they are different
+    bool differ() const { return model != dut && model != tb::kLevelX; }
+  };
+
   static void changed(void* self, Tick at, PinNumber pin, Level level) {
     auto* own = static_cast<dpsim_scoreboard*>(self);
     own->reach(at);

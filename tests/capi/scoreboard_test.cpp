@@ -130,6 +130,7 @@ TEST(CapiScoreboard, EventsUpToTheDifferenceAreTheModels) {
   std::vector<dpsim_chip_event> events;
   const std::vector<dpsim_change> changes = pins_of_a_start(&events);
   const auto result = compared(make_scoreboard().get(), changes, kEnd);
+  ASSERT_FALSE(events.empty());
   ASSERT_EQ(result.event_count, std::min<std::size_t>(events.size(), DPSIM_LAST_EVENTS));
   for (std::size_t i = 0; i < result.event_count; ++i) {
     EXPECT_EQ(result.events[i].tick, events[events.size() - 1 - i].tick);
