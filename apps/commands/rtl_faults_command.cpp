@@ -52,15 +52,16 @@ class RtlFaults : public Command {
 
   int carry_out() override {
     leave_nothing_on_signals();
-    const Part part = chip_.part();
-    const std::string rtl = dsdpv1::row(part).rtl;
-    const std::string list = given_or_own(list_, "/rtl_ref/" + rtl + "/faults.txt");
-    const std::string folder = given_or_own(directed_, "/tests/cosim/stimuli/" + rtl);
+    const tb::ChipKind& kind = chip_.kind();
+    const cosim::Vocabulary& files = kind.random()->words();
+    const std::string list = given_or_own(list_, "/" + files.faults);
+    const std::string folder = given_or_own(directed_, "/" + files.stimuli);
     const std::vector<cosim::Fault> faults = cosim::read_faults(list);
-    const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, part);
+    const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, kind);
     check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", tsv_}});
     WantedFile tsv(tsv_);
-    cosim::CampaignOptions options{seed_, cycles_ / 10, at_a_time(jobs_), cosim::quick_options(part), chip_.host()};
+    cosim::CampaignOptions options{seed_, cycles_ / 10, at_a_time(jobs_), cosim::quick_options(kind)};
+    cosim::set_parameters(options.play, chip_.port().set);
     const cosim::Kill none =
         cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed, options);
     options.cycles = cycles_;

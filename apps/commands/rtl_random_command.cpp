@@ -27,7 +27,6 @@
 #include "io/output/output_file.hpp"
 #include "io/output/write_file.hpp"
 #include "io/waves/wave_writer.hpp"
-#include "kinds/dsdpv1/random/random_stimulus.hpp"
 #include "lab/campaign/lock.hpp"
 
 namespace dsdpv1::app {
@@ -37,8 +36,8 @@ constexpr int kShrinkRuns = 600;
 constexpr std::uint64_t kRound = 5'000'000;  // cycles of a campaign between two records: some seconds
 constexpr const char* kChip = "chip";        // its scope in waves
 
-cosim::Stimulus read_stimulus(const std::string& path, Part part) {
-  return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path, part);
+cosim::Stimulus read_stimulus(const std::string& path, const tb::ChipKind& kind) {
+  return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path, kind);
 }
 
 std::string counts_text(const cosim::MatchCounts& counts) {
@@ -60,17 +59,16 @@ cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
 }
 
 Bench bench_of(const RtlRandomArguments& arguments) {
-  Bench bench;
+  const tb::ChipKind& kind = arguments.chip.kind();
+  Bench bench{arguments.own.rtl.empty() ? cosim::quick_options(kind) : cosim::usual_options(kind), {}, {}};
+  cosim::set_parameters(bench.options, arguments.set);
+  cosim::set_parameters(bench.options, arguments.chip.port().set);
   if (arguments.own.rtl.empty()) {
-    bench.options = cosim::quick_options(arguments.chip.part());
-    cosim::set_parameters(bench.options, arguments.set);
     bench.make = reference_of(arguments)(bench.options);
     return bench;
   }
-  const Part part = arguments.chip.part();
-  const OwnRtl own = build_own_rtl(arguments.own, arguments.command, cosim::chip_kind(part), !arguments.wave.empty());
-  bench.options = cosim::own_rtl_options(part, own.map.tolerances);
-  cosim::set_parameters(bench.options, arguments.set);
+  const OwnRtl own = build_own_rtl(arguments.own, arguments.command, kind, !arguments.wave.empty());
+  bench.options.lockstep.tolerances = own.map.tolerances;
   bench.make_own = own.make;
   bench.make = [make = own.make] { return make(std::nullopt); };
   return bench;
@@ -81,7 +79,7 @@ Bench bench_of(const RtlRandomArguments& arguments) {
 class StimulusOutputs {
  public:
   explicit StimulusOutputs(const RtlRandomArguments& arguments) : arguments_(arguments), result_(arguments.result) {
-    if (!arguments.log.empty()) log_.emplace(arguments.log);
+    if (!arguments.log.empty()) log_.emplace(arguments.log, arguments.chip.kind());
     if (!arguments.wave.empty() && !tb::find_place(arguments.wave).direct) const tb::OutputFile probe(arguments.wave);
   }
 
@@ -91,13 +89,13 @@ class StimulusOutputs {
     if (log_) options.listeners.push_back(&*log_);
     if (arguments_.wave.empty()) return cosim::play(stimulus, bench.make, options);
     cosim::JoinedWave wave(arguments_.wave, arguments_.own.build);
-    cosim::PlayWave model(wave.model(), kChip, cosim::chip_kind(options.config.part));
+    cosim::PlayWave model(wave.model(), kChip, *options.kind);
     model.listen(options);
     const cosim::RtlTrace trace = wave.trace(kChip);
     const cosim::MakeTop traced = [&] { return bench.make_own(trace); };
     cosim::PlayResult result = cosim::play(stimulus, traced, options);
     wave.finish(result.difference);
-    if (arguments_.wave_save) write_save_files(arguments_.wave, cosim::chip_kind(options.config.part));
+    if (arguments_.wave_save) write_save_files(arguments_.wave, *options.kind);
     return result;
   }
   void finish(const cosim::StimulusResult& result) {
@@ -117,9 +115,8 @@ cosim::MakeTopFor make_for(const RtlRandomArguments& arguments) {
 
 /// From here on `arguments` and `bench` have the parameters of the case that differs.
 void take_case(const cosim::CampaignResult& campaign, RtlRandomArguments& arguments, Bench& bench) {
-  for (std::string& each : cosim::settings_between(bench.options.config, campaign.failed_config))
-    arguments.set.push_back(std::move(each));
-  bench.options.config = campaign.failed_config;
+  arguments.set.insert(arguments.set.end(), campaign.failed_settings.begin(), campaign.failed_settings.end());
+  cosim::set_parameters(bench.options, campaign.failed_settings);
   if (arguments.own.rtl.empty()) bench.make = reference_of(arguments)(bench.options);
 }
 
@@ -135,7 +132,8 @@ std::string files_text(const RtlRandomArguments& arguments, bool differs) {
 int play_stimulus(const RtlRandomArguments& arguments, const cosim::Stimulus& stimulus, const std::string& path,
                   const Bench& bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
   const cosim::PlayResult played = outputs.play(stimulus, bench);
-  std::cout << bus::printable(path) << ": " << counts_text(played.counts) << '\n' << played.coverage.text();
+  std::cout << bus::printable(path) << ": " << counts_text(played.counts) << '\n'
+            << played.coverage.text(bench.options.kind->reasons());
   if (played.difference) std::cout << cosim::describe(*played.difference);
   std::cout << files_text(arguments, played.difference.has_value());
   result.difference = played.difference;
@@ -189,13 +187,12 @@ std::string command_text(const RtlRandomArguments& arguments) {
 
 int shrink_and_play(RtlRandomArguments arguments, const cosim::CampaignResult& campaign, tb::OutputFile& file,
                     Bench bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
-  const HostMode mode = arguments.chip.host();
   take_case(campaign, arguments, bench);
   std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", campaign.cases, campaign.difference->what)
             << std::flush;
-  const cosim::Stimulus shrunk = cosim::shrink(cosim::random_stimulus(campaign.failed_seed, mode, bench.options.config),
-                                               bench.make, kShrinkRuns, bench.options);
-  const std::string text = cosim::to_text(shrunk);
+  const cosim::Stimulus shrunk =
+      cosim::shrink(cosim::random_case(campaign.failed_seed, bench.options), bench.make, kShrinkRuns, bench.options);
+  const std::string text = cosim::to_text(shrunk, *bench.options.kind);
   file.write(text);
   file.commit();
   result.case_seed = campaign.failed_seed;
@@ -203,7 +200,7 @@ int shrink_and_play(RtlRandomArguments arguments, const cosim::CampaignResult& c
   result.actions = shrunk.size();
   std::cout << fmt::format("{} actions, to be seen again with\n  {}\n", shrunk.size(), command_text(arguments));
   // What the file says, not the file: a FIFO cannot be read here.
-  return play_stimulus(arguments, cosim::parse_stimulus(text, arguments.stimulus, bench.options.config.part),
+  return play_stimulus(arguments, cosim::parse_stimulus(text, arguments.stimulus, *bench.options.kind),
                        arguments.stimulus, bench, outputs, result);
 }
 
@@ -213,7 +210,6 @@ cosim::CampaignOptions options_of(const RtlRandomArguments& arguments, const Ben
   options.cycles = arguments.cycles;
   options.jobs = at_a_time(arguments.jobs);
   options.play = bench.options;
-  options.mode = arguments.chip.host();
   options.make_for = make_for(arguments);
   options.counts_situations = true;
   return options;
@@ -223,7 +219,8 @@ int random_cases(const RtlRandomArguments& arguments, const Bench& bench, Stimul
                  cosim::StimulusResult& result) {
   tb::OutputFile stimulus(arguments.stimulus);
   const cosim::CampaignOptions options = options_of(arguments, bench);
-  const cosim::HostSide side = {options.play.config.part, options.mode};
+  const tb::ChipKind& kind = *options.play.kind;
+  result.known = kind.random()->known_situations(*options.play.chip);
   const auto begin = std::chrono::steady_clock::now();
   const ProgressLine line;
   const cosim::CampaignResult campaign = cosim::run_campaign(
@@ -232,13 +229,12 @@ int random_cases(const RtlRandomArguments& arguments, const Bench& bench, Stimul
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, campaign.cases,
                            counts_text(campaign.counts), static_cast<double>(campaign.counts.cycles) / 1e6 / seconds)
-            << campaign.coverage.text() << cosim::text(campaign.situations, side);
-  if (!arguments.tsv.empty()) tb::write_file(arguments.tsv, cosim::table(campaign.situations, side));
+            << campaign.coverage.text(kind.reasons()) << cosim::text(campaign.situations, result.known);
+  if (!arguments.tsv.empty()) tb::write_file(arguments.tsv, cosim::table(campaign.situations, result.known));
   result.cases = campaign.cases;
   result.counts = campaign.counts;
   result.coverage = campaign.coverage;
   result.situations = campaign.situations;
-  result.side = side;
   if (!campaign.difference) return kPassed;
   return shrink_and_play(arguments, campaign, stimulus, bench, outputs, result);
 }
@@ -252,7 +248,7 @@ std::string record_text(const cosim::CampaignRecord& record) {
 /// The next cases at one port, which are kept unless one differs.
 int play_round(const RtlRandomArguments& all, cosim::CampaignRecord& record, cosim::PortRecord& port) {
   RtlRandomArguments arguments = all;
-  arguments.chip = {port.chip(), port.mode()};
+  arguments.chip = {port.kind->name(), port.port->word};
   arguments.cycles = kRound;
   const Bench bench = bench_of(arguments);
   tb::OutputFile stimulus(arguments.stimulus);
@@ -279,7 +275,7 @@ int campaign_of_all(const RtlRandomArguments& arguments) {
     if (const int status = play_round(arguments, record, *port); status != kPassed) return status;
   for (const cosim::PortRecord& port : record.ports)
     std::cout << fmt::format("\n{}: {} cases, {}\n", port.name(), port.cases, counts_text(port.counts))
-              << port.coverage.text() << cosim::text(port.situations, port.side);
+              << port.coverage.text(port.kind->reasons()) << cosim::text(port.situations, port.known());
   std::cout << '\n' << record_text(record) << ", no difference\n";
   if (!arguments.tsv.empty()) tb::write_file(arguments.tsv, cosim::table(record));
   return kPassed;
@@ -302,13 +298,14 @@ void check_files(const RtlRandomArguments& arguments) {
 int rtl_random(const RtlRandomArguments& arguments) {
   leave_nothing_on_signals();
   check_files(arguments);
-  arguments.chip.host();
+  arguments.chip.port();
   if (arguments.campaign) return campaign_of_all(arguments);
   cosim::Stimulus stimulus;
-  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, arguments.chip.part());
+  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, arguments.chip.kind());
   const Bench bench = bench_of(arguments);
   StimulusOutputs outputs(arguments);
   cosim::StimulusResult result;
+  result.kind = &arguments.chip.kind();
   result.rtl = arguments.own.rtl;
   result.fault = arguments.fault;
   result.seed = arguments.seed;

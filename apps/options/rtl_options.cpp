@@ -1,10 +1,25 @@
 #include "apps/options/rtl_options.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "apps/data_folder.hpp"
 #include "apps/options/words.hpp"
 #include "io/input/input_error.hpp"
 
 namespace dsdpv1::app {
+namespace {
+
+/// Those that rtl-random is for.
+std::vector<const tb::ChipKind*> random_kinds() {
+  std::vector<const tb::ChipKind*> kinds = tb::chip_kinds();
+  kinds.erase(std::remove_if(kinds.begin(), kinds.end(), [](const auto* each) { return each->random() == nullptr; }),
+              kinds.end());
+  return kinds;
+}
+
+}  // namespace
 
 void add_chip_options(CLI::App& app, RtlChip& chip) {
   app.add_option("--chip", chip.chip, "The chip of the reference RTL: dsdpv1, dsdpv1_r, dsdpv1_rsu")
@@ -13,22 +28,26 @@ void add_chip_options(CLI::App& app, RtlChip& chip) {
       ->capture_default_str();
 }
 
-Part RtlChip::part() const {
+const tb::ChipKind& RtlChip::kind() const {
   std::vector<std::string> names;
-  for (const PartRow& row : kParts) names.emplace_back(row.name);
+  for (const tb::ChipKind* each : random_kinds()) names.emplace_back(each->name());
   check_word("dsdpv1-sim --chip", chip, names);
-  return *part_called(chip);
+  return *tb::find_chip_kind(chip);
 }
 
-HostMode RtlChip::host() const {
-  const Part of = part();
-  const auto host =
-      value_of<HostMode>("dsdpv1-sim --mode", mode,
-                         {{"parallel", HostMode::kParallel}, {"spi", HostMode::kSpi}, {"uart", HostMode::kUart}});
-  if (!has_serial_ports(of) && host != HostMode::kParallel)
-    throw tb::InputError("--mode " + mode +
-                         ": only the dsdpv1_rsu has that port, allowed is --chip dsdpv1_rsu with it");
-  return host;
+const cosim::HostPort& RtlChip::port() const {
+  for (const cosim::HostPort& port : kind().random()->words().ports)
+    if (mode == port.word) return port;
+  std::vector<std::string> words;
+  for (const tb::ChipKind* each : random_kinds())
+    for (const cosim::HostPort& port : each->random()->words().ports) {
+      if (mode == port.word)
+        throw tb::InputError(
+            fmt::format("--mode {0}: only the {1} has that port, allowed is --chip {1} with it", mode, each->name()));
+      if (std::find(words.begin(), words.end(), port.word) == words.end()) words.emplace_back(port.word);
+    }
+  check_word("dsdpv1-sim --mode", mode, words);
+  return kind().random()->words().ports.front();
 }
 
 CLI::Option* add_fault_option(CLI::App& app, unsigned& fault) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cosim/pin_map.hpp"
-#include "cosim/random/play_options.hpp"
+#include "cosim/random/random_cases.hpp"
 #include "cosim/user_rtl.hpp"
 
 namespace dsdpv1::app {
@@ -13,12 +13,12 @@ namespace dsdpv1::app {
 /// --chip and --mode.
 struct RtlChip {
   std::string chip = "dsdpv1";    ///< kind of chip
-  std::string mode = "parallel";  ///< host port of the DSDPV1-RSU
+  std::string mode = "parallel";  ///< its host port
 
-  /// Throws tb::InputError for a chip without reference RTL.
-  Part part() const;
+  /// Throws tb::InputError for one that rtl-random is not for.
+  const tb::ChipKind& kind() const;
   /// Throws tb::InputError for a port that the chip does not have.
-  HostMode host() const;
+  const cosim::HostPort& port() const;
 };
 void add_chip_options(CLI::App& app, RtlChip& chip);
 /// --fault: a single one in the reference RTL.

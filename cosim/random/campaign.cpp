@@ -7,20 +7,15 @@
 #include <mutex>
 #include <thread>
 
-#include "cosim/random/random_setup.hpp"
-#include "kinds/dsdpv1/random/random_stimulus.hpp"
-#include "kinds/dsdpv1/random/situation_watch.hpp"
+#include "cosim/random/random_cases.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
 
-// No case needs longer; the slow rates would make some last for minutes.
-constexpr Tick kLongestCase = 2'500'000 * profibus::kTicksPerCycle;
-
 struct Played {
   PlayResult result;
   Situations situations;
-  dsdpv1::Config config;
+  std::vector<std::string> settings;
 };
 
 /// Hands out case numbers and collects what came of them.
@@ -52,16 +47,18 @@ class Campaign {
     return true;
   }
   std::uint64_t seed_of(std::uint64_t number) const { return case_seed(options_.seed, options_.first_case + number); }
-  Played play_case(std::uint64_t seed) const {
+  Played play_case(std::uint64_t seed) {
+    const RandomCases& cases = *options_.play.kind->random();
     PlayOptions options = options_.play;
-    if (options_.make_for) options.config = case_config(seed, options.config);
     Played played;
-    played.config = options.config;
-    SituationWatch watch(played.config, options_.mode);
-    if (options_.counts_situations) options.listeners.push_back(&watch);
-    const Stimulus stimulus = random_stimulus(seed, options_.mode, options.config);
-    played.result = play(stimulus, options_.make_for ? options_.make_for(options) : make_, options);
-    played.situations = watch.situations();
+    if (options_.make_for) played.settings = cases.case_settings(seed);
+    if (!played.settings.empty()) {
+      const std::scoped_lock lock(mutex_);  // the keys' descriptions are made when they are first asked for
+      set_parameters(options, played.settings);
+    }
+    const std::unique_ptr<PlayListener> watch = cases.watch(*options.chip, played.situations);
+    if (options_.counts_situations) options.listeners.push_back(watch.get());
+    played.result = play(random_case(seed, options), options_.make_for ? options_.make_for(options) : make_, options);
     return played;
   }
   /// Every case before the first with a difference was begun before it, and all that were begun have ended.
@@ -74,7 +71,7 @@ class Campaign {
       result.situations.add(each.situations);
       result.difference = each.result.difference;
       result.failed_seed = seed_of(result.cases++);
-      result.failed_config = each.config;
+      result.failed_settings = each.settings;
     }
     return result;
   }
@@ -89,13 +86,6 @@ class Campaign {
 };
 
 }  // namespace
-
-PlayOptions quick_options(dsdpv1::Part part) {
-  PlayOptions options;
-  options.config = quick_config(part);
-  options.limit = kLongestCase;
-  return options;
-}
 
 void in_parallel(unsigned jobs, const std::function<bool()>& work) {
   std::mutex mutex;
@@ -114,27 +104,6 @@ void in_parallel(unsigned jobs, const std::function<bool()>& work) {
   run();
   for (std::thread& each : threads) each.join();
   if (thrown) std::rethrow_exception(thrown);
-}
-
-dsdpv1::Config case_config(std::uint64_t seed, const dsdpv1::Config& usual) {
-  constexpr std::uint64_t kOwnNumbers = 0x5EA5C4;  // not those of the case's stimulus
-  Random random(seed ^ kOwnNumbers);
-  dsdpv1::Config config = usual;
-  if (!random.one_in(3)) return config;
-  config.search_window_ms = static_cast<std::uint32_t>(random.between(1, 3));
-  config.search_window_bits = static_cast<std::uint32_t>(random.between(120, 400));
-  config.baud_control_ms = static_cast<std::uint32_t>(random.between(1, 4));
-  return config;
-}
-
-std::vector<std::string> settings_between(const dsdpv1::Config& from, const dsdpv1::Config& to) {
-  std::vector<std::string> settings;
-#define DSDPV1_PARAMETER(name, ...) \
-  if (from.name != to.name) settings.push_back(fmt::format("chip.{}={}", #name, to.name));
-#define DSDPV1_RSU_LIST(name, ...) \
-  if (from.name != to.name) settings.push_back(fmt::format("chip.{}=[{}]", #name, fmt::join(to.name, ", ")));
-#include "model/dsdpv1/parameters.inc"
-  return settings;
 }
 
 std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number) {

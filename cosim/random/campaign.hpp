@@ -5,17 +5,10 @@
 #include <vector>
 
 #include "cosim/random/coverage.hpp"
-#include "cosim/random/player.hpp"
-#include "kinds/dsdpv1/random/situations.hpp"
+#include "cosim/random/play_options.hpp"
+#include "cosim/random/situations.hpp"
 
 namespace dsdpv1::cosim {
-
-/// How random cases and directed stimuli are played on the reference RTL of the part.
-PlayOptions quick_options(dsdpv1::Part part = {});
-
-/// The parameters of a case of this seed: now and then other limits of the baud search and of BAUD_CONTROL (S1) than
-/// those of `usual`, still short ones.
-dsdpv1::Config case_config(std::uint64_t seed, const dsdpv1::Config& usual);
 
 /// Makes RTL with these parameters.
 using MakeTopFor = std::function<MakeTop(const PlayOptions&)>;
@@ -24,10 +17,9 @@ struct CampaignOptions {
   std::uint64_t seed = 1, cycles = 0;  ///< cases are begun until so many cycles are compared
   unsigned jobs = 1;                   ///< threads
   PlayOptions play = quick_options();
-  HostMode mode = HostMode::kParallel;  ///< of the host of random cases
-  std::uint64_t first_case = 0;         ///< number of the first one
-  MakeTopFor make_for = {};             ///< each case has its case_config(); empty: all have that of `play`
-  bool counts_situations = false;       ///< costs a few percent
+  std::uint64_t first_case = 0;    ///< number of the first one
+  MakeTopFor make_for = {};        ///< each case has its RandomCases::case_settings; empty: none has
+  bool counts_situations = false;  ///< costs a few percent
 };
 
 /// The same for the same seed and cycles, however many threads there are.
@@ -35,14 +27,11 @@ struct CampaignResult {
   MatchCounts counts;
   Coverage coverage;
   Situations situations;
-  std::uint64_t cases = 0;        ///< up to and including the one with the difference
-  std::uint64_t failed_seed = 0;  ///< of the case with the difference
-  dsdpv1::Config failed_config;
-  std::optional<Difference> difference;  ///< of the first case that has one
+  std::uint64_t cases = 0;                   ///< up to and including the one with the difference
+  std::uint64_t failed_seed = 0;             ///< of the case with the difference
+  std::vector<std::string> failed_settings;  ///< its RandomCases::case_settings
+  std::optional<Difference> difference;      ///< of the first case that has one
 };
-
-/// Texts of --set, chip.KEY=VALUE, for the parameters in which `to` differs from `from`.
-std::vector<std::string> settings_between(const dsdpv1::Config& from, const dsdpv1::Config& to);
 
 /// What is compared so far, for a progress line; called by one thread at a time.
 using CampaignProgress = std::function<void(std::uint64_t cases, std::uint64_t cycles)>;

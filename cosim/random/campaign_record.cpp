@@ -10,8 +10,6 @@
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 #include "io/output/write_file.hpp"
-#include "kinds/dsdpv1/keys/settings.hpp"
-#include "model/dsdpv1/reasons.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -25,7 +23,7 @@ constexpr tb::FileKind kRecordFile{"the record of a campaign", 64};
 Json json_of(const PortRecord& port) {
   Json telegrams = Json::object(), codes = Json::object(), situations = Json::array();
   for (const auto& [name, count] : port.coverage.telegrams()) telegrams[name] = count;
-  for (const profibus::Reason reason : dsdpv1::reasons())
+  for (const profibus::Reason reason : port.kind->reasons())
     if (port.coverage.count(reason) != 0) codes[profibus::code(reason)] = port.coverage.count(reason);
   for (const auto& [situation, times] : port.situations.counts())
     situations.push_back({situation.first, situation.second, times});
@@ -46,7 +44,7 @@ void read_port(const Json& json, PortRecord& port) {
   json.at("pin_changes").get_to(port.counts.pin_changes);
   json.at("dpram_images").get_to(port.counts.dpram_images);
   for (const auto& [name, count] : json.at("telegrams").items()) port.coverage.add(name, count.get<std::uint64_t>());
-  const std::vector<profibus::Reason> reasons = dsdpv1::reasons();
+  const std::vector<profibus::Reason>& reasons = port.kind->reasons();
   for (const auto& [code, count] : json.at("codes").items()) {
     const auto found = std::find_if(reasons.begin(), reasons.end(),
                                     [&code = code](profibus::Reason each) { return code == profibus::code(each); });
@@ -67,11 +65,11 @@ void read_all(const Json& json, CampaignRecord& record) {
 
 }  // namespace
 
-std::string PortRecord::chip() const { return chip_kind(side.part).name(); }
+std::string PortRecord::name() const { return fmt::format("{} {}", kind->name(), port->word); }
 
-std::string PortRecord::mode() const { return tb::mode_name(side.mode); }
-
-std::string PortRecord::name() const { return chip() + " " + mode(); }
+std::vector<Situation> PortRecord::known() const {
+  return kind->random()->known_situations(*chip_settings(*kind, port->set));
+}
 
 std::uint64_t CampaignRecord::cycles() const {
   std::uint64_t sum = 0;
@@ -86,10 +84,10 @@ std::uint64_t CampaignRecord::cases() const {
 }
 
 PortRecord* CampaignRecord::behind(std::uint64_t goal) {
-  const auto done = [](const PortRecord& port) { return port.counts.cycles / port.share; };
+  const auto done = [](const PortRecord& port) { return port.counts.cycles / port.port->share; };
   const auto least =
       std::min_element(ports.begin(), ports.end(), [&](const auto& a, const auto& b) { return done(a) < done(b); });
-  return least->counts.cycles * 100 < goal * least->share ? &*least : nullptr;
+  return least->counts.cycles * 100 < goal * least->port->share ? &*least : nullptr;
 }
 
 void CampaignRecord::add(PortRecord& port, const CampaignResult& result) {
@@ -102,16 +100,11 @@ void CampaignRecord::add(PortRecord& port, const CampaignResult& result) {
 CampaignRecord new_record(std::uint64_t seed) {
   CampaignRecord record;
   record.seed = seed;
-  const auto port = [&record](Part part, HostMode mode, unsigned share) {
-    PortRecord one;
-    one.side = {part, mode};
-    one.share = share;
-    record.ports.push_back(one);
-  };
-  port(Part::kDsdpv1, HostMode::kParallel, 55);
-  port(Part::kRsu, HostMode::kParallel, 5);
-  port(Part::kRsu, HostMode::kSpi, 20);
-  port(Part::kRsu, HostMode::kUart, 20);
+  for (const tb::ChipKind* kind : tb::chip_kinds()) {
+    if (kind->random() == nullptr) continue;
+    for (const HostPort& port : kind->random()->words().ports)
+      if (port.share != 0) record.ports.push_back({kind, &port});
+  }
   return record;
 }
 
@@ -146,7 +139,7 @@ std::string table(const CampaignRecord& record) {
     const std::string name = port.name();
     lines += fmt::format("{}\tcompared\tseed\t{}\n{}\tcompared\tcases\t{}\n{}\tcompared\tcycles\t{}\n", name,
                          record.seed, name, port.cases, name, port.counts.cycles);
-    const std::string situations = table(port.situations, port.side);
+    const std::string situations = table(port.situations, port.known());
     for (std::size_t at = 0; at < situations.size();) {
       const std::size_t end = situations.find('\n', at);
       lines += name + "\t" + situations.substr(at, end - at + 1);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cosim/random/campaign.hpp"
+#include "cosim/random/random_cases.hpp"
 
 namespace dsdpv1::cosim {
 
@@ -13,18 +14,17 @@ constexpr const char* kCampaignFile = "campaign.json";
 
 /// The random cases at one host port, up to now.
 struct PortRecord {
-  HostSide side;
-  unsigned share = 0;       ///< of all cycles, in percent
+  const tb::ChipKind* kind;
+  const HostPort* port;
   std::uint64_t cases = 0;  ///< with the numbers below this one
-  MatchCounts counts;
-  Coverage coverage;
-  Situations situations;
+  MatchCounts counts = {};
+  Coverage coverage = {};
+  Situations situations = {};
 
-  /// As --chip and --mode have them.
-  std::string chip() const;
-  std::string mode() const;
   /// "dsdpv1 parallel", "dsdpv1_rsu spi".
   std::string name() const;
+  /// RandomCases::known_situations.
+  std::vector<Situation> known() const;
 };
 
 struct CampaignRecord {
@@ -39,7 +39,7 @@ struct CampaignRecord {
   static void add(PortRecord& port, const CampaignResult& result);
 };
 
-/// Nothing compared yet: the DSDPV1, and the DSDPV1-RSU at each of its ports.
+/// Nothing compared yet: each kind at each of its ports that has a share.
 CampaignRecord new_record(std::uint64_t seed);
 /// What the folder has; a new one where it has none. Throws tb::InputError: no record, or one of another seed or
 /// version of the program's table.

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "bus/telegram/telegram.hpp"
-#include "model/dsdpv1/reasons.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -82,11 +81,11 @@ std::uint64_t Coverage::of(const Counts& counts, profibus::Reason reason) {
   return found == counts.end() ? 0 : found->second;
 }
 
-std::string Coverage::text() const {
+std::string Coverage::text(const std::vector<profibus::Reason>& codes) const {
   Lines sent("telegrams"), states("states, services"), refused("refusals"), violated("violations"),
       missing("never seen");
   for (const auto& [name, count] : telegrams_) sent.add(fmt::format("{} {}", name, count));
-  for (const profibus::Reason reason : dsdpv1::reasons()) {
+  for (const profibus::Reason reason : codes) {
     Lines* const lists[] = {&states, &refused, &violated};
     const std::uint64_t times = count(reason);
     Lines& list = times == 0 ? missing : *lists[static_cast<std::size_t>(profibus::severity(reason))];

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "bus/wire/uart.hpp"
 #include "model/profibus/event.hpp"
@@ -20,8 +21,9 @@ class Coverage {
 
   const std::map<std::string, std::uint64_t>& telegrams() const { return telegrams_; }
   std::uint64_t count(profibus::Reason reason) const { return of(reasons_, reason); }
-  /// Telegrams, refusals and states with their counts, then the codes that never occurred: some lines of text.
-  std::string text() const;
+  /// Telegrams, refusals and states with their counts, then the codes that never occurred: some lines of text. `codes`:
+  /// all that there are.
+  std::string text(const std::vector<profibus::Reason>& codes) const;
 
  private:
   using Counts = std::map<profibus::Reason, std::uint64_t>;

@@ -10,7 +10,6 @@
 #include <sstream>
 #include <utility>
 
-#include "cosim/random/play_options.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 
@@ -79,13 +78,13 @@ std::vector<Fault> read_faults(const std::string& path) {
   return faults;
 }
 
-std::vector<NamedStimulus> read_stimuli(const std::string& folder, Part part) {
+std::vector<NamedStimulus> read_stimuli(const std::string& folder, const tb::ChipKind& kind) {
   std::vector<NamedStimulus> stimuli;
   if (!fs::is_directory(folder)) throw tb::InputError(folder, 0, "is no folder, allowed is one with stimulus files");
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".stimulus") continue;
     const std::string text = tb::read_file(entry.path().string(), tb::kStimulusFile);
-    stimuli.push_back({entry.path().stem().string(), parse_stimulus(text, entry.path().string(), part)});
+    stimuli.push_back({entry.path().stem().string(), parse_stimulus(text, entry.path().string(), kind)});
   }
   std::sort(stimuli.begin(), stimuli.end(), [](const auto& a, const auto& b) {
     return std::pair(waits(a.stimulus), a.name) < std::pair(waits(b.stimulus), b.name);

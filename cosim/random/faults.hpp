@@ -11,7 +11,7 @@ struct Fault {
   unsigned number = 0;
   std::string block, stimulus, text;  ///< the directed stimulus that is played first
 };
-/// rtl_ref/dsdpv1/faults.txt, dsdpv1_rsu/faults.txt; throws tb::InputError.
+/// A list as rtl_ref/dsdpv1/faults.txt; throws tb::InputError.
 std::vector<Fault> read_faults(const std::string& path);
 
 struct NamedStimulus {
@@ -19,7 +19,7 @@ struct NamedStimulus {
   Stimulus stimulus;
 };
 /// The stimulus files of a folder, those with the shortest delays first; throws tb::InputError.
-std::vector<NamedStimulus> read_stimuli(const std::string& folder, Part part);
+std::vector<NamedStimulus> read_stimuli(const std::string& folder, const tb::ChipKind& kind);
 
 struct Kill {
   Fault fault;
@@ -31,7 +31,7 @@ struct Kill {
 };
 
 /// Directed stimuli, first the one that the fault names, then random cases until `cycles` are compared.
-/// Of the part and the mode of `options`.
+/// Of the chip and its port in `options`.
 Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options);
 
 /// All of them, on several threads; `found` is called in the order of `faults`, by one thread at a time.

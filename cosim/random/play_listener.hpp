@@ -2,7 +2,6 @@
 // Who hears what happens while a stimulus is played: log and wave.
 #include "bus/monitor/monitor.hpp"
 #include "cosim/lockstep.hpp"
-#include "model/dsdpv1/pins.hpp"
 
 namespace dsdpv1::cosim {
 
@@ -13,7 +12,7 @@ class PlayListener {
   /// The run begins; all pins have their levels of power-on.
   virtual void begins(const Lockstep& /*lockstep*/) {}
   /// See Lockstep::on_pin.
-  virtual void pin(Tick /*at*/, Side /*side*/, Pin /*pin*/, Level /*level*/) {}
+  virtual void pin(Tick /*at*/, Side /*side*/, PinNumber /*pin*/, Level /*level*/) {}
   /// Of the model.
   virtual void event(const profibus::Event& /*event*/) {}
   /// A telegram has ended, heard at `now`.

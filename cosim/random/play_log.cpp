@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include "bus/telegram/explain.hpp"
-#include "model/dsdpv1/reasons.hpp"
 #include "tb/bench/record.hpp"
 
 namespace dsdpv1::cosim {
 
-void PlayLog::pin(Tick at, Side side, Pin pin, Level level) {
-  log_.add({at, name(side), "pin", fmt::format("{} {}", dsdpv1::name(pin), level_text(dsdpv1::width(pin), level))});
+void PlayLog::pin(Tick at, Side side, PinNumber pin, Level level) {
+  const tb::PinInfo& info = kind_.pins()[pin];
+  log_.add({at, name(side), "pin", fmt::format("{} {}", info.name, level_text(info.width, level))});
 }
 
 void PlayLog::event(const profibus::Event& event) {
-  log_.add({event.at, name(Side::kModel), tb::name(profibus::severity(event.reason)), dsdpv1::describe(event),
+  log_.add({event.at, name(Side::kModel), tb::name(profibus::severity(event.reason)), kind_.describe(event),
             profibus::code(event.reason)});
 }
 

@@ -10,15 +10,17 @@ namespace dsdpv1::cosim {
 class PlayLog : public PlayListener {
  public:
   /// JSON lines for a file whose name ends in .jsonl; throws tb::InputError when it cannot be created.
-  explicit PlayLog(const std::string& path) : log_(path, tb::log_form(path, false, false)) {}
+  PlayLog(const std::string& path, const tb::ChipKind& kind)
+      : kind_(kind), log_(path, tb::log_form(path, false, false)) {}
 
-  void pin(Tick at, Side side, Pin pin, Level level) override;
+  void pin(Tick at, Side side, PinNumber pin, Level level) override;
   void event(const profibus::Event& event) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   /// Gives the file its name; throws tb::InputError when it cannot be written.
   void ends(Tick end, const Lockstep& lockstep) override;
 
  private:
+  const tb::ChipKind& kind_;
   tb::RunLog log_;
 };
 

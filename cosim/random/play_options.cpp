@@ -1,61 +1,63 @@
 #include "cosim/random/play_options.hpp"
 
-#include "cosim/random/campaign.hpp"
+#include <yaml-cpp/yaml.h>
+
+#include "cosim/random/random_cases.hpp"
 #include "io/input/input_error.hpp"
-#include "kinds/dsdpv1/keys/settings.hpp"
-#include "kinds/dsdpv1/kind.hpp"
 #include "tb/scenario/settings.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
 
-tb::Dsdpv1Settings settings_of(const dsdpv1::Config& config) {
-  tb::Dsdpv1Settings settings;
-  static_cast<dsdpv1::Config&>(settings) = config;
-  return settings;
-}
-
-tb::Engine engine_of(const dsdpv1::Config& config) {
-  return config.engine == dsdpv1::Engine::kStep ? tb::Engine::kStep : tb::Engine::kSkip;
-}
+// No case needs longer; the slow rates would make some last for minutes.
+constexpr Tick kLongestCase = 2'500'000 * profibus::kTicksPerCycle;
 
 }  // namespace
 
-const tb::ChipKind& chip_kind(Part part) { return tb::kind_of(part); }
-
-PlayOptions own_rtl_options(Part part, const Tolerances& tolerances) {
-  PlayOptions options = quick_options();
-  options.config = {};
-  options.config.part = part;
-  options.lockstep.tolerances = tolerances;
-  return options;
-}
-
-void set_parameters(PlayOptions& options, const std::vector<std::string>& settings) {
-  const tb::ChipKind& kind = chip_kind(options.config.part);
+std::shared_ptr<const tb::OwnSettings> chip_settings(const tb::ChipKind& kind, const std::vector<std::string>& set) {
   YAML::Node scenario(YAML::NodeType::Map);
-  for (const tb::scenario::Setting& each : tb::scenario::parse_settings(settings)) {
+  for (const tb::scenario::Setting& each : tb::scenario::parse_settings(set)) {
     if (each.path.rfind("chip.", 0) != 0)
       throw tb::InputError(each.origin, 0, "is no parameter of the chip, allowed is like chip.search_window_ms=1");
     tb::scenario::apply(each, kind, scenario);
   }
-  tb::Dsdpv1Settings chip = settings_of(options.config);
+  std::shared_ptr<tb::OwnSettings> chip = kind.make_chip_settings();
   if (const YAML::Node keys = scenario["chip"]; keys.IsDefined())
-    tb::keys::read_object(kind.chip_keys(), &chip, keys, {"--set"});
-  options.config = static_cast<const dsdpv1::Config&>(chip);
+    tb::keys::read_object(kind.chip_keys(), dynamic_cast<void*>(chip.get()), keys, {"--set"});
+  return chip;
+}
+
+PlayOptions usual_options(const tb::ChipKind& kind) {
+  PlayOptions options{&kind};
+  options.limit = kLongestCase;
+  options.chip = chip_settings(kind, {});
+  return options;
+}
+
+PlayOptions quick_options(const tb::ChipKind& kind) {
+  PlayOptions options = usual_options(kind);
+  set_parameters(options, kind.random()->words().quick);
+  return options;
+}
+
+void set_parameters(PlayOptions& options, const std::vector<std::string>& set) {
+  options.set.insert(options.set.end(), set.begin(), set.end());
+  options.chip = chip_settings(*options.kind, options.set);
 }
 
 std::unique_ptr<Lockstep> make_lockstep(const PlayOptions& options, std::unique_ptr<Rtl> rtl) {
-  const tb::ChipKind& kind = chip_kind(options.config.part);
-  const tb::Dsdpv1Settings chip = settings_of(options.config);
-  return std::make_unique<Lockstep>(kind.make_device({"chip", chip, engine_of(options.config)}), std::move(rtl), kind,
-                                    chip, options.lockstep);
+  const tb::ChipKind& kind = *options.kind;
+  return std::make_unique<Lockstep>(kind.make_device({"chip", *options.chip, options.engine}), std::move(rtl), kind,
+                                    *options.chip, options.lockstep);
 }
 
 MakeTop reference_top(const PlayOptions& options, unsigned fault, std::uint32_t seed) {
-  return [&rtl = *chip_kind(options.config.part).rtl(), chip = settings_of(options.config), fault, seed] {
-    return rtl.make_reference(chip, fault, seed);
-  };
+  return
+      [rtl = options.kind->rtl(), chip = options.chip, fault, seed] { return rtl->make_reference(*chip, fault, seed); };
+}
+
+Stimulus random_case(std::uint64_t seed, const PlayOptions& options) {
+  return options.kind->random()->make_case(seed, *options.chip);
 }
 
 }  // namespace dsdpv1::cosim

@@ -1,5 +1,6 @@
 #pragma once
-// With which parameters of the chip stimuli are played.
+// What a stimulus is played to: model and RTL with the parameters of --set.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,19 +9,24 @@
 
 namespace dsdpv1::cosim {
 
-/// The kind of chip that stimuli are for.
-const tb::ChipKind& chip_kind(Part part = {});
+/// The settings of a scenario's chip with texts of --set, chip.KEY=VALUE. Throws tb::InputError.
+std::shared_ptr<const tb::OwnSettings> chip_settings(const tb::ChipKind& kind, const std::vector<std::string>& set);
 
-/// For RTL of a user's own: the parameters that scenarios have. For the reference RTL see quick_options().
-PlayOptions own_rtl_options(Part part, const Tolerances& tolerances);
+/// The parameters that scenarios have.
+PlayOptions usual_options(const tb::ChipKind& kind = *tb::chip_kinds().front());
+/// ... with short times: how random cases and directed stimuli are played on the reference RTL.
+PlayOptions quick_options(const tb::ChipKind& kind = *tb::chip_kinds().front());
 
-/// Texts of --set, chip.KEY=VALUE: the keys of a scenario's chip. Throws tb::InputError.
-void set_parameters(PlayOptions& options, const std::vector<std::string>& settings);
+/// Others behind those that there are. Throws tb::InputError.
+void set_parameters(PlayOptions& options, const std::vector<std::string>& set);
 
 /// Model and RTL with the parameters of `options`, side by side.
 std::unique_ptr<Lockstep> make_lockstep(const PlayOptions& options, std::unique_ptr<Rtl> rtl);
 
-/// The reference RTL with the parameters of `options` and, unless it is 0, a single fault of rtl_ref/dsdpv1/faults.txt.
+/// The reference RTL with the parameters of `options` and, unless it is 0, a single fault of the kind's list.
 MakeTop reference_top(const PlayOptions& options, unsigned fault, std::uint32_t seed);
+
+/// RandomCases::make_case of this seed.
+Stimulus random_case(std::uint64_t seed, const PlayOptions& options);
 
 }  // namespace dsdpv1::cosim

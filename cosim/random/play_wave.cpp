@@ -3,14 +3,6 @@
 #include "bus/telegram/explain.hpp"
 
 namespace dsdpv1::cosim {
-namespace {
-
-std::string wave_name(Pin pin) {
-  if (pin == Pin::kDIn) return "D_IN";
-  return pin == Pin::kDOut ? "D_OUT" : dsdpv1::name(pin);
-}
-
-}  // namespace
 
 PlayWave::PlayWave(const std::string& path, const std::string& chip, const tb::ChipKind& kind)
     : writer_(tb::open_wave(path)), signals_(kind.inner_signals()) {
@@ -18,10 +10,7 @@ PlayWave::PlayWave(const std::string& path, const std::string& chip, const tb::C
   telegram_ = writer_->words("telegram");
   writer_->close_scope();
   writer_->open_scope(chip);
-  for (std::size_t i = 0; i < pins_.size(); ++i) {
-    const Pin pin = static_cast<Pin>(i);
-    pins_.at(i) = writer_->wire(wave_name(pin), dsdpv1::width(pin));
-  }
+  for (const tb::PinInfo& pin : kind.pins()) pins_.push_back(writer_->wire(pin.name, pin.width));
   writer_->open_scope("inside");
   for (const tb::InnerSignal& each : signals_)
     inside_.push_back(each.width == 0 ? writer_->words(each.name) : writer_->wire(each.name, each.width));
@@ -30,18 +19,17 @@ PlayWave::PlayWave(const std::string& path, const std::string& chip, const tb::C
 }
 
 void PlayWave::listen(PlayOptions& options) {
-  options.config.engine = dsdpv1::Engine::kStep;
+  options.engine = tb::Engine::kStep;
   options.listeners.push_back(this);
 }
 
 void PlayWave::begins(const Lockstep& lockstep) {
   writer_->say(0, telegram_, "-");
-  for (std::size_t i = 0; i < pins_.size(); ++i)
-    writer_->set(0, pins_.at(i), lockstep.level(static_cast<tb::PinNumber>(i)));
+  for (std::size_t i = 0; i < pins_.size(); ++i) writer_->set(0, pins_[i], lockstep.level(static_cast<PinNumber>(i)));
 }
 
-void PlayWave::pin(Tick at, Side side, Pin pin, Level level) {
-  if (side != Side::kRtl) writer_->set(in_order(at), pins_.at(static_cast<std::size_t>(pin)), level);
+void PlayWave::pin(Tick at, Side side, PinNumber pin, Level level) {
+  if (side != Side::kRtl) writer_->set(in_order(at), pins_[pin], level);
 }
 
 void PlayWave::telegram(Tick now, const bus::WireTelegram& telegram) {

@@ -2,7 +2,6 @@
 // The model's side of a stimulus that is played as a wave: pins, inside, telegrams. The RTL's side comes from its own
 // trace (joined_wave.hpp).
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,7 +20,7 @@ class PlayWave : public PlayListener {
   void listen(PlayOptions& options);
 
   void begins(const Lockstep& lockstep) override;
-  void pin(Tick at, Side side, Pin pin, Level level) override;
+  void pin(Tick at, Side side, PinNumber pin, Level level) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void evaluated(Tick now, tb::PinDevice& model) override;
   /// Gives the file its name; throws tb::InputError when it cannot be written.
@@ -35,7 +34,7 @@ class PlayWave : public PlayListener {
 
   std::unique_ptr<tb::WaveWriter> writer_;
   Signal telegram_ = 0;
-  std::array<Signal, dsdpv1::kPinCount> pins_{};
+  std::vector<Signal> pins_;
   std::vector<Signal> inside_;
   const std::vector<tb::InnerSignal>& signals_;
   Tick last_ = 0;

@@ -1,6 +1,7 @@
 #include "cosim/random/player.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -9,8 +10,7 @@
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
 #include "cosim/random/play_options.hpp"
-#include "kinds/dsdpv1/random/serial_edges.hpp"
-#include "model/dpram/crc16.hpp"
+#include "cosim/random/random_cases.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -33,46 +33,7 @@ class Lane : public bus::Agent {
   virtual void plan(Tick at, const Action& action) = 0;
 };
 
-/// A lane whose actions may be aimed: they wait for a part of an access of the chip, which whoever runs the chip tells
-/// about, so that nobody looks at every cycle.
-class AimedLane : public Lane {
- public:
-  /// What the chip's access works on now.
-  void works_on(Tick now, const char* item) {
-    item_ = item;
-    if (aimed_ != nullptr && is_of(aimed_->during, item)) fire(now);
-  }
-  Tick next() const final { return aimed_ != nullptr ? by_ : planned(); }
-  void run(Tick now) final {
-    if (aimed_ != nullptr)
-      fire(now);
-    else
-      act(now);
-  }
-
- protected:
-  virtual void begin_at(Tick at, const Action& action) = 0;
-  virtual Tick planned() const = 0;
-  virtual void act(Tick now) = 0;
-
- private:
-  void plan(Tick at, const Action& action) override {
-    if (action.during == AccessPart::kNone) return begin_at(at, action);
-    const Tick now = at - action.delay;
-    aimed_ = &action;
-    by_ = now + action.within;
-    if (is_of(action.during, item_)) fire(now);
-  }
-  void fire(Tick now) {
-    const Action& action = *std::exchange(aimed_, nullptr);
-    begin_at(now + action.delay, action);
-    announce();
-  }
-
-  const char* item_ = "";
-  const Action* aimed_ = nullptr;  ///< waits
-  Tick by_ = 0;                    ///< ... until then at most
-};
+class PinLane;
 
 /// The chip as a station of the segment, model and RTL in one.
 class ChipAgent : public bus::Agent, private bus::Listener {
@@ -80,29 +41,29 @@ class ChipAgent : public bus::Agent, private bus::Listener {
   ChipAgent(const PlayOptions& options, std::unique_ptr<Rtl> rtl, bus::Segment& segment)
       : lockstep_(make_lockstep(options, std::move(rtl))),
         listeners_(options.listeners),
+        places_(options.kind->board_pins()),
         segment_(segment),
         station_(segment.attach("chip", this)) {
     lockstep_->watch({[](void* self, Tick at, tb::PinNumber pin, Level level) {
-                        static_cast<ChipAgent*>(self)->drive(at, static_cast<Pin>(pin), level);
+                        static_cast<ChipAgent*>(self)->drive(at, pin, level);
                       },
                       this},
-                     dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts));
+                     tb::mask_of(places_.txd) | tb::mask_of(places_.rts));
   }
   Tick next() const override { return due_.empty() ? lockstep_->next_event() : due_.front().at; }
   void run(Tick now) override {
     lockstep_->advance(now);
     tell();
     for (PlayListener* each : listeners_) each->evaluated(now, *lockstep_);
-    if (aimed_.empty()) return;
-    const char* item = lockstep_->works_on();
-    for (AimedLane* each : aimed_) each->works_on(now, item);
+    tell_of_accesses(now);
   }
   /// `lane` wants to know what the chip's accesses work on.
-  void tell_of_accesses(AimedLane& lane) { aimed_.push_back(&lane); }
+  void tell_of_accesses(PinLane& lane) { aimed_.push_back(&lane); }
   Lockstep& lockstep() { return *lockstep_; }
-  Level level(Pin pin) const { return lockstep_->level(number(pin)); }
-  void set(Tick at, Pin pin, Level level) {
-    lockstep_->set(at, number(pin), level);
+  const tb::BoardPins& places() const { return places_; }
+  Level level(PinNumber pin) const { return lockstep_->level(pin); }
+  void set(Tick at, PinNumber pin, Level level) {
+    lockstep_->set(at, pin, level);
     announce();
   }
 
@@ -112,8 +73,8 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     bool enabled, level;
   };
   /// The line answers, so it is told when the call into the chip is over.
-  void drive(Tick at, Pin pin, Level level) {
-    (pin == Pin::kPbtxd ? level_ : enabled_) = level != 0;
+  void drive(Tick at, PinNumber pin, Level level) {
+    (pin == places_.txd ? level_ : enabled_) = level != 0;
     due_.push_back({at, enabled_, level_});
   }
   void tell() {
@@ -123,11 +84,13 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     }
     due_.clear();
   }
-  void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? 1 : 0); }
+  void tell_of_accesses(Tick now);
+  void line_changed(Tick at, bool level) override { set(at, places_.rxd, level ? 1 : 0); }
 
   std::unique_ptr<Lockstep> lockstep_;
   const std::vector<PlayListener*>& listeners_;
-  std::vector<AimedLane*> aimed_;
+  const tb::BoardPins& places_;
+  std::vector<PinLane*> aimed_;
   bus::Segment& segment_;
   bus::StationId station_;
   bool enabled_ = false, level_ = true;
@@ -146,7 +109,7 @@ class BusLane : public Lane {
       spike_end_ = at + action.low;
       return;
     }
-    bit_ = bus::baud(action.rate).bit;
+    bit_ = bus::baud(static_cast<int>(action.rate)).bit;
     sender_.set_timing(bit_);
     sender_.send(at, bus::characters(action.bytes, action.faults));
     answer_by_ = action.reply_bits == 0 ? -1 : sender_.end() + action.reply_bits * bit_;
@@ -164,9 +127,9 @@ class BusLane : public Lane {
   }
 
  private:
-  /// Looks at PBRTS each bit time: ends when it has fallen, or when no answer has come in time.
+  /// Looks at RTS each bit time: ends when it has fallen, or when no answer has come in time.
   void look(Tick now) {
-    const bool answers = chip_.level(Pin::kPbrts) != 0;
+    const bool answers = chip_.level(chip_.places().rts) != 0;
     if (answers) answer_by_ = -1;
     look_ = answers || now < answer_by_ ? now + (answers ? kCycle : bit_) : bus::kNever;
   }
@@ -177,138 +140,100 @@ class BusLane : public Lane {
   Tick bit_ = 0, answer_by_ = -1, look_ = bus::kNever, spike_ = bus::kNever, spike_end_ = bus::kNever;
 };
 
-class UserLane : public AimedLane {
+/// Of the user or the board. An action may be aimed: it waits for a part of an access of the chip, which whoever runs
+/// the chip tells about, so that nobody looks at every cycle.
+class PinLane : public Lane {
  public:
-  explicit UserLane(ChipAgent& chip) : chip_(chip) {}
+  /// From the verb `first` to `last`; `verbs`: of the user.
+  PinLane(ChipAgent& chip, const std::vector<VerbRow>& verbs, Verb first, Verb last)
+      : chip_(chip), verbs_(verbs), first_(first), last_(last) {}
 
-  bool takes(Verb verb) const override { return verb >= Verb::kTake && verb <= Verb::kUart; }
-  void begin_at(Tick at, const Action& action) override {
-    edges_.clear();
-    edge_ = 0;
-    end_ = at;
-    polls_ = 0;
-    switch (action.verb) {
-      case Verb::kTake: return take(action);
-      case Verb::kGive: return add({{0, Pin::kRSta, 0}, {0, Pin::kRReq, 0}}, 0);
-      case Verb::kWrite: return write(action, action.address, action.value);
-      case Verb::kRead: return read(action);
-      case Verb::kBlock: return block(action);
-      case Verb::kSpi: return serial(spi_edges(action));
-      case Verb::kUart: return uart(action);
-      default: return add({{0, action.pin, static_cast<Level>(action.value)}}, 0);
-    }
+  bool takes(Verb verb) const override { return verb >= first_ && verb <= last_; }
+  /// What the chip's access works on now.
+  void works_on(Tick now, const char* item) {
+    item_ = item;
+    if (aimed_ != nullptr && std::strcmp(aimed_->during, item) == 0) fire(now);
   }
-  Tick planned() const override { return edge_ < edges_.size() ? edges_[edge_].at : look_; }
-  void act(Tick now) override {
-    if (edge_ == edges_.size() && look_ <= now) return look(now);
-    for (; edge_ < edges_.size() && edges_[edge_].at <= now; ++edge_) {
-      const Edge edge = edges_[edge_];
-      if (!edge.poll) {
+  Tick next() const override {
+    if (aimed_ != nullptr) return by_;
+    return edge_ < plan_.edges.size() ? plan_.edges[edge_].at : look_;
+  }
+  void run(Tick now) override {
+    if (aimed_ != nullptr) return fire(now);
+    if (edge_ == plan_.edges.size() && look_ <= now) return look(now);
+    for (; edge_ < plan_.edges.size() && plan_.edges[edge_].at <= now; ++edge_) {
+      const PinEdge edge = plan_.edges[edge_];
+      if (edge.until_low == 0)
         chip_.set(edge.at, edge.pin, edge.level);
-      } else if ((chip_.level(Pin::kLReq) != 0 || chip_.level(Pin::kLSta) != 0) && ++polls_ < kMostPolls) {
-        for (std::size_t i = edge_; i < edges_.size(); ++i) edges_[i].at += poll_every_;
-        --edge_;
-      }
+      else if (any_high(edge.until_low) && ++polls_ < kMostPolls)
+        put_off();
     }
   }
 
  private:
-  static constexpr int kLastCell = 0x7FF;
-  static constexpr int kMostPolls = 400;  // a user who was patient for so long takes it all the same
-  struct Edge {
-    Tick at;
-    Pin pin;
-    Level level;
-    bool poll = false;
-  };
-  void add(const std::vector<Edge>& edges, Tick length) {
-    for (Edge edge : edges) {
-      edge.at += end_;
-      edges_.push_back(edge);
-    }
-    end_ += length;
+  static constexpr int kMostPolls = 400;  // a user who was patient for so long goes on all the same
+  UserPlan plan_of(const Action& action) const {
+    const PinNumber reset = chip_.places().reset;
+    if (action.verb == Verb::kReset) return {{{0, reset, 0}, {action.low, reset, 1}}};
+    return std::find_if(verbs_.begin(), verbs_.end(), [&](const VerbRow& each) { return each.verb == action.verb; })
+        ->plan(action);
   }
-  void serial(const std::vector<PinEdge>& edges) {
-    for (const PinEdge& each : edges) edges_.push_back({end_ + each.at, each.pin, each.level});
-    if (!edges.empty()) end_ += edges.back().at;
+  void plan(Tick at, const Action& action) override {
+    if (action.during == nullptr) return begin_at(at, action);
+    const Tick now = at - action.delay;
+    aimed_ = &action;
+    by_ = now + action.within;
+    if (std::strcmp(action.during, item_) == 0) fire(now);
   }
-  void uart(const Action& action) {
-    serial(uart_edges(action));
-    if (action.reply_bits == 0) return;
-    bit_ = uart_bit(action.rate);
-    look_ = end_ + bit_ / 2;
+  void fire(Tick now) {
+    const Action& action = *std::exchange(aimed_, nullptr);
+    begin_at(now + action.delay, action);
+    announce();
+  }
+  void begin_at(Tick at, const Action& action) {
+    plan_ = plan_of(action);
+    for (PinEdge& each : plan_.edges) each.at += at;
+    edge_ = 0;
+    polls_ = 0;
+    if (plan_.reply_bits == 0) return;
+    const Tick end = plan_.edges.back().at;
+    look_ = end + plan_.bit / 2;
     last_low_ = -1;
-    reply_by_ = end_ + action.reply_bits * bit_;
+    reply_by_ = end + plan_.reply_bits * plan_.bit;
   }
-  /// Looks at TXD every half bit: ends when it has been high for a character, or when no reply has come in time.
+  bool any_high(tb::PinMask pins) const {
+    for (PinNumber pin = 0; pin < kMostPins; ++pin)
+      if ((pins >> pin & 1) != 0 && chip_.level(pin) != 0) return true;
+    return false;
+  }
+  void put_off() {
+    for (std::size_t i = edge_; i < plan_.edges.size(); ++i) plan_.edges[i].at += plan_.poll_every;
+    --edge_;
+  }
+  /// Looks at the reply every half bit.
   void look(Tick now) {
-    if (chip_.level(Pin::kTxd) == 0) last_low_ = now;
-    const bool over = last_low_ >= 0 ? now > last_low_ + bus::kCharacterBits * bit_ : now > reply_by_;
-    look_ = over ? bus::kNever : now + bit_ / 2;
-  }
-  void take(const Action& action) {
-    poll_every_ = action.low;
-    add({{0, Pin::kRReq, 1}, {4 * kCycle, Pin::kRSta, 0, true}, {4 * kCycle + action.low, Pin::kRSta, 1}}, 0);
-  }
-  void write(const Action& action, int address, int value) {
-    const Tick rise = action.setup + action.low, end = rise + action.hold;
-    add({{0, Pin::kA, static_cast<Level>(address & kLastCell)},
-         {0, Pin::kDIn, static_cast<Level>(value)},
-         {0, Pin::kCsr, 0},
-         {action.setup, Pin::kWr, 0},
-         {rise, Pin::kWr, 1},
-         {end, Pin::kCsr, 1},
-         {end, Pin::kDIn, dsdpv1::kLevelZ}},
-        end);
-  }
-  void read(const Action& action) {
-    const Tick rise = action.setup + action.low, end = rise + action.hold;
-    add({{0, Pin::kA, static_cast<Level>(action.address)},
-         {0, Pin::kCsr, 0},
-         {action.setup, Pin::kRd, 0},
-         {rise, Pin::kRd, 1},
-         {end, Pin::kCsr, 1}},
-        end);
-  }
-  void block(const Action& action) {
-    const int crc = dpram::crc16(action.bytes.data(), static_cast<int>(action.bytes.size())) ^ action.value;
-    for (std::size_t i = 0; i < action.bytes.size(); ++i)
-      write(action, action.address + static_cast<int>(i), action.bytes[i]);
-    write(action, action.crc_address, crc >> 8);
-    write(action, action.crc_address + 1, crc & 0xFF);
+    if (chip_.level(plan_.reply) == 0) last_low_ = now;
+    const bool over = last_low_ >= 0 ? now > last_low_ + bus::kCharacterBits * plan_.bit : now > reply_by_;
+    look_ = over ? bus::kNever : now + plan_.bit / 2;
   }
 
   ChipAgent& chip_;
-  std::vector<Edge> edges_;
+  const std::vector<VerbRow>& verbs_;
+  const Verb first_, last_;
+  UserPlan plan_;
   std::size_t edge_ = 0;
-  Tick end_ = 0, poll_every_ = 0;
-  Tick bit_ = 0, look_ = bus::kNever, last_low_ = -1, reply_by_ = 0;
+  Tick look_ = bus::kNever, last_low_ = -1, reply_by_ = 0;
   int polls_ = 0;
+  const char* item_ = "";
+  const Action* aimed_ = nullptr;  ///< waits
+  Tick by_ = 0;                    ///< ... until then at most
 };
 
-class BoardLane : public AimedLane {
- public:
-  explicit BoardLane(ChipAgent& chip) : chip_(chip) {}
-  bool takes(Verb verb) const override { return verb == Verb::kReset; }
-  void begin_at(Tick at, const Action& action) override {
-    fall_ = at;
-    rise_ = at + action.low;
-  }
-  Tick planned() const override { return std::min(fall_, rise_); }
-  void act(Tick now) override {
-    if (fall_ <= now) {
-      chip_.set(fall_, Pin::kReset, 0);
-      fall_ = bus::kNever;
-    } else {
-      chip_.set(rise_, Pin::kReset, 1);
-      rise_ = bus::kNever;
-    }
-  }
-
- private:
-  ChipAgent& chip_;
-  Tick fall_ = bus::kNever, rise_ = bus::kNever;
-};
+void ChipAgent::tell_of_accesses(Tick now) {
+  if (aimed_.empty()) return;
+  const char* item = lockstep_->works_on();
+  for (PinLane* each : aimed_) each->works_on(now, item);
+}
 
 class Player {
  public:
@@ -317,13 +242,11 @@ class Player {
         options_(options),
         chip_(options, make(), segment_),
         bus_(segment_, chip_),
-        user_(chip_),
-        board_(chip_) {
+        user_(chip_, options.kind->random()->words().verbs, Verb::kPin, kLastVerb),
+        board_(chip_, options.kind->random()->words().verbs, Verb::kReset, Verb::kReset) {
     timeline_.add(chip_);
-    if (std::any_of(stimulus.begin(), stimulus.end(),
-                    [](const Action& each) { return each.during != AccessPart::kNone; }))
-      for (AimedLane* each : {static_cast<AimedLane*>(&user_), static_cast<AimedLane*>(&board_)})
-        chip_.tell_of_accesses(*each);
+    if (std::any_of(stimulus.begin(), stimulus.end(), [](const Action& each) { return each.during != nullptr; }))
+      for (PinLane* each : {&user_, &board_}) chip_.tell_of_accesses(*each);
     for (Place& place : places_) timeline_.add(*place.lane);
     lockstep().on_event({[](void* self, const profibus::Event& event) {
                            auto& player = *static_cast<Player*>(self);
@@ -353,7 +276,7 @@ class Player {
   /// Somebody wants to know what happens: pins of all sides, and telegrams, which nobody else here reads.
   void listen() {
     lockstep().on_pin([this](Tick at, Side side, PinNumber pin, Level level) {
-      for (PlayListener* each : options_.listeners) each->pin(at, side, static_cast<Pin>(pin), level);
+      for (PlayListener* each : options_.listeners) each->pin(at, side, pin, level);
     });
     monitor_.emplace(segment_);
     monitor_->on_telegram = [this](const bus::WireTelegram& telegram) {
@@ -378,7 +301,8 @@ class Player {
       if (!place.lane->takes(action.verb)) continue;
       place.lane->begin(timeline_.now() + action.delay, action);
       if (action.verb == Verb::kSend) coverage_.sent(action.bytes, action.faults);
-      if (action.verb == Verb::kSend && monitor_ && monitor_->baud() != action.rate) monitor_->set_baud(action.rate);
+      if (action.verb == Verb::kSend && monitor_ && monitor_->baud() != action.rate)
+        monitor_->set_baud(static_cast<int>(action.rate));
       begun_ = std::max(begun_, ++place.next);
       return true;
     }
@@ -411,8 +335,7 @@ class Player {
   bus::Segment segment_;
   ChipAgent chip_;
   BusLane bus_;
-  UserLane user_;
-  BoardLane board_;
+  PinLane user_, board_;
   std::optional<bus::Monitor> monitor_;
   Place places_[3] = {{&bus_}, {&user_}, {&board_}};
   std::size_t sync_ = 0, passed_ = 0, begun_ = 0;

@@ -10,17 +10,20 @@
 #include "cosim/random/coverage.hpp"
 #include "cosim/random/play_listener.hpp"
 #include "cosim/random/stimulus.hpp"
-#include "model/dsdpv1/config.hpp"
 
 namespace dsdpv1::cosim {
 
 /// Makes the RTL for one run; each run has a new one.
 using MakeTop = std::function<std::unique_ptr<Rtl>()>;
 
+/// See play_options.hpp.
 struct PlayOptions {
-  dsdpv1::Config config;
-  LockstepOptions lockstep;
-  std::string wave;            ///< for the wave of a difference; empty: none
+  const tb::ChipKind* kind;                          ///< of a chip that has RandomCases
+  std::vector<std::string> set = {};                 ///< texts of --set: the parameters, one after the other
+  std::shared_ptr<const tb::OwnSettings> chip = {};  ///< what they come to
+  tb::Engine engine = tb::Engine::kSkip;
+  LockstepOptions lockstep = {};
+  std::string wave = {};       ///< for the wave of a difference; empty: none
   Tick limit = Tick{1} << 50;  ///< the run ends here at the latest
   std::vector<PlayListener*> listeners = {};
 };

@@ -7,12 +7,11 @@ namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr int kNoSap = -1;
-constexpr std::uint8_t kFailSafe = 0x08, kFailSafeReq = 0x40;  // B024.3; byte 7 of Set_Prm
+constexpr std::uint8_t kFailSafe = 0x08, kFailSafeReq = 0x40;  // of Setup::command; byte 7 of Set_Prm
 constexpr int kReplyBits = 270;                                // longer than any min_TSDR
 
-Tick window(const dsdpv1::Config& config, int rate) {
-  const Tick least = static_cast<Tick>(config.search_window_ms) * bus::kTicksPerMs;
-  return std::max(least, static_cast<Tick>(config.search_window_bits) * bus::baud(rate).bit);
+Tick window(const SearchTimes& times, int rate) {
+  return std::max(times.window, times.window_bits * bus::baud(rate).bit);
 }
 
 }  // namespace
@@ -39,7 +38,7 @@ void RandomMaster::fastest_rate() {
 /// Waits for the rate's window, then telegrams.
 void RandomMaster::be_found() {
   Tick wait = 0;
-  for (int rate = 0; rate < setup_.rate; ++rate) wait += window(config_, rate);
+  for (int rate = 0; rate < setup_.rate; ++rate) wait += window(times_, rate);
   extra_ += wait + 500 * kCycle;
   for (int i = random_.between(1, 2); i > 0; --i) {
     const auto to = random_.one_in(3) ? setup_.address : static_cast<std::uint8_t>(random_.between(6, 126));
@@ -321,9 +320,7 @@ void RandomMaster::anything() {
 
 void RandomMaster::silence() { extra_ += random_.below(20) * bus::kTicksPerMs / 20; }
 
-void RandomMaster::wait_baud_control() {
-  extra_ += static_cast<Tick>(config_.baud_control_ms) * bus::kTicksPerMs - random_.below(2) * 40 * bit();
-}
+void RandomMaster::wait_baud_control() { extra_ += times_.baud_control - random_.below(2) * 40 * bit(); }
 
 std::uint8_t RandomMaster::master() {
   if (!careful_ && random_.one_in(60)) return 127;  // S32

@@ -9,9 +9,8 @@ namespace dsdpv1::cosim {
 
 class RandomMaster {
  public:
-  /// `config`: the times that it waits for.
-  RandomMaster(Random& random, Setup& setup, Stimulus& stimulus, const dsdpv1::Config& config)
-      : random_(random), setup_(setup), stimulus_(stimulus), config_(config) {}
+  RandomMaster(Random& random, Setup& setup, Stimulus& stimulus, const SearchTimes& times)
+      : random_(random), setup_(setup), stimulus_(stimulus), times_(times) {}
 
   /// Another baud rate, and telegrams until the chip must have found it.
   void choose_rate();
@@ -72,7 +71,7 @@ class RandomMaster {
   Random& random_;
   Setup& setup_;
   Stimulus& stimulus_;
-  const dsdpv1::Config config_;
+  const SearchTimes times_;
   bool fcb_ = true, fcv_ = false, careful_ = false;
   std::optional<bus::Telegram> last_;
   Tick extra_ = 0;  ///< waited before the next telegram

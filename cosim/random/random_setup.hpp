@@ -5,21 +5,14 @@
 
 #include "bus/bytes.hpp"
 #include "cosim/random/stimulus.hpp"
-#include "model/dsdpv1/chip.hpp"
 
 namespace dsdpv1::cosim {
 
-/// Chip parameters so short that every state is reached soon. What a random case waits for, it waits for with their
-/// times.
-inline dsdpv1::Config quick_config(dsdpv1::Part part = {}) {
-  dsdpv1::Config config;
-  config.part = part;
-  config.u_timer = 20'000;  // of SPI: some frames
-  config.search_window_ms = 1;
-  config.search_window_bits = 150;  // T_SYN and the shortest telegram take 100
-  config.baud_control_ms = 2;
-  return config;
-}
+/// The chip's limits of the baud search and of BAUD_CONTROL (S1), for which the master waits.
+struct SearchTimes {
+  Tick window = 0, baud_control = 0;
+  int window_bits = 0;
+};
 
 /// Random numbers that are the same with every standard library.
 class Random {
@@ -47,14 +40,15 @@ class Random {
 
 /// How the slave is initialised, as far as master and user have to know it.
 struct Setup {
-  std::uint8_t address = 5, command = 0x0F;
+  std::uint8_t address = 5;
+  std::uint8_t command = 0x0F;  ///< allowed are: Set_Slave_Address (bit 0), Freeze, Sync, Fail_Safe
   std::uint16_t ident = 0x0CC9;
   int max_input = 244, max_output = 244, max_diag = 32, max_prm = 237, max_cfg = 200;
   int prm_mode = 0, cfg_mode = 0;
   bus::Bytes cfg = {0x11, 0x21};  ///< of the initialisation
   int inputs = 2, outputs = 2;    ///< bytes that `cfg` describes
   int rate = 0;
-  bool dpv1 = false;       ///< B005 is 1D, and Set_Prm enables DPV1
+  bool dpv1 = false;       ///< the user allows it, and Set_Prm enables it
   bool locked = false;     ///< the address (S5)
   bool fail_safe = false;  ///< the last Set_Prm asks for it
   /// Of the last acyclic requests to SAP 51, 48 and 47: function, slot, index.

@@ -3,72 +3,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <map>
 #include <optional>
 #include <sstream>
 
+#include "cosim/random/random_cases.hpp"
 #include "io/input/input_error.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
 
-const std::map<std::string, Verb> kVerbs = {{"send", Verb::kSend},   {"spike", Verb::kSpike}, {"take", Verb::kTake},
-                                            {"give", Verb::kGive},   {"write", Verb::kWrite}, {"read", Verb::kRead},
-                                            {"block", Verb::kBlock}, {"pin", Verb::kPin},     {"reset", Verb::kReset},
-                                            {"spi", Verb::kSpi},     {"uart", Verb::kUart},   {"sync", Verb::kSync}};
-
 constexpr Tick kLongest = Tick{1} << 40;
-constexpr int kLastCell = 0x7FF;
 
-/// One `key=value` of an action: where it is kept, and what it may be. Decimal, addresses and values hexadecimal.
-struct Field {
-  const char* key;
-  Tick (*get)(const Action&);
-  void (*set)(Action&, Tick);
-  Tick least, most;
-  bool hex;
-};
+/// What every chip has beside the user's verbs.
+const std::vector<VerbRow>& own_verbs() {
+  static const std::vector<VerbRow> verbs = {
+      {Verb::kSend, "send", {{"rate", &Action::rate, 0, 9}, {"reply", &Action::reply_bits, 0, 2000}}, nullptr, true},
+      {Verb::kSpike, "spike", {{"low", &Action::low, 1, kLongest}}, nullptr},
+      {Verb::kReset, "reset", {{"low", &Action::low, 1, kLongest}}, nullptr},
+      {Verb::kSync, "sync", {}, nullptr}};
+  return verbs;
+}
 
-#define FIELD(member)                                          \
-  [](const Action& a) { return static_cast<Tick>(a.member); }, \
-      [](Action& a, Tick v) { a.member = static_cast<decltype(a.member)>(v); }
+/// Null: there is none that is `wanted`.
+template <class Wanted>
+const VerbRow* find_verb(const tb::ChipKind& kind, const Wanted& wanted) {
+  for (const std::vector<VerbRow>* verbs : {&own_verbs(), &kind.random()->words().verbs}) {
+    const auto found = std::find_if(verbs->begin(), verbs->end(), wanted);
+    if (found != verbs->end()) return &*found;
+  }
+  return nullptr;
+}
 
-const Field kRate = {"rate", FIELD(rate), 0, 9, false};
-const Field kReply = {"reply", FIELD(reply_bits), 0, 2000, false};
-const Field kAt = {"at", FIELD(address), 0, kLastCell, true};
-const Field kCrc = {"crc", FIELD(crc_address), 0, kLastCell, true};
-const Field kXor = {"xor", FIELD(value), 0, 0xFFFF, true};
-const Field kByte = {"value", FIELD(value), 0, 0xFF, true};
-const Field kLevel = {"level", FIELD(value), -1, kLastCell, false};
-const Field kSetup = {"setup", FIELD(setup), 0, kLongest, false};
-const Field kLow = {"low", FIELD(low), 1, kLongest, false};
-const Field kHold = {"hold", FIELD(hold), 0, kLongest, false};
-const Field kHigh = {"high", FIELD(high), 1, kLongest, false};
-const Field kLead = {"lead", FIELD(lead), 0, kLongest, false};
-const Field kLag = {"lag", FIELD(lag), 0, kLongest, false};
-const Field kPause = {"pause", FIELD(pause), 0, kLongest, false};
-const Field kBits = {"bits", FIELD(bits), 0, 1'000'000, false};
-const Field kUbr = {"rate", FIELD(rate), 0, 7, false};
-const Field kPpm = {"ppm", FIELD(ppm), -100'000, 100'000, false};
-const Field kPoll = {"poll", FIELD(low), 1, kLongest, false};
-#undef FIELD
-
-const std::vector<Field>& fields(Verb verb) {
-  static const std::map<Verb, std::vector<Field>> table = {
-      {Verb::kSend, {kRate, kReply}},
-      {Verb::kSpike, {kLow}},
-      {Verb::kTake, {kPoll}},
-      {Verb::kGive, {}},
-      {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
-      {Verb::kRead, {kAt, kSetup, kLow, kHold}},
-      {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
-      {Verb::kPin, {kLevel}},
-      {Verb::kReset, {kLow}},
-      {Verb::kSpi, {kSetup, kHigh, kLow, kLead, kLag, kPause, kBits}},
-      {Verb::kUart, {kUbr, kReply, kPpm}},
-      {Verb::kSync, {}}};
-  return table.at(verb);
+const VerbRow* verb_called(const tb::ChipKind& kind, const std::string& word) {
+  return find_verb(
+      kind, [&word](const VerbRow& each) { return word == each.word; });
 }
 
 /// Faults on the wire, `key=position` or `key=position:number:number`.
@@ -119,7 +87,7 @@ std::string faults_text(const bus::WireFaults& faults) {
   return text;
 }
 
-bool is_aimed(const Action& action) { return action.during != AccessPart::kNone; }
+bool is_aimed(const Action& action) { return action.during != nullptr; }
 
 /// Of user and board, whose lanes look at what the chip does.
 bool may_be_aimed(Verb verb) { return verb != Verb::kSend && verb != Verb::kSpike && verb != Verb::kSync; }
@@ -127,28 +95,26 @@ bool may_be_aimed(Verb verb) { return verb != Verb::kSend && verb != Verb::kSpik
 constexpr const char* kDuring = "during";
 
 /// "C1_request".
-std::string word_of(AccessPart part) {
-  std::string word = name(part);
+std::string word_of(const char* part) {
+  std::string word = part;
   std::replace(word.begin(), word.end(), ' ', '_');
   return word;
 }
 
-std::string part_words() {
+std::string part_words(const std::vector<const char*>& parts) {
   std::string words;
-  for (std::size_t i = 0; i < std::size(kAccessParts); ++i)
-    words += fmt::format("{}{}", i == 0 ? "" : ", ", word_of(static_cast<AccessPart>(i)));
+  for (const char* part : parts) words += fmt::format("{}{}", words.empty() ? "" : ", ", word_of(part));
   return words;
 }
 
-std::string line_of(const Action& action) {
-  const auto verb =
-      std::find_if(kVerbs.begin(), kVerbs.end(), [&](const auto& each) { return each.second == action.verb; });
-  std::string line = verb->first;
+std::string line_of(const Action& action, const tb::ChipKind& kind) {
+  const VerbRow& verb = *find_verb(kind, [&action](const VerbRow& each) { return each.verb == action.verb; });
+  std::string line = verb.word;
   if (action.verb == Verb::kSync) return line;
   line += fmt::format(" +{}", action.delay);
-  if (action.verb == Verb::kPin) line += fmt::format(" {}", dsdpv1::name(action.pin));
-  for (const Field& field : fields(action.verb)) {
-    const Tick value = field.get(action);
+  if (action.verb == Verb::kPin) line += fmt::format(" {}", kind.pins()[action.pin].name);
+  for (const Field& field : verb.fields) {
+    const Tick value = action.*field.member;
     line += field.hex ? fmt::format(" {}={:X}", field.key, value) : fmt::format(" {}={}", field.key, value);
   }
   if (is_aimed(action)) line += fmt::format(" {}={}:{}", kDuring, word_of(action.during), action.within);
@@ -161,23 +127,17 @@ std::string line_of(const Action& action) {
 /// Reads one line, word by word.
 class LineParser {
  public:
-  LineParser(const std::string& line, const std::string& file, int number, Part part)
-      : words_(line), file_(file), number_(number), part_(part) {}
+  LineParser(const std::string& line, const std::string& file, int number, const tb::ChipKind& kind)
+      : words_(line), file_(file), number_(number), kind_(kind) {}
 
   /// Nothing for an empty line or a comment.
   std::optional<Action> parse() {
     std::string word;
     if (!(words_ >> word) || word[0] == '#') return std::nullopt;
-    const auto verb = kVerbs.find(word);
-    const bool rsu = dsdpv1::has_serial_ports(part_);
-    if (verb == kVerbs.end())
-      fail("unknown action " + word, fmt::format("send, spike, take, give, write, read, block, pin, {}reset, sync, "
-                                                 "repeat, end",
-                                                 rsu ? "spi, uart, " : ""));
-    if (!rsu && (verb->second == Verb::kSpi || verb->second == Verb::kUart))
-      fail(word + " is an action of the DSDPV1-RSU's host", "--chip dsdpv1_rsu");
+    verb_ = verb_called(kind_, word);
+    if (verb_ == nullptr) fail_verb(word);
     Action action;
-    action.verb = verb->second;
+    action.verb = verb_->verb;
     while (words_ >> word)
       if (word == ":")
         bytes(action);
@@ -190,6 +150,16 @@ class LineParser {
   [[noreturn]] void fail(const std::string& what, const std::string& allowed) const {
     throw tb::InputError(file_, number_, what + ", allowed: " + allowed);
   }
+  [[noreturn]] void fail_verb(const std::string& word) const {
+    for (const tb::ChipKind* other : tb::chip_kinds())
+      if (other->random() != nullptr && verb_called(*other, word) != nullptr)
+        fail(fmt::format("{} is an action of the {}'s host", word, other->title()),
+             fmt::format("--chip {}", other->name()));
+    std::string allowed = "send, spike";
+    for (const VerbRow& each : words().verbs) allowed += fmt::format(", {}", each.word);
+    fail("unknown action " + word, allowed + ", reset, sync, repeat, end");
+  }
+  const Vocabulary& words() const { return kind_.random()->words(); }
   long number(const std::string& text, int base, Tick least, Tick most) const {
     std::size_t used = 0;
     long value = 0;
@@ -214,8 +184,11 @@ class LineParser {
   }
   void assign(Action& action, const std::string& key, const std::string& text) const {
     std::string allowed = "+DELAY";
-    for (const Field& field : fields(action.verb)) {
-      if (key == field.key) return field.set(action, number(text, field.hex ? 16 : 10, field.least, field.most));
+    for (const Field& field : verb_->fields) {
+      if (key == field.key) {
+        action.*field.member = number(text, field.hex ? 16 : 10, field.least, field.most);
+        return;
+      }
       allowed += fmt::format(", {}=", field.key);
     }
     if (may_be_aimed(action.verb)) {
@@ -223,7 +196,7 @@ class LineParser {
       allowed += fmt::format(", {}=", kDuring);
     }
     for (const FaultField& field : kFaults) {
-      if (action.verb != Verb::kSend && action.verb != Verb::kUart) break;
+      if (!verb_->faults) break;
       if (key == field.key) return field.set(action.faults, split(text, field.numbers + 1));
       allowed += fmt::format(", {}=", field.key);
     }
@@ -233,9 +206,9 @@ class LineParser {
   void aim(Action& action, const std::string& text) const {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string part = text.substr(0, colon);
-    for (std::size_t i = 0; i < std::size(kAccessParts); ++i)
-      if (part == word_of(static_cast<AccessPart>(i))) action.during = static_cast<AccessPart>(i);
-    if (!is_aimed(action)) fail("unknown part of an access " + part, part_words());
+    for (const char* each : words().access_parts)
+      if (part == word_of(each)) action.during = each;
+    if (!is_aimed(action)) fail("unknown part of an access " + part, part_words(words().access_parts));
     if (colon == text.size()) fail("no time in " + text, "PART:TICKS");
     action.within = number(text.substr(colon + 1), 10, 0, kLongest);
   }
@@ -247,10 +220,9 @@ class LineParser {
     return values;
   }
   void pin(Action& action, const std::string& word) const {
-    for (int i = 0; i < pin_count(part_) && action.verb == Verb::kPin; ++i) {
-      const Pin each = static_cast<Pin>(i);
-      if (!dsdpv1::is_input(each) || word != dsdpv1::name(each)) continue;
-      action.pin = each;
+    for (PinNumber i = 0; i < end_of(kind_.pins()) && action.verb == Verb::kPin; ++i) {
+      if (!kind_.pins()[i].input || word != kind_.pins()[i].name) continue;
+      action.pin = i;
       return;
     }
     fail("unknown word " + word, "+DELAY, KEY=VALUE, : BYTES, and the name of an input pin behind pin");
@@ -263,13 +235,14 @@ class LineParser {
   std::istringstream words_;
   const std::string& file_;
   int number_;
-  Part part_;
+  const tb::ChipKind& kind_;
+  const VerbRow* verb_ = nullptr;
 };
 
 /// The lines of a file; those between `repeat COUNT` and `end` several times.
 class FileParser {
  public:
-  FileParser(const std::string& file, Part part) : file_(file), part_(part) {}
+  FileParser(const std::string& file, const tb::ChipKind& kind) : file_(file), kind_(kind) {}
 
   Stimulus parse(const std::string& text) {
     std::istringstream lines(text);
@@ -282,7 +255,7 @@ class FileParser {
         repeat(more.empty() ? argument : fmt::format("{} {}", argument, more));
       else if (verb == "end")
         end(argument);
-      else if (auto action = LineParser(line, file_, number_, part_).parse())
+      else if (auto action = LineParser(line, file_, number_, kind_).parse())
         add(std::move(*action));
     }
     if (count_ != 0) fail(repeat_line_, "repeat without its end", "end behind the lines that are repeated");
@@ -322,7 +295,7 @@ class FileParser {
   }
 
   const std::string& file_;
-  Part part_;
+  const tb::ChipKind& kind_;
   Stimulus stimulus_;
   int number_ = 0, count_ = 0, repeat_line_ = 0;
   std::size_t first_ = 0;
@@ -330,15 +303,15 @@ class FileParser {
 
 }  // namespace
 
-std::string to_text(const Stimulus& stimulus) {
+std::string to_text(const Stimulus& stimulus, const tb::ChipKind& kind) {
   std::string text =
       "# Stimulus for the lockstep of model and RTL, see docs/cosim.md. Times are ticks of 1/12 ns, 250 a cycle.\n";
-  for (const Action& action : stimulus) text += line_of(action) + "\n";
+  for (const Action& action : stimulus) text += line_of(action, kind) + "\n";
   return text;
 }
 
-Stimulus parse_stimulus(const std::string& text, const std::string& file, Part part) {
-  return FileParser(file, part).parse(text);
+Stimulus parse_stimulus(const std::string& text, const std::string& file, const tb::ChipKind& kind) {
+  return FileParser(file, kind).parse(text);
 }
 
 }  // namespace dsdpv1::cosim

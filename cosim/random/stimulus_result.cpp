@@ -1,6 +1,5 @@
 #include "cosim/random/stimulus_result.hpp"
 
-#include "model/dsdpv1/reasons.hpp"
 #include "tb/report/fields.hpp"
 
 namespace dsdpv1::cosim {
@@ -37,24 +36,24 @@ Json telegrams_of(const Coverage& coverage) {
   return telegrams;
 }
 
-Json codes_of(const Coverage& coverage) {
+Json codes_of(const StimulusResult& result) {
   Json codes = Json::object();
-  for (const profibus::Reason reason : dsdpv1::reasons()) codes[profibus::code(reason)] = coverage.count(reason);
+  for (const profibus::Reason reason : result.kind->reasons())
+    codes[profibus::code(reason)] = result.coverage.count(reason);
   return codes;
 }
 
 /// Each group with its situations, those that did not occur, too.
 Json situations_of(const StimulusResult& result) {
   Json groups = Json::object();
-  for (const Situation& each : known_situations(result.side))
-    groups[each.first][each.second] = result.situations.of(each);
+  for (const Situation& each : result.known) groups[each.first][each.second] = result.situations.of(each);
   for (const auto& [each, times] : result.situations.counts()) groups[each.first][each.second] = times;
   return groups;
 }
 
 void coverage_fields(Fields& out, const StimulusResult& result) {
   out.counts("telegrams", telegrams_of(result.coverage), "how many", "each kind, with its count");
-  out.counts("codes", codes_of(result.coverage), "how often", "each code of docs/reasons.md, with its count");
+  out.counts("codes", codes_of(result), "how often", "each code of docs/reasons.md, with its count");
   out.groups("situations", is_random(result) ? situations_of(result) : Json(), "how often",
              "each situation, with its count",
              "each group: states, services, events, situations at the host port; null: `--replay`");

@@ -3,14 +3,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cosim/lockstep.hpp"
 #include "cosim/random/coverage.hpp"
-#include "kinds/dsdpv1/random/situations.hpp"
+#include "cosim/random/situations.hpp"
 
 namespace dsdpv1::cosim {
 
 struct StimulusResult {
+  const tb::ChipKind* kind = tb::chip_kinds().front();
   std::string rtl;     ///< folder of the user's RTL; empty: the reference RTL
   unsigned fault = 0;  ///< of the reference RTL
   std::uint64_t seed = 1;
@@ -20,7 +22,7 @@ struct StimulusResult {
   MatchCounts counts;
   Coverage coverage;
   Situations situations;                 ///< of random cases ...
-  HostSide side;                         ///< ... with this host
+  std::vector<Situation> known;          ///< ... and those that may occur
   std::optional<Difference> difference;  ///< of the stimulus in `stimulus`, or of the one that was played
   std::string stimulus;                  ///< where the case that differs, shrunk, was written
   std::size_t actions = 0;               ///< ... and how long it is

@@ -19,6 +19,7 @@
 #include "kinds/dsdpv1/pins/inside_watch.hpp"
 #include "kinds/dsdpv1/pins/pin_table.hpp"
 #include "kinds/dsdpv1/port/last_access.hpp"
+#include "kinds/dsdpv1/random/random_cases.hpp"
 #include "kinds/dsdpv1/rtl/rtl_of.hpp"
 #include "kinds/dsdpv1/user_cpu/orders.hpp"
 #include "model/dsdpv1/reasons.hpp"
@@ -43,7 +44,8 @@ std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_
 
 class Dsdpv1Kind : public ChipKind {
  public:
-  explicit Dsdpv1Kind(Part part) : part_(part), rtl_(cosim::make_rtl_of(part)) {}
+  explicit Dsdpv1Kind(Part part)
+      : part_(part), rtl_(cosim::make_rtl_of(part)), random_(cosim::make_random_cases(part)) {}
 
   const char* name() const override { return row(part_).name; }
   const char* title() const override { return row(part_).title; }
@@ -110,6 +112,7 @@ class Dsdpv1Kind : public ChipKind {
 
   const cosim::RtlOf* rtl() const override { return rtl_.get(); }
   const calibrate::Claims* claims() const override { return &calibrate::dsdpv1_claims(); }
+  const cosim::RandomCases* random() const override { return random_.get(); }
   std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {
     return std::make_unique<CoreDevice>(config_of(request));
   }
@@ -128,6 +131,7 @@ class Dsdpv1Kind : public ChipKind {
  private:
   const Part part_;
   const std::unique_ptr<const cosim::RtlOf> rtl_;
+  const std::unique_ptr<const cosim::RandomCases> random_;
 };
 
 std::string Dsdpv1Kind::place_of(const std::string& init_key) const {

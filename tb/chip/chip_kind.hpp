@@ -22,8 +22,9 @@
 #include "tb/chip/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::cosim {
+class RandomCases;
 class RtlOf;
-}
+}  // namespace dsdpv1::cosim
 namespace dsdpv1::calibrate {
 class Claims;
 }
@@ -169,8 +170,10 @@ class ChipKind {
   virtual const char* other_program(const scenario::Slave& /*slave*/) const { return ""; }
 
   // --- Faculties that a kind may lack: null.
-  /// For RTL beside the model: --engine rtl and lockstep, cosim, rtl-random.
+  /// For RTL beside the model: --engine rtl and lockstep, cosim.
   virtual const cosim::RtlOf* rtl() const { return nullptr; }
+  /// For rtl-random and rtl-faults, of a kind that has rtl(), too.
+  virtual const cosim::RandomCases* random() const { return nullptr; }
   /// What captures of its pins can show of its rulings, for calibrate.
   virtual const calibrate::Claims* claims() const { return nullptr; }
 

@@ -8,8 +8,6 @@
 
 #include "cosim/random/campaign.hpp"
 #include "cosim/random/play_options.hpp"
-#include "cosim/random/random_setup.hpp"
-#include "kinds/dsdpv1/random/random_stimulus.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tests/bench/programs.hpp"
 #include "tests/bench/rtl_alone.hpp"
@@ -109,8 +107,9 @@ std::unique_ptr<cosim::Rtl> make_rtl() { return cosim::reference_top(cosim::quic
 
 /// A case as the campaign of rtl-random plays it.
 std::uint64_t play_case(std::uint64_t number, const cosim::MakeTop& make) {
-  const cosim::Stimulus stimulus = cosim::random_stimulus(cosim::case_seed(kSeed, number));
-  const cosim::PlayResult result = cosim::play(stimulus, make, cosim::quick_options());
+  const cosim::PlayOptions options = cosim::quick_options();
+  const cosim::Stimulus stimulus = cosim::random_case(cosim::case_seed(kSeed, number), options);
+  const cosim::PlayResult result = cosim::play(stimulus, make, options);
   if (result.difference) throw Failure("model and RTL differ: " + result.difference->what);
   return result.counts.cycles;
 }

@@ -31,6 +31,8 @@ cosim::MakeTop wrong_interrupt() {
   };
 }
 
+const tb::ChipKind& chip_kind() { return *tb::chip_kinds().front(); }
+
 class PlayedStimulus : public testing::Test {
  public:
   PlayedStimulus() { std::filesystem::create_directories(folder_); }
@@ -43,10 +45,10 @@ class PlayedStimulus : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
   static cosim::PlayResult play(cosim::PlayLog* log, cosim::PlayWave* wave) {
-    cosim::PlayOptions options;
+    cosim::PlayOptions options = cosim::usual_options();
     if (log != nullptr) options.listeners.push_back(log);
     if (wave != nullptr) wave->listen(options);
-    return cosim::play(cosim::parse_stimulus(kStimulus, "x", Part::kDsdpv1), wrong_interrupt(), options);
+    return cosim::play(cosim::parse_stimulus(kStimulus, "x", *options.kind), wrong_interrupt(), options);
   }
 
  private:
@@ -56,7 +58,7 @@ class PlayedStimulus : public testing::Test {
 };
 
 TEST_F(PlayedStimulus, LogHasPinsOfAllSidesEventsTelegramsAndTheDifferenceInOrderOfTime) {
-  cosim::PlayLog log(path("case.log"));
+  cosim::PlayLog log(path("case.log"), chip_kind());
   const cosim::PlayResult result = play(&log, nullptr);
   ASSERT_TRUE(result.difference);
   const std::string text = read("case.log");
@@ -72,7 +74,7 @@ TEST_F(PlayedStimulus, LogHasPinsOfAllSidesEventsTelegramsAndTheDifferenceInOrde
 }
 
 TEST_F(PlayedStimulus, WaveHasPinsInsideAndTelegramsOfTheModel) {
-  cosim::PlayWave wave(path("case.vcd"), "chip", cosim::chip_kind());
+  cosim::PlayWave wave(path("case.vcd"), "chip", chip_kind());
   const cosim::PlayResult result = play(nullptr, &wave);
   ASSERT_TRUE(result.difference);
   const std::string text = read("case.vcd");
@@ -83,8 +85,8 @@ TEST_F(PlayedStimulus, WaveHasPinsInsideAndTelegramsOfTheModel) {
 
 TEST_F(PlayedStimulus, FirstDifferenceIsTheSameWhoeverListens) {
   const cosim::PlayResult alone = play(nullptr, nullptr);
-  cosim::PlayLog log(path("case.log"));
-  cosim::PlayWave wave(path("case.vcd"), "chip", cosim::chip_kind());
+  cosim::PlayLog log(path("case.log"), chip_kind());
+  cosim::PlayWave wave(path("case.vcd"), "chip", chip_kind());
   const cosim::PlayResult heard = play(&log, &wave);
   ASSERT_TRUE(alone.difference && heard.difference);
   EXPECT_EQ(alone.difference->at, heard.difference->at);

@@ -7,10 +7,10 @@
 
 #include "cosim/random/campaign.hpp"
 #include "cosim/random/play_options.hpp"
+#include "cosim/random/random_cases.hpp"
+#include "kinds/dsdpv1/kind.hpp"
 #include "kinds/dsdpv1/random/random_host.hpp"
-#include "kinds/dsdpv1/random/random_stimulus.hpp"
 #include "kinds/dsdpv1/random/random_user.hpp"
-#include "kinds/dsdpv1/random/situation_watch.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -18,14 +18,12 @@ namespace {
 /// What a stimulus brings about, at model and RTL alike.
 class Played {
  public:
-  explicit Played(const Stimulus& stimulus, const HostSide& side = {}, Tick limit = Tick{1} << 40) {
-    PlayOptions options = quick_options(side.part);
+  explicit Played(const Stimulus& stimulus, PlayOptions options = quick_options(), Tick limit = Tick{1} << 40) {
     options.limit = limit;
-    SituationWatch watch(options.config, side.mode);
-    options.listeners.push_back(&watch);
+    const std::unique_ptr<PlayListener> watch = options.kind->random()->watch(*options.chip, situations_);
+    options.listeners.push_back(watch.get());
     result_ = play(stimulus, reference_top(options, 0, 1), options);
     EXPECT_FALSE(result_.difference);
-    situations_ = watch.situations();
   }
   std::uint64_t count(const char* group, const std::string& item) const { return situations_.of({group, item}); }
   Tick end() const { return static_cast<Tick>(result_.counts.cycles) * profibus::kTicksPerCycle; }
@@ -43,7 +41,7 @@ std::string from_power_on(const std::string& more) {
          more;
 }
 
-Stimulus parsed(const std::string& text) { return parse_stimulus(text, "x", Part::kDsdpv1); }
+Stimulus parsed(const std::string& text) { return parse_stimulus(text, "x", tb::kind_of(Part::kDsdpv1)); }
 
 /// While the user hands over the block, RESET waits for the chip to read it.
 TEST(AimedEdge, FallsInThePartThatItIsAimedAt) {
@@ -87,21 +85,22 @@ TEST(RandomUser, ExceedsEachLimitOfAnInitialisation) {
 /// In good order first, through the port that the straps choose: soon after power-on most cases are in data exchange.
 TEST(RandomCases, BringTheSlaveUpBeforeTheyGoWild) {
   struct Port {
-    HostSide side;
+    Part part;
+    std::vector<std::string> mode;
     int cases = 0;
     Tick cycles = 0;  ///< each: a host at the UART takes its time
   };
-  for (const Port& port :
-       {Port{{Part::kDsdpv1, HostMode::kParallel}, 6, 70'000}, Port{{Part::kRsu, HostMode::kSpi}, 6, 100'000},
-        Port{{Part::kRsu, HostMode::kUart}, 4, 150'000}}) {
+  for (const Port& port : {Port{Part::kDsdpv1, {}, 6, 70'000}, Port{Part::kRsu, {"chip.mode=spi"}, 6, 100'000},
+                           Port{Part::kRsu, {"chip.mode=uart"}, 4, 150'000}}) {
+    PlayOptions options = quick_options(tb::kind_of(port.part));
+    set_parameters(options, port.mode);
     int up = 0;
     for (int number = 0; number < port.cases; ++number) {
       const std::uint64_t seed = case_seed(1, static_cast<std::uint64_t>(number));
-      const Played played(random_stimulus(seed, port.side.mode, quick_config(port.side.part)), port.side,
-                          port.cycles * profibus::kTicksPerCycle);
+      const Played played(random_case(seed, options), options, port.cycles * profibus::kTicksPerCycle);
       if (played.count("DP states", "WAIT_CFG to DATA_EXCH") > 0) ++up;
     }
-    EXPECT_GE(2 * up, port.cases) << static_cast<int>(port.side.mode);
+    EXPECT_GE(2 * up, port.cases) << testing::PrintToString(port.mode);
   }
 }
 

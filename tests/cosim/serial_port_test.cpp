@@ -9,8 +9,8 @@
 #include <initializer_list>
 #include <set>
 
+#include "kinds/dsdpv1/random/host_verbs.hpp"
 #include "kinds/dsdpv1/random/random_host.hpp"
-#include "kinds/dsdpv1/random/serial_edges.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tests/conformance/host_telegrams.hpp"
 
@@ -20,6 +20,7 @@ namespace {
 using conformance::with_crc;
 using cosim::Action;
 using cosim::Verb;
+namespace verb = cosim::verb;
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr std::uint16_t kReady = 0x004;  // no cell of a port's
@@ -68,7 +69,7 @@ class Port {
   bool answers_spi() {
     now_ += 40'000;  // SP9: 2.7 us after whatever it was
     Action action;
-    action.verb = Verb::kSpi;
+    action.verb = verb::kSpi;
     action.bytes = with_crc({0x01, 0, kReady, 1});
     const std::size_t request = action.bytes.size();
     const bus::Bytes reply = expected();
@@ -80,7 +81,7 @@ class Port {
   bool answers_uart() {
     now_ += 300 * bus::kCharacterBits * cosim::uart_bit(kRate);  // the longest reply, the longest interval
     Action action;
-    action.verb = Verb::kUart;
+    action.verb = verb::kUart;
     action.rate = kRate;
     action.bytes = with_crc({0x01, 0, kReady, 1});
     chip_->advance(now_);
@@ -103,9 +104,9 @@ class Port {
   bus::Bytes expected() const { return with_crc({0x81, 0, chip_->peek(kReady)}); }
   long play(const Action& action) {
     now_ += action.delay;
-    if (action.verb == Verb::kPin) chip_->set(now_, action.pin, static_cast<Level>(action.value));
-    if (action.verb == Verb::kSpi) return edges(cosim::spi_edges(action));
-    if (action.verb == Verb::kUart) return edges(cosim::uart_edges(action));
+    if (action.verb == Verb::kPin) chip_->set(now_, static_cast<Pin>(action.pin), static_cast<Level>(action.value));
+    if (action.verb == verb::kSpi) return edges(cosim::spi_edges(action));
+    if (action.verb == verb::kUart) return edges(cosim::uart_edges(action));
     return 0;
   }
   long edges(const std::vector<cosim::PinEdge>& list) {
@@ -113,15 +114,15 @@ class Port {
     unsigned byte = 1;
     for (const cosim::PinEdge& each : list) {
       now_ = begin + each.at;
-      chip_->set(now_, each.pin, each.level);
-      if (each.pin != Pin::kSck || each.level == 0) continue;
+      chip_->set(now_, static_cast<Pin>(each.pin), each.level);
+      if (each.pin != number(Pin::kSck) || each.level == 0) continue;
       byte = byte << 1 | (chip_->level(Pin::kMiso) != 0 ? 1U : 0U);
       if (byte > 0xFF) miso_.push_back(static_cast<std::uint8_t>(byte));
       if (byte > 0xFF) byte = 1;
     }
     return 1;
   }
-  void txd(Tick at, Level level) { edges_.push_back({at, Pin::kTxd, level}); }
+  void txd(Tick at, Level level) { edges_.push_back({at, number(Pin::kTxd), level}); }
   /// The characters on TXD since the request, by its edges.
   bus::Bytes heard(std::size_t count) const {
     bus::Bytes bytes;

@@ -9,9 +9,10 @@
 #include <set>
 
 #include "cosim/random/campaign_record.hpp"
-#include "cosim/random/random_setup.hpp"
 #include "io/input/input_error.hpp"
+#include "kinds/dsdpv1/kind.hpp"
 #include "kinds/dsdpv1/random/situation_watch.hpp"
+#include "kinds/dsdpv1/random/situations.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -20,19 +21,24 @@ namespace fs = std::filesystem;
 using profibus::Reason;
 using testing::HasSubstr;
 
+/// What the user's host is connected to.
+struct HostSide {
+  Part part = Part::kDsdpv1;
+  HostMode mode = HostMode::kParallel;
+};
 constexpr HostSide kSides[] = {{Part::kDsdpv1, HostMode::kParallel},
                                {Part::kRsu, HostMode::kParallel},
                                {Part::kRsu, HostMode::kSpi},
                                {Part::kRsu, HostMode::kUart}};
 
 bool is_known(const Situation& situation, const HostSide& side = {}) {
-  const std::vector<Situation> known = known_situations(side);
+  const std::vector<Situation> known = known_situations(side.part, side.mode);
   return std::find(known.begin(), known.end(), situation) != known.end();
 }
 
 TEST(Situations, AreKnownOnceAtEachPort) {
   for (const HostSide& side : kSides) {
-    const std::vector<Situation> known = known_situations(side);
+    const std::vector<Situation> known = known_situations(side.part, side.mode);
     EXPECT_EQ(std::set<Situation>(known.begin(), known.end()).size(), known.size());
   }
 }
@@ -75,21 +81,23 @@ TEST(Situations, OfAnEventAreWhatTheRulingTellsApart) {
 }
 
 TEST(Situations, ThatAreMissingAreNamed) {
+  const std::vector<Situation> known = known_situations(Part::kDsdpv1, HostMode::kParallel);
   Situations some;
   some.count("DP states", "OFFLINE to WAIT_PRM");
   some.count("DP states", "OFFLINE to WAIT_PRM");
-  EXPECT_THAT(text(some, {}), HasSubstr("DP states             1 of 9; never seen: WAIT_PRM to OFFLINE, "));
-  EXPECT_THAT(table(some, {}), HasSubstr("DP states\tOFFLINE to WAIT_PRM\t2\nDP states\tWAIT_PRM to OFFLINE\t0\n"));
+  EXPECT_THAT(text(some, known), HasSubstr("DP states             1 of 9; never seen: WAIT_PRM to OFFLINE, "));
+  EXPECT_THAT(table(some, known), HasSubstr("DP states\tOFFLINE to WAIT_PRM\t2\nDP states\tWAIT_PRM to OFFLINE\t0\n"));
   Situations more;
   more.count("events", "C1_ANSWER other");
   some.add(more);
-  EXPECT_THAT(table(some, {}), HasSubstr("events\tC1_ANSWER other\t1\n"));  // not known, and counted all the same
+  EXPECT_THAT(table(some, known), HasSubstr("events\tC1_ANSWER other\t1\n"));  // not known, and counted all the same
 }
 
 /// Sync and Freeze are held or not, as Global_Control and the answers to it say (S4, S24, S27).
 TEST(SituationWatch, FollowsSyncAndFreeze) {
-  const dsdpv1::Config config;
-  SituationWatch watch(config, HostMode::kParallel);
+  const tb::Dsdpv1Settings chip;
+  Situations counted;
+  SituationWatch watch(chip, counted);
   const auto control = [&](std::uint16_t command) { watch.event({0, Reason::kGlobalControl, command, 0, 2}); };
   control(0x20);
   control(0x08);
@@ -99,14 +107,14 @@ TEST(SituationWatch, FollowsSyncAndFreeze) {
   control(0x04);
   watch.event({0, Reason::kDpState, 3, 1});
   control(0x02);
-  const auto count = [&](const char* item) { return watch.situations().of({"Sync and Freeze", item}); };
+  const auto count = [&](const char* item) { return counted.of({"Sync and Freeze", item}); };
   EXPECT_EQ(count("nothing held: Sync"), 1U);
   EXPECT_EQ(count("Sync: Freeze"), 1U);
   EXPECT_EQ(count("Sync and Freeze: Unsync"), 1U);
   EXPECT_EQ(count("Freeze: Sync"), 1U);
   EXPECT_EQ(count("Freeze: Unfreeze"), 1U);
   EXPECT_EQ(count("nothing held: Clear_Data"), 1U);
-  EXPECT_EQ(watch.situations().of({"DP states", "DATA_EXCH to WAIT_PRM"}), 1U);
+  EXPECT_EQ(counted.of({"DP states", "DATA_EXCH to WAIT_PRM"}), 1U);
 }
 
 class Record : public testing::Test {
@@ -173,23 +181,25 @@ TEST(CampaignRecord, GivesEachPortItsShare) {
   EXPECT_EQ(record.cycles(), kGoal);
 }
 
-TEST(CaseConfig, VariesTheLimitsOfTheSearchInSomeCases) {
-  const dsdpv1::Config usual = quick_config();
-  std::set<std::uint32_t> windows, bits, control;
+TEST(CaseSettings, VaryTheLimitsOfTheSearchInSomeCases) {
+  const RandomCases& cases = *tb::kind_of(Part::kDsdpv1).random();
+  std::set<std::string> different;
   int changed = 0;
   for (std::uint64_t number = 0; number < 300; ++number) {
-    const dsdpv1::Config config = case_config(case_seed(1, number), usual);
-    EXPECT_EQ(config.search_window_ms, case_config(case_seed(1, number), usual).search_window_ms);
-    changed += config.search_window_bits != usual.search_window_bits ? 1 : 0;
-    windows.insert(config.search_window_ms);
-    bits.insert(config.search_window_bits);
-    control.insert(config.baud_control_ms);
+    const std::vector<std::string> settings = cases.case_settings(case_seed(1, number));
+    EXPECT_EQ(settings, cases.case_settings(case_seed(1, number)));
+    changed += settings.empty() ? 0 : 1;
+    different.insert(settings.begin(), settings.end());
   }
   EXPECT_GT(changed, 60);
   EXPECT_LT(changed, 150);
-  EXPECT_EQ(windows.size(), 3U);
-  EXPECT_GT(bits.size(), 50U);
-  EXPECT_EQ(control.size(), 4U);
+  const auto count = [&](const std::string& key) {
+    return std::count_if(different.begin(), different.end(),
+                         [&](const std::string& each) { return each.rfind("chip." + key + "=", 0) == 0; });
+  };
+  EXPECT_EQ(count("search_window_ms"), 2);  // and the usual one
+  EXPECT_GT(count("search_window_bits"), 50);
+  EXPECT_EQ(count("baud_control_ms"), 3);
 }
 
 }  // namespace

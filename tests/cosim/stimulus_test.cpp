@@ -7,15 +7,27 @@
 #include <set>
 
 #include "cosim/random/faults.hpp"
-#include "cosim/random/stimulus.hpp"
+#include "cosim/random/random_cases.hpp"
 #include "io/input/input_error.hpp"
-#include "kinds/dsdpv1/random/random_stimulus.hpp"
+#include "kinds/dsdpv1/kind.hpp"
 
 namespace dsdpv1 {
 namespace {
 
-using cosim::parse_stimulus;
-using cosim::to_text;
+cosim::Stimulus parse_stimulus(const std::string& text, const std::string& file, Part part) {
+  return cosim::parse_stimulus(text, file, tb::kind_of(part));
+}
+std::string to_text(const cosim::Stimulus& stimulus, Part part = Part::kDsdpv1) {
+  return cosim::to_text(stimulus, tb::kind_of(part));
+}
+/// `mode`: text of --set.
+cosim::Stimulus random_rsu_case(std::uint64_t seed, const char* mode) {
+  cosim::PlayOptions options = cosim::quick_options(tb::kind_of(Part::kRsu));
+  cosim::set_parameters(options, {mode});
+  return cosim::random_case(seed, options);
+}
+std::string random_text(std::uint64_t seed) { return to_text(cosim::random_case(seed, cosim::quick_options())); }
+constexpr const char* kModes[] = {"chip.mode=parallel", "chip.mode=spi", "chip.mode=uart"};
 
 std::string error_of(const std::string& text, Part part = Part::kDsdpv1) {
   try {
@@ -28,20 +40,20 @@ std::string error_of(const std::string& text, Part part = Part::kDsdpv1) {
 
 TEST(Stimulus, RandomCasesAreReadBackAsTheyWereWritten) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 77U}) {
-    const std::string text = to_text(cosim::random_stimulus(seed));
+    const std::string text = random_text(seed);
     EXPECT_EQ(to_text(parse_stimulus(text, "again", Part::kDsdpv1)), text) << seed;
   }
 }
 
 TEST(Stimulus, RandomCasesAreTheSameForTheSameSeed) {
-  EXPECT_EQ(to_text(cosim::random_stimulus(5)), to_text(cosim::random_stimulus(5)));
-  EXPECT_NE(to_text(cosim::random_stimulus(5)), to_text(cosim::random_stimulus(6)));
+  EXPECT_EQ(random_text(5), random_text(5));
+  EXPECT_NE(random_text(5), random_text(6));
 }
 
 TEST(Stimulus, RandomCasesOfEachPortAreReadBackAsTheyWereWritten) {
-  for (const HostMode mode : {HostMode::kParallel, HostMode::kSpi, HostMode::kUart}) {
-    const std::string text = to_text(cosim::random_stimulus(4, mode, cosim::quick_config(Part::kRsu)));
-    EXPECT_EQ(to_text(parse_stimulus(text, "again", Part::kRsu)), text);
+  for (const char* mode : kModes) {
+    const std::string text = to_text(random_rsu_case(4, mode), Part::kRsu);
+    EXPECT_EQ(to_text(parse_stimulus(text, "again", Part::kRsu), Part::kRsu), text);
   }
 }
 
@@ -50,21 +62,22 @@ TEST(Stimulus, AnActionOfUserOrBoardIsAimedAtAPartOfAnAccess) {
       "reset +12 low=5 during=C1_request:7000\nspi +1 setup=1 high=1 low=1 lead=1 lag=1 pause=0 bits=0 "
       "during=start-up:0 : 00\n";
   const cosim::Stimulus stimulus = parse_stimulus(text, "x", Part::kRsu);
-  EXPECT_EQ(stimulus[0].during, cosim::AccessPart::kC1Request);
+  EXPECT_STREQ(stimulus[0].during, "C1 request");
   EXPECT_EQ(stimulus[0].within, 7000);
-  EXPECT_EQ(to_text(stimulus), to_text({}) + text);
-  EXPECT_EQ(parse_stimulus("reset +12 low=5\n", "x", Part::kDsdpv1)[0].during, cosim::AccessPart::kNone);
+  EXPECT_EQ(to_text(stimulus, Part::kRsu), to_text({}) + text);
+  EXPECT_EQ(parse_stimulus("reset +12 low=5\n", "x", Part::kDsdpv1)[0].during, nullptr);
 }
 
 /// Of RESET and of the host's first edges, at each port; what comes by chance is not counted.
 TEST(RandomCases, AimAtEachPartOfAnAccess) {
-  for (const HostMode mode : {HostMode::kParallel, HostMode::kSpi, HostMode::kUart}) {
-    std::set<cosim::AccessPart> reset, host;
+  const std::size_t parts = tb::kind_of(Part::kRsu).random()->words().access_parts.size();
+  for (const char* mode : kModes) {
+    std::set<const char*> reset, host;
     for (std::uint64_t seed = 0; seed < 150; ++seed)
-      for (const cosim::Action& each : cosim::random_stimulus(seed, mode, cosim::quick_config(Part::kRsu)))
+      for (const cosim::Action& each : random_rsu_case(seed, mode))
         (each.verb == cosim::Verb::kReset ? reset : host).insert(each.during);
-    EXPECT_EQ(reset.size(), std::size(cosim::kAccessParts) + 1) << static_cast<int>(mode);
-    EXPECT_EQ(host.size(), std::size(cosim::kAccessParts) + 1) << static_cast<int>(mode);
+    EXPECT_EQ(reset.size(), parts + 1) << mode;
+    EXPECT_EQ(host.size(), parts + 1) << mode;
   }
 }
 
@@ -87,7 +100,8 @@ TEST(Stimulus, FilesWithTheShortestDelaysArePlayedFirst) {
   std::ofstream(folder / "c.stimulus") << "give +30\n";
   std::ofstream(folder / "d.txt") << "no stimulus\n";
   std::string order;
-  for (const cosim::NamedStimulus& each : cosim::read_stimuli(folder.string(), Part::kDsdpv1)) order += each.name;
+  for (const cosim::NamedStimulus& each : cosim::read_stimuli(folder.string(), tb::kind_of(Part::kDsdpv1)))
+    order += each.name;
   fs::remove_all(folder);
   EXPECT_EQ(order, "cba");
 }

@@ -40,12 +40,6 @@ NAME_A_CHIP = {
     "for good: RCC_CSR is a register of the STM32": """
         board/stm32/rcc.cpp board/stm32/rcc.hpp
     """.split(),
-    "one face for co-simulation": """
-        cosim/random/campaign.cpp cosim/random/campaign.hpp cosim/random/campaign_record.cpp cosim/random/coverage.cpp
-        cosim/random/play_listener.hpp cosim/random/play_log.cpp cosim/random/play_options.cpp cosim/random/play_wave.cpp
-        cosim/random/play_wave.hpp cosim/random/player.cpp cosim/random/player.hpp cosim/random/random_master.cpp
-        cosim/random/random_master.hpp cosim/random/random_setup.hpp cosim/random/stimulus.hpp cosim/random/stimulus_result.cpp
-    """.split(),
 }
 FORBIDDEN += [(room, A_CHIP, "no chip by name") for room in GENERAL_ROOMS]
 FORBIDDEN += [(room, ITS_CELLS, "no chip's pins and cells") for room in GENERAL_ROOMS]

@@ -2,7 +2,6 @@
 // The parts of an access of the chip to the DPRAM that stimuli aim at and situations tell apart, in the words of
 // dpram::Inside::item.
 #include <cstddef>
-#include <cstring>
 
 namespace dsdpv1::cosim {
 
@@ -35,8 +34,9 @@ inline constexpr const char* kAccessParts[] = {"start-up",        "commands",   
                                                "C1 answer",       "C2 answer",       "Set_Prm",    "Chk_Cfg",
                                                "outputs",         "C1 request",      "C2 request", "status B00B"};
 
-inline const char* name(AccessPart part) { return kAccessParts[static_cast<std::size_t>(part)]; }
-/// What an access works on is of this part.
-inline bool is_of(AccessPart part, const char* item) { return std::strcmp(name(part), item) == 0; }
+/// Action::during.
+inline const char* item_of(AccessPart part) {
+  return part == AccessPart::kNone ? nullptr : kAccessParts[static_cast<std::size_t>(part)];
+}
 
 }  // namespace dsdpv1::cosim

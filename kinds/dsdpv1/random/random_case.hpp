@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cosim/random/random_master.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/random/random_host.hpp"
 #include "kinds/dsdpv1/random/random_user.hpp"
 #include "model/profibus/dp_state.hpp"
@@ -11,7 +12,7 @@ namespace dsdpv1::cosim {
 
 class RandomCase {
  public:
-  RandomCase(std::uint64_t seed, HostMode mode, const dsdpv1::Config& config);
+  RandomCase(std::uint64_t seed, const tb::Dsdpv1Settings& chip);
 
   Stimulus make();
 
@@ -78,7 +79,7 @@ class RandomCase {
     host_->careful(careful);
   }
   void verdict(bool prm, bool cfg);
-  void push_reset(AccessPart during = AccessPart::kNone, Tick within = 0);
+  void push_reset(AccessPart part = AccessPart::kNone, Tick within = 0);
 
   Random random_;
   Setup setup_;

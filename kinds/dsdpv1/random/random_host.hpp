@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cosim/random/random_setup.hpp"
+#include "kinds/dsdpv1/random/access_parts.hpp"
 #include "model/dsdpv1/config.hpp"
 
 namespace dsdpv1::cosim {

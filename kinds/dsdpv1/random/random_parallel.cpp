@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinds/dsdpv1/random/host_verbs.hpp"
 #include "kinds/dsdpv1/random/random_host.hpp"
 
 namespace dsdpv1::cosim {
@@ -46,23 +47,14 @@ class RandomParallel : public RandomHost {
 void RandomParallel::rude() {
   constexpr Pin kPins[] = {Pin::kRReq, Pin::kRSta, Pin::kCsr, Pin::kRd, Pin::kA, Pin::kWr, Pin::kDIn};
   for (int i = random_.between(2, 12); i > 0; --i) {
-    Action action;
-    action.verb = Verb::kPin;
-    action.delay = random_.one_in(4) ? random_.below(20'000) : random_.below(900);
-    action.pin = random_.pick(kPins);
-    action.value = random_.below(2);
-    if (action.pin == Pin::kA) action.value = random_.below(0x800);
-    if (action.pin == Pin::kDIn) action.value = random_.below(257) - 1;
-    push(action);
+    const Tick delay = random_.one_in(4) ? random_.below(20'000) : random_.below(900);
+    const Pin which = random_.pick(kPins);
+    int value = random_.below(2);
+    if (which == Pin::kA) value = random_.below(0x800);
+    if (which == Pin::kDIn) value = random_.below(257) - 1;
+    pin(which, value, delay);
   }
-  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) {
-    Action action;
-    action.verb = Verb::kPin;
-    action.delay = 500;
-    action.pin = pin;
-    action.value = 1;
-    push(action);
-  }
+  for (const Pin strobe : {Pin::kRd, Pin::kWr, Pin::kCsr}) pin(strobe, 1, 500);
   if (dsdpv1::has_serial_ports(part_)) late_straps();
   give();
   wait(1);
@@ -98,7 +90,7 @@ void RandomParallel::amid() {
   if (random_.one_in(2)) pin(Pin::kRReq, 1, random_.below(kSoon));
   for (int i = random_.between(1, 2); i > 0; --i) {
     Action action;
-    action.verb = random_.one_in(2) ? Verb::kRead : Verb::kWrite;
+    action.verb = random_.one_in(2) ? verb::kRead : verb::kWrite;
     action.address = random_.below(0x800);
     action.value = random_.byte();
     action.delay = action.setup = random_.below(kSoon);
@@ -154,9 +146,9 @@ void RandomParallel::read_back_at_once() {
   access.value = random_.byte();
   access.low = kTw;
   access.hold = kLeast + random_.below(400);
-  access.verb = Verb::kWrite;
+  access.verb = verb::kWrite;
   push(access);
-  access.verb = Verb::kRead;
+  access.verb = verb::kRead;
   push(access);
 }
 
@@ -209,20 +201,20 @@ void RandomParallel::shorten(Action& action) {
 }
 
 void RandomParallel::write(int address, int value) {
-  Action action = access(Verb::kWrite);
+  Action action = access(verb::kWrite);
   action.address = address;
   action.value = value;
   push(action);
 }
 
 void RandomParallel::read(int address) {
-  Action action = access(Verb::kRead);
+  Action action = access(verb::kRead);
   action.address = address;
   push(action);
 }
 
 void RandomParallel::block(int address, int crc_address, const bus::Bytes& bytes) {
-  Action action = access(Verb::kBlock);
+  Action action = access(verb::kBlock);
   action.address = address;
   action.crc_address = crc_address;
   action.bytes = bytes;
@@ -233,7 +225,7 @@ void RandomParallel::block(int address, int crc_address, const bus::Bytes& bytes
 void RandomParallel::take() {
   if (mishap(24)) take_unseen();
   Action action;
-  action.verb = Verb::kTake;
+  action.verb = verb::kTake;
   action.delay = small_delay();
   action.low = random_.between(200, 3000);
   push(action);
@@ -255,7 +247,7 @@ void RandomParallel::give() {
     return pin(request_first ? Pin::kRSta : Pin::kRReq, 0, random_.below(random_.one_in(4) ? 20'000 : 900));
   }
   Action action;
-  action.verb = Verb::kGive;
+  action.verb = verb::kGive;
   action.delay = random_.below(600);
   push(action);
 }
@@ -270,7 +262,7 @@ void RandomParallel::hold_through_reset() {
 void RandomHost::push(Action action) {
   if (aimed_at_ != AccessPart::kNone) {
     constexpr int kShort = kCycle, kLong = 12 * kShort;  // parts of one cycle, and blocks
-    action.during = std::exchange(aimed_at_, AccessPart::kNone);
+    action.during = item_of(std::exchange(aimed_at_, AccessPart::kNone));
     action.within = within_;
     action.delay = random_.between(1, random_.one_in(2) ? kShort - 1 : kLong);
   }
@@ -286,7 +278,7 @@ void RandomHost::pin(Pin pin, int value, Tick delay) {
   Action action;
   action.verb = Verb::kPin;
   action.delay = delay;
-  action.pin = pin;
+  action.pin = number(pin);
   action.value = value;
   push(action);
 }
@@ -295,7 +287,7 @@ void RandomHost::wait(int cycles) {
   Action action;  // D is released already: nothing happens but the delay
   action.verb = Verb::kPin;
   action.delay = cycles * kCycle + random_.below(static_cast<int>(kCycle));
-  action.pin = Pin::kDIn;
+  action.pin = number(Pin::kDIn);
   action.value = dsdpv1::kLevelZ;
   push(action);
 }

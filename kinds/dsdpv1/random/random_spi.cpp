@@ -3,6 +3,7 @@
 // below a cycle in a frame (5.1), and XSS that rises and falls at one tick.
 #include <utility>
 
+#include "kinds/dsdpv1/random/host_verbs.hpp"
 #include "kinds/dsdpv1/random/random_serial.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
@@ -50,7 +51,7 @@ class RandomSpi : public RandomSerial {
 
 void RandomSpi::send(const bus::Bytes& telegram, int reply) {
   Action action;
-  action.verb = Verb::kSpi;
+  action.verb = verb::kSpi;
   action.bytes = finished(telegram);
   request_ = action.bytes.size();
   if (mishap(10)) reply = random_.below(reply + 12);
@@ -144,7 +145,7 @@ void RandomSpi::overrun() {
   hurry();
   write(kArea, random_.byte());
   Action& frame = stimulus_.back();
-  if (frame.verb != Verb::kSpi) return;
+  if (frame.verb != verb::kSpi) return;
   frame.delay = kWriteGap + random_.below(1000);
   frame.high = frame.low = random_.between(kLeastPeriod / 2, kLeastPeriod);
   frame.lead = frame.setup = kLeastPeriod / 2;
@@ -161,7 +162,7 @@ void RandomSpi::edge(AccessPart part, Tick within) {
 /// XSS rises behind the request's last byte.
 void RandomSpi::hurry() {
   Action& frame = stimulus_.back();
-  if (frame.verb == Verb::kSpi && frame.bytes.size() > request_) frame.bytes.resize(request_);
+  if (frame.verb == verb::kSpi && frame.bytes.size() > request_) frame.bytes.resize(request_);
 }
 
 void RandomSpi::own_telegram() {

@@ -1,7 +1,7 @@
 // The host at the UART port: telegrams with broken characters and bits too long or too short, silences about as long as
 // the interval, breaks, characters while the chip replies.
+#include "kinds/dsdpv1/random/host_verbs.hpp"
 #include "kinds/dsdpv1/random/random_serial.hpp"
-#include "kinds/dsdpv1/random/serial_edges.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace dsdpv1::cosim {
@@ -33,7 +33,7 @@ class RandomUart : public RandomSerial {
 
 void RandomUart::send(const bus::Bytes& telegram, int reply) {
   Action action;
-  action.verb = Verb::kUart;
+  action.verb = verb::kUart;
   action.bytes = finished(telegram);
   if (action.bytes.empty()) return;
   action.rate = mishap(60) ? random_.between(kQuick, 7) : ubr_;
@@ -105,7 +105,7 @@ void RandomUart::edge(AccessPart part, Tick within) {
 }
 
 void RandomUart::hurry() {
-  if (stimulus_.back().verb == Verb::kUart) stimulus_.back().reply_bits = 0;
+  if (stimulus_.back().verb == verb::kUart) stimulus_.back().reply_bits = 0;
 }
 
 void RandomUart::own_telegram() {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bus/telegram/telegram.hpp"
-#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/random/situations.hpp"
 #include "model/profibus/request.hpp"
 
 namespace dsdpv1::cosim {
@@ -54,26 +54,26 @@ const char* answer_of(const bus::Telegram& answer) {
 
 void SituationWatch::begins(const Lockstep& lockstep) {
   model_ = &lockstep;
-  for (int pin = 0; pin < pin_count(config_.part); ++pin)
-    levels_.at(static_cast<std::size_t>(pin)) = lockstep.level(static_cast<tb::PinNumber>(pin));
+  for (int pin = 0; pin < pin_count(chip_.part); ++pin)
+    levels_.at(static_cast<std::size_t>(pin)) = lockstep.level(static_cast<PinNumber>(pin));
 }
 
 // --- pins ------------------------------------------------------------------------------------------------------------
 
-void SituationWatch::pin(Tick at, Side side, Pin pin, Level level) {
+void SituationWatch::pin(Tick at, Side side, PinNumber pin, Level level) {
   if (side == Side::kRtl) return;
-  if (reader_ && (reader_->pins() & mask(pin)) != 0) {
+  if (reader_ && (reader_->pins() & tb::mask_of(pin)) != 0) {
     reader_->run(at);
-    reader_->pin(at, static_cast<tb::PinNumber>(pin), level);
+    reader_->pin(at, pin, level);
   }
-  levels_.at(static_cast<std::size_t>(pin)) = level;
-  if (side == Side::kInput) input_changed(at, pin, level);
+  levels_.at(pin) = level;
+  if (side == Side::kInput) input_changed(at, static_cast<Pin>(pin), level);
 }
 
 std::string SituationWatch::phase() const { return model_->works_on(); }
 
 void SituationWatch::input_changed(Tick at, Pin pin, Level level) {
-  const bool parallel = mode_ == HostMode::kParallel;
+  const bool parallel = chip_.mode == HostMode::kParallel;
   if (pin == Pin::kReset && level == 0) {
     situations_.count("RESET falls in", phase());
     state_ = kOffline;
@@ -84,9 +84,9 @@ void SituationWatch::input_changed(Tick at, Pin pin, Level level) {
     released(at);
   } else if (parallel && pin == Pin::kRReq && level != 0) {
     situations_.count("R_REQ rises in", phase());
-  } else if (mode_ == HostMode::kSpi && pin == Pin::kXss && level == 0) {
+  } else if (chip_.mode == HostMode::kSpi && pin == Pin::kXss && level == 0) {
     situations_.count("XSS falls in", phase());
-  } else if (mode_ == HostMode::kUart && pin == Pin::kRxd && level == 0) {
+  } else if (chip_.mode == HostMode::kUart && pin == Pin::kRxd && level == 0) {
     situations_.count("RXD falls in", phase());
   } else if (parallel && (pin == Pin::kRd || pin == Pin::kWr) && level == 0 && this->level(Pin::kCsr) == 0) {
     access_begins(pin == Pin::kWr);
@@ -103,10 +103,8 @@ void SituationWatch::access_begins(bool write) {
 
 /// The straps are in force.
 void SituationWatch::released(Tick at) {
-  if (mode_ == HostMode::kParallel) return;
-  tb::Dsdpv1Settings settings;
-  static_cast<dsdpv1::Config&>(settings) = config_;
-  settings.mode = mode_;
+  if (chip_.mode == HostMode::kParallel) return;
+  tb::Dsdpv1Settings settings = chip_;
   settings.address = level(Pin::kAdr);
   settings.uart_rate = level(Pin::kUbr);
   settings.interval = level(Pin::kUiv);
@@ -177,7 +175,7 @@ void SituationWatch::host_telegram(const tb::HostTelegram& telegram) {
 /// SP4, SP10, UA8, UA13.
 void SituationWatch::host_reply(const bus::Bytes& bytes) {
   constexpr unsigned kExchange = 2, kErrorReply = 7, kErrorFunction = 0x80;
-  const bool exchange = mode_ == HostMode::kUart && command_ == kExchange;
+  const bool exchange = chip_.mode == HostMode::kUart && command_ == kExchange;
   const char* third = exchange ? "exchange" : "read and write";
   const char* kind = command_ == 0 ? "read" : command_ == 1 ? "write" : third;
   if (bytes.size() < 3) return;

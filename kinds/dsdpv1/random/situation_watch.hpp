@@ -5,22 +5,21 @@
 #include <string>
 
 #include "cosim/random/play_listener.hpp"
-#include "kinds/dsdpv1/random/situations.hpp"
+#include "cosim/random/situations.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
 #include "tb/chip/host_reader.hpp"
 
 namespace dsdpv1::cosim {
 
 class SituationWatch : public PlayListener {
  public:
-  SituationWatch(const dsdpv1::Config& config, HostMode mode) : config_(config), mode_(mode) {}
+  SituationWatch(const tb::Dsdpv1Settings& chip, Situations& counted) : chip_(chip), situations_(counted) {}
 
   void begins(const Lockstep& lockstep) override;
-  void pin(Tick at, Side side, Pin pin, Level level) override;
+  void pin(Tick at, Side side, PinNumber pin, Level level) override;
   void event(const profibus::Event& event) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void evaluated(Tick now, tb::PinDevice& model) override;
-
-  const Situations& situations() const { return situations_; }
 
  private:
   void input_changed(Tick at, Pin pin, Level level);
@@ -34,9 +33,8 @@ class SituationWatch : public PlayListener {
   std::string phase() const;
   Level level(Pin pin) const { return levels_[static_cast<std::size_t>(pin)]; }
 
-  const dsdpv1::Config& config_;
-  HostMode mode_;
-  Situations situations_;
+  const tb::Dsdpv1Settings& chip_;
+  Situations& situations_;
   const tb::PinDevice* model_ = nullptr;
   std::array<Level, kRsuPinCount> levels_{};
   const char* item_ = nullptr;  ///< of the access under way, counted

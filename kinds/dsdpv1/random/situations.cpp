@@ -98,13 +98,13 @@ const Detail* detail_of(const std::string& code) {
 bool begins(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 
 /// The port has no such event, whatever its host does (R14, SP15, UA6).
-bool is_foreign(const std::string& code, const HostSide& side) {
-  const bool parallel = side.mode == HostMode::kParallel;
+bool is_foreign(const std::string& code, Part part, HostMode mode) {
+  const bool parallel = mode == HostMode::kParallel;
   const bool strap = code == "STRAP_CHANGED", shared = code == "HOST_READ_ONLY";
-  if (begins(code, "SPI_")) return side.mode != HostMode::kSpi;
-  if (begins(code, "UART_")) return side.mode != HostMode::kUart;
+  if (begins(code, "SPI_")) return mode != HostMode::kSpi;
+  if (begins(code, "UART_")) return mode != HostMode::kUart;
   if (begins(code, "TELEGRAM_")) return parallel;
-  if (strap) return !dsdpv1::has_serial_ports(side.part);
+  if (strap) return !dsdpv1::has_serial_ports(part);
   if (shared || parallel) return false;
   const bool crc = begins(code, "INIT_CRC") || begins(code, "INPUT_CRC") || begins(code, "DIAG_CRC") ||
                    begins(code, "C1_CRC") || begins(code, "C2_CRC");
@@ -207,7 +207,9 @@ Words replies_of_exchanges() {
   return all;
 }
 
-std::vector<Situation> known(const HostSide& side) {
+}  // namespace
+
+std::vector<Situation> known_situations(Part part, HostMode mode) {
   std::vector<Situation> all;
   add(all, "DP states",
       {"OFFLINE to WAIT_PRM", "WAIT_PRM to OFFLINE", "WAIT_PRM to WAIT_CFG", "WAIT_CFG to OFFLINE",
@@ -216,36 +218,32 @@ std::vector<Situation> known(const HostSide& side) {
   add(all, "services", services());
   for (const profibus::Reason reason : dsdpv1::reasons()) {
     const std::string code = profibus::code(reason);
-    if (code == "DP_STATE" || is_foreign(code, side)) continue;
+    if (code == "DP_STATE" || is_foreign(code, part, mode)) continue;
     const Detail* detail = detail_of(code);
     add(all, "events", detail == nullptr ? Words{code} : Words{});
     if (detail == nullptr) continue;
     for (const std::string& word : detail->known)
-      if (!names_area(code, word) || side.mode == HostMode::kUart)
+      if (!names_area(code, word) || mode == HostMode::kUart)
         all.emplace_back("events", fmt::format("{} {}", code, word));
   }
   add(all, "Sync and Freeze", sync_and_freeze());
   add(all, "transfers", transfers());
   add(all, "RESET falls in", phases());
-  if (side.mode == HostMode::kParallel) {
+  if (mode == HostMode::kParallel) {
     add(all, "R_REQ rises in", phases());
     add(all, "accesses of the user", accesses());
     return all;
   }
-  add(all, side.mode == HostMode::kSpi ? "XSS falls in" : "RXD falls in", phases());
-  add(all, "telegrams of the host", host_telegrams(side.mode));
-  if (side.mode == HostMode::kUart) add(all, "replies of exchanges", replies_of_exchanges());
+  add(all, mode == HostMode::kSpi ? "XSS falls in" : "RXD falls in", phases());
+  add(all, "telegrams of the host", host_telegrams(mode));
+  if (mode == HostMode::kUart) add(all, "replies of exchanges", replies_of_exchanges());
   return all;
 }
-
-}  // namespace
 
 const char* dp_state_name(unsigned state) {
   static constexpr const char* kNames[] = {"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
   return kNames[state % std::size(kNames)];
 }
-
-std::vector<Situation> known_situations(const HostSide& side) { return known(side); }
 
 std::string event_item(const profibus::Event& event, const std::string& state) {
   std::string code = profibus::code(event.reason);
@@ -255,35 +253,6 @@ std::string event_item(const profibus::Event& event, const std::string& state) {
       fmt::format(fmt::runtime(detail->format), event.a, event.b, event.c, event.a >> 8, event.a & 0xFF, state);
   const bool known = std::find(detail->known.begin(), detail->known.end(), word) != detail->known.end();
   return code + " " + (known ? word : "other");
-}
-
-std::string text(const Situations& situations, const HostSide& side) {
-  std::string lines;
-  const std::vector<Situation> all = known(side);
-  for (auto begin = all.begin(); begin != all.end();) {
-    const auto end = std::find_if(begin, all.end(), [&](const Situation& each) { return each.first != begin->first; });
-    std::string missing;
-    std::size_t seen = 0;
-    for (auto each = begin; each != end; ++each)
-      if (situations.of(*each) != 0)
-        ++seen;
-      else
-        missing += fmt::format("{}{}", missing.empty() ? "; never seen: " : ", ", each->second);
-    lines += fmt::format("{:<22}{} of {}{}\n", begin->first, seen, end - begin, missing);
-    begin = end;
-  }
-  return lines;
-}
-
-std::string table(const Situations& situations, const HostSide& side) {
-  std::map<Situation, std::uint64_t> others = situations.counts();
-  std::string lines;
-  for (const Situation& each : known(side)) {
-    lines += fmt::format("{}\t{}\t{}\n", each.first, each.second, situations.of(each));
-    others.erase(each);
-  }
-  for (const auto& [each, times] : others) lines += fmt::format("{}\t{}\t{}\n", each.first, each.second, times);
-  return lines;
 }
 
 }  // namespace dsdpv1::cosim

@@ -1,54 +1,20 @@
 #pragma once
-// Functional coverage of lockstep runs: which states, transitions, services, refusals and situations at the host port
-// have occurred, how often, and which of those that the rulings know have not.
-#include <cstdint>
-#include <map>
+// The situations of a DSDPV1 in lockstep runs: those that the rulings know, and what an event counts as.
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "cosim/random/situations.hpp"
 #include "model/dsdpv1/config.hpp"
 #include "model/profibus/event.hpp"
 
 namespace dsdpv1::cosim {
 
-/// A group ("services") and one of its situations ("Get_Cfg in WAIT_PRM: data").
-using Situation = std::pair<std::string, std::string>;
-
-class Situations {
- public:
-  void count(const char* group, std::string item) { ++counts_[{group, std::move(item)}]; }
-  void add(const Situation& situation, std::uint64_t times) { counts_[situation] += times; }
-  void add(const Situations& other) {
-    for (const auto& [situation, times] : other.counts_) counts_[situation] += times;
-  }
-  std::uint64_t of(const Situation& situation) const {
-    const auto found = counts_.find(situation);
-    return found == counts_.end() ? 0 : found->second;
-  }
-  const std::map<Situation, std::uint64_t>& counts() const { return counts_; }
-
- private:
-  std::map<Situation, std::uint64_t> counts_;  ///< those that occurred
-};
-
-/// What the user's host is connected to.
-struct HostSide {
-  dsdpv1::Part part = {};
-  HostMode mode = HostMode::kParallel;
-};
-
-/// All that may occur there, in the order of a table. Some of it the rulings allow and no random case does.
-std::vector<Situation> known_situations(const HostSide& side);
+/// RandomCases::known_situations, of a part whose host is connected to this port.
+std::vector<Situation> known_situations(Part part, HostMode mode);
 /// The situations of an event, beside those of group "DP states": its code, and which of those that the ruling
 /// distinguishes. `state`: the DP state in which it happened.
 std::string event_item(const profibus::Event& event, const std::string& state);
 /// "WAIT_PRM".
 const char* dp_state_name(unsigned state);
-
-/// A line a group: how many of those known occurred; then the others by name: some lines of text.
-std::string text(const Situations& situations, const HostSide& side);
-/// A line each: group, situation, count, separated by tabs; those that did not occur, too.
-std::string table(const Situations& situations, const HostSide& side);
 
 }  // namespace dsdpv1::cosim

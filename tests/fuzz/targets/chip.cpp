@@ -2,8 +2,7 @@
 // itself: step, skip and dozing change the same pins at the same ticks, report the same, and have the same cells.
 #include <gtest/gtest.h>
 
-#include "cosim/random/random_setup.hpp"
-#include "kinds/dsdpv1/random/serial_edges.hpp"
+#include "kinds/dsdpv1/random/host_verbs.hpp"
 #include "model/dpram/crc16.hpp"
 #include "tests/conformance/slave_bench.hpp"
 #include "tests/fuzz/input.hpp"
@@ -46,7 +45,12 @@ class Master : public bus::Agent, private bus::Listener {
 
 Config config_of(fuzz::Input& input) {
   const std::uint8_t what = input.byte();
-  Config config = cosim::quick_config(static_cast<Part>(what % 3));
+  Config config;
+  config.part = static_cast<Part>(what % 3);
+  config.u_timer = 20'000;
+  config.search_window_ms = 1;
+  config.search_window_bits = 150;
+  config.baud_control_ms = 2;
   config.ready_cycles = 64;
   if ((what & 4) != 0) config.access_interval = 7 + input.byte();
   if ((what & 8) != 0) config.serial_block_crc = 1;
@@ -191,7 +195,7 @@ class Play {
     for (const cosim::PinEdge& each : edges) {
       if (timeline_.now() > kLongest) break;
       timeline_.run_until(std::max(timeline_.now(), begin + each.at));
-      set(each.pin, each.level);
+      set(static_cast<Pin>(each.pin), each.level);
     }
     wait(0);
   }
@@ -204,13 +208,13 @@ class Play {
     return action;
   }
   void spi() {
-    cosim::Action action = frame(cosim::Verb::kSpi);
+    cosim::Action action = frame(cosim::verb::kSpi);
     const Tick tempo = 600 + input_.byte() % 4 * 100 - (input_.byte() % 16 == 0 ? 150 : 0);
     action.high = action.low = tempo;
     play(cosim::spi_edges(action));
   }
   void uart() {
-    cosim::Action action = frame(cosim::Verb::kUart);
+    cosim::Action action = frame(cosim::verb::kUart);
     action.bits = 0;
     action.rate = 7 - static_cast<int>(input_.below(3));  // the fast ones
     play(cosim::uart_edges(action));

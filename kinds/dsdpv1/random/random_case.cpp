@@ -1,9 +1,7 @@
 // How a random case comes and goes: reset, the way to data exchange, episodes, a reset again.
-#include "kinds/dsdpv1/random/random_stimulus.hpp"
+#include "kinds/dsdpv1/random/random_case.hpp"
 
 #include <utility>
-
-#include "kinds/dsdpv1/random/random_case.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -14,15 +12,20 @@ std::unique_ptr<RandomHost> make_host(Random& random, Stimulus& stimulus, HostMo
   return make_random_parallel(random, stimulus, part);
 }
 
+SearchTimes times_of(const dsdpv1::Config& config) {
+  return {config.search_window_ms * bus::kTicksPerMs, config.baud_control_ms * bus::kTicksPerMs,
+          static_cast<int>(config.search_window_bits)};
+}
+
 constexpr int kReady = 4200;    // cycles: B004 is C5 (H6)
 constexpr int kFastEnough = 3;  // rate at which the way to data exchange takes no longer than a case at 12 Mbit/s
 
 }  // namespace
 
-RandomCase::RandomCase(std::uint64_t seed, HostMode mode, const dsdpv1::Config& config)
+RandomCase::RandomCase(std::uint64_t seed, const tb::Dsdpv1Settings& chip)
     : random_(seed),
-      master_(random_, setup_, stimulus_, config),
-      host_(make_host(random_, stimulus_, mode, config.part)),
+      master_(random_, setup_, stimulus_, times_of(chip)),
+      host_(make_host(random_, stimulus_, chip.mode, chip.part)),
       user_(random_, setup_, *host_) {}
 
 Stimulus RandomCase::make() {
@@ -52,12 +55,12 @@ void RandomCase::episode() {
 
 // --- the way up ------------------------------------------------------------------------------------------------------
 
-void RandomCase::push_reset(AccessPart during, Tick within) {
+void RandomCase::push_reset(AccessPart part, Tick within) {
   constexpr int kLongest = 20'000;  // ticks
   Action reset;
   reset.verb = Verb::kReset;
   reset.low = random_.between(1, kLongest);
-  reset.during = during;
+  reset.during = item_of(part);
   reset.within = within;
   stimulus_.push_back(reset);
 }
@@ -159,10 +162,6 @@ void RandomCase::reset_amid() {
   stimulus_.back().delay = random_.below(4096 * static_cast<int>(profibus::kTicksPerCycle));  // in the start-up
   sync();
   host_->wait(kReady);
-}
-
-Stimulus random_stimulus(std::uint64_t seed, HostMode mode, const dsdpv1::Config& config) {
-  return RandomCase(seed, mode, config).make();
 }
 
 }  // namespace dsdpv1::cosim
