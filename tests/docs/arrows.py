@@ -5,7 +5,7 @@
 
 A row of the page's table is a room (a folder with C or C++ files) and the rooms that it includes; `bus/*` is bus and all rooms in it. A row
 `apps/*` is one room of several folders, whose arrows among each other are not looked at. A room includes only rooms that stand above it, so there
-is no circle. The page's second table names the single includes that may go against that for now. One line a fault, exit 1 when there is any.
+is no circle. One line a fault, exit 1 when there is any.
 """
 import re
 import sys
@@ -14,22 +14,21 @@ import faults
 
 PAGE = "docs/architecture.md"
 TABLE = re.compile(r"<!-- arrows -->\n(.*?)<!-- /arrows -->", re.S)
-UPWARD = re.compile(r"<!-- upward -->\n(.*?)<!-- /upward -->", re.S)
 ROW = re.compile(r"^\| `([^`]+)` \| (.*?) ?\|", re.M)
 ENDINGS = {".c", ".cpp", ".h", ".hpp", ".inc"}
 NO_ROOMS = ("build/", "out/", "tests/", "rtl_ref/", ".")  # tests may look at everything; the RTL includes nothing of C++
 
 
-def rows_of(text, table=TABLE):
-    """Room, or file, to the words of its cell, in the order of the page."""
-    rows, table = {}, table.search(text)
+def rows_of(text):
+    """Room to the words of its cell, in the order of the page."""
+    rows, table = {}, TABLE.search(text)
     for room, cell in ROW.findall(table.group(1)) if table else []:
         rows.setdefault(room, []).extend(re.findall(r"`([^`]+)`", cell))
     return rows
 
 
-def includes_of(root, upward):
-    """Room to {room that it includes: one place where it does}. What is found of `upward` (file to headers) is taken out of it."""
+def includes_of(root):
+    """Room to {room that it includes: one place where it does}."""
     found = {}
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root).as_posix()
@@ -37,11 +36,8 @@ def includes_of(root, upward):
             continue
         room = found.setdefault(name.rpartition("/")[0], {})
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            included = re.match(r'#include "(([^"]+)/[^"/]+)"', line)
-            if included and included.group(1) in upward.get(name, []):
-                upward[name].remove(included.group(1))
-                continue
-            for other in [included.group(2), "include/" + included.group(2)] if included else []:
+            included = re.match(r'#include "([^"]+)/[^"/]+"', line)
+            for other in [included.group(1), "include/" + included.group(1)] if included else []:
                 if (root / other).is_dir() and other != name.rpartition("/")[0]:
                     room.setdefault(other, f"{name}:{number}")
     return found
@@ -67,8 +63,8 @@ def joined(found, rows):
 
 def check(root):
     text = (root / PAGE).read_text(encoding="utf-8")
-    rows, upward = rows_of(text), rows_of(text, UPWARD)
-    found, room_of = joined(includes_of(root, upward), rows)
+    rows = rows_of(text)
+    found, room_of = joined(includes_of(root), rows)
     order = list(rows)
     for room in found:
         if room not in rows:
@@ -85,9 +81,6 @@ def check(root):
     for room in rows:
         if room not in found:
             yield f"{PAGE}:1: there is no room {room}"
-    for file, headers in upward.items():
-        for header in headers:
-            yield f"{PAGE}:1: {file} does not include {header} any more"
 
 
 if __name__ == "__main__":

@@ -11,10 +11,6 @@ PAGE = """<!-- arrows -->
 | `low/wire` | `low` |
 | `high` | `low/*` |
 <!-- /arrows -->
-<!-- upward -->
-| file | includes | until |
-|---|---|---|
-<!-- /upward -->
 """
 RIGHT = {
     "docs/architecture.md": PAGE,
@@ -43,17 +39,6 @@ class Rooms(small_project.SmallProject):
         self.write("docs/architecture.md", PAGE.replace("| `low` | |", "| `low` | `high` |"))
         self.write("low/a.hpp", '#include "high/d.hpp"\n')
         self.expect("low/a.hpp:1: low includes high, which stands below it in docs/architecture.md")
-
-    def test_an_arrow_upwards_that_the_second_table_names(self):
-        self.write("docs/architecture.md", PAGE.replace("<!-- /upward -->", "| `low/a.hpp` | `high/d.hpp` | step 5 |\n<!-- /upward -->"))
-        self.write("low/a.hpp", '#include "high/d.hpp"\n')
-        self.expect()
-        self.write("low/other.hpp", '#include "high/d.hpp"\n')
-        self.expect("low/other.hpp:1: low includes high, which docs/architecture.md does not allow")
-
-    def test_a_named_arrow_upwards_that_is_no_more(self):
-        self.write("docs/architecture.md", PAGE.replace("<!-- /upward -->", "| `low/a.hpp` | `high/d.hpp` | step 5 |\n<!-- /upward -->"))
-        self.expect("docs/architecture.md:1: low/a.hpp does not include high/d.hpp any more")
 
     def test_folders_with_one_row_are_one_room(self):
         self.write("docs/architecture.md", PAGE.replace("| `high` |", "| `high/*` |"))
