@@ -167,7 +167,9 @@ std::string adapter_source(const std::string& top, const PinMap& map, const tb::
       "extern \"C\" void* dsdpv1_rtl_create(const Start* start) {{\n  auto* design = new Design;\n"
       "  design->context.randReset(start->fill);\n  design->context.randSeed(static_cast<int>(start->seed));\n{3}"
       "  design->model = std::make_unique<V{0}>(&design->context);\n  return design;\n}}\n\n"
-      "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{ delete static_cast<Design*>(self); }}\n{4}\n"
+      "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{\n  auto* design = static_cast<Design*>(self);\n"
+      "  Verilated::threadContextp(&design->context);  // whose names the model takes out\n  delete design;\n"
+      "  Verilated::threadContextp(Verilated::defaultContextp());\n}}\n{4}\n"
       "extern \"C\" void dsdpv1_rtl_eval(void* self, bool clk, short* levels) {{\n"
       "  V{0}& model = *static_cast<Design*>(self)->model;\n  model.{5} = {6}clk;\n",
       top, traced ? kTraceIncluded : "", traced ? kTraceMember : "",

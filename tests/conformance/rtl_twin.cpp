@@ -4,7 +4,6 @@
 
 #include <cstdlib>
 #include <utility>
-#include <vector>
 
 #include "cosim/lockstep.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
@@ -13,13 +12,6 @@ namespace dsdpv1::conformance {
 namespace {
 
 using Lockstep = cosim::Lockstep;
-
-/// Verilator takes the names of a design, when it goes, out of the context of the design that was made last, which
-/// must still be there: so those that tests have finished with go after the next one was made, the last ones never.
-std::vector<std::unique_ptr<Lockstep>>& finished() {
-  static auto* const list = new std::vector<std::unique_ptr<Lockstep>>;
-  return *list;
-}
 
 std::unique_ptr<Lockstep> make_lockstep(const Config& config, unsigned fault) {
   const tb::ChipKind& kind = *tb::find_chip_kind(row(config.part).name);
@@ -34,14 +26,12 @@ std::unique_ptr<Lockstep> make_lockstep(const Config& config, unsigned fault) {
 std::unique_ptr<RtlTwin> RtlTwin::make(const Config& config) {
   const char* const fault = std::getenv("DSDPV1_RTL_TWIN");
   if (fault == nullptr) return nullptr;
-  auto twin = std::make_unique<RtlTwin>(make_lockstep(config, static_cast<unsigned>(std::strtoul(fault, nullptr, 10))));
-  finished().clear();
-  return twin;
+  return std::make_unique<RtlTwin>(make_lockstep(config, static_cast<unsigned>(std::strtoul(fault, nullptr, 10))));
 }
 
 RtlTwin::RtlTwin(std::unique_ptr<Lockstep> lockstep) : lockstep_(std::move(lockstep)) {}
 
-RtlTwin::~RtlTwin() { finished().push_back(std::move(lockstep_)); }
+RtlTwin::~RtlTwin() = default;
 
 void RtlTwin::set(bus::Tick at, Pin pin, Level level) { lockstep_->set(at, number(pin), level); }
 

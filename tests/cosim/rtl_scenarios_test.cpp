@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
+#include <random>
+#include <vector>
 
+#include "cosim/rtl.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tests/app/program.hpp"
 
@@ -56,6 +61,26 @@ TEST_P(ShortRtlScenarios, PinsOfTheRtlAreTheGoldenAndItsLogIsThatOfTheModel) {
 }
 
 /// What random cases and scenarios leave as it is: when the transmitter's driver is on round an answer.
+/// Of several in one thread, as of a scenario with several slaves.
+TEST(ReferenceRtl, GoesInAnyOrder) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 50; ++round) {
+    std::vector<std::unique_ptr<cosim::Rtl>> all;
+    for (const char* name : {"dsdpv1", "dsdpv1_rsu", "dsdpv1", "dsdpv1"}) {
+      const tb::ChipKind& kind = *tb::find_chip_kind(name);
+      all.push_back(kind.rtl()->make_reference(*kind.make_chip_settings(), 0, cosim::kUsualSeed));
+    }
+    std::vector<std::string> rubbish;
+    std::shuffle(all.begin(), all.end(), random);
+    for (std::unique_ptr<cosim::Rtl>& each : all) {
+      std::array<tb::Level, tb::kMostPins> levels{};
+      each->eval(false, levels.data());
+      each.reset();
+      for (std::size_t size = 32; size < 8192; size += 8) rubbish.emplace_back(size, '\xFF');  // where it was
+    }
+  }
+}
+
 TEST(RtlLimits, OfTheTransmitterAreThoseOfTheModel) {
   for (const std::string limits :
        {"--set chip.rts_lead=0 --set chip.rts_trail=32", "--set chip.rts_lead=32 --set chip.rts_trail=0"}) {

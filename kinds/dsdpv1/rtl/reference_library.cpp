@@ -39,7 +39,13 @@ struct Design {
     context.randSeed(static_cast<int>(start.seed % 0x7FFF'FFFF + 1));
     model = std::make_unique<Vchip>(&context);
   }
-  ~Design() { model->final(); }
+  /// Verilator takes the design's names out of the context that the thread had last, another design's perhaps.
+  ~Design() {
+    Verilated::threadContextp(&context);
+    model->final();
+    model.reset();
+    Verilated::threadContextp(Verilated::defaultContextp());
+  }
 
   VerilatedContext context;
   std::unique_ptr<Vchip> model;
