@@ -7,7 +7,7 @@ dsdpv1_model.svh, dsdpv1_scoreboard.svh and dsdpv1_checker.svh. Last of all file
 
     generate.py FOLDER PACKAGE    PACKAGE: the folder of the Python package dsdpv1, with what its generate.py writes
 
-Pins are packed as bindings/simulator/pins.hpp has it. Ports have the names and the order of the reference RTL's top, so that either may stand in
+Pins are packed as bindings/simulator/pins.hpp has it. Ports have the names and the order of the reference RTL's top, if there is one, so that either may stand in
 the place of the other; what it has not comes after them.
 """
 import pathlib
@@ -87,14 +87,21 @@ def ports(kind, all_inputs):
     return [f"  {lines[name]}" for name in sorted(lines, key=lambda each: place_in_rtl(kind, each, len(lines)))]
 
 
+def rtl_of(top):
+    return ROOT / "rtl_ref" / top / f"{top}.sv"
+
+
 def top_of(kind):
-    """The DSDPV1-R is the DSDPV1 under another name (R1)."""
-    return kind.name if (ROOT / "rtl_ref" / kind.name).is_dir() else "dsdpv1"
+    """The top that has its ports: its own, or that of a kind with the same pins, as the DSDPV1-R is the DSDPV1 under another name (R1). One without
+    reference RTL has its own name."""
+    others = [kind, *map(kind_of, kind_names())]
+    return next((each.name for each in others if each.pins == kind.pins and rtl_of(each.name).is_file()), kind.name)
 
 
 def place_in_rtl(kind, name, last):
-    top = top_of(kind)
-    source = (ROOT / "rtl_ref" / top / f"{top}.sv").read_text(encoding="utf-8")
+    """Without RTL they stay in the order of the pins."""
+    rtl = rtl_of(top_of(kind))
+    source = rtl.read_text(encoding="utf-8") if rtl.is_file() else ""
     names = re.findall(r"^  (?:input|output) +logic +(?:\[\d+:0\] +)?(\w+)[,\n]", source, re.M)
     return names.index(name) if name in names else last
 
