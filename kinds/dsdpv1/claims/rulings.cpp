@@ -89,9 +89,8 @@ class Dsdpv1Claims : public Claims {
 };
 
 Found Dsdpv1Claims::measure(const Record& record, const Circumstances& circumstances) const {
-  Scene scene{record, circumstances.time, circumstances.station};
+  Scene scene(record, circumstances.time, circumstances.station);
   Found found(parameters().size());
-  fill(scene);
   measure_clock(scene, circumstances.clock_ppm, found);
   find_resets(scene);
   measure_access(scene, found);

@@ -4,30 +4,9 @@
 #include <vector>
 
 #include "kinds/dsdpv1/claims/wires.hpp"
-#include "lab/calibrate/line.hpp"
+#include "lab/calibrate/conversation.hpp"
 
 namespace dsdpv1::calibrate {
-
-/// A request, and the chip's answer to it.
-struct Exchange {
-  const LineTelegram* request = nullptr;
-  const LineTelegram* answer = nullptr;  ///< nullptr: none
-  std::optional<Span> idle = {};         ///< bit times of silence on PBRXD and PBTXD before it; nothing: not known
-  bool repeats = false;                  ///< the chip may answer it from memory (S26)
-  bool same = false;                     ///< repeats, and what was answered before it was read: the same frame
-
-  /// A right request to the station alone: data exchanges and other SRD, FDL status, SDN ...
-  bool is_request() const {
-    return request->right && request->telegram.is_request() && request->telegram.da != bus::kBroadcast;
-  }
-  /// SRD to this SAP; nothing: to the default SAP.
-  bool is_srd(std::optional<std::uint8_t> dsap) const;
-  /// A right answer of this kind.
-  bool acknowledged() const;
-  bool refused(std::uint8_t fc) const;
-  /// A data exchange that was carried out.
-  bool exchanged() const;
-};
 
 /// L_REQ high.
 struct ChipAccess {
@@ -55,15 +34,12 @@ struct UserAccess {
   std::uint8_t data = 0;
 };
 
-struct Scene {
+struct Scene : Conversation {
+  /// Reads the telegrams and accesses out of the record.
+  Scene(const Record& all, const TimeBase& base, std::optional<int> station);
+
   const Record& record;
   TimeBase time;
-  std::optional<int> station = {};  ///< its address, when it was said
-
-  std::vector<LineTelegram> received = {};        ///< on PBRXD, without the chip's own
-  std::vector<LineTelegram> sent = {};            ///< on PBTXD
-  std::vector<Exchange> exchanges = {};           ///< requests to the chip, answered or not
-  std::vector<const LineTelegram*> unasked = {};  ///< sent without a request before them
   std::vector<ChipAccess> accesses = {};
   std::vector<UserAccess> user = {};
   std::vector<Reset> resets = {};  ///< where RESET is not in the capture; by find_resets
@@ -83,8 +59,6 @@ struct Scene {
   bool is_start_up(const ChipAccess& access) const { return access.start_up; }
 };
 
-/// Reads the telegrams and accesses out of the record.
-void fill(Scene& scene);
 /// Finds the start-up accesses, and resets in a capture without RESET. Needs the scale of time.
 void find_resets(Scene& scene);
 

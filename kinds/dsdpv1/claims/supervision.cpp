@@ -1,6 +1,6 @@
 #include "kinds/dsdpv1/claims/supervision.hpp"
 
-#include "kinds/dsdpv1/claims/dp_service.hpp"
+#include "lab/calibrate/dp_service.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "kinds/dsdpv1/claims/dp_service.hpp"
 #include "kinds/dsdpv1/claims/found.hpp"
+#include "lab/calibrate/dp_service.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {

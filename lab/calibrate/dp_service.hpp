@@ -1,6 +1,6 @@
 #pragma once
-// What Set_Prm and Slave_Diag say of the chip's state.
-#include "kinds/dsdpv1/claims/scene.hpp"
+// What Set_Prm and Slave_Diag say of the station's state.
+#include "lab/calibrate/conversation.hpp"
 
 namespace dsdpv1::calibrate {
 

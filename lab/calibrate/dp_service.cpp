@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/claims/dp_service.hpp"
+#include "lab/calibrate/dp_service.hpp"
 
 namespace dsdpv1::calibrate {
 
