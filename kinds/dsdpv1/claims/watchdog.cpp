@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "kinds/dsdpv1/claims/found.hpp"
-#include "kinds/dsdpv1/claims/supervision.hpp"
+#include "lab/calibrate/supervision.hpp"
 #include "model/dsdpv1/chip.hpp"
 
 namespace dsdpv1::calibrate {
@@ -34,7 +34,7 @@ bool long_access(const Scene& scene, Tick at) {
 bool ended_otherwise(const Scene& scene, Tick at) {
   constexpr Span kJustBefore = {-1, 16};
   const auto decided = [&](const Exchange& exchange) {
-    return overlap(since(scene, decision_of(*exchange.request), at), kJustBefore);
+    return overlap(since(scene.time, decision_of(*exchange.request), at), kJustBefore);
   };
   const Tick about = scene.time.margin();
   const bool initialised =
@@ -43,13 +43,13 @@ bool ended_otherwise(const Scene& scene, Tick at) {
 }
 
 void judge_watchdog(const Scene& scene, Found& found) {
-  Supervision supervision(scene);
+  Supervision supervision(scene, scene.time, scene.record[wire::kBr]);
   const Trace& pbf = scene.record[wire::kPbf];
   for (std::size_t edge = pbf.next(0, true); edge < pbf.edges.size(); edge += 2) {
     const Tick at = pbf.edges[edge];
     const auto& prm = supervision.before(at).prm;  // in force, since PBF was low
     if (scene.in_reset(at - scene.time.margin(), at) || !prm || !prm->heard || prm->watchdog == 0) continue;
-    const Span passed = since(scene, *prm->heard, at);
+    const Span passed = since(scene.time, *prm->heard, at);
     const bool late = passed.lo > prm->watchdog, early = passed.lo > prm->watchdog / 2 && !ended_otherwise(scene, at);
     if (passed.contains(prm->watchdog))
       found.judge.holds(kWatchdog);
@@ -71,14 +71,14 @@ std::vector<Running> runs_on(const Scene& scene) {
   std::vector<Tick> unread;
   for (const LineTelegram& telegram : scene.received)
     if (!telegram.right && telegram.coarse(scene.time)) unread.push_back(telegram.start);
-  Supervision supervision(scene);
+  Supervision supervision(scene, scene.time, scene.record[wire::kBr]);
   const auto add = [&](Tick at) {
     const Supervised& now = supervision.before(at);
     if (now.state == Supervised::State::kUnknown) return;
     const auto next = std::upper_bound(unread.begin(), unread.end(), now.last.edge);
     const bool all_read = next == unread.end() || *next >= at;
     const double watchdog = now.state == Supervised::State::kDpControl ? now.prm->watchdog : 0;
-    if (all_read) all.push_back({at, now, since(scene, now.last, at) + -watchdog});
+    if (all_read) all.push_back({at, now, since(scene.time, now.last, at) + -watchdog});
   };
   for (const Exchange& exchange : scene.exchanges) add(exchange.request->last_start);
   add(scene.record.end);
@@ -131,7 +131,7 @@ void find_silences(const Scene& scene, Falls& falls) {
 
 Falls falls_of(const Scene& scene) {
   Falls falls;
-  Supervision supervision(scene);
+  Supervision supervision(scene, scene.time, scene.record[wire::kBr]);
   const Trace& br = scene.record[wire::kBr];
   for (std::size_t edge = br.next(0, false); edge < br.edges.size(); edge += 2) {
     const Tick at = br.edges[edge];
@@ -142,7 +142,7 @@ Falls falls_of(const Scene& scene) {
       continue;
     }
     const double watchdog = before.state == Supervised::State::kDpControl ? before.prm->watchdog : 0;
-    const Span passed = since(scene, before.last, at) + -watchdog;
+    const Span passed = since(scene.time, before.last, at) + -watchdog;
     falls.all.push_back({at, {passed.lo / kCyclesPerMs, passed.hi / kCyclesPerMs}, initialised_at(scene, at)});
   }
   return falls;

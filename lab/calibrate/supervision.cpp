@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/claims/supervision.hpp"
+#include "lab/calibrate/supervision.hpp"
 
 #include "lab/calibrate/dp_service.hpp"
 
@@ -15,7 +15,7 @@ double watchdog_of(const bus::Bytes& prm) {
   return prm[1] * prm[2] * (base ? 1 : 10) * kCyclesPerMs;
 }
 
-/// The chip takes it for an error-free telegram to itself: whom it answers, and SDN after T_SYN.
+/// The station takes it for an error-free telegram to itself: whom it answers, and SDN after T_SYN.
 bool is_heard(const Exchange& exchange) {
   if (exchange.answer != nullptr) return true;
   return !exchange.request->telegram.wants_answer() && exchange.request->telegram.sa != bus::kBroadcast &&
@@ -24,15 +24,15 @@ bool is_heard(const Exchange& exchange) {
 
 }  // namespace
 
-Span since(const Scene& scene, const Moment& moment, Tick at) {
-  const Span distance = scene.time.between(moment.edge, at);
+Span since(const TimeBase& time, const Moment& moment, Tick at) {
+  const Span distance = time.between(moment.edge, at);
   return {distance.lo - moment.offset.hi, distance.hi - moment.offset.lo};
 }
 
 const Supervised& Supervision::before(Tick at) {
-  for (; exchange_ < scene_.exchanges.size(); ++exchange_) {
-    const Exchange& exchange = scene_.exchanges[exchange_];
-    if (since(scene_, decision_of(*exchange.request), at).lo <= 0) break;
+  for (; exchange_ < all_.exchanges.size(); ++exchange_) {
+    const Exchange& exchange = all_.exchanges[exchange_];
+    if (since(time_, decision_of(*exchange.request), at).lo <= 0) break;
     rate_found(exchange.request->end());
     take(exchange);
   }
@@ -41,7 +41,7 @@ const Supervised& Supervision::before(Tick at) {
 }
 
 void Supervision::take(const Exchange& exchange) {
-  if (!exchange.request->right && exchange.answer != nullptr) {  // the chip has read it
+  if (!exchange.request->right && exchange.answer != nullptr) {  // the station has read it
     now_.state = State::kUnknown;
     if (may_be_prm(exchange)) now_.prm.reset();
     if (now_.prm) now_.prm->heard.reset();
@@ -56,7 +56,7 @@ void Supervision::take(const Exchange& exchange) {
 /// Its time may have passed before this telegram.
 void Supervision::end_watchdog(const Moment& now) {
   if (now_.state != State::kDpControl) return;
-  const Span passed = since(scene_, now_.last, now.edge) + now.offset.lo;
+  const Span passed = since(time_, now_.last, now.edge) + now.offset.lo;
   const double watchdog = now_.prm->watchdog;
   if (passed.hi + 1 < watchdog) return;
   if (passed.lo > watchdog)
@@ -75,7 +75,7 @@ void Supervision::trigger(std::uint8_t master, const Moment& now) {
 void Supervision::execute(const Exchange& exchange, const Moment& now) {
   const PrmKind prm = prm_kind(exchange);
   const bool no_watchdog = prm == PrmKind::kShort || prm == PrmKind::kUnlock || diagnosis_has(exchange, 0, kPrmReq) ||
-                           (exchange.is_srd(std::nullopt) && exchange.refused(bus::fc::kRr));  // S19
+                           (exchange.is_srd(std::nullopt) && exchange.refused(bus::fc::kRr));
   if (no_watchdog) {
     baud_control(now);
     now_.prm.reset();
@@ -102,13 +102,12 @@ void Supervision::baud_control(const Moment& now) {
   now_.last = now;
 }
 
-/// While the rate is searched no watchdog runs or starts (S29).
+/// While the rate is searched no watchdog runs or starts.
 void Supervision::rate_found(Tick at) {
-  if (at <= searched_ || !scene_.record.sees(wire::kBr)) return;
-  const Trace& br = scene_.record[wire::kBr];
-  const std::size_t rise = br.last(at, true);
-  if (rise != Trace::kNone && br.edges[rise] > searched_) {
-    baud_control({br.edges[rise], {0, 0}});
+  if (at <= searched_ || !rate_.seen) return;
+  const std::size_t rise = rate_.last(at, true);
+  if (rise != Trace::kNone && rate_.edges[rise] > searched_) {
+    baud_control({rate_.edges[rise], {0, 0}});
     now_.prm.reset();
   }
   searched_ = at;

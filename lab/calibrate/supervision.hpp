@@ -1,9 +1,9 @@
 #pragma once
-// Who is watched when (S1, S22): the rate by BAUD_CONTROL, the holder by the watchdog of its Set_Prm. Worked out from
-// the telegrams and BR; where these do not tell, it is not known.
+// Who is watched when: the rate by the state BAUD_CONTROL, the holder by the watchdog of its Set_Prm (EN 50170, DP
+// slave). Worked out from the telegrams and a wire that shows the found rate; where these do not tell, it is not known.
 #include <optional>
 
-#include "kinds/dsdpv1/claims/scene.hpp"
+#include "lab/calibrate/conversation.hpp"
 
 namespace dsdpv1::calibrate {
 
@@ -13,10 +13,10 @@ struct Moment {
   Span offset;
 };
 
-/// The chip's decision of the telegram.
+/// The station's decision of the telegram.
 inline Moment decision_of(const LineTelegram& telegram) { return {telegram.last_start, telegram.decision()}; }
 /// Cycles from the moment to `at`.
-Span since(const Scene& scene, const Moment& moment, Tick at);
+Span since(const TimeBase& time, const Moment& moment, Tick at);
 
 struct Supervised {
   enum class State : std::uint8_t { kUnknown, kBaudControl, kDpControl };
@@ -34,7 +34,8 @@ struct Supervised {
 
 class Supervision {
  public:
-  explicit Supervision(const Scene& scene) : scene_(scene) {}
+  /// `rate`: high while a rate is found; its edges count where it is in the capture.
+  Supervision(const Conversation& all, const TimeBase& time, const Trace& rate) : all_(all), time_(time), rate_(rate) {}
 
   /// As it was before `at`, in order of time. A watchdog whose time has passed is told as running.
   const Supervised& before(Tick at);
@@ -48,10 +49,12 @@ class Supervision {
   void baud_control(const Moment& now);
   void rate_found(Tick at);
 
-  const Scene& scene_;
+  const Conversation& all_;
+  const TimeBase& time_;
+  const Trace& rate_;
   std::size_t exchange_ = 0;
   Supervised now_;
-  Tick searched_ = -1;  ///< rises of BR until there are taken
+  Tick searched_ = -1;  ///< rises of the wire until there are taken
 };
 
 }  // namespace dsdpv1::calibrate
