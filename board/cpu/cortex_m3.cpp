@@ -32,7 +32,7 @@ constexpr std::uint64_t kCyclesPerPoll = 720'000;  // while asleep: 10 ms at 72 
 }  // namespace
 
 CortexM3::CortexM3(System& system, const MemoryMap& map, const Timing& timing)
-    : system_(system), map_(map), timing_(timing), memory_(map.flash_size + map.ram_size + kHostPage), engine_(*this) {
+    : system_(system), map_(map), timing_(timing), memory_(map.flash_size + map.ram_size + kHostPage), engine_(*this, timing.millicycles_per_instruction) {
   map_memory();
 }
 
@@ -77,13 +77,7 @@ void CortexM3::load(std::uint32_t address, const std::uint8_t* bytes, std::size_
   if (first == nullptr || last < address || host(last) != first + (count - 1))
     throw std::out_of_range("CortexM3::load: outside of flash and RAM");
   std::memcpy(memory_.data() + (first - memory_.data()), bytes, count);
-  forget_code();
-}
-
-// Translations of instructions that may have been changed go before the next one is executed.
-void CortexM3::forget_code() {
-  stale_code_ = translated_;
-  check_at_ = 0;
+  engine_.forget_code();
 }
 
 void CortexM3::run() {
@@ -94,171 +88,67 @@ void CortexM3::run() {
 
 void CortexM3::stop() {
   stopped_ = true;
-  check_at_ = 0;
+  attend_soon();
 }
 
 void CortexM3::reset_processor() {
   nvic_.reset();
   systick_.reset();
   scb_.reset();
-  it_ = ItBlock();
-  event_ = reset_requested_ = moved_ = announced_ = false;
-  due_ = 0;
-  keep_up_at_ = now_;
+  event_ = reset_requested_ = moved_ = false;
+  keep_up_at_ = engine_.now();
   for (const Register mask : {Register::kPrimask, Register::kBasepri, Register::kFaultmask}) engine_.write(mask, 0);
-  enter_mode(kThumb, 0, word_at(scb_.vector_table()) & ~3U, 0);
+  engine_.set_mode(kThumb, 0, word_at(scb_.vector_table()) & ~3U, 0);
   engine_.write(Register::kLr, 0xFFFFFFFF);  // B1.5.5
   continue_at(word_at(scb_.vector_table() + 4));
 }
 
 void CortexM3::advance_run() {
-  leaving_ = Leave::kNo;
-  hint_ = Sleep::kNone;
-  check_at_ = 0;
-  engine_.report_data(report_data_);
-  if (std::exchange(stale_code_, false)) engine_.forget_translations();
-  if (it_.open())  // Unicorn keeps ITSTATE of its own, not always that of the next instruction
-    engine_.write(Register::kXpsr, read_register(Register::kXpsr));
-  translated_ = true;
+  attend_soon();
   const Trap trap = engine_.run();
-  switch (leaving_) {
-    case Leave::kFailure: std::rethrow_exception(std::exchange(failure_, nullptr));
-    case Leave::kBetween: between_instructions(); break;
-    case Leave::kBusError:
-      settle_instruction();
-      raise(FaultKind::kData, at_, bad_address_);
-      break;
-    case Leave::kNo:
-      settle_instruction();
-      handle_trap(trap);
-      break;
-  }
+  if (trap == Trap::kNone)
+    between_instructions();
+  else
+    handle_trap(trap);
 }
 
 void CortexM3::handle_trap(Trap trap) {
-  const std::uint32_t pc = engine_.read(Register::kPc);
   switch (trap) {
-    case Trap::kNone: doze(); break;
+    case Trap::kNone: break;
     case Trap::kSvc: supervisor_call(); break;
+    case Trap::kWfi: doze(false); break;
+    case Trap::kWfe: doze(true); break;
     case Trap::kExceptionReturn: return_from_exception(); break;
-    case Trap::kBreakpoint: raise(FaultKind::kBreakpoint, pc, 0); break;
-    case Trap::kPrefetchAbort: raise(FaultKind::kFetch, pc, pc); break;
-    case Trap::kNoCoprocessor: raise(FaultKind::kNoCoprocessor, pc, 0); break;
-    case Trap::kInvalidState: raise(FaultKind::kInvalidState, pc, 0); break;
-    case Trap::kUndefined:
-      if (hint_ == Sleep::kWfe)
-        doze();
-      else
-        raise(FaultKind::kUndefinedInstruction, pc, 0);
-      break;
-    case Trap::kBadAccess:
-      raise(bad_fetch_ ? FaultKind::kFetch : FaultKind::kData, bad_fetch_ ? bad_address_ : at_, bad_address_);
-      break;
+    case Trap::kInvalidState: raise(FaultKind::kInvalidState, 0); break;
+    case Trap::kBreakpoint: raise(FaultKind::kBreakpoint, 0); break;
+    case Trap::kNoCoprocessor: raise(FaultKind::kNoCoprocessor, 0); break;
+    case Trap::kUndefined: raise(FaultKind::kUndefinedInstruction, 0); break;
+    case Trap::kBadFetch: raise(FaultKind::kFetch, pc()); break;
+    case Trap::kBadAccess: raise(FaultKind::kData, engine_.bad_address()); break;
   }
 }
 
 void CortexM3::between_instructions() {
-  if (moved_) {
-    moved_ = false;
-    it_.end();
-    engine_.write(Register::kPc, at_);
-  } else if (reset_requested_) {
+  if (std::exchange(moved_, false)) return;
+  if (reset_requested_) {
     system_.reset();
     reset_processor();
-  } else if (!stopped_ && preempting() != kNoException) {
-    take_exception(at_);
-  } else {
-    announced_ = true;  // new code only: the debugger has seen this instruction
+  } else if (!stopped_) {
+    take_exception(pc());
   }
 }
 
-// The instruction at work has ended without another one to follow.
-void CortexM3::settle_instruction() {
-  now_ += due_;
-  due_ = 0;
-}
-
-void CortexM3::leave(Leave why) {
-  if (why == Leave::kBetween) {  // the instruction about to be executed is not: it comes again
-    due_ = 0;
-    --instructions_;
-  }
-  leaving_ = why;
-  engine_.stop();
-}
-
-// Runs what may throw; the exception waits until Unicorn's frames are left. Until then the processor does nothing any
-// more.
-template <typename Action>
-void CortexM3::guarded(Action action) noexcept {
-  if (leaving_ != Leave::kNo) return;
-  try {
-    action();
-  } catch (...) {
-    failure_ = std::current_exception();
-    leave(Leave::kFailure);
-  }
-}
-
-void CortexM3::on_instruction(std::uint32_t address) noexcept {
-  if (leaving_ != Leave::kNo) return;
-  now_ += due_;
-  due_ = timing_.millicycles_per_instruction;
-  ++instructions_;
-  at_ = address;
-  const std::uint16_t opcode = opcode_at(address);
-  inside_it_ = it_.open() && follow_it_block(address, opcode);
-  if (now_ >= check_at_) {
-    guarded([this] { attend(); });
-    if (leaving_ != Leave::kNo) return;
-  }
-  if ((opcode & 0xF000U) == 0xB000 || (opcode & 0xFFD0U) == 0xF380) note_hint(address, opcode);
-}
-
-// True when the instruction at `address` belongs to the open block. Those before it, whose condition failed, are
-// counted here.
-bool CortexM3::follow_it_block(std::uint32_t address, std::uint16_t opcode) {
-  while (it_.open() && it_.next() != address) {
-    it_.pass(opcode_at(it_.next()));
-    ++instructions_;
-    now_ += timing_.millicycles_per_instruction;
-  }
-  if (!it_.open()) return false;
-  it_.pass(opcode);
-  return true;
-}
-
-// Instructions that change what the processor has to look after. Encodings: ARMv7-M, A5.2.5 and A5.3.4.
-void CortexM3::note_hint(std::uint32_t address, std::uint16_t opcode) {
-  const bool wide_hint = opcode == 0xF3AF;
-  const std::uint16_t hint =
-      wide_hint ? static_cast<std::uint16_t>(0xBF00 | (opcode_at(address + 2) & 0xFU) << 4) : opcode;
-  if ((hint & 0xFF00U) == 0xBF00) {
-    if ((hint & 0xFU) != 0)
-      it_.begin(address + 2, static_cast<std::uint8_t>(hint), [this](std::uint32_t at) { return opcode_at(at); });
-    else if (hint == 0xBF20)
-      hint_ = Sleep::kWfe;
-    else if (hint == 0xBF30)
-      hint_ = Sleep::kWfi;
-    else if (hint == 0xBF40)
-      event_ = true;  // SEV
-  } else if ((opcode & 0xFFE8U) == 0xB660 || (opcode & 0xFFF0U) == 0xF380) {
-    check_at_ = 0;  // CPS, MSR: a pending exception may be unmasked from the next instruction on
-  }
-}
-
-void CortexM3::attend() {
+bool CortexM3::before_instruction(bool in_it) {
   catch_up();
-  if (debugger_ != nullptr && !stopped_ && !std::exchange(announced_, false)) attend_debugger();
-  if (!inside_it_ && (stopped_ || reset_requested_ || moved_ || stale_code_ || preempting() != kNoException))
-    leave(Leave::kBetween);
-  else
-    schedule();
+  if (debugger_ != nullptr && !stopped_) attend_debugger();
+  if (stopped_ || reset_requested_ || moved_ || (!in_it && preempting() != kNoException)) return false;
+  schedule(in_it);
+  return true;
 }
 
 void CortexM3::attend_debugger() {
   if (debugger_->wanted())
-    debugger_->before_instruction(at_);
+    debugger_->before_instruction(pc());
   else if (++polls_ % kAttendsPerPoll == 0)
     debugger_->poll();
 }
@@ -269,31 +159,32 @@ void CortexM3::catch_up_systick() {
 
 void CortexM3::catch_up() {
   catch_up_systick();
-  if (now_ >= keep_up_at_) {
-    keep_up_at_ = now_ + timing_.quantum * kMillis;
-    system_.keep_up();
-  }
+  if (engine_.now() < keep_up_at_) return;
+  keep_up_at_ = engine_.now() + timing_.quantum * kMillis;
+  system_.keep_up();
 }
 
-void CortexM3::schedule() {
+// An exception that waits for the end of an IT block is looked for again at once.
+void CortexM3::schedule(bool in_it) {
   const std::uint64_t tick = systick_.next();
-  check_at_ = std::min(keep_up_at_, tick == kNever ? kNever : tick * kMillis);
-  if (inside_it_ || (debugger_ != nullptr && debugger_->wanted())) check_at_ = 0;
+  const bool at_once = in_it || (debugger_ != nullptr && debugger_->wanted());
+  engine_.attend_at(at_once ? 0 : std::min(keep_up_at_, tick == kNever ? kNever : tick * kMillis));
 }
 
 // Entry, return and tail-chain. The world comes up to their end: an exception that arrives meanwhile may go first
 // (B1.5.4).
 void CortexM3::spend(std::uint32_t cycles) {
-  now_ += cycles * kMillis;
-  keep_up_at_ = now_;
+  engine_.set_now(engine_.now() + cycles * kMillis);
+  keep_up_at_ = engine_.now();
   catch_up();
 }
 
-void CortexM3::advance_to(std::uint64_t cycle) { now_ = std::max(now_, cycle * kMillis); }
+void CortexM3::advance_to(std::uint64_t cycle) {
+  engine_.set_now(std::max(engine_.now(), cycle * kMillis));
+}
 
 // WFI ends with an exception that would be taken if PRIMASK were 0; WFE also with an event (B1.5.18, B1.5.19).
-void CortexM3::doze() {
-  const bool for_event = hint_ == Sleep::kWfe;
+void CortexM3::doze(bool for_event) {
   const auto woken = [this, for_event] {
     Nvic::Masks masks = this->masks();
     masks.primask = false;
@@ -306,7 +197,6 @@ void CortexM3::doze() {
     system_.sleep(until);
     catch_up();
     if (debugger_ != nullptr) {
-      at_ = engine_.read(Register::kPc);
       asleep_ = true;
       debugger_->poll();
       asleep_ = false;
@@ -319,41 +209,27 @@ void CortexM3::set_interrupt(unsigned irq) {
   if (irq >= Nvic::kInterrupts) throw std::out_of_range("CortexM3::set_interrupt: interrupts are 0 to 67");
   nvic_.set_pending(kFirstInterrupt + irq);
   event_ = event_ || scb_.event_on_pend();
-  check_at_ = 0;
+  attend_soon();
 }
 
 void CortexM3::set_interrupt_level(unsigned irq, bool high) {
   if (irq >= Nvic::kInterrupts) throw std::out_of_range("CortexM3::set_interrupt_level: interrupts are 0 to 67");
   nvic_.set_level(kFirstInterrupt + irq, high);
   event_ = event_ || (high && scb_.event_on_pend());
-  check_at_ = 0;
+  attend_soon();
 }
 
-void CortexM3::bus_error() {
-  bad_address_ = access_;
-  leave(Leave::kBusError);
+void CortexM3::bus_error() { engine_.bus_error(); }
+
+std::uint32_t CortexM3::on_load(std::uint32_t address, unsigned bytes) { return load_outside(address, bytes); }
+
+void CortexM3::on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  store_outside(address, bytes, value);
 }
 
-std::uint32_t CortexM3::on_load(std::uint32_t address, unsigned bytes) noexcept {
-  std::uint32_t value = 0;
-  access_ = address;
-  guarded([&] { value = load_outside(address, bytes); });
-  return value;
-}
-
-void CortexM3::on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) noexcept {
-  access_ = address;
-  guarded([&] { store_outside(address, bytes, value); });
-}
-
-void CortexM3::on_bad_access(std::uint32_t address, bool fetch) noexcept {
-  bad_address_ = address;
-  bad_fetch_ = fetch;
-}
-
-void CortexM3::on_data(std::uint32_t address, unsigned bytes, bool write) noexcept {
-  guarded([&] { debugger_->data_access(address, bytes, write); });
-  check_at_ = 0;
+void CortexM3::on_data(std::uint32_t address, unsigned bytes, bool write) {
+  debugger_->data_access(address, bytes, write);
+  attend_soon();
 }
 
 }  // namespace dsdpv1::arm

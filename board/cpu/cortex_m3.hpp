@@ -1,12 +1,10 @@
 #pragma once
-// A Cortex-M3 (ARMv7-M) in simulated time: Unicorn executes the instructions; exceptions, the system control space and
-// the count of cycles stand here. Every instruction is taken to last the same (p), accesses to the System last what the
-// System says. Not modelled: the MPU, unaligned-access and division-by-zero traps (CCR), ICI (LDM and STM are not
-// interrupted); an unaligned access to the System comes as Unicorn cuts it up: loads as two aligned words, stores as
-// bytes.
+// A Cortex-M3 (ARMv7-M) in simulated time: Engine executes the instructions; exceptions and the system control space
+// stand here. Every instruction is taken to last the same (p), accesses to the System last what the System says. Not
+// modelled: the MPU, unaligned-access and division-by-zero traps (CCR), ICI (LDM and STM are not interrupted); an
+// unaligned access to the System comes in parts: loads as two aligned words, stores as bytes.
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -15,7 +13,6 @@
 #include "board/cpu/debug_target.hpp"
 #include "board/cpu/engine.hpp"
 #include "board/cpu/fault.hpp"
-#include "board/cpu/it_block.hpp"
 #include "board/cpu/nvic.hpp"
 #include "board/cpu/scb.hpp"
 #include "board/cpu/systick.hpp"
@@ -52,7 +49,7 @@ class System {
 
 /// Cycles of HCLK.
 struct Timing {
-  std::uint32_t millicycles_per_instruction =
+  std::uint16_t millicycles_per_instruction =
       1500;                            ///< (p) an average: flash wait states with prefetch, branches, multiplications
   std::uint32_t quantum = 18;          ///< 250 ns at 72 MHz
   std::uint32_t exception_entry = 12;  ///< Cortex-M3 reference manual, zero wait states
@@ -68,7 +65,7 @@ struct MemoryMap {
 
 class CortexM3 : public DebugTarget, private EngineEvents {
  public:
-  /// `system` has to outlive this. Throws std::runtime_error when Unicorn refuses.
+  /// `system` has to outlive this.
   CortexM3(System& system, const MemoryMap& map, const Timing& timing);
   ~CortexM3() override;
   CortexM3(const CortexM3&) = delete;
@@ -88,13 +85,13 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   /// Timing::quantum from now on; > 0.
   void set_quantum(std::uint32_t cycles) { timing_.quantum = cycles; }
   /// Cycles of HCLK since the first reset.
-  std::uint64_t cycles() const { return now_ / kMillis; }
+  std::uint64_t cycles() const { return engine_.now() / kMillis; }
   /// From System's functions: time has gone on. Not backwards.
   void advance_to(std::uint64_t cycle);
   /// Instructions executed, those too whose condition failed.
-  std::uint64_t instructions() const override { return instructions_; }
+  std::uint64_t instructions() const override { return engine_.instructions(); }
   /// Of the instruction at work, or of the next one between two.
-  std::uint32_t pc() const { return at_; }
+  std::uint32_t pc() const { return engine_.read(Register::kPc); }
 
   /// External interrupt 0 to 67 becomes pending.
   void set_interrupt(unsigned irq);
@@ -124,29 +121,20 @@ class CortexM3 : public DebugTarget, private EngineEvents {
 
  private:
   static constexpr std::uint64_t kMillis = 1000;
-  enum class Leave { kNo, kBetween, kBusError, kFailure };  // why a callback stopped the engine
-  enum class Sleep { kNone, kWfi, kWfe };
 
   // cortex_m3.cpp: memory, time, the run
   void map_memory();
-  void forget_code();
   void reset_processor();
   void advance_run();
   void handle_trap(Trap trap);
   void between_instructions();
-  void settle_instruction();
-  void leave(Leave why);
-  template <typename Action>
-  void guarded(Action action) noexcept;
-  void attend();
+  void attend_soon() { engine_.attend_at(0); }
   void attend_debugger();
   void catch_up();
   void catch_up_systick();
-  void schedule();
+  void schedule(bool in_it);
   void spend(std::uint32_t cycles);
-  void doze();
-  void note_hint(std::uint32_t address, std::uint16_t opcode);
-  bool follow_it_block(std::uint32_t address, std::uint16_t opcode);
+  void doze(bool for_event);
   const std::uint8_t* host(std::uint32_t address) const;
   std::uint16_t opcode_at(std::uint32_t address) const;
   std::uint32_t word_at(std::uint32_t address) const;
@@ -154,11 +142,11 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   bool in_ram(std::uint32_t address, std::uint32_t count) const;
 
   // EngineEvents
-  void on_instruction(std::uint32_t address) noexcept override;
-  std::uint32_t on_load(std::uint32_t address, unsigned bytes) noexcept override;
-  void on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) noexcept override;
-  void on_bad_access(std::uint32_t address, bool fetch) noexcept override;
-  void on_data(std::uint32_t address, unsigned bytes, bool write) noexcept override;
+  bool before_instruction(bool in_it) override;
+  std::uint32_t on_load(std::uint32_t address, unsigned bytes) override;
+  void on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
+  void on_data(std::uint32_t address, unsigned bytes, bool write) override;
+  void on_event() override { event_ = true; }
 
   // private_bus.cpp: bit-band, system control space
   std::uint32_t load_outside(std::uint32_t address, unsigned bytes);
@@ -167,7 +155,6 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void store_bit(std::uint32_t alias, unsigned bytes, bool value);
   std::uint32_t load_band(std::uint32_t address, unsigned bytes);
   void store_band(std::uint32_t address, unsigned bytes, std::uint32_t value);
-  bool privileged() const;
   std::uint32_t load_private(std::uint32_t address, unsigned bytes);
   void store_private(std::uint32_t address, unsigned bytes, std::uint32_t value);
   std::uint32_t load_control_word(std::uint32_t offset);
@@ -188,7 +175,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   bool return_allowed(std::uint32_t exc_return) const;
   void enter_mode(std::uint32_t xpsr, std::uint32_t control, std::uint32_t msp, std::uint32_t psp);
   void supervisor_call();
-  void raise(FaultKind kind, std::uint32_t pc, std::uint32_t address);
+  void raise(FaultKind kind, std::uint32_t address);
   void pend_fault(FaultKind kind, std::uint32_t pc, std::uint32_t address);
   unsigned record(FaultKind kind, std::uint32_t address);
   void continue_at(std::uint32_t target);
@@ -205,29 +192,11 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   SysTick systick_;
   Scb scb_;
 
-  // Time in thousandths of a cycle. An instruction is paid for when the next one begins.
-  std::uint64_t now_ = 0, due_ = 0;
-  std::uint64_t check_at_ = 0;  // the next time at which attend() has something to do
-  std::uint64_t keep_up_at_ = 0;
-  std::uint64_t instructions_ = 0;
-
-  std::uint32_t at_ = 0;
-  ItBlock it_;
-  bool inside_it_ = false;    // the instruction at_ stands in it_
-  std::uint32_t access_ = 0;  // address of the System's access at work
-  Leave leaving_ = Leave::kNo;
-  Sleep hint_ = Sleep::kNone;
-  std::exception_ptr failure_;
-  std::uint32_t bad_address_ = 0;
-  bool bad_fetch_ = false;
-  bool event_ = false;  // the event register of WFE and SEV (B1.5.18)
+  std::uint64_t keep_up_at_ = 0;  // thousandths of a cycle
+  bool event_ = false;            // the event register of WFE and SEV (B1.5.18)
   bool stopped_ = false, reset_requested_ = false;
-  bool moved_ = false;       // a debugger wrote PC
-  bool stale_code_ = false;  // memory was written from outside, or report_data_ changed
-  bool report_data_ = false;
-  bool asleep_ = false;      // while a debugger is asked
-  bool announced_ = false;   // the debugger has let the next instruction pass
-  bool translated_ = false;  // something has been executed
+  bool moved_ = false;   // a debugger wrote PC
+  bool asleep_ = false;  // while a debugger is asked
 
   std::function<void(const Fault&)> report_fault_;
   Debugger* debugger_ = nullptr;

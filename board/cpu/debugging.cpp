@@ -5,29 +5,16 @@
 
 namespace dsdpv1::arm {
 
-namespace {
+std::uint32_t CortexM3::read_register(Register which) const { return engine_.read(which); }
 
-constexpr std::uint32_t kItBits = 0x0600FC00;
-
-std::uint32_t it_bits(std::uint8_t state) { return (state & 3U) << 25 | (state & 0xFCU) << 8; }
-
-}  // namespace
-
-std::uint32_t CortexM3::read_register(Register which) const {
-  if (which == Register::kPc) return at_;
-  const std::uint32_t value = engine_.read(which);
-  if (which != Register::kXpsr) return value;
-  return (value & ~kItBits) | it_bits(it_.state_at(at_, [this](std::uint32_t at) { return opcode_at(at); }));
-}
-
+/// Another PC is outside of any IT block.
 void CortexM3::write_register(Register which, std::uint32_t value) {
-  if (which == Register::kPc) {
-    at_ = value & ~1U;
-    moved_ = true;
-    check_at_ = 0;
-  } else {
-    engine_.write(which, value);
-  }
+  engine_.write(which, value);
+  if (which != Register::kPc) return;
+  constexpr std::uint32_t kItBits = 0x0600FC00;
+  engine_.write(Register::kXpsr, engine_.read(Register::kXpsr) & ~kItBits);
+  moved_ = true;
+  attend_soon();
 }
 
 Registers CortexM3::registers() const {
@@ -35,8 +22,8 @@ Registers CortexM3::registers() const {
   for (std::size_t n = 0; n < all.r.size(); ++n) all.r[n] = engine_.read(static_cast<Register>(n));
   all.sp = engine_.read(Register::kSp);
   all.lr = engine_.read(Register::kLr);
-  all.pc = at_;
-  all.xpsr = read_register(Register::kXpsr);
+  all.pc = pc();
+  all.xpsr = engine_.read(Register::kXpsr);
   all.msp = engine_.read(Register::kMsp);
   all.psp = engine_.read(Register::kPsp);
   all.primask = engine_.read(Register::kPrimask);
@@ -71,21 +58,18 @@ std::size_t CortexM3::read_memory(std::uint32_t address, std::uint8_t* to, std::
 bool CortexM3::write_memory(std::uint32_t address, const std::uint8_t* from, std::size_t count) {
   if (count > map_.ram_size || !in_ram(address, static_cast<std::uint32_t>(count))) return false;
   std::memcpy(ram_ + (address - map_.ram_base), from, count);
-  forget_code();
+  engine_.forget_code();
   return true;
 }
 
 bool CortexM3::report_data_accesses(bool on) {
-  if (on != report_data_) {
-    report_data_ = on;
-    forget_code();
-  }
+  engine_.report_data(on);
   return true;
 }
 
 bool CortexM3::reset() {
   reset_requested_ = true;
-  check_at_ = 0;
+  attend_soon();
   return true;
 }
 

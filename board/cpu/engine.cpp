@@ -1,195 +1,358 @@
 #include "board/cpu/engine.hpp"
 
-#include <unicorn/unicorn.h>
+#include <algorithm>
+#include <cstring>
+#include <utility>
 
-#include <stdexcept>
-#include <string>
+#include "board/cpu/operations.hpp"
 
 namespace dsdpv1::arm {
-
 namespace {
 
-// No instruction can stand here, so Unicorn never ends by itself.
-constexpr std::uint64_t kNoEnd = 0xFFFFFFFE;
-constexpr std::uint32_t kThumbState = 1U << 24;
+constexpr std::uint32_t kNegative = 1U << 31, kZero = 1U << 30, kCarry = 1U << 29, kOverflow = 1U << 28,
+                        kSaturated = 1U << 27, kThumb = 1U << 24, kException = 0x1FF, kFlags = 0xF8000000;
+constexpr std::uint32_t kItLow = 25, kItHigh = 10;  // where its bits 1..0 and 7..2 stand in EPSR
+constexpr Instruction kNotDecoded = {&Operations::not_decoded, &Operations::not_decoded_in_it};
 
-// Numbers that Unicorn hands to UC_HOOK_INTR: the exceptions of QEMU's ARM target.
-enum QemuException : std::uint32_t {
-  kSwi = 2,
-  kPrefetchAbort = 3,
-  kBkpt = 7,
-  kExceptionExit = 8,
-  kNocp = 17,
-  kInvstate = 18
-};
-
-int unicorn_register(Register which) {
-  switch (which) {
-    case Register::kSp: return UC_ARM_REG_SP;
-    case Register::kLr: return UC_ARM_REG_LR;
-    case Register::kPc: return UC_ARM_REG_PC;
-    case Register::kXpsr: return UC_ARM_REG_XPSR;
-    case Register::kMsp: return UC_ARM_REG_MSP;
-    case Register::kPsp: return UC_ARM_REG_PSP;
-    case Register::kPrimask: return UC_ARM_REG_PRIMASK;
-    case Register::kBasepri: return UC_ARM_REG_BASEPRI;
-    case Register::kFaultmask: return UC_ARM_REG_FAULTMASK;
-    case Register::kControl: return UC_ARM_REG_CONTROL;
-    default: return UC_ARM_REG_R0 + static_cast<int>(which);
-  }
-}
-
-Trap trap_of(std::uint32_t number) {
-  switch (number) {
-    case kSwi: return Trap::kSvc;
-    case kPrefetchAbort: return Trap::kPrefetchAbort;
-    case kBkpt: return Trap::kBreakpoint;
-    case kExceptionExit: return Trap::kExceptionReturn;
-    case kNocp: return Trap::kNoCoprocessor;
-    case kInvstate: return Trap::kInvalidState;
-    default: return Trap::kUndefined;
-  }
+/// ITSTATE of the instruction that follows (A7.3.2).
+std::uint8_t following(std::uint8_t state) {
+  if ((state & 7U) == 0) return 0;
+  return static_cast<std::uint8_t>((state & 0xE0U) | (unsigned{state} << 1U & 0x1FU));
 }
 
 }  // namespace
 
-struct Engine::Window {
-  Engine& engine;
-  std::uint32_t start;
-};
+Engine::Engine(EngineEvents& events, std::uint16_t cost)
+    : events_(events), cost_(cost), nowhere_(std::make_unique<CodePage>()) {
+  nowhere_->instructions.fill({&Operations::no_memory, &Operations::no_memory});
+  page_ = nowhere_.get();
+  at_ = page_->instructions.data();
+}
 
-// What Unicorn calls.
-struct Engine::Hooks {
-  static void instruction(uc_engine*, std::uint64_t address, std::uint32_t, void* self) {
-    static_cast<Engine*>(self)->events_.on_instruction(static_cast<std::uint32_t>(address));
-  }
-  static void interrupt(uc_engine*, std::uint32_t number, void* self) {
-    auto& engine = *static_cast<Engine*>(self);
-    engine.trap_ = trap_of(number);
-    engine.stop();
-  }
-  static bool bad_access(uc_engine*, uc_mem_type type, std::uint64_t address, int, std::int64_t, void* self) {
-    auto& engine = *static_cast<Engine*>(self);
-    engine.trap_ = Trap::kBadAccess;
-    engine.events_.on_bad_access(static_cast<std::uint32_t>(address),
-                                 type == UC_MEM_FETCH_UNMAPPED || type == UC_MEM_FETCH_PROT);
-    return false;
-  }
-  static void data(uc_engine*, uc_mem_type type, std::uint64_t address, int size, std::int64_t, void* self) {
-    static_cast<Engine*>(self)->events_.on_data(static_cast<std::uint32_t>(address), static_cast<unsigned>(size),
-                                                type == UC_MEM_WRITE);
-  }
-  static std::uint64_t load(uc_engine*, std::uint64_t offset, unsigned size, void* window) {
-    const auto& w = *static_cast<Window*>(window);
-    return w.engine.events_.on_load(w.start + static_cast<std::uint32_t>(offset), size);
-  }
-  static void store(uc_engine*, std::uint64_t offset, unsigned size, std::uint64_t value, void* window) {
-    const auto& w = *static_cast<Window*>(window);
-    w.engine.events_.on_store(w.start + static_cast<std::uint32_t>(offset), size, static_cast<std::uint32_t>(value));
-  }
-};
+Engine::~Engine() = default;
 
-// Unicorn shows special registers to privileged code only and takes its user for the code at work: for a moment this is
-// a handler.
-class Engine::Privileged {
- public:
-  Privileged(uc_engine* uc, Register which) : uc_(uc) {
-    if (which < Register::kMsp || which == Register::kControl) return;
-    std::uint32_t control = 0;
-    uc_reg_read(uc_, UC_ARM_REG_CONTROL, &control);
-    uc_reg_read(uc_, UC_ARM_REG_XPSR, &xpsr_);
-    lifted_ = (control & 1U) != 0 && (xpsr_ & 0x1FFU) == 0;
-    if (lifted_) {
-      const std::uint32_t handler = xpsr_ | 3U;
-      uc_reg_write(uc_, UC_ARM_REG_XPSR, &handler);
+// -------------------------------------------------------------------------------------------------------- what comes next
+
+Trap Engine::run() {
+  struct Running {
+    explicit Running(bool& flag) : flag_(flag) { flag_ = true; }
+    ~Running() { flag_ = false; }
+    bool& flag_;
+  } running(running_);
+  trap_ = thumb_ ? Trap::kNone : Trap::kInvalidState;
+  while (trap_ == Trap::kNone && before_next()) {
+    if (it_ != 0) {
+      run_in_block();
+      continue;
     }
+    until_ = attend_at_;
+    do at_->run(*this, *at_);
+    while (now_ < until_);
   }
-  ~Privileged() {
-    if (lifted_) uc_reg_write(uc_, UC_ARM_REG_XPSR, &xpsr_);
+  return trap_;
+}
+
+/// Instructions whose condition fails take their time, and nobody is asked before them.
+bool Engine::before_next() {
+  for (;;) {
+    if (const std::uint32_t here = pc(); here - page_->start >= kPageBytes) turn_page(here);
+    if (it_ == 0 || passes(it_ >> 4U)) break;
+    if (at_->run == kNotDecoded.run) decode_here();
+    done(*at_);
+    it_ = following(it_);
   }
-  Privileged(const Privileged&) = delete;
-  Privileged& operator=(const Privileged&) = delete;
-
- private:
-  uc_engine* uc_;
-  std::uint32_t xpsr_ = 0;
-  bool lifted_ = false;
-};
-
-Engine::Engine(EngineEvents& events) : events_(events) {
-  check(uc_open(UC_ARCH_ARM, static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS), &uc_), "uc_open");
-  check(uc_ctl(uc_, UC_CTL_WRITE(UC_CTL_CPU_MODEL, 1), UC_CPU_ARM_CORTEX_M3), "uc_ctl_set_cpu_model");
-  hook(UC_HOOK_CODE, reinterpret_cast<void*>(&Hooks::instruction));
-  hook(UC_HOOK_INTR, reinterpret_cast<void*>(&Hooks::interrupt));
-  hook(UC_HOOK_MEM_INVALID, reinterpret_cast<void*>(&Hooks::bad_access));
+  return now_ < attend_at_ || events_.before_instruction(it_ != 0);
 }
 
-Engine::~Engine() { uc_close(uc_); }
-
-void Engine::check(int error, const char* what) const {
-  if (error != UC_ERR_OK)
-    throw std::runtime_error(std::string("Unicorn: ") + what + ": " + uc_strerror(static_cast<uc_err>(error)));
+void Engine::run_in_block() {
+  const std::uint8_t state = it_;
+  at_->run_in_it(*this, *at_);
+  if (trap_ <= Trap::kInvalidState) it_ = following(state);
 }
 
-void Engine::hook(int type, void* function) {
-  uc_hook handle = 0;
-  check(uc_hook_add(uc_, &handle, type, function, this, 1, 0), "uc_hook_add");
+void Engine::turn_page(std::uint32_t target) {
+  for (Memory& memory : memories_) {
+    if (target - memory.start >= memory.size) continue;
+    page_ = &page_at(memory, target);
+    at_ = &page_->instructions[(target - page_->start) / 2];
+    return;
+  }
+  nowhere_->start = target;
+  page_ = nowhere_.get();
+  at_ = page_->instructions.data();
 }
 
-void Engine::map(std::uint32_t address, std::size_t size, std::uint8_t* memory, bool writable) {
-  const std::uint32_t rights = UC_PROT_READ | UC_PROT_EXEC | (writable ? UC_PROT_WRITE : 0);
-  check(uc_mem_map_ptr(uc_, address, size, rights, memory), "uc_mem_map_ptr");
-  code_.push_back({address, size});
+Engine::CodePage& Engine::page_at(Memory& memory, std::uint32_t address) {
+  std::unique_ptr<CodePage>& page = memory.pages[(address - memory.start) / kPageBytes];
+  if (page) return *page;
+  page = std::make_unique<CodePage>();
+  page->start = address & ~(kPageBytes - 1);
+  page->instructions.fill(kNotDecoded);
+  for (std::size_t behind = kPageBytes / 2; behind < page->instructions.size(); ++behind)
+    page->instructions[behind] = {&Operations::next_page, &Operations::next_page};
+  if (memory.writable) {
+    ram_has_code_ = true;
+    set_direct();
+  }
+  return *page;
 }
 
-void Engine::map_events(std::uint32_t address, std::size_t size) {
-  windows_.push_back(std::make_unique<Window>(Window{*this, address}));
-  void* window = windows_.back().get();
-  check(uc_mmio_map(uc_, address, size, &Hooks::load, window, &Hooks::store, window), "uc_mmio_map");
+void Engine::exchange(std::uint32_t target) {
+  constexpr std::uint32_t kReturns = 0xF0000000;
+  if (ipsr_ != 0 && target >= kReturns) {
+    returned_at_ = pc();
+    nowhere_->start = target & ~1U;
+    page_ = nowhere_.get();
+    at_ = page_->instructions.data();
+    return trap(Trap::kExceptionReturn);
+  }
+  thumb_ = (target & 1U) != 0;
+  go(target & ~1U);
+  if (!thumb_) trap(Trap::kInvalidState);
 }
 
-// Region by region: uc_ctl_flush_tlb writes all of Unicorn's buffer of 1 GB, which takes seconds.
-void Engine::forget_translations() {
-  for (const Code& region : code_) {
-    check(uc_ctl(uc_, UC_CTL_WRITE(UC_CTL_TB_REMOVE_CACHE, 2), std::uint64_t{region.start},
-                 std::uint64_t{region.start} + region.size),
-          "uc_ctl_remove_cache");
+/// A second halfword where no memory is counts as 0: nobody could say what a bus would give.
+void Engine::decode_here() {
+  const std::uint32_t address = pc();
+  std::uint16_t halfwords[2] = {};
+  for (const Memory& memory : memories_)
+    for (std::uint32_t i = 0; i < 2; ++i)
+      if (const std::uint32_t offset = address + 2 * i - memory.start; offset < memory.size)
+        std::memcpy(&halfwords[i], memory.bytes + offset, 2);
+  *at_ = decode(address, halfwords[0], halfwords[1]);
+  at_->cost = cost_;
+}
+
+// ----------------------------------------------------------------------------------------------------------------- memory
+
+void Engine::map(std::uint32_t address, std::uint32_t size, std::uint8_t* memory, bool writable) {
+  memories_.push_back({address, size, memory, writable, {}});
+  memories_.back().pages.resize(size / kPageBytes);
+  set_direct();
+}
+
+/// The last three bytes of a memory are left to load_elsewhere() and store_elsewhere().
+void Engine::set_direct() {
+  loads_ = stores_ = constants_ = {};
+  if (reports_data_) return;
+  for (const Memory& memory : memories_) {
+    const Direct direct = {memory.start, memory.size - 3, memory.bytes};
+    if (!memory.writable && constants_.limit == 0) constants_ = direct;
+    if (memory.writable) loads_ = direct;
+    if (memory.writable && !ram_has_code_) stores_ = direct;
   }
 }
 
 void Engine::report_data(bool on) {
-  if (on == reports_data_) return;
-  if (on) {
-    check(uc_hook_add(uc_, &data_hook_, UC_HOOK_MEM_READ | UC_HOOK_MEM_WRITE, reinterpret_cast<void*>(&Hooks::data),
-                      this, 1, 0),
-          "uc_hook_add");
-  } else {
-    check(uc_hook_del(uc_, data_hook_), "uc_hook_del");
-  }
   reports_data_ = on;
+  set_direct();
+}
+
+void Engine::forget_code() {
+  for (Memory& memory : memories_)
+    for (std::unique_ptr<CodePage>& page : memory.pages)
+      if (page) std::fill_n(page->instructions.begin(), kPageBytes / 2, kNotDecoded);
+}
+
+/// The instructions that have one of these bytes.
+void Engine::forget_code(Memory& memory, std::uint32_t address, unsigned bytes) {
+  const std::uint32_t first = (address - memory.start) / 2, end = (address - memory.start + bytes + 1) / 2;
+  for (std::uint32_t halfword = first == 0 ? 0 : first - 1; halfword < end; ++halfword) {
+    const std::unique_ptr<CodePage>& page = memory.pages[halfword / (kPageBytes / 2)];
+    if (page) page->instructions[halfword % (kPageBytes / 2)] = kNotDecoded;
+  }
+}
+
+Engine::Memory* Engine::memory_at(std::uint32_t address, unsigned bytes) {
+  const auto holds = [&](const Memory& each) {
+    return address - each.start < each.size && address - each.start + bytes <= each.size;
+  };
+  const auto found = std::find_if(memories_.begin(), memories_.end(), holds);
+  return found == memories_.end() ? nullptr : &*found;
+}
+
+bool Engine::is_window(std::uint32_t address) const {
+  return std::any_of(windows_.begin(), windows_.end(),
+                     [&](const Window& window) { return address - window.start < window.size; });
+}
+
+bool Engine::fail(std::uint32_t address) {
+  bad_address_ = address;
+  refuse(Trap::kBadAccess);
+  return false;
+}
+
+bool Engine::load_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t& value) {
+  if (reports_data_) events_.on_data(address, bytes, false);
+  value = 0;
+  if (const Memory* memory = memory_at(address, bytes)) {
+    std::memcpy(&value, memory->bytes + (address - memory->start), bytes);
+    return true;
+  }
+  if (!is_window(address)) return fail(address);
+  value = load_window(address, bytes);
+  return !access_failed_ || fail(bad_address_);
+}
+
+bool Engine::store_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  if (reports_data_) events_.on_data(address, bytes, true);
+  if (Memory* memory = memory_at(address, bytes); memory != nullptr && memory->writable) {
+    std::memcpy(memory->bytes + (address - memory->start), &value, bytes);
+    forget_code(*memory, address, bytes);
+    return true;
+  }
+  if (!is_window(address)) return fail(address);
+  store_window(address, bytes, value);
+  return !access_failed_ || fail(bad_address_);
+}
+
+/// One that is not aligned: the two words that it touches.
+std::uint32_t Engine::load_window(std::uint32_t address, unsigned bytes) {
+  access_failed_ = false;
+  bad_address_ = address;
+  if (address % bytes == 0) return events_.on_load(address, bytes);
+  const std::uint32_t word = address & ~3U, mask = bytes == 4 ? ~0U : (1U << 8 * bytes) - 1;
+  bad_address_ = word;
+  std::uint64_t both = events_.on_load(word, 4);
+  if (address - word + bytes > 4 && !access_failed_) {
+    bad_address_ = word + 4;
+    both |= std::uint64_t{events_.on_load(word + 4, 4)} << 32;
+  }
+  return static_cast<std::uint32_t>(both >> 8 * (address - word)) & mask;
+}
+
+/// One that is not aligned: its bytes.
+void Engine::store_window(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  access_failed_ = false;
+  bad_address_ = address;
+  const std::uint32_t mask = bytes == 4 ? ~0U : (1U << 8 * bytes) - 1;
+  if (address % bytes == 0) return events_.on_store(address, bytes, value & mask);
+  for (unsigned i = 0; i < bytes && !access_failed_; ++i) {
+    bad_address_ = address + i;
+    events_.on_store(address + i, 1, value >> 8 * i & 0xFF);
+  }
+}
+
+// -------------------------------------------------------------------------------------------------------------- registers
+
+bool Engine::passes(unsigned condition) const {
+  const bool n = (negative_ & kNegative) != 0, v = overflow_ != 0;
+  bool right = true;
+  switch (condition >> 1U) {
+    case 0: right = zero_ == 0; break;
+    case 1: right = carry_ != 0; break;
+    case 2: right = n; break;
+    case 3: right = v; break;
+    case 4: right = carry_ != 0 && zero_ != 0; break;
+    case 5: right = n == v; break;
+    case 6: right = zero_ != 0 && n == v; break;
+    default: return true;
+  }
+  return right != ((condition & 1U) != 0);
+}
+
+std::uint32_t Engine::xpsr() const {
+  return (negative_ & kNegative) | (zero_ == 0 ? kZero : 0) | (carry_ != 0 ? kCarry : 0) |
+         (overflow_ != 0 ? kOverflow : 0) | (saturated_ ? kSaturated : 0) | (thumb_ ? kThumb : 0) |
+         (it_ & 3U) << kItLow | static_cast<std::uint32_t>(it_ >> 2U) << kItHigh | ipsr_;
+}
+
+void Engine::set_flags(std::uint32_t apsr) {
+  negative_ = apsr & kNegative;
+  zero_ = (apsr & kZero) != 0 ? 0 : 1;
+  carry_ = (apsr & kCarry) != 0 ? 1 : 0;
+  overflow_ = (apsr & kOverflow) != 0 ? 1 : 0;
+  saturated_ = (apsr & kSaturated) != 0;
+}
+
+void Engine::set_xpsr(std::uint32_t value) {
+  set_flags(value);
+  thumb_ = (value & kThumb) != 0;
+  it_ = static_cast<std::uint8_t>((value >> kItLow & 3U) | (value >> kItHigh & 0x3FU) << 2U);
+  ipsr_ = value & kException;
+}
+
+void Engine::set_mode(std::uint32_t xpsr, std::uint32_t control, std::uint32_t msp, std::uint32_t psp) {
+  set_xpsr(xpsr);
+  control_ = control;
+  msp_ = msp & ~3U;
+  psp_ = psp & ~3U;
+  bank_in();
 }
 
 std::uint32_t Engine::read(Register which) const {
-  const Privileged privileged(uc_, which);
-  std::uint32_t value = 0;
-  uc_reg_read(uc_, unicorn_register(which), &value);
-  return value;
+  switch (which) {
+    case Register::kPc: return pc();
+    case Register::kXpsr: return xpsr();
+    case Register::kMsp: return uses_psp() ? msp_ : r_[13];
+    case Register::kPsp: return uses_psp() ? r_[13] : psp_;
+    case Register::kPrimask: return primask_;
+    case Register::kBasepri: return basepri_;
+    case Register::kFaultmask: return faultmask_;
+    case Register::kControl: return control_;
+    default: return r_.at(static_cast<std::size_t>(which));
+  }
 }
 
 void Engine::write(Register which, std::uint32_t value) {
-  const Privileged privileged(uc_, which);
-  uc_reg_write(uc_, unicorn_register(which), &value);
+  switch (which) {
+    case Register::kSp: r_[13] = value & ~3U; break;
+    case Register::kPc: go(value & ~1U); break;
+    case Register::kXpsr:
+      bank_out();
+      set_xpsr(value);
+      bank_in();
+      break;
+    case Register::kMsp: (uses_psp() ? msp_ : r_[13]) = value & ~3U; break;
+    case Register::kPsp: (uses_psp() ? r_[13] : psp_) = value & ~3U; break;
+    case Register::kPrimask: primask_ = value & 1U; break;
+    case Register::kBasepri: basepri_ = value & 0xFFU; break;
+    case Register::kFaultmask: faultmask_ = value & 1U; break;
+    case Register::kControl:
+      bank_out();
+      control_ = ipsr_ == 0 ? value & (kNotPrivileged | kSpSel) : (control_ & kSpSel) | (value & kNotPrivileged);
+      bank_in();
+      break;
+    default: r_.at(static_cast<std::size_t>(which)) = value; break;
+  }
 }
 
-Trap Engine::run() {
-  trap_ = Trap::kNone;
-  const uc_err error = uc_emu_start(uc_, read(Register::kPc) | 1U, kNoEnd, 0, 0);
-  if (error == UC_ERR_INSN_INVALID)
-    return (read(Register::kXpsr) & kThumbState) != 0 ? Trap::kUndefined : Trap::kInvalidState;
-  if (trap_ == Trap::kNone) check(error, "uc_emu_start");
-  return trap_;
+// Numbers of SYSm (B5.2.2).
+enum Special : unsigned { kMspNumber = 8, kPspNumber, kPrimaskNumber = 16, kBasepriNumber, kBasepriMaxNumber, kFaultmaskNumber, kControlNumber };
+
+std::uint32_t Engine::read_special(unsigned which) const {
+  if (which < kMspNumber) {
+    const std::uint32_t all = xpsr();
+    return ((which & 1U) != 0 ? all & kException : 0) | ((which & 4U) == 0 ? all & kFlags : 0);
+  }
+  if (which == kControlNumber) return control_;
+  if (!privileged()) return 0;
+  switch (which) {
+    case kMspNumber: return read(Register::kMsp);
+    case kPspNumber: return read(Register::kPsp);
+    case kPrimaskNumber: return primask_;
+    case kBasepriNumber:
+    case kBasepriMaxNumber: return basepri_;
+    case kFaultmaskNumber: return faultmask_;
+    default: return 0;
+  }
 }
 
-void Engine::stop() { uc_emu_stop(uc_); }
+void Engine::write_special(unsigned which, bool flags, std::uint32_t value) {
+  if (which < 4 && flags) set_flags(value);
+  if (!privileged()) return;
+  switch (which) {
+    case kMspNumber: write(Register::kMsp, value); break;
+    case kPspNumber: write(Register::kPsp, value); break;
+    case kPrimaskNumber: write(Register::kPrimask, value); break;
+    case kBasepriNumber: write(Register::kBasepri, value); break;
+    case kBasepriMaxNumber:
+      if ((value & 0xFFU) != 0 && (basepri_ == 0 || (value & 0xFFU) < basepri_)) write(Register::kBasepri, value);
+      break;
+    case kFaultmaskNumber: write(Register::kFaultmask, value); break;
+    case kControlNumber: write(Register::kControl, value); break;
+    default: break;
+  }
+}
 
 }  // namespace dsdpv1::arm

@@ -1,88 +1,211 @@
 #pragma once
-// Unicorn with a Cortex-M3 in it: the only place that knows its programming interface. What Unicorn leaves to its user
-// - exceptions, the system control space, time - is CortexM3's.
+// The instructions of a Cortex-M3 (ARMv7-M without floating point): registers, memory, the count of time. Exceptions,
+// the system control space and what time is for are CortexM3's.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "board/cpu/debug_target.hpp"
-
-struct uc_struct;
+#include "board/cpu/instruction.hpp"
 
 namespace dsdpv1::arm {
 
-/// What the engine calls while it runs. No exception may leave these functions: Unicorn's frames cannot be unwound.
+/// What the engine calls while it runs. What these functions throw leaves Engine::run().
 class EngineEvents {
  public:
   virtual ~EngineEvents() = default;
-  virtual void on_instruction(std::uint32_t address) noexcept = 0;
-  virtual std::uint32_t on_load(std::uint32_t address, unsigned bytes) noexcept = 0;
-  virtual void on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) noexcept = 0;
-  /// An access, or with `fetch` an execution, where no memory is or none that may be written. The engine stops.
-  virtual void on_bad_access(std::uint32_t address, bool fetch) noexcept = 0;
+  /// Before the first instruction that begins at or behind Engine::attend_at; `in_it`: inside of an IT block, where it
+  /// must be executed. False: it is not executed, run() returns.
+  virtual bool before_instruction(bool in_it) = 0;
+  /// A load or store of 1, 2 or 4 bytes, aligned, in a range of map_events. Engine::bus_error() ends it.
+  virtual std::uint32_t on_load(std::uint32_t address, unsigned bytes) = 0;
+  virtual void on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) = 0;
   /// An access to mapped memory or outside, while report_data(true).
-  virtual void on_data(std::uint32_t address, unsigned bytes, bool write) noexcept = 0;
+  virtual void on_data(std::uint32_t address, unsigned bytes, bool write) = 0;
+  /// SEV.
+  virtual void on_event() = 0;
 };
 
 /// Why Engine::run() returned.
-enum class Trap {
-  kNone,  ///< stop(), or WFI was executed
+enum class Trap : std::uint8_t {
+  kNone,  ///< before_instruction() wanted it
+  // executed: kPc is that of the next instruction
   kSvc,
+  kWfi,
+  kWfe,
+  kExceptionReturn,  ///< kPc is EXC_RETURN without its lowest bit
+  // not executed
+  kInvalidState,  ///< with EPSR.T 0
   kBreakpoint,
-  kExceptionReturn,
-  kPrefetchAbort,
   kNoCoprocessor,
-  kInvalidState,  ///< an instruction was to be executed with EPSR.T 0
-  kUndefined,     ///< also WFE, which Unicorn does not know
-  kBadAccess,     ///< after on_bad_access()
+  kUndefined,
+  kBadFetch,   ///< no memory is there
+  kBadAccess,  ///< bad_address(): no memory is there, none that may be written, or bus_error()
 };
 
-/// Not copied, not moved: Unicorn holds pointers to it.
+/// Not copied, not moved: its instructions point into it.
 class Engine {
  public:
-  /// Throws std::runtime_error when the library refuses (another version, another build).
-  explicit Engine(EngineEvents& events);
+  /// `cost`: of every instruction, thousandths of a cycle.
+  Engine(EngineEvents& events, std::uint16_t cost);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// `size` a multiple of 4096; `memory` stays the caller's and is shared with it.
-  void map(std::uint32_t address, std::size_t size, std::uint8_t* memory, bool writable);
+  /// `address` and `size` multiples of 4096; `memory` stays the caller's and is shared with it. At most one is
+  /// writable.
+  void map(std::uint32_t address, std::uint32_t size, std::uint8_t* memory, bool writable);
   /// Loads and stores there go to on_load and on_store; nothing can be executed.
-  void map_events(std::uint32_t address, std::size_t size);
-  /// The caller wrote code into mapped memory; not while running.
-  void forget_translations();
-  /// From now on data accesses call on_data too; slow; not while running. forget_translations() has to follow.
+  void map_events(std::uint32_t address, std::uint32_t size) { windows_.push_back({address, size}); }
+  /// Somebody else wrote into mapped memory, where code may be.
+  void forget_code();
+  /// Whether data accesses call on_data, too; slow.
   void report_data(bool on);
 
   /// Whatever mode the processor is in.
   std::uint32_t read(Register which) const;
-  /// kControl as an instruction in the present mode may write it, the others in any mode.
   void write(Register which, std::uint32_t value);
+  /// Mode, flags and stack pointers at once, as exceptions change them.
+  void set_mode(std::uint32_t xpsr, std::uint32_t control, std::uint32_t msp, std::uint32_t psp);
+  /// Exceptions end what LDREX has begun (A3.4).
+  void clear_exclusive() { exclusive_ = false; }
+  bool privileged() const { return ipsr_ != 0 || (control_ & kNotPrivileged) == 0; }
 
-  /// Executes from kPc on until stop() or a trap.
+  /// Executes from kPc on.
   Trap run();
-  /// From inside of on_instruction: the instruction is not executed, unless it stands in an IT block.
-  void stop();
+  /// From on_load and on_store: nothing answers at this address.
+  void bus_error() { access_failed_ = true; }
+  bool access_failed() const { return access_failed_; }
+  std::uint32_t bad_address() const { return bad_address_; }
+  /// Of Trap::kExceptionReturn: where the instruction stands.
+  std::uint32_t returned_at() const { return returned_at_; }
+
+  /// Thousandths of a cycle. Of the beginning of the instruction at work, or of the next one.
+  std::uint64_t now() const { return now_; }
+  void set_now(std::uint64_t time) { now_ = time; }
+  /// When before_instruction() is called next.
+  std::uint64_t attends_at() const { return attend_at_; }
+  void attend_at(std::uint64_t time) {
+    attend_at_ = time;
+    until_ = 0;  // looked at before the next instruction
+  }
+  /// Instructions begun, those too whose condition failed.
+  std::uint64_t instructions() const { return instructions_ + (running_ ? 1 : 0); }
 
  private:
-  struct Window;
-  struct Hooks;
-  class Privileged;
-  struct Code {
-    std::uint32_t start;
-    std::size_t size;
+  friend struct Operations;
+
+  static constexpr std::uint32_t kPageBytes = 4096;
+  static constexpr std::uint32_t kNotPrivileged = 1, kSpSel = 2;
+
+  /// Instructions of a page of memory by their halfwords, and two behind it, since a long one may begin in its last
+  /// halfword.
+  struct CodePage {
+    std::uint32_t start = 0;
+    std::array<Instruction, kPageBytes / 2 + 2> instructions;
   };
-  void check(int error, const char* what) const;
-  void hook(int type, void* function);
+  struct Memory {
+    std::uint32_t start, size;
+    std::uint8_t* bytes;
+    bool writable;
+    std::vector<std::unique_ptr<CodePage>> pages;
+  };
+  struct Window {
+    std::uint32_t start, size;
+  };
+  /// Memory that is reached at once: a word at an offset below `limit`.
+  struct Direct {
+    std::uint32_t start = 0, limit = 0;
+    std::uint8_t* bytes = nullptr;
+  };
+
+  // --- what comes next
+  bool before_next();
+  void run_in_block();
+  void pay(const Instruction& of) {
+    now_ += of.cost;
+    ++instructions_;
+  }
+  /// The instruction at work was executed.
+  void done(const Instruction& what) {
+    pay(what);
+    at_ += what.halfwords;
+  }
+  /// The next instruction is at an even `target`.
+  void go(std::uint32_t target) {
+    const std::uint32_t offset = target - page_->start;
+    if (offset < kPageBytes)
+      at_ = &page_->instructions[offset / 2];
+    else
+      turn_page(target);
+  }
+  void turn_page(std::uint32_t target);
+  CodePage& page_at(Memory& memory, std::uint32_t address);
+  /// BXWritePC (ARMv7-M, A2.3.1): a change of state, or the return from an exception.
+  void exchange(std::uint32_t target);
+  /// Ends run(), the instruction at work executed or not.
+  void trap(Trap why) {
+    trap_ = why;
+    until_ = 0;
+  }
+  void refuse(Trap why) {
+    pay(*at_);
+    trap(why);
+  }
+  std::uint32_t pc() const {
+    return page_->start + static_cast<std::uint32_t>(at_ - page_->instructions.data()) * 2;
+  }
+  void decode_here();
+
+  // --- memory; false: a trap, the instruction is to be left as it is
+  template <unsigned bytes>
+  bool load(std::uint32_t address, std::uint32_t& value);
+  template <unsigned bytes>
+  bool store(std::uint32_t address, std::uint32_t value);
+  bool load_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t& value);
+  bool store_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  std::uint32_t load_window(std::uint32_t address, unsigned bytes);
+  void store_window(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  bool fail(std::uint32_t address);
+  Memory* memory_at(std::uint32_t address, unsigned bytes);
+  bool is_window(std::uint32_t address) const;
+  void forget_code(Memory& memory, std::uint32_t address, unsigned bytes);
+  void set_direct();
+
+  // --- registers
+  bool uses_psp() const { return ipsr_ == 0 && (control_ & kSpSel) != 0; }
+  void bank_out() { (uses_psp() ? psp_ : msp_) = r_[13]; }
+  void bank_in() { r_[13] = uses_psp() ? psp_ : msp_; }
+  std::uint32_t xpsr() const;
+  void set_flags(std::uint32_t apsr);
+  void set_xpsr(std::uint32_t value);
+  /// MRS and MSR (B5.2.2, B5.2.3).
+  std::uint32_t read_special(unsigned which) const;
+  void write_special(unsigned which, bool flags, std::uint32_t value);
+  bool passes(unsigned condition) const;
+
   EngineEvents& events_;
-  uc_struct* uc_ = nullptr;
-  std::vector<std::unique_ptr<Window>> windows_;
-  std::vector<Code> code_;
+  const std::uint16_t cost_;
+  std::vector<Memory> memories_;
+  std::vector<Window> windows_;
+  Direct loads_, stores_, constants_;  ///< RAM, RAM without code, flash
+  bool reports_data_ = false, ram_has_code_ = false;
+  std::unique_ptr<CodePage> nowhere_;  ///< where no memory is
+
+  CodePage* page_ = nullptr;
+  Instruction* at_ = nullptr;  ///< at work, or next
+  std::uint64_t now_ = 0, until_ = 0, attend_at_ = 0, instructions_ = 0;
   Trap trap_ = Trap::kNone;
-  std::size_t data_hook_ = 0;
-  bool reports_data_ = false;
+  bool running_ = false, access_failed_ = false;
+  std::uint32_t bad_address_ = 0, returned_at_ = 0;
+
+  std::array<std::uint32_t, 16> r_{};  ///< r15 only for instructions that look at it
+  std::uint32_t negative_ = 0, zero_ = 1, carry_ = 0, overflow_ = 0;  ///< N: bit 31; Z: of 0; C and V: 0 or 1
+  bool saturated_ = false, thumb_ = true, exclusive_ = false;
+  std::uint8_t it_ = 0;  ///< ITSTATE
+  std::uint32_t ipsr_ = 0, msp_ = 0, psp_ = 0, primask_ = 0, basepri_ = 0, faultmask_ = 0, control_ = 0;
 };
 
 }  // namespace dsdpv1::arm

@@ -1,4 +1,4 @@
-// Exception entry and return, and faults (ARMv7-M, B1.5). Unicorn has none of it for this profile.
+// Exception entry and return, and faults (ARMv7-M, B1.5).
 #include <array>
 #include <cstring>
 #include <utility>
@@ -26,9 +26,6 @@ bool executable_region(std::uint32_t address) {
   return address < 0x40000000 || (address >= 0x60000000 && address < 0xA0000000);
 }
 
-std::uint32_t it_bits(std::uint8_t state) { return (state & 3U) << 25 | (state & 0xFCU) << 8; }
-std::uint8_t it_state(std::uint32_t xpsr) { return static_cast<std::uint8_t>((xpsr >> 25 & 3U) | (xpsr >> 8 & 0xFCU)); }
-
 }  // namespace
 
 Nvic::Masks CortexM3::masks() const {
@@ -42,22 +39,9 @@ unsigned CortexM3::preempting() const {
 
 unsigned CortexM3::handler() const { return engine_.read(Register::kXpsr) & kExceptionBits; }
 
-// Stack pointers and CONTROL can be written in privileged mode only, SPSEL in thread mode only; so through both to the
-// mode wanted.
-void CortexM3::enter_mode(std::uint32_t xpsr, std::uint32_t control, std::uint32_t msp, std::uint32_t psp) {
-  engine_.write(Register::kXpsr, kThumb | kHardFault);
-  engine_.write(Register::kControl, 0);
-  engine_.write(Register::kXpsr, kThumb);
-  engine_.write(Register::kControl, 0);
-  engine_.write(Register::kMsp, msp);
-  engine_.write(Register::kPsp, psp);
-  engine_.write(Register::kControl, control);
-  engine_.write(Register::kXpsr, xpsr);
-}
-
 // Returns EXC_RETURN for the way back (B1.5.6, B1.5.7).
 std::uint32_t CortexM3::push_frame(std::uint32_t return_address) {
-  const std::uint32_t xpsr = read_register(Register::kXpsr);
+  const std::uint32_t xpsr = engine_.read(Register::kXpsr);
   const std::uint32_t control = engine_.read(Register::kControl);
   const bool thread = (xpsr & kExceptionBits) == 0;
   const bool on_psp = thread && (control & kSpSel) != 0;
@@ -65,15 +49,14 @@ std::uint32_t CortexM3::push_frame(std::uint32_t return_address) {
   std::uint32_t& sp = on_psp ? psp : msp;
   const bool aligned = scb_.stack_align() && (sp & 4U) != 0;
   sp -= kFrameBytes + (aligned ? 4 : 0);
-  const std::uint8_t it = it_.state_at(return_address, [this](std::uint32_t at) { return opcode_at(at); });
-  write_frame(sp, return_address, (xpsr & ~(kItBits | kAlignedBit)) | it_bits(it) | (aligned ? kAlignedBit : 0));
-  enter_mode((xpsr & ~kItBits) | kThumb, control, msp, psp);
+  write_frame(sp, return_address, (xpsr & ~kAlignedBit) | (aligned ? kAlignedBit : 0));
+  engine_.set_mode((xpsr & ~kItBits) | kThumb, control, msp, psp);
   return !thread ? kToHandler : on_psp ? kToThreadPsp : kToThread;
 }
 
 void CortexM3::write_frame(std::uint32_t sp, std::uint32_t return_address, std::uint32_t xpsr) {
   if (!in_ram(sp, kFrameBytes)) {
-    pend_fault(FaultKind::kStacking, at_, sp);  // the frame is lost, the exception goes on (B1.5.11)
+    pend_fault(FaultKind::kStacking, pc(), sp);  // the frame is lost, the exception goes on (B1.5.11)
     return;
   }
   std::array<std::uint32_t, kFrameBytes / 4> frame{};
@@ -94,18 +77,17 @@ void CortexM3::take_exception(std::uint32_t return_address) {
 void CortexM3::activate(unsigned exception, std::uint32_t exc_return) {
   nvic_.begin(exception);
   event_ = true;
-  it_ = ItBlock();
+  engine_.clear_exclusive();
   const std::uint32_t flags = engine_.read(Register::kXpsr) & kFlags;
-  enter_mode(flags | kThumb | exception, engine_.read(Register::kControl) & kNotPrivileged,
+  engine_.set_mode(flags | kThumb | exception, engine_.read(Register::kControl) & kNotPrivileged,
              engine_.read(Register::kMsp), engine_.read(Register::kPsp));
   engine_.write(Register::kLr, exc_return);
   continue_at(word_at(scb_.vector_table() + 4 * exception));
 }
 
 void CortexM3::continue_at(std::uint32_t target) {
-  at_ = target & ~1U;
-  engine_.write(Register::kPc, at_);
-  if ((target & 1U) == 0) raise(FaultKind::kInvalidState, at_, 0);
+  engine_.write(Register::kPc, target);
+  if ((target & 1U) == 0) raise(FaultKind::kInvalidState, 0);
 }
 
 // B1.5.8: only these values, and thread mode only from the outermost handler unless CCR.NONBASETHRDENA.
@@ -133,8 +115,7 @@ void CortexM3::return_from_exception() {
     return;
   }
   if ((exc_return & kReturnThreadBit) != 0 && scb_.sleep_on_exit()) {
-    hint_ = Sleep::kWfi;
-    doze();
+    doze(false);
   }
   if (preempting() != kNoException) {
     spend(timing_.tail_chain);
@@ -146,7 +127,7 @@ void CortexM3::return_from_exception() {
 
 // A fault of the return itself: its handler begins without new stacking, the old frame stays.
 void CortexM3::chain_fault(FaultKind kind, std::uint32_t address, std::uint32_t exc_return) {
-  pend_fault(kind, at_, address);
+  pend_fault(kind, engine_.returned_at(), address);
   spend(timing_.tail_chain);
   activate(preempting(), exc_return);
 }
@@ -167,27 +148,28 @@ void CortexM3::unstack(std::uint32_t exc_return) {
   sp += kFrameBytes + (scb_.stack_align() && (xpsr & kAlignedBit) != 0 ? 4 : 0);
   const std::uint32_t control =
       (engine_.read(Register::kControl) & kNotPrivileged) | (to_thread && on_psp ? kSpSel : 0);
-  enter_mode(xpsr & ~kAlignedBit, control, msp, psp);
+  engine_.set_mode(xpsr & ~kAlignedBit, control, msp, psp);
   for (std::uint32_t word = 0; word < 6; ++word) engine_.write(kStacked[word], word_at(frame + 4 * word));
   spend(timing_.exception_return);
   const std::uint32_t target = word_at(frame + 24) & ~1U;
-  it_.begin(target, it_state(xpsr), [this](std::uint32_t at) { return opcode_at(at); });
+  engine_.clear_exclusive();
   continue_at(target | ((xpsr & kThumb) != 0 ? 1U : 0U));
 }
 
 void CortexM3::supervisor_call() {
+  constexpr std::uint32_t kSvcBytes = 2;
   const std::uint32_t next = engine_.read(Register::kPc);
   if (nvic_.group_priority(kSvCall) < nvic_.execution_priority(masks()))
     nvic_.set_pending(kSvCall);
   else
-    pend_fault(FaultKind::kSupervisorCall, at_, 0);
+    pend_fault(FaultKind::kSupervisorCall, next - kSvcBytes, 0);
   take_exception(next);
 }
 
-void CortexM3::raise(FaultKind kind, std::uint32_t pc, std::uint32_t address) {
-  at_ = pc;
-  pend_fault(kind, pc, address);
-  take_exception(pc);
+// Of the instruction at PC.
+void CortexM3::raise(FaultKind kind, std::uint32_t address) {
+  pend_fault(kind, pc(), address);
+  take_exception(pc());
 }
 
 // Sets the status bits and returns the exception that is the fault's own (B1.5.14).

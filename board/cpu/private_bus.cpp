@@ -80,14 +80,12 @@ std::uint32_t CortexM3::load_bit(std::uint32_t alias, unsigned bytes) {
 void CortexM3::store_bit(std::uint32_t alias, unsigned bytes, bool value) {
   const BandBit at = band_bit(alias, bytes);
   const std::uint32_t others = load_band(at.address, bytes) & ~(1U << at.bit);
-  if (leaving_ == Leave::kNo) store_band(at.address, bytes, others | (value ? 1U : 0U) << at.bit);
+  if (!engine_.access_failed()) store_band(at.address, bytes, others | (value ? 1U : 0U) << at.bit);
 }
 
 // The system control space is for privileged code (B3.2.1).
-bool CortexM3::privileged() const { return handler() != 0 || (engine_.read(Register::kControl) & 1U) == 0; }
-
 std::uint32_t CortexM3::load_private(std::uint32_t address, unsigned bytes) {
-  if (!privileged()) {
+  if (!engine_.privileged()) {
     bus_error();
     return 0;
   }
@@ -99,14 +97,14 @@ std::uint32_t CortexM3::load_private(std::uint32_t address, unsigned bytes) {
 }
 
 void CortexM3::store_private(std::uint32_t address, unsigned bytes, std::uint32_t value) {
-  if (!privileged()) {
+  if (!engine_.privileged()) {
     bus_error();
     return;
   }
   const unsigned shift = 8 * (address & 3U);
   if (within(address, kControlSpace, kPage)) {
     store_control_word((address - kControlSpace) & ~3U, value << shift, mask_of(bytes) << shift);
-    check_at_ = 0;  // whatever was written may let an exception in
+    attend_soon();  // whatever was written may let an exception in
   } else if (within(address, kDwt, kPage)) {
     scb_.store_dwt((address - kDwt) & ~3U, value << shift, cycles());
   } else {

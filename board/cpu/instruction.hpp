@@ -1,0 +1,30 @@
+#pragma once
+// An instruction as the engine executes it: decoded once, then called.
+#include <cstdint>
+
+namespace dsdpv1::arm {
+
+class Engine;
+
+/// Length of the instruction that begins with this halfword (ARMv7-M, A5.1).
+constexpr std::uint32_t thumb_bytes(std::uint16_t opcode) { return opcode >= 0xE800 ? 4 : 2; }
+
+/// Registers and numbers mean what the operation (operations.hpp) takes them for.
+struct Instruction {
+  /// Carries it out, pays for it and goes on to the next one; or leaves it undone with a trap.
+  using Operation = void (*)(Engine&, const Instruction&);
+
+  Operation run = nullptr;
+  Operation run_in_it = nullptr;  ///< inside of an IT block, where most halfword instructions leave the flags alone
+  std::uint32_t value = 0;        ///< immediate, offset, list of registers; address of a branch's target or literal
+  std::uint8_t rd = 0, rn = 0, rm = 0, ra = 0;
+  std::uint8_t shift = 0, amount = 0;
+  std::uint8_t halfwords = 1;
+  std::uint16_t cost = 0;  ///< thousandths of a cycle
+};
+
+/// ARMv7-M, chapters A5 to A7: what `first`, and of a long one `second`, at `address` says. What a Cortex-M3 does not
+/// have is undefined, or a coprocessor's. Its cost is for the caller to fill in.
+Instruction decode(std::uint32_t address, std::uint16_t first, std::uint16_t second);
+
+}  // namespace dsdpv1::arm
