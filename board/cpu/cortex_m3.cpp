@@ -32,7 +32,11 @@ constexpr std::uint64_t kCyclesPerPoll = 720'000;  // while asleep: 10 ms at 72 
 }  // namespace
 
 CortexM3::CortexM3(System& system, const MemoryMap& map, const Timing& timing)
-    : system_(system), map_(map), timing_(timing), memory_(map.flash_size + map.ram_size + kHostPage), engine_(*this, timing.millicycles_per_instruction) {
+    : system_(system),
+      map_(map),
+      timing_(timing),
+      memory_(map.flash_size + map.ram_size + kHostPage),
+      engine_(*this, timing.millicycles_per_instruction) {
   map_memory();
 }
 
@@ -179,9 +183,7 @@ void CortexM3::spend(std::uint32_t cycles) {
   catch_up();
 }
 
-void CortexM3::advance_to(std::uint64_t cycle) {
-  engine_.set_now(std::max(engine_.now(), cycle * kMillis));
-}
+void CortexM3::advance_to(std::uint64_t cycle) { engine_.set_now(std::max(engine_.now(), cycle * kMillis)); }
 
 // WFI ends with an exception that would be taken if PRIMASK were 0; WFE also with an event (B1.5.18, B1.5.19).
 void CortexM3::doze(bool for_event) {

@@ -1,8 +1,8 @@
 #pragma once
 // A Cortex-M3 (ARMv7-M) in simulated time: Engine executes the instructions; exceptions and the system control space
 // stand here. Every instruction is taken to last the same (p), accesses to the System last what the System says. Not
-// modelled: the MPU, unaligned-access and division-by-zero traps (CCR), ICI (LDM and STM are not interrupted); an
-// unaligned access to the System comes in parts: loads as two aligned words, stores as bytes.
+// modelled: the MPU, unaligned-access and division-by-zero traps (CCR), ICI (LDM and STM are not interrupted). An
+// unaligned access to the System comes in aligned parts.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -49,7 +49,7 @@ class System {
 
 /// Cycles of HCLK.
 struct Timing {
-  std::uint16_t millicycles_per_instruction =
+  std::uint32_t millicycles_per_instruction =
       1500;                            ///< (p) an average: flash wait states with prefetch, branches, multiplications
   std::uint32_t quantum = 18;          ///< 250 ns at 72 MHz
   std::uint32_t exception_entry = 12;  ///< Cortex-M3 reference manual, zero wait states

@@ -22,7 +22,8 @@ constexpr U32 sign_extended(U32 value, unsigned width) {
   return static_cast<U32>(static_cast<std::int32_t>(value << (32 - width)) >> (32 - width));
 }
 
-// ----------------------------------------------------------------------------------------------------------- operations
+// -----------------------------------------------------------------------------------------------------------
+// operations
 
 template <Alu what, Second second>
 Operation alu_of(bool flags, bool to_sp) {
@@ -141,7 +142,8 @@ Operation branch_if_of(unsigned condition) {
   return branch_if_of(condition, std::make_integer_sequence<unsigned, 14>());
 }
 
-// ---------------------------------------------------------------------------------------------------------- instructions
+// ----------------------------------------------------------------------------------------------------------
+// instructions
 
 /// The same inside of an IT block.
 Instruction always(Operation run) { return {run, run}; }
@@ -183,7 +185,7 @@ Instruction store(Access access, Index index, U8 rt, U8 rn, U8 rm, U32 value, un
 /// `up`: from the base on, else below it.
 Instruction many(bool loads, bool up, bool writes_back, U8 rn, U32 list) {
   const Operation run = loads ? up ? &O::load_many<false> : &O::load_many<true>
-                        : up  ? &O::store_many<false>
+                        : up ? &O::store_many<false>
                               : &O::store_many<true>;
   Instruction made = with_registers(run, 0, rn, 0, list);
   made.shift = writes_back ? 1 : 0;
@@ -206,7 +208,8 @@ Instruction hint(U32 number) {
   }
 }
 
-// --------------------------------------------------------------------------------------------------------- one halfword
+// --------------------------------------------------------------------------------------------------------- one
+// halfword
 
 /// DecodeImmShift (A7.4.2).
 void set_shift(Instruction& of, U32 type, U32 amount) {
@@ -369,7 +372,8 @@ Instruction decode16(U32 address, U32 h) {
   }
 }
 
-// --------------------------------------------------------------------------------------------------------- two halfwords
+// --------------------------------------------------------------------------------------------------------- two
+// halfwords
 
 /// What op 0 to 14 of A5.3.1 and A5.3.11 means; nothing that a Cortex-M3 has: kMov with `known` false.
 Alu what_of(U32 op, bool discards, bool from_pc, bool& known) {
@@ -581,7 +585,7 @@ Instruction register32(U32 h, U32 h2) {
   }
   if (op1 < 8 && op2 >= 8 && rn == kPc) {
     static constexpr Operation kExtend[] = {&O::extend<std::int16_t>, &O::extend<std::uint16_t>, nullptr, nullptr,
-                                            &O::extend<std::int8_t>, &O::extend<std::uint8_t>};
+                                            &O::extend<std::int8_t>,  &O::extend<std::uint8_t>};
     if (op1 > 5 || kExtend[op1] == nullptr) return undefined();
     Instruction made = with_registers(kExtend[op1], rd, 0, rm);
     made.amount = static_cast<U8>(bits(h2, 4, 2) * 8);
@@ -615,7 +619,8 @@ Instruction multiply32(U32 h, U32 h2) {
 /// A5.3
 Instruction decode32(U32 address, U32 h, U32 h2) {
   const U32 pc = address + 4;
-  if ((h & 0xFC00) == 0xEC00 || (h & 0xFC00) == 0xFC00) return always(&O::refused<Trap::kNoCoprocessor>);
+  if ((h & 0xEF00) == 0xEF00) return undefined();
+  if ((h & 0xEC00) == 0xEC00) return always(&O::refused<Trap::kNoCoprocessor>);
   if ((h & 0xFE40) == 0xE800) return multiple(h, h2);
   if ((h & 0xFE40) == 0xE840) return dual_or_exclusive(pc, h, h2);
   if ((h & 0xFE00) == 0xEA00) return alu32(h, h2, false);

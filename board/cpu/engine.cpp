@@ -22,16 +22,16 @@ std::uint8_t following(std::uint8_t state) {
 
 }  // namespace
 
-Engine::Engine(EngineEvents& events, std::uint16_t cost)
+Engine::Engine(EngineEvents& events, std::uint32_t cost)
     : events_(events), cost_(cost), nowhere_(std::make_unique<CodePage>()) {
   nowhere_->instructions.fill({&Operations::no_memory, &Operations::no_memory});
-  page_ = nowhere_.get();
-  at_ = page_->instructions.data();
+  leave_memory(0);
 }
 
 Engine::~Engine() = default;
 
-// -------------------------------------------------------------------------------------------------------- what comes next
+// -------------------------------------------------------------------------------------------------------- what comes
+// next
 
 Trap Engine::run() {
   struct Running {
@@ -71,13 +71,16 @@ void Engine::run_in_block() {
 }
 
 void Engine::turn_page(std::uint32_t target) {
-  for (Memory& memory : memories_) {
-    if (target - memory.start >= memory.size) continue;
-    page_ = &page_at(memory, target);
+  if (Memory* memory = memory_at(target)) {
+    page_ = &page_at(*memory, target);
     at_ = &page_->instructions[(target - page_->start) / 2];
-    return;
+  } else {
+    leave_memory(target);
   }
-  nowhere_->start = target;
+}
+
+void Engine::leave_memory(std::uint32_t pc) {
+  nowhere_->start = pc;
   page_ = nowhere_.get();
   at_ = page_->instructions.data();
 }
@@ -101,9 +104,7 @@ void Engine::exchange(std::uint32_t target) {
   constexpr std::uint32_t kReturns = 0xF0000000;
   if (ipsr_ != 0 && target >= kReturns) {
     returned_at_ = pc();
-    nowhere_->start = target & ~1U;
-    page_ = nowhere_.get();
-    at_ = page_->instructions.data();
+    leave_memory(target & ~1U);
     return trap(Trap::kExceptionReturn);
   }
   thumb_ = (target & 1U) != 0;
@@ -115,15 +116,15 @@ void Engine::exchange(std::uint32_t target) {
 void Engine::decode_here() {
   const std::uint32_t address = pc();
   std::uint16_t halfwords[2] = {};
-  for (const Memory& memory : memories_)
-    for (std::uint32_t i = 0; i < 2; ++i)
-      if (const std::uint32_t offset = address + 2 * i - memory.start; offset < memory.size)
-        std::memcpy(&halfwords[i], memory.bytes + offset, 2);
+  for (std::uint32_t i = 0; i < 2; ++i)
+    if (const Memory* memory = memory_at(address + 2 * i))
+      std::memcpy(&halfwords[i], memory->bytes + (address + 2 * i - memory->start), 2);
   *at_ = decode(address, halfwords[0], halfwords[1]);
   at_->cost = cost_;
 }
 
-// ----------------------------------------------------------------------------------------------------------------- memory
+// -----------------------------------------------------------------------------------------------------------------
+// memory
 
 void Engine::map(std::uint32_t address, std::uint32_t size, std::uint8_t* memory, bool writable) {
   memories_.push_back({address, size, memory, writable, {}});
@@ -163,17 +164,15 @@ void Engine::forget_code(Memory& memory, std::uint32_t address, unsigned bytes) 
   }
 }
 
-Engine::Memory* Engine::memory_at(std::uint32_t address, unsigned bytes) {
-  const auto holds = [&](const Memory& each) {
-    return address - each.start < each.size && address - each.start + bytes <= each.size;
-  };
-  const auto found = std::find_if(memories_.begin(), memories_.end(), holds);
+Engine::Memory* Engine::memory_at(std::uint32_t address) {
+  const auto found = std::find_if(memories_.begin(), memories_.end(),
+                                  [&](const Memory& each) { return address - each.start < each.size; });
   return found == memories_.end() ? nullptr : &*found;
 }
 
 bool Engine::is_window(std::uint32_t address) const {
-  return std::any_of(windows_.begin(), windows_.end(),
-                     [&](const Window& window) { return address - window.start < window.size; });
+  return std::any_of(
+      windows_.begin(), windows_.end(), [&](const Window& window) { return address - window.start < window.size; });
 }
 
 bool Engine::fail(std::uint32_t address) {
@@ -182,58 +181,69 @@ bool Engine::fail(std::uint32_t address) {
   return false;
 }
 
+namespace {
+
+/// How much of an access goes to the bus at once: what is not aligned is cut up (Cortex-M3 technical reference manual,
+/// bus mapping of unaligned accesses).
+unsigned part_of(std::uint32_t address, unsigned bytes) {
+  if (address % 2 != 0 || bytes == 1) return 1;
+  return address % 4 != 0 || bytes < 4 ? 2 : 4;
+}
+
+}  // namespace
+
 bool Engine::load_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t& value) {
   if (reports_data_) events_.on_data(address, bytes, false);
   value = 0;
-  if (const Memory* memory = memory_at(address, bytes)) {
-    std::memcpy(&value, memory->bytes + (address - memory->start), bytes);
-    return true;
+  for (unsigned done = 0; done < bytes;) {
+    const std::uint32_t at = address + done;
+    const unsigned part = part_of(at, bytes - done);
+    std::uint32_t piece = 0;
+    if (!load_part(at, part, piece)) return fail(at);
+    value |= piece << 8 * done;
+    done += part;
   }
-  if (!is_window(address)) return fail(address);
-  value = load_window(address, bytes);
-  return !access_failed_ || fail(bad_address_);
+  return true;
 }
 
 bool Engine::store_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   if (reports_data_) events_.on_data(address, bytes, true);
-  if (Memory* memory = memory_at(address, bytes); memory != nullptr && memory->writable) {
+  for (unsigned done = 0; done < bytes;) {
+    const std::uint32_t at = address + done;
+    const unsigned part = part_of(at, bytes - done);
+    const std::uint32_t mask = part == 4 ? ~0U : (1U << 8 * part) - 1;
+    if (!store_part(at, part, value >> 8 * done & mask)) return fail(at);
+    done += part;
+  }
+  return true;
+}
+
+bool Engine::load_part(std::uint32_t address, unsigned bytes, std::uint32_t& value) {
+  if (const Memory* memory = memory_at(address)) {
+    std::memcpy(&value, memory->bytes + (address - memory->start), bytes);
+    return true;
+  }
+  if (!is_window(address)) return false;
+  access_failed_ = false;
+  value = events_.on_load(address, bytes);
+  return !access_failed_;
+}
+
+bool Engine::store_part(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  if (Memory* memory = memory_at(address)) {
+    if (!memory->writable) return false;
     std::memcpy(memory->bytes + (address - memory->start), &value, bytes);
     forget_code(*memory, address, bytes);
     return true;
   }
-  if (!is_window(address)) return fail(address);
-  store_window(address, bytes, value);
-  return !access_failed_ || fail(bad_address_);
-}
-
-/// One that is not aligned: the two words that it touches.
-std::uint32_t Engine::load_window(std::uint32_t address, unsigned bytes) {
+  if (!is_window(address)) return false;
   access_failed_ = false;
-  bad_address_ = address;
-  if (address % bytes == 0) return events_.on_load(address, bytes);
-  const std::uint32_t word = address & ~3U, mask = bytes == 4 ? ~0U : (1U << 8 * bytes) - 1;
-  bad_address_ = word;
-  std::uint64_t both = events_.on_load(word, 4);
-  if (address - word + bytes > 4 && !access_failed_) {
-    bad_address_ = word + 4;
-    both |= std::uint64_t{events_.on_load(word + 4, 4)} << 32;
-  }
-  return static_cast<std::uint32_t>(both >> 8 * (address - word)) & mask;
+  events_.on_store(address, bytes, value);
+  return !access_failed_;
 }
 
-/// One that is not aligned: its bytes.
-void Engine::store_window(std::uint32_t address, unsigned bytes, std::uint32_t value) {
-  access_failed_ = false;
-  bad_address_ = address;
-  const std::uint32_t mask = bytes == 4 ? ~0U : (1U << 8 * bytes) - 1;
-  if (address % bytes == 0) return events_.on_store(address, bytes, value & mask);
-  for (unsigned i = 0; i < bytes && !access_failed_; ++i) {
-    bad_address_ = address + i;
-    events_.on_store(address + i, 1, value >> 8 * i & 0xFF);
-  }
-}
-
-// -------------------------------------------------------------------------------------------------------------- registers
+// --------------------------------------------------------------------------------------------------------------
+// registers
 
 bool Engine::passes(unsigned condition) const {
   const bool n = (negative_ & kNegative) != 0, v = overflow_ != 0;
@@ -297,7 +307,7 @@ std::uint32_t Engine::read(Register which) const {
 void Engine::write(Register which, std::uint32_t value) {
   switch (which) {
     case Register::kSp: r_[13] = value & ~3U; break;
-    case Register::kPc: go(value & ~1U); break;
+    case Register::kPc: turn_page(value & ~1U); break;
     case Register::kXpsr:
       bank_out();
       set_xpsr(value);
@@ -318,7 +328,15 @@ void Engine::write(Register which, std::uint32_t value) {
 }
 
 // Numbers of SYSm (B5.2.2).
-enum Special : unsigned { kMspNumber = 8, kPspNumber, kPrimaskNumber = 16, kBasepriNumber, kBasepriMaxNumber, kFaultmaskNumber, kControlNumber };
+enum Special : unsigned {
+  kMspNumber = 8,
+  kPspNumber,
+  kPrimaskNumber = 16,
+  kBasepriNumber,
+  kBasepriMaxNumber,
+  kFaultmaskNumber,
+  kControlNumber
+};
 
 std::uint32_t Engine::read_special(unsigned which) const {
   if (which < kMspNumber) {

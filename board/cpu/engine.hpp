@@ -41,15 +41,15 @@ enum class Trap : std::uint8_t {
   kBreakpoint,
   kNoCoprocessor,
   kUndefined,
-  kBadFetch,   ///< no memory is there
-  kBadAccess,  ///< bad_address(): no memory is there, none that may be written, or bus_error()
+  kBadFetch,   ///< no memory is at bad_address(), which is kPc
+  kBadAccess,  ///< no memory is at bad_address(), none that may be written, or bus_error()
 };
 
 /// Not copied, not moved: its instructions point into it.
 class Engine {
  public:
   /// `cost`: of every instruction, thousandths of a cycle.
-  Engine(EngineEvents& events, std::uint16_t cost);
+  Engine(EngineEvents& events, std::uint32_t cost);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
@@ -142,6 +142,7 @@ class Engine {
       turn_page(target);
   }
   void turn_page(std::uint32_t target);
+  void leave_memory(std::uint32_t pc);
   CodePage& page_at(Memory& memory, std::uint32_t address);
   /// BXWritePC (ARMv7-M, A2.3.1): a change of state, or the return from an exception.
   void exchange(std::uint32_t target);
@@ -154,9 +155,7 @@ class Engine {
     pay(*at_);
     trap(why);
   }
-  std::uint32_t pc() const {
-    return page_->start + static_cast<std::uint32_t>(at_ - page_->instructions.data()) * 2;
-  }
+  std::uint32_t pc() const { return page_->start + static_cast<std::uint32_t>(at_ - page_->instructions.data()) * 2; }
   void decode_here();
 
   // --- memory; false: a trap, the instruction is to be left as it is
@@ -166,10 +165,10 @@ class Engine {
   bool store(std::uint32_t address, std::uint32_t value);
   bool load_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t& value);
   bool store_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t value);
-  std::uint32_t load_window(std::uint32_t address, unsigned bytes);
-  void store_window(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  bool load_part(std::uint32_t address, unsigned bytes, std::uint32_t& value);
+  bool store_part(std::uint32_t address, unsigned bytes, std::uint32_t value);
   bool fail(std::uint32_t address);
-  Memory* memory_at(std::uint32_t address, unsigned bytes);
+  Memory* memory_at(std::uint32_t address);
   bool is_window(std::uint32_t address) const;
   void forget_code(Memory& memory, std::uint32_t address, unsigned bytes);
   void set_direct();
@@ -187,7 +186,7 @@ class Engine {
   bool passes(unsigned condition) const;
 
   EngineEvents& events_;
-  const std::uint16_t cost_;
+  const std::uint32_t cost_;
   std::vector<Memory> memories_;
   std::vector<Window> windows_;
   Direct loads_, stores_, constants_;  ///< RAM, RAM without code, flash
@@ -201,7 +200,7 @@ class Engine {
   bool running_ = false, access_failed_ = false;
   std::uint32_t bad_address_ = 0, returned_at_ = 0;
 
-  std::array<std::uint32_t, 16> r_{};  ///< r15 only for instructions that look at it
+  std::array<std::uint32_t, 16> r_{};                                 ///< r15 only for instructions that look at it
   std::uint32_t negative_ = 0, zero_ = 1, carry_ = 0, overflow_ = 0;  ///< N: bit 31; Z: of 0; C and V: 0 or 1
   bool saturated_ = false, thumb_ = true, exclusive_ = false;
   std::uint8_t it_ = 0;  ///< ITSTATE

@@ -80,7 +80,7 @@ void CortexM3::activate(unsigned exception, std::uint32_t exc_return) {
   engine_.clear_exclusive();
   const std::uint32_t flags = engine_.read(Register::kXpsr) & kFlags;
   engine_.set_mode(flags | kThumb | exception, engine_.read(Register::kControl) & kNotPrivileged,
-             engine_.read(Register::kMsp), engine_.read(Register::kPsp));
+                   engine_.read(Register::kMsp), engine_.read(Register::kPsp));
   engine_.write(Register::kLr, exc_return);
   continue_at(word_at(scb_.vector_table() + 4 * exception));
 }
@@ -114,9 +114,7 @@ void CortexM3::return_from_exception() {
     chain_fault(FaultKind::kExceptionReturn, exc_return, exc_return);
     return;
   }
-  if ((exc_return & kReturnThreadBit) != 0 && scb_.sleep_on_exit()) {
-    doze(false);
-  }
+  if ((exc_return & kReturnThreadBit) != 0 && scb_.sleep_on_exit()) doze(false);
   if (preempting() != kNoException) {
     spend(timing_.tail_chain);
     activate(preempting(), exc_return);

@@ -20,7 +20,7 @@ struct Instruction {
   std::uint8_t rd = 0, rn = 0, rm = 0, ra = 0;
   std::uint8_t shift = 0, amount = 0;
   std::uint8_t halfwords = 1;
-  std::uint16_t cost = 0;  ///< thousandths of a cycle
+  std::uint32_t cost = 0;  ///< thousandths of a cycle
 };
 
 /// ARMv7-M, chapters A5 to A7: what `first`, and of a long one `second`, at `address` says. What a Cortex-M3 does not

@@ -28,8 +28,22 @@ inline bool Engine::store(std::uint32_t address, std::uint32_t value) {
 }
 
 enum class Alu : std::uint8_t {
-  kAnd, kEor, kOrr, kOrn, kBic, kMov, kMvn, kTst, kTeq,  // logical: C is the shifter's
-  kAdd, kAdc, kSub, kSbc, kRsb, kCmp, kCmn
+  kAnd,
+  kEor,
+  kOrr,
+  kOrn,
+  kBic,
+  kMov,
+  kMvn,
+  kTst,
+  kTeq,  // logical: C is the shifter's
+  kAdd,
+  kAdc,
+  kSub,
+  kSbc,
+  kRsb,
+  kCmp,
+  kCmn
 };
 constexpr bool is_logical(Alu what) { return what <= Alu::kTeq; }
 constexpr bool has_result(Alu what) {
@@ -111,8 +125,10 @@ struct Operations {
   template <Alu what>
   static U32 logical(U32 a, U32 b) {
     switch (what) {
-      case Alu::kAnd: case Alu::kTst: return a & b;
-      case Alu::kEor: case Alu::kTeq: return a ^ b;
+      case Alu::kAnd:
+      case Alu::kTst: return a & b;
+      case Alu::kEor:
+      case Alu::kTeq: return a ^ b;
       case Alu::kOrr: return a | b;
       case Alu::kOrn: return a | ~b;
       case Alu::kBic: return a & ~b;
@@ -125,7 +141,8 @@ struct Operations {
   static U32 arithmetic(Engine& e, U32 a, U32 b) {
     switch (what) {
       case Alu::kAdc: return add<flags>(e, a, b, e.carry_);
-      case Alu::kSub: case Alu::kCmp: return add<flags>(e, a, ~b, 1);
+      case Alu::kSub:
+      case Alu::kCmp: return add<flags>(e, a, ~b, 1);
       case Alu::kSbc: return add<flags>(e, a, ~b, e.carry_);
       case Alu::kRsb: return add<flags>(e, ~a, b, 1);
       default: return add<flags>(e, a, b, 0);
@@ -191,8 +208,8 @@ struct Operations {
   /// rd and ra: high and low word.
   template <bool is_signed, bool accumulates>
   static void multiply_long(Engine& e, const Instruction& i) {
-    U64 result = is_signed ? static_cast<U64>(I64{as_signed(e.r_[i.rn])} * as_signed(e.r_[i.rm]))
-                           : U64{e.r_[i.rn]} * e.r_[i.rm];
+    U64 result =
+        is_signed ? static_cast<U64>(I64{as_signed(e.r_[i.rn])} * as_signed(e.r_[i.rm])) : U64{e.r_[i.rn]} * e.r_[i.rm];
     if constexpr (accumulates) result += U64{e.r_[i.rd]} << 32 | e.r_[i.ra];
     e.r_[i.rd] = static_cast<U32>(result >> 32);
     e.r_[i.ra] = static_cast<U32>(result);
@@ -202,9 +219,7 @@ struct Operations {
   template <bool is_signed>
   static void divide(Engine& e, const Instruction& i) {
     const U32 by = e.r_[i.rm], what = e.r_[i.rn];
-    e.r_[i.rd] = by == 0    ? 0
-                 : is_signed ? static_cast<U32>(I64{as_signed(what)} / as_signed(by))
-                             : what / by;
+    e.r_[i.rd] = by == 0 ? 0 : is_signed ? static_cast<U32>(I64{as_signed(what)} / as_signed(by)) : what / by;
     e.done(i);
   }
 
@@ -446,7 +461,9 @@ struct Operations {
     e.trap(why);
   }
   template <Trap why>
-  static void refused(Engine& e, const Instruction&) { e.refuse(why); }
+  static void refused(Engine& e, const Instruction&) {
+    e.refuse(why);
+  }
   static void send_event(Engine& e, const Instruction& i) {
     e.events_.on_event();
     e.done(i);
@@ -483,7 +500,10 @@ struct Operations {
     e.turn_page(here);
     e.until_ = 0;
   }
-  static void no_memory(Engine& e, const Instruction&) { e.trap(Trap::kBadFetch); }
+  static void no_memory(Engine& e, const Instruction&) {
+    e.bad_address_ = e.pc();
+    e.trap(Trap::kBadFetch);
+  }
 };
 
 }  // namespace dsdpv1::arm
