@@ -1,13 +1,18 @@
 // Our engine held against Unicorn: random instructions, registers, flags, memory, the order of accesses on the bus.
 // GPL-2.0-only as a whole, by Unicorn: never installed.
 //
-//   arm_differential [--instructions N] [--seed S]     exit 0: no difference, 1: one, which is told, 2: wrong input
+//   arm_differential [--instructions N] [--seed S]     random instructions
+//   arm_differential IMAGE...                           code for 08000000 that ends at BKPT
+//
+// Exit 0: no difference, 1: one, which is told, 2: wrong input.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <iterator>
 
 #include "tests/board/unicorn/machine.hpp"
 #include "tests/board/unicorn/random_code.hpp"
@@ -99,6 +104,13 @@ class Campaign {
       if (!this->pass(code)) return false;
     return true;
   }
+  /// Code that calls functions and ends by itself.
+  bool image(const std::vector<std::uint8_t>& code) {
+    ours_->longest = 1'000'000'000;
+    ours_->load(code);
+    unicorn_->load(code);
+    return pass(code);
+  }
   /// Executed by both.
   std::uint64_t instructions() const { return compared_; }
 
@@ -149,6 +161,12 @@ class Campaign {
   std::uint64_t compared_ = 0;
 };
 
+/// Days since 1970.
+std::uint64_t today() {
+  constexpr std::time_t kSeconds = 24 * 60 * 60;
+  return static_cast<std::uint64_t>(std::time(nullptr) / kSeconds);
+}
+
 int run(std::uint64_t instructions, std::uint64_t seed) {
   Campaign campaign(seed);
   while (campaign.instructions() < instructions)
@@ -157,14 +175,33 @@ int run(std::uint64_t instructions, std::uint64_t seed) {
   return 0;
 }
 
+int run(const std::vector<std::string>& images, std::uint64_t seed) {
+  Campaign campaign(seed);
+  for (const std::string& path : images) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    if (bytes.size() < 2 || bytes.size() > kCodeBytes) {
+      fmt::print(stderr, "{}: holds {} bytes, allowed are 2 to {}\n", path, bytes.size(), kCodeBytes);
+      return 2;
+    }
+    const std::uint64_t before = campaign.instructions();
+    if (!campaign.image({bytes.begin(), bytes.end()})) return 1;
+    fmt::print("{}: {} instructions, no difference\n", path, campaign.instructions() - before);
+  }
+  return 0;
+}
+
 }  // namespace
 }  // namespace dsdpv1::arm::differential
 
 int main(int argc, char** argv) {
   CLI::App app("Our Cortex-M3 against Unicorn's: random instructions");
-  std::uint64_t instructions = 1'000'000, seed = 1;
+  std::uint64_t instructions = 1'000'000, seed = dsdpv1::arm::differential::today();
   app.add_option("--instructions", instructions, "How many are executed")->capture_default_str();
-  app.add_option("--seed", seed, "Other seeds, other instructions")->capture_default_str();
+  app.add_option("--seed", seed, "Other seeds, other instructions; left out: the number of the day")->capture_default_str();
+  std::vector<std::string> images;
+  app.add_option("IMAGE", images, "Code for 08000000 that ends at BKPT, in place of random instructions");
   CLI11_PARSE(app, argc, argv);
-  return dsdpv1::arm::differential::run(instructions, seed);
+  return images.empty() ? dsdpv1::arm::differential::run(instructions, seed)
+                        : dsdpv1::arm::differential::run(images, seed);
 }

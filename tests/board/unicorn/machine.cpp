@@ -30,7 +30,7 @@ class Ours : public Machine, private EngineEvents {
   }
   Trap run() override {
     bus_.clear();
-    end_ = engine_.now() + kLongest;
+    end_ = engine_.now() + longest;
     engine_.attend_at(end_);
     return engine_.run();
   }
@@ -54,7 +54,6 @@ class Ours : public Machine, private EngineEvents {
   void on_data(std::uint32_t /*address*/, unsigned /*bytes*/, bool /*write*/) override {}
   void on_event() override {}
 
-  static constexpr std::uint64_t kLongest = 10'000;  // instructions
   std::uint64_t end_ = 0;
   std::vector<std::uint8_t> code_ = std::vector<std::uint8_t>(kCodeBytes);
   Engine engine_;

@@ -38,6 +38,7 @@ class Machine {
   /// `code` stands at kCode from now on.
   virtual void load(const std::vector<std::uint8_t>& code) = 0;
   virtual void set(const State& state) = 0;
+  std::uint64_t longest = 10'000;  ///< instructions of a run of ours
   /// Until a trap; kNone: ours does not come to one. The bus's accesses are those of this run.
   virtual Trap run() = 0;
   virtual State get() const = 0;
