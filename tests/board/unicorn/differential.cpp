@@ -198,7 +198,8 @@ int main(int argc, char** argv) {
   CLI::App app("Our Cortex-M3 against Unicorn's: random instructions");
   std::uint64_t instructions = 1'000'000, seed = dsdpv1::arm::differential::today();
   app.add_option("--instructions", instructions, "How many are executed")->capture_default_str();
-  app.add_option("--seed", seed, "Other seeds, other instructions; left out: the number of the day")->capture_default_str();
+  app.add_option("--seed", seed, "Other seeds, other instructions; left out: the number of the day")
+      ->capture_default_str();
   std::vector<std::string> images;
   app.add_option("IMAGE", images, "Code for 08000000 that ends at BKPT, in place of random instructions");
   CLI11_PARSE(app, argc, argv);

@@ -128,10 +128,10 @@ constexpr std::string_view kPatterns[] = {
     "11110 0 1100 1 0 nnnn 0 sss dddd ss 0 iiiii",
     "11110 0 1110 0 0 nnnn 0 iii dddd ii 0 iiiii",
     "11110 0 1110 1 0 nnnn 0 sss dddd ss 0 iiiii",
-    "11110 0 1101 0 0 nnnn 0 0ii dddd ii 0 0iiii",
-    "11110 0 1111 0 0 nnnn 0 0ii dddd ii 0 0iiii",
-    "11110 0 1101 1 0 nnnn 0 0ii dddd ii 0 1iiii",
-    "11110 0 1101 1 0 1111 0 0ii dddd ii 0 1iiii",
+    "11110 0 1101 0 0 nnnn 0 iii dddd ii 0 iiiii",
+    "11110 0 1111 0 0 nnnn 0 iii dddd ii 0 iiiii",
+    "11110 0 1101 1 0 nnnn 0 iii dddd ii 0 iiiii",
+    "11110 0 1101 1 0 1111 0 iii dddd ii 0 iiiii",
     // A5.3.4: MRS, MSR, barriers, hints
     "11110 0111110 1111 1000 dddd 000000 ii",
     "11110 0111110 1111 1000 dddd 0000100 i",
@@ -223,7 +223,7 @@ unsigned below(Random& random, unsigned count) { return static_cast<unsigned>(ra
 
 /// One field: its value, of `width` bits.
 std::uint32_t value_of(Random& random, char letter, unsigned width) {
-  const auto any = static_cast<std::uint32_t>(random()) & ((1ULL << width) - 1);
+  const auto any = static_cast<std::uint32_t>(random() & ((1ULL << width) - 1));
   switch (letter) {
     case 'd':
     case 'n':
@@ -300,6 +300,9 @@ bool is_predictable(const std::vector<std::uint16_t>& code) {
   }
   if ((h & 0xFE40) == 0xE840 && (h & 0x10) != 0) return (h2 >> 12) != (h2 >> 8 & 15);  // LDRD into two
   if ((h & 0xFF80) == 0xFB80 && ((h >> 4 & 1) == 0)) return (h2 >> 12) != (h2 >> 8 & 15);
+  const unsigned first = (h2 >> 12 & 7) << 2 | (h2 >> 6 & 3), last = h2 & 31;
+  if ((h & 0xFFF0) == 0xF360 && (h2 & 0x8000) == 0) return last >= first;       // BFI, BFC
+  if ((h & 0xFF70) == 0xF340 && (h2 & 0x8000) == 0) return first + last <= 31;  // SBFX, UBFX
   if ((h & 0xFBF0) == 0xF300 || (h & 0xFBF0) == 0xF380) return true;
   if ((h & 0xFFF0) == 0xF320 || (h & 0xFFF0) == 0xF3A0) return (h2 & 0x70C0) != 0;  // SSAT16, USAT16
   if ((h & 0xFFF0) == 0xF800 && (h2 & 0x0800) != 0)                                 // STRB: P, U, W
