@@ -9,29 +9,27 @@ constexpr unsigned kModeMask = 0b0011, kAlternate = 0b1000, kOpenDrain = 0b0100,
 
 }  // namespace
 
-unsigned Gpio::mode(unsigned pin) const { return ((pin < 8 ? crl_ : crh_) >> (pin % 8 * 4)) & 0xFU; }
-
-bool Gpio::drives(unsigned pin) const {
-  const unsigned mode = this->mode(pin);
-  if ((mode & kModeMask) == 0 || (mode & kAlternate) != 0) return false;
-  return (mode & kOpenDrain) == 0 || (odr_ >> pin & 1U) == 0;
-}
-
-bool Gpio::is_alternate(unsigned pin) const {
-  const unsigned mode = this->mode(pin);
-  return (mode & kModeMask) != 0 && (mode & kAlternate) != 0;
-}
-
-std::uint16_t Gpio::input(std::uint16_t driven, std::uint16_t levels) const {
-  unsigned idr = 0;
+void Gpio::set_modes() {
+  outputs_ = pushed_ = alternate_ = pulled_ = analog_ = 0;
   for (unsigned pin = 0; pin < 16; ++pin) {
-    const bool outside = (driven >> pin & 1U) != 0;
-    const bool pulled = mode(pin) == kPulledInput && (odr_ >> pin & 1U) != 0;  // ODR chooses the direction
-    if (mode(pin) == kAnalog) continue;                                        // its Schmitt trigger is off
-    const bool high = drives(pin) ? (odr_ >> pin & 1U) != 0 : outside ? (levels >> pin & 1U) != 0 : pulled;
-    idr |= static_cast<unsigned>(high) << pin;
+    const unsigned mode = ((pin < 8 ? crl_ : crh_) >> (pin % 8 * 4)) & 0xFU;
+    const bool drives = (mode & kModeMask) != 0, other = (mode & kAlternate) != 0;
+    const auto set = [pin](std::uint16_t& pins, bool is) {
+      if (is) pins = static_cast<std::uint16_t>(pins | 1U << pin);
+    };
+    set(outputs_, drives && !other);
+    set(pushed_, drives && !other && (mode & kOpenDrain) == 0);
+    set(alternate_, drives && other);
+    set(pulled_, mode == kPulledInput);
+    set(analog_, mode == kAnalog);
   }
-  return static_cast<std::uint16_t>(idr);
+}
+
+/// ODR chooses the direction in which an input is pulled.
+std::uint16_t Gpio::input(std::uint16_t outside, std::uint16_t levels) const {
+  const unsigned own = driven(), floating = pulled_ & odr_ & ~unsigned{outside};
+  const unsigned pins = (own & odr_) | (~own & ((outside & levels) | floating));
+  return static_cast<std::uint16_t>(pins & ~unsigned{analog_});
 }
 
 std::uint32_t Gpio::read(std::uint32_t offset, std::uint16_t driven, std::uint16_t levels) const {
@@ -48,8 +46,14 @@ std::uint32_t Gpio::read(std::uint32_t offset, std::uint16_t driven, std::uint16
 void Gpio::write(std::uint32_t offset, std::uint32_t value) {
   const auto low = static_cast<std::uint16_t>(value), high = static_cast<std::uint16_t>(value >> 16U);
   switch (offset) {
-    case kCrl: crl_ = value; break;
-    case kCrh: crh_ = value; break;
+    case kCrl:
+      crl_ = value;
+      set_modes();
+      break;
+    case kCrh:
+      crh_ = value;
+      set_modes();
+      break;
     case kOdr: odr_ = low; break;
     case kBsrr: odr_ = static_cast<std::uint16_t>((odr_ & ~high) | low); break;  // of both, set wins
     case kBrr: odr_ = static_cast<std::uint16_t>(odr_ & ~low); break;

@@ -12,19 +12,23 @@ class Gpio {
   void write(std::uint32_t offset, std::uint32_t value);
 
   /// Pins that the port drives (general purpose output, push-pull or open drain with 0).
-  bool drives(unsigned pin) const;
+  bool drives(unsigned pin) const { return (driven() >> pin & 1U) != 0; }
   /// Pins that are left to a peripheral's output (alternate function, push-pull or open drain).
-  bool is_alternate(unsigned pin) const;
+  bool is_alternate(unsigned pin) const { return (alternate_ >> pin & 1U) != 0; }
   /// The pin when the port drives it, else `floating`: what the board pulls it to.
   bool level(unsigned pin, bool floating) const { return drives(pin) ? (odr_ >> pin & 1U) != 0 : floating; }
 
  private:
-  unsigned mode(unsigned pin) const;
+  unsigned driven() const { return outputs_ & (pushed_ | ~unsigned{odr_}); }
   std::uint16_t input(std::uint16_t driven, std::uint16_t levels) const;
+  void set_modes();
 
   // Reset values: every pin a floating input.
   std::uint32_t crl_ = 0x4444'4444, crh_ = 0x4444'4444, lckr_ = 0;
   std::uint16_t odr_ = 0;
+  // What CRL and CRH say, pin by pin: general purpose outputs, those of them that drive 1, too, alternate functions,
+  // inputs with a pull-up or -down, inputs whose Schmitt trigger is off.
+  std::uint16_t outputs_ = 0, pushed_ = 0, alternate_ = 0, pulled_ = 0, analog_ = 0;
 };
 
 }  // namespace dsdpv1::arm

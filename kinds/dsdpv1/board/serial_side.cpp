@@ -167,6 +167,7 @@ void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPin
 
 SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {
   Seen seen;
+  if (port >= spi_.size()) return seen;  // USART2 is on port A, too
   const auto add = [&](unsigned pin, bool level) {
     seen.driven |= static_cast<std::uint16_t>(1U << pin);
     if (level) seen.levels |= static_cast<std::uint16_t>(1U << pin);

@@ -43,6 +43,8 @@ class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
   bool l_sta(Tick at) override { return pins().l_sta(at); }
   bool intr0(Tick at) override { return pins().intr0(at); }
   unsigned lamps(Tick at) override { return pins().lamps(at); }
+  /// RTL may need a larger stack than that of a program.
+  bool is_looked_at_from_anywhere() const override { return core_ != nullptr; }
   void begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return pins_->next_edge(); }
   bool put_off() override;

@@ -29,6 +29,8 @@ class HostBus : public SerialPins {
   virtual bool intr0(Tick at) = 0;
   /// The lamps' pins at `at`: PBF in bit 0, BR in bit 1, READY in bit 2.
   virtual unsigned lamps(Tick /*at*/) { return 0; }
+  /// Whether these looks need not be made on the bench's stack.
+  virtual bool is_looked_at_from_anywhere() const { return false; }
 
   /// Begins an access whose first edge is at `at`. Only one runs at a time.
   virtual void begin(Tick at, const Access& access, const AccessTiming& timing) = 0;

@@ -153,18 +153,25 @@ void NativeCpu::set_r_req(bool level) { perform({Op::kSetRReq, {}, level, 0, nul
 
 void NativeCpu::set_r_sta(bool level) { perform({Op::kSetRSta, {}, level, 0, nullptr}); }
 
+/// One that takes no time is part of this turn: nobody need be waited for.
+void NativeCpu::look(Op what) {
+  if (timing_.pin_sample != 0 || !bus_.is_looked_at_from_anywhere()) return perform({what, {}, false, 0, nullptr});
+  request_.op = what;
+  take_request();
+}
+
 bool NativeCpu::l_req() {
-  perform({Op::kLReq, {}, false, 0, nullptr});
+  look(Op::kLReq);
   return sampled_;
 }
 
 bool NativeCpu::l_sta() {
-  perform({Op::kLSta, {}, false, 0, nullptr});
+  look(Op::kLSta);
   return sampled_;
 }
 
 unsigned NativeCpu::lamps() {
-  perform({Op::kLamps, {}, false, 0, nullptr});
+  look(Op::kLamps);
   return lamps_;
 }
 
@@ -181,7 +188,14 @@ void NativeCpu::suspend_until(Tick at, Break reason) {
   perform({Op::kWait, {}, false, at, nullptr});
 }
 
+/// Nobody else has a turn, and nothing is heard, until then: the program goes on without a look at the bench.
+bool NativeCpu::passes_at_once(Tick at) {
+  break_ = Break::kInterrupt;
+  return at < break_tick() && others != nullptr && others->go_on(at);
+}
+
 void NativeCpu::wait_until(Tick at) {
+  if (now_ < at && passes_at_once(at)) now_ = at;
   while (now_ < at) suspend_until(at, Break::kInterrupt);
 }
 

@@ -75,6 +75,8 @@ class NativeCpu : public bus::Agent, private Cpu {
   void enable_interrupts(bool enabled) override;
 
   void perform(const Request& request);
+  bool passes_at_once(Tick at);
+  void look(Op what);
   void suspend_until(Tick at, Break reason);
   void serve_interrupt();
   bool interrupt_is_due() const { return interrupts_open() && interrupt_at_ <= now_; }
