@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
+#include <optional>
 
 #include "tests/board/processor_bench.hpp"
 
@@ -79,6 +80,42 @@ TEST_F(Exceptions, AnItBlockIsFinishedFirst) {
   EXPECT_EQ(r(7), 1U);
 }
 
+/// What a program leaves that is interrupted in this cycle, if any.
+std::vector<std::uint32_t> interrupted_at(std::optional<std::uint64_t> cycle, bool& came) {
+  Timing timing;
+  timing.millicycles_per_instruction = 1000;
+  timing.quantum = 1;
+  NotingSystem system;
+  CortexM3 processor(system, MemoryMap{}, timing);
+  system.processor = &processor;
+  if (cycle) system.interrupts = {{*cycle, 0}};
+  const std::vector<std::uint8_t> image = read_program("interrupted");
+  processor.load(MemoryMap{}.flash_base, image.data(), image.size());
+  processor.run();
+  came = !system.notes.empty();
+  const Registers all = processor.registers();
+  std::vector<std::uint32_t> left(all.r.begin() + 4, all.r.begin() + 12);
+  left.push_back(all.sp);
+  for (std::uint32_t offset = 0x1C0; offset < 0x240; offset += 4) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, processor.ram() + offset, sizeof word);
+    left.push_back(word);
+  }
+  return left;
+}
+
+TEST(Interrupted, ProgramsLeaveTheSameInWhicheverCycleItIs) {
+  bool came = false;
+  const std::vector<std::uint32_t> undisturbed = interrupted_at(std::nullopt, came);
+  EXPECT_FALSE(came);
+  unsigned times = 0;
+  for (std::uint64_t cycle = 4; cycle < 120; ++cycle) {
+    EXPECT_EQ(interrupted_at(cycle, came), undisturbed) << cycle;
+    times += came ? 1 : 0;
+  }
+  EXPECT_GT(times, 60U) << "cycles of the program";
+}
+
 TEST_F(Exceptions, SysTickComesToTheCycle) {
   run("tick");
   ASSERT_GE(system.note_cycles.size(), 3U);
@@ -105,6 +142,19 @@ TEST_F(Exceptions, ThreadsWithStacksOfTheirOwnTakeTurns) {
   EXPECT_THAT(system.notes,
               ElementsAre(1U, 14U, 0xFFFFFFFDU, 11U, 3U,  // CONTROL: unprivileged, process stack, not to be changed
                           14U, 0xFFFFFFFDU, 2U, 14U, 0xFFFFFFFDU, 12U, 14U, 0xFFFFFFFDU, 3U));
+}
+
+TEST_F(Exceptions, FaultInsideOfAnItBlockKeepsWhatIsLeftOfIt) {
+  system.on_access = [this](const Access& access) {
+    if (access.address == 0x90000000) processor.bus_error();
+  };
+  run("it_fault");
+  ASSERT_EQ(system.notes.size(), 1U);
+  constexpr std::uint32_t kNeEq = 0x14;  // ITSTATE of NE, then EQ: 0001 0100
+  EXPECT_EQ(system.notes[0], (kNeEq >> 2U) << 10);
+  EXPECT_EQ(r(4), 42U);
+  EXPECT_EQ(r(5), 0U);
+  faults.clear();
 }
 
 class Faults : public ProcessorBench {
