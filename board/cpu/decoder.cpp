@@ -135,8 +135,8 @@ Operation store_of(Access access, Index index, bool aligns) {
 
 template <unsigned... conditions>
 Operation branch_if_of(unsigned condition, std::integer_sequence<unsigned, conditions...> /*all*/) {
-  static constexpr Operation all[] = {&O::branch_if<conditions>...};
-  return all[condition];
+  static constexpr Operation kAll[] = {&O::branch_if<conditions>...};
+  return kAll[condition];
 }
 Operation branch_if_of(unsigned condition) {
   return branch_if_of(condition, std::make_integer_sequence<unsigned, 14>());
@@ -167,19 +167,31 @@ Instruction with_registers(Operation run, U8 rd, U8 rn, U8 rm, U32 value = 0) {
   return made;
 }
 
-Instruction load(Access access, Index index, U8 rt, U8 rn, U8 rm, U32 value, unsigned amount = 0) {
-  const bool writes_base = index == Index::kBefore || index == Index::kAfter;
-  const bool aligns = rt == kSp || (writes_base && rn == kSp);
-  Instruction made = with_registers(rt == kPc ? load_pc_of(index) : load_of(access, index, aligns), rt, rn, rm, value);
-  made.amount = static_cast<U8>(amount);
+/// Where a load or store goes, see Index.
+struct Place {
+  Index index = Index::kOffset;
+  U8 rn = 0, rm = 0;
+  U32 value = 0;
+  unsigned amount = 0;
+
+  bool writes_sp() const { return (index == Index::kBefore || index == Index::kAfter) && rn == kSp; }
+};
+
+Instruction load(Access access, U8 rt, const Place& from) {
+  const Operation run = rt == kPc ? load_pc_of(from.index) : load_of(access, from.index, rt == kSp || from.writes_sp());
+  Instruction made = with_registers(run, rt, from.rn, from.rm, from.value);
+  made.amount = static_cast<U8>(from.amount);
   return made;
 }
 
-Instruction store(Access access, Index index, U8 rt, U8 rn, U8 rm, U32 value, unsigned amount = 0) {
-  const bool writes_base = index == Index::kBefore || index == Index::kAfter;
-  Instruction made = with_registers(store_of(access, index, writes_base && rn == kSp), rt, rn, rm, value);
-  made.amount = static_cast<U8>(amount);
+Instruction store(Access access, U8 rt, const Place& to) {
+  Instruction made = with_registers(store_of(access, to.index, to.writes_sp()), rt, to.rn, to.rm, to.value);
+  made.amount = static_cast<U8>(to.amount);
   return made;
+}
+
+Instruction load_or_store(bool loads, Access access, U8 rt, const Place& place) {
+  return loads ? load(access, rt, place) : store(access, rt, place);
 }
 
 /// `up`: from the base on, else below it.
@@ -286,21 +298,10 @@ Instruction all_registers(U32 pc, U32 h) {
 }
 
 Instruction load_store_register16(U32 h) {
-  const U8 rt = low(h, 0), rn = low(h, 3), rm = low(h, 6);
-  switch (bits(h, 9, 3)) {
-    case 0: return store(Access::kWord, Index::kRegister, rt, rn, rm, 0);
-    case 1: return store(Access::kHalf, Index::kRegister, rt, rn, rm, 0);
-    case 2: return store(Access::kByte, Index::kRegister, rt, rn, rm, 0);
-    case 3: return load(Access::kSignedByte, Index::kRegister, rt, rn, rm, 0);
-    case 4: return load(Access::kWord, Index::kRegister, rt, rn, rm, 0);
-    case 5: return load(Access::kHalf, Index::kRegister, rt, rn, rm, 0);
-    case 6: return load(Access::kByte, Index::kRegister, rt, rn, rm, 0);
-    default: return load(Access::kSignedHalf, Index::kRegister, rt, rn, rm, 0);
-  }
-}
-
-Instruction load_store_offset(Access access, bool loads, U8 rt, U8 rn, U32 offset) {
-  return loads ? load(access, Index::kOffset, rt, rn, 0, offset) : store(access, Index::kOffset, rt, rn, 0, offset);
+  static constexpr Access kAccess[] = {Access::kWord, Access::kHalf, Access::kByte, Access::kSignedByte,
+                                       Access::kWord, Access::kHalf, Access::kByte, Access::kSignedHalf};
+  const U32 what = bits(h, 9, 3);
+  return load_or_store(what > 2, kAccess[what], low(h, 0), {Index::kRegister, low(h, 3), low(h, 6)});
 }
 
 /// A5.2.5 but CBZ, PUSH, POP.
@@ -348,13 +349,13 @@ Instruction decode16(U32 address, U32 h) {
     case 2:
     case 3: return immediate16(h);
     case 4:
-      if (loads) return load(Access::kWord, Index::kAbsolute, low(h, 8), 0, 0, (pc & ~3U) + bits(h, 0, 8) * 4);
+      if (loads) return load(Access::kWord, low(h, 8), {Index::kAbsolute, 0, 0, (pc & ~3U) + bits(h, 0, 8) * 4});
       return bit(h, 10) ? all_registers(pc, h) : data_processing16(h);
     case 5: return load_store_register16(h);
-    case 6: return load_store_offset(Access::kWord, loads, low(h, 0), low(h, 3), bits(h, 6, 5) * 4);
-    case 7: return load_store_offset(Access::kByte, loads, low(h, 0), low(h, 3), bits(h, 6, 5));
-    case 8: return load_store_offset(Access::kHalf, loads, low(h, 0), low(h, 3), bits(h, 6, 5) * 2);
-    case 9: return load_store_offset(Access::kWord, loads, low(h, 8), kSp, bits(h, 0, 8) * 4);
+    case 6: return load_or_store(loads, Access::kWord, low(h, 0), {Index::kOffset, low(h, 3), 0, bits(h, 6, 5) * 4});
+    case 7: return load_or_store(loads, Access::kByte, low(h, 0), {Index::kOffset, low(h, 3), 0, bits(h, 6, 5)});
+    case 8: return load_or_store(loads, Access::kHalf, low(h, 0), {Index::kOffset, low(h, 3), 0, bits(h, 6, 5) * 2});
+    case 9: return load_or_store(loads, Access::kWord, low(h, 8), {Index::kOffset, kSp, 0, bits(h, 0, 8) * 4});
     case 10:
       if (loads) return alu_plain(Alu::kAdd, Second::kImmediate, low(h, 8), kSp, 0, bits(h, 0, 8) * 4);
       return alu_plain(Alu::kMov, Second::kImmediate, low(h, 8), 0, 0, (pc & ~3U) + bits(h, 0, 8) * 4);
@@ -548,28 +549,41 @@ Instruction dual_or_exclusive(U32 pc, U32 h, U32 h2) {
   return made;
 }
 
+/// False: nothing that there is.
+bool find_place(U32 pc, U32 h, U32 h2, Place& place) {
+  const U32 imm12 = bits(h2, 0, 12), imm8 = bits(h2, 0, 8);
+  const bool before = bit(h2, 10), writes_back = bit(h2, 8);
+  place.rn = reg(h, 0);
+  if (place.rn == kPc) {
+    place.index = Index::kAbsolute;
+    place.value = bit(h, 7) ? (pc & ~3U) + imm12 : (pc & ~3U) - imm12;
+    return bit(h, 4);  // there are no stores
+  }
+  if (bit(h, 7)) {
+    place.value = imm12;
+    return true;
+  }
+  if (bits(h2, 6, 6) == 0) {
+    place.index = Index::kRegister;
+    place.rm = reg(h2, 0);
+    place.amount = bits(h2, 4, 2);
+    return true;
+  }
+  place.index = !writes_back ? Index::kOffset : before ? Index::kBefore : Index::kAfter;
+  place.value = bit(h2, 9) ? imm8 : 0 - imm8;
+  return bit(h2, 11) && (before || writes_back);
+}
+
 /// A5.3.7 to A5.3.10
 Instruction load_store_single(U32 pc, U32 h, U32 h2) {
   const bool loads = bit(h, 4), is_signed = bit(h, 8);
   const U32 size = bits(h, 5, 2);
-  if (size == 3 || (is_signed && (!loads || size == 2))) return undefined();
-  const Access access = is_signed ? size == 0 ? Access::kSignedByte : Access::kSignedHalf : static_cast<Access>(size);
-  const U8 rt = reg(h2, 12), rn = reg(h, 0), rm = reg(h2, 0);
-  const auto made = [&](Index index, U32 value, unsigned amount = 0) {
-    if (loads && rt == kPc && size != 2) return always(&O::nothing);  // PLD, PLI
-    return loads ? load(access, index, rt, rn, rm, value, amount) : store(access, index, rt, rn, rm, value, amount);
-  };
-  const U32 imm12 = bits(h2, 0, 12), imm8 = bits(h2, 0, 8);
-  if (rn == kPc) {
-    if (!loads) return undefined();
-    return made(Index::kAbsolute, bit(h, 7) ? (pc & ~3U) + imm12 : (pc & ~3U) - imm12);
-  }
-  if (bit(h, 7)) return made(Index::kOffset, imm12);
-  if (bits(h2, 6, 6) == 0) return made(Index::kRegister, 0, bits(h2, 4, 2));
-  const bool before = bit(h2, 10), writes_back = bit(h2, 8);
-  if (!bit(h2, 11) || (!before && !writes_back)) return undefined();
-  const U32 value = bit(h2, 9) ? imm8 : 0 - imm8;
-  return made(!writes_back ? Index::kOffset : before ? Index::kBefore : Index::kAfter, value);
+  Place place;
+  if (size == 3 || (is_signed && (!loads || size == 2)) || !find_place(pc, h, h2, place)) return undefined();
+  const U8 rt = reg(h2, 12);
+  if (loads && rt == kPc && size != 2) return always(&O::nothing);  // PLD, PLI
+  const Access access = !is_signed ? static_cast<Access>(size) : size == 0 ? Access::kSignedByte : Access::kSignedHalf;
+  return load_or_store(loads, access, rt, place);
 }
 
 /// A5.3.12

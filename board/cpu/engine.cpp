@@ -35,10 +35,10 @@ Engine::~Engine() = default;
 
 Trap Engine::run() {
   struct Running {
-    explicit Running(bool& flag) : flag_(flag) { flag_ = true; }
-    ~Running() { flag_ = false; }
-    bool& flag_;
-  } running(running_);
+    bool& flag;
+    ~Running() { flag = false; }
+  } const ends{running_};
+  running_ = true;
   trap_ = thumb_ ? Trap::kNone : Trap::kInvalidState;
   while (trap_ == Trap::kNone && before_next()) {
     if (it_ != 0) {
@@ -126,6 +126,7 @@ void Engine::decode_here() {
 // -----------------------------------------------------------------------------------------------------------------
 // memory
 
+// NOLINTNEXTLINE(readability-non-const-parameter): stores go there
 void Engine::map(std::uint32_t address, std::uint32_t size, std::uint8_t* memory, bool writable) {
   memories_.push_back({address, size, memory, writable, {}});
   memories_.back().pages.resize(size / kPageBytes);

@@ -348,7 +348,7 @@ struct Operations {
     const U32 base = e.r_[i.rn];
     U32 from = before ? base - bytes_of(i) : base;
     const U32 after = before ? from : base + bytes_of(i);
-    std::array<U32, 16> values;
+    std::array<U32, 16> values{};
     for (unsigned n = 0; n < 16; ++n) {
       if ((i.value >> n & 1) == 0) continue;
       if (!e.load<4>(from, values[n])) return;

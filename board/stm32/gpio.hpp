@@ -20,7 +20,7 @@ class Gpio {
 
  private:
   unsigned driven() const { return outputs_ & (pushed_ | ~unsigned{odr_}); }
-  std::uint16_t input(std::uint16_t driven, std::uint16_t levels) const;
+  std::uint16_t input(std::uint16_t outside, std::uint16_t levels) const;
   void set_modes();
 
   // Reset values: every pin a floating input.

@@ -10,7 +10,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <ctime>
+#include <exception>
 #include <fstream>
 #include <iterator>
 
@@ -191,18 +193,26 @@ int run(const std::vector<std::string>& images, std::uint64_t seed) {
   return 0;
 }
 
-}  // namespace
-}  // namespace dsdpv1::arm::differential
-
-int main(int argc, char** argv) {
+int carry_out(int argc, char** argv) {
   CLI::App app("Our Cortex-M3 against Unicorn's: random instructions");
-  std::uint64_t instructions = 1'000'000, seed = dsdpv1::arm::differential::today();
+  std::uint64_t instructions = 1'000'000, seed = today();
   app.add_option("--instructions", instructions, "How many are executed")->capture_default_str();
   app.add_option("--seed", seed, "Other seeds, other instructions; left out: the number of the day")
       ->capture_default_str();
   std::vector<std::string> images;
   app.add_option("IMAGE", images, "Code for 08000000 that ends at BKPT, in place of random instructions");
   CLI11_PARSE(app, argc, argv);
-  return images.empty() ? dsdpv1::arm::differential::run(instructions, seed)
-                        : dsdpv1::arm::differential::run(images, seed);
+  return images.empty() ? run(instructions, seed) : run(images, seed);
+}
+
+}  // namespace
+}  // namespace dsdpv1::arm::differential
+
+int main(int argc, char** argv) {
+  try {
+    return dsdpv1::arm::differential::carry_out(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
 }
