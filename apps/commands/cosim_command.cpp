@@ -5,7 +5,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/rtl_random.hpp"
 #include "apps/commands/scenario_run.hpp"
-#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
 #include "cosim/joined_wave.hpp"
@@ -55,7 +54,7 @@ class Cosim : public Command {
     if (!replay_.empty()) return rtl_random(stimulus());
     leave_nothing_on_signals();
     RunRequest request{run_, {}, options_of(run_), {}, {}};
-    request.scenario = load_scenario(run_.scenario, tb::scenario::parse_settings(run_.set));
+    request.scenario = tb::scenario::load(run_.scenario, tb::scenario::parse_settings(run_.set));
     request.options.wave = wave_options(kCosim, run_.wave, *request.scenario.kind);
     request.options.wave.inside = true;
     check_files(request.scenario);

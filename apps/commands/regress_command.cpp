@@ -6,7 +6,6 @@
 #include <set>
 
 #include "apps/commands/command.hpp"
-#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/campaign.hpp"
 #include "apps/options/common.hpp"
@@ -20,6 +19,7 @@
 #include "lab/regress/folder.hpp"
 #include "lab/regress/page.hpp"
 #include "lab/regress/tables.hpp"
+#include "tb/chip/chip_kind.hpp"
 #include "tb/report/text_table.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -48,10 +48,10 @@ void check_words(const std::string& option, const std::vector<std::string>& give
   }
 }
 
-/// Other programs than the one with SystemC have no other view.
 bool pins_only(const Run& run) {
   try {
-    return needs_other_program(tb::scenario::load(run.scenario, tb::scenario::parse_settings(run.settings)));
+    const auto scenario = tb::scenario::load(run.scenario, tb::scenario::parse_settings(run.settings));
+    return scenario.kind->needs_pins(scenario);
   } catch (const tb::InputError&) {  // the run says what is wrong
     return false;
   }
@@ -59,16 +59,13 @@ bool pins_only(const Run& run) {
 
 constexpr int kNotStarted = 127;
 
-/// With the program that its run is handed over to. A scenario that cannot be read is refused by its run, which says
-/// why.
+/// A scenario that cannot be read is refused by its run, which says why.
 std::vector<std::string> files_of(const Run& run) {
   std::vector<std::string> files = {run.scenario};
   try {
-    const auto settings = tb::scenario::parse_settings(run.settings);
-    const std::vector<std::string> named = tb::scenario::files(run.scenario, settings);
+    const std::vector<std::string> named =
+        tb::scenario::files(run.scenario, tb::scenario::parse_settings(run.settings));
     files.insert(files.end(), named.begin(), named.end());
-    const std::string program = other_program(tb::scenario::load(run.scenario, settings));
-    if (!program.empty()) files.push_back(program);
   } catch (const tb::InputError&) {
   }
   return files;

@@ -6,7 +6,6 @@
 
 #include "apps/commands/capture_file.hpp"
 #include "apps/commands/command.hpp"
-#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
@@ -92,7 +91,7 @@ class Replay : public Command {
   int carry_out() override {
     leave_nothing_on_signals();
     take_words();
-    const auto given = given_scenario();  // before the capture, which may be a pipe and another program's to read
+    const auto given = given_scenario();
     const Recording recording = record();
     const tb::replay::Firmware firmware = tb::replay::firmware_of(recording);
     const tb::scenario::Scenario scenario = scenario_of(given, recording, firmware);
@@ -166,7 +165,7 @@ class Replay : public Command {
   /// That of --scenario.
   std::optional<tb::scenario::Scenario> given_scenario() const {
     if (scenario_.empty()) return std::nullopt;
-    return load_scenario(scenario_);
+    return tb::scenario::load(scenario_);
   }
 
   Recording record() const {

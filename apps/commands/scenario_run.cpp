@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "apps/exit_codes.hpp"
-#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
 #include "apps/options/rewind.hpp"
 #include "apps/options/saved_runs.hpp"
 #include "apps/options/words.hpp"
-#include "apps/program.hpp"
 #include "bus/printable.hpp"
 #include "cosim/reference_rtl.hpp"
 #include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "kinds/dsdpv1/tlm/tlm_execution.hpp"
 #include "lab/traces/golden_run.hpp"
 #include "tb/report/html/report_file.hpp"
 #include "tb/report/progress.hpp"
@@ -64,7 +64,8 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   options.capture = capture_request("dsdpv1-sim run", arguments.capture);
   const auto say = [](const std::string& line) { std::cerr << line << '\n'; };
   if (arguments.gdb)
-    options.gdb = tb::GdbRequest{arguments.gdb, say, interrupted, std::make_shared<user_cpu::DebugHistory>()};
+    options.gdb = tb::GdbRequest{arguments.gdb, say, interrupted, std::make_shared<user_cpu::DebugHistory>(),
+                                 arguments.view == "pins"};  // SystemC simulates once a process
   if (!arguments.quiet) {
     options.on_text = [](const std::string& station, const std::string& line) {
       std::cout << station << "| " << bus::printable(line) << '\n' << std::flush;
@@ -187,6 +188,12 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
                        " has none");
 }
 
+void check_view(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
+  if (arguments.view == "tlm" && scenario.kind->needs_pins(scenario))
+    throw tb::InputError("dsdpv1-sim run: --view tlm has whole frames and telegrams at the chip's serial ports, and " +
+                         scenario.file + " an ARM board that moves their pins, allowed is --view pins");
+}
+
 void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
   std::vector<NamedFile> outputs = wave_files("dsdpv1-sim run", arguments.wave.file, arguments.wave.save);
   outputs.insert(outputs.end(), {{"--log", arguments.log},
@@ -205,21 +212,20 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
 /// From the command line; throws tb::InputError.
 RunRequest scenario_request(const RunArguments& arguments) {
   RunRequest request{arguments, {}, options_of(arguments), {}, {}};
-  const std::string text = load_text(arguments.scenario, tb::kScenarioFile);
-  request.scenario = parse_scenario(text, arguments.scenario, tb::scenario::parse_settings(arguments.set), text);
+  const std::string text = tb::read_file(arguments.scenario, tb::kScenarioFile);
+  request.scenario = tb::scenario::parse(text, arguments.scenario, tb::scenario::parse_settings(arguments.set));
   request.described = described_run(arguments, text, request.scenario);
   return request;
 }
 
 /// From a saved run.
 RunRequest restored_request(const RunArguments& arguments) {
-  const std::string bytes = load_text(arguments.restore, tb::kSavedRunFile);
-  tb::SavedRun saved = tb::parse_saved_run(bytes, arguments.restore);
+  tb::SavedRun saved = tb::parse_saved_run(tb::read_file(arguments.restore, tb::kSavedRunFile), arguments.restore);
   provide_files(saved, arguments.restore);
   RunRequest request{arguments_of(arguments, saved), {}, {}, {}, {}};
   request.options = options_of(request.arguments);
   const std::string& text = saved.files.front().content;
-  request.scenario = parse_scenario(text, saved.scenario, tb::scenario::parse_settings(saved.settings), bytes);
+  request.scenario = tb::scenario::parse(text, saved.scenario, tb::scenario::parse_settings(saved.settings));
   request.described = described_run(request.arguments, text, request.scenario);
   replay_debugger(request.options, saved);
   request.restored = std::move(saved);
@@ -259,6 +265,7 @@ int run(const RunArguments& given) {
   const RunArguments& arguments = request.arguments;
   request.options.wave = wave_options("dsdpv1-sim run", arguments.wave, *request.scenario.kind);
   check_outputs_of(arguments, request.scenario);
+  check_view(arguments, request.scenario);
   if (arguments.gdb) check_has_board(request.scenario);
   const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
   if (arguments.engine == "lockstep") return forth_and_back(request, [&] { return run_lockstep(request, rtl).status; });
@@ -267,8 +274,7 @@ int run(const RunArguments& given) {
   if (arguments.view == "pins")
     return forth_and_back(
         request, [&] { return run_scenario(request, tb::make_pin_execution()); });
-  return in_tlm_view(
-      [&request](std::unique_ptr<tb::Execution> execution) { return run_scenario(request, std::move(execution)); });
+  return tb::inside_systemc([&request] { return run_scenario(request, tb::make_tlm_execution()); });
 }
 
 }  // namespace dsdpv1::app

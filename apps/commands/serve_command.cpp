@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "apps/commands/command.hpp"
-#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
@@ -57,7 +56,7 @@ class Serve : public Command {
 
   int carry_out() override {
     leave_nothing_on_signals();
-    tb::scenario::Scenario scenario = load_scenario(scenario_, tb::scenario::parse_settings(set_));
+    tb::scenario::Scenario scenario = tb::scenario::load(scenario_, tb::scenario::parse_settings(set_));
     if (!baud_.empty()) scenario.baud = baud_index("dsdpv1-sim serve: --baud", baud_);
     scenario.end = duration_.empty() ? kOpenEnd : time_of("dsdpv1-sim serve: --for", duration_, 1);
     take_run_words(*scenario.kind);

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "apps/commands/command.hpp"
-#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/campaign.hpp"
 #include "apps/options/common.hpp"
@@ -114,13 +113,13 @@ std::vector<NamedFile> inputs_of(const Plan& plan, const tb::sweep::Inputs& inpu
   return scenario_inputs(plan.scenario, named);
 }
 
-/// A scenario that cannot be read at any point is wrong itself: then nothing is run and no folder made. One point tells
-/// whether it is another program's: the kind of a user CPU and its other keys go together, so no sweep varies it.
+/// A scenario that cannot be read at any point is wrong itself: then nothing is run and no folder made.
 void check_loads(const Plan& plan) {
   std::string error;
   for (std::size_t i = 0; i < plan.points(); ++i) {
     try {
-      return hand_over(tb::scenario::load(plan.scenario, tb::scenario::parse_settings(plan.settings_of(i))));
+      tb::scenario::load(plan.scenario, tb::scenario::parse_settings(plan.settings_of(i)));
+      return;
     } catch (const tb::InputError& wrong) {
       if (error.empty()) error = wrong.what();
     }

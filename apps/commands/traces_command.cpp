@@ -11,7 +11,6 @@
 #include "apps/commands/command.hpp"
 #include "apps/commands/scenario_run.hpp"
 #include "apps/data_folder.hpp"
-#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
 #include "apps/options/rtl_options.hpp"
@@ -116,26 +115,14 @@ int report_orphans(const std::string& folder) {
   return status;
 }
 
-/// Where one of them is another program's, that one looks at all of them.
-void hand_over_any(const std::vector<std::string>& files) {
-  for (const std::string& file : files) {
-    try {
-      hand_over(tb::scenario::load(file));
-    } catch (const tb::InputError&) {  // is said when it is its turn
-    }
-  }
-}
-
 /// The scenarios given, or all and then the goldens without one.
 int for_scenarios(const TracesArguments& given, const std::function<int(const std::string& file)>& work) {
   if (given.scenarios.empty()) {
-    hand_over_any(own_scenarios());
     const int status = for_each(own_scenarios(), work);
     return status == kInterrupted ? status : worse(status, report_orphans(folder_of(given)));
   }
   std::vector<std::string> files;
   std::transform(given.scenarios.begin(), given.scenarios.end(), std::back_inserter(files), scenario_file);
-  hand_over_any(files);
   return for_each(files, work);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -124,8 +125,10 @@ class Dsdpv1Kind : public ChipKind {
   }
   MakeUser make_user(const UserRequest& request) const override { return make_dsdpv1_user(request); }
   bool has_debugger(const scenario::Slave& slave) const override { return own(slave.user_cpu).kind == CpuKind::kArm; }
-  const char* other_program(const scenario::Slave& slave) const override {
-    return own(slave.user_cpu).kind == CpuKind::kArm && !has_arm_maker() ? kBoardProgram : "";
+  bool needs_pins(const scenario::Scenario& scenario) const override {
+    const bool serial = static_cast<const Dsdpv1Settings&>(*scenario.chip).mode != HostMode::kParallel;
+    return serial && std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
+                                 [this](const scenario::Slave& slave) { return has_debugger(slave); });
   }
 
  private:

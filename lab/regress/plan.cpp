@@ -156,8 +156,8 @@ Plan plan_of(const Request& request, const Shard& shard) {
         add_runs(request, shard, {scenario, engine, view, "", {}}, settings, plan);
   if (plan.runs.empty() && plan.left_out != 0 && shard.count == 1)
     throw InputError(
-        "dsdpv1-sim regress: nothing is left to be run: --view tlm is neither for RTL nor for ARM boards, allowed is "
-        "--view pins");
+        "dsdpv1-sim regress: nothing is left to be run: --view tlm is neither for RTL nor for ARM boards at serial "
+        "ports, allowed is --view pins");
   return plan;
 }
 

@@ -98,6 +98,7 @@ struct GdbRequest {
   std::function<void(const std::string&)> say;  ///< a line for the user
   std::function<bool()> stopped;                ///< whether the run is to end
   std::shared_ptr<user_cpu::DebugHistory> history;
+  bool goes_back = true;  ///< who carries out the run does it again when the debugger goes back
 };
 
 /// Makes the user CPU that starts at `start` with these initialisation data.
@@ -166,8 +167,8 @@ class ChipKind {
   virtual MakeUser make_user(const UserRequest& request) const = 0;
   /// Whether the slave's user CPU is one that a debugger can be connected to.
   virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
-  /// The name of the program that has the slave's user CPU, where this one has not; empty: this one has.
-  virtual const char* other_program(const scenario::Slave& /*slave*/) const { return ""; }
+  /// Whether a user CPU of the scenario moves pins that --view tlm has only transactions for.
+  virtual bool needs_pins(const scenario::Scenario& /*scenario*/) const { return false; }
 
   // --- Faculties that a kind may lack: null.
   /// For RTL beside the model: --engine rtl and lockstep, cosim.

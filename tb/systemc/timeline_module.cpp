@@ -30,7 +30,10 @@ void TimelineModule::run() {
       wait(sc_core::SC_ZERO_TIME);  // every process that this time has woken goes first
     follow_accesses();
     in_turn_ = true;
-    while (timeline_.next() <= dsdpv1::systemc::current_tick()) timeline_.step(limit);
+    while (timeline_.next() <= dsdpv1::systemc::current_tick()) {
+      timeline_.step(limit);
+      if (stopped()) return sc_core::sc_pause();
+    }
     in_turn_ = false;
   }
 }

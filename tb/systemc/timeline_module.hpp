@@ -1,6 +1,7 @@
 #pragma once
 // Runs a bus::Timeline (masters, user CPUs, scripts) inside a SystemC simulation, so that they and chips in SystemC
 // views share time.
+#include <functional>
 #include <systemc>
 #include <vector>
 
@@ -22,6 +23,8 @@ class TimelineModule : public sc_core::sc_module {
 
   /// The last tick to which an agent's turn may go on (Timeline::go_on).
   bus::Tick limit = bus::kNever;
+  /// Asked after each step: true pauses the simulation (sc_pause), and no agent acts any more.
+  std::function<bool()> stopped = [] { return false; };
 
   /// As bus::Timeline has them: neither an agent nor the kernel does anything until then. The agent, and what it calls
   /// with the timeline's time, is ahead of simulation time from then on.

@@ -263,7 +263,7 @@ class Page(unittest.TestCase):
         printed = """# Overhead  Shared Object  Symbol
             12.00%  dsdpv1-sim                [.] dsdpv1::Chip::Impl::advance
              8.00%  dsdpv1-sim                [.] dsdpv1::profibus::UartRx::eval
-             5.00%  dsdpv1-board              [.] non-virtual thunk to dsdpv1::tb::PinChip::next() const
+             5.00%  dsdpv1-sim                [.] non-virtual thunk to dsdpv1::tb::PinChip::next() const
              4.00%  dsdpv1-sim                [.] std::_Function_handler<void (dsdpv1::bus::ReceivedCharacter const&), dsdpv1::bus::Monitor::Monitor(dsdpv1::bus::Segment&)>::_M_invoke
              3.00%  dsdpv1-sim                [.] fstWriterEmitValueChange
              2.00%  libsystemc-2.3.4.so       [.] sc_core::sc_event::trigger

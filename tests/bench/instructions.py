@@ -16,7 +16,6 @@ import scenarios
 
 RECORD = pathlib.Path(__file__).with_name("instructions.tsv")
 GROWN = 1.05  # times the record: a row that takes more fails
-BOARD = programs.BUILD / "apps" / "dsdpv1-board"  # what dsdpv1-sim hands over to: valgrind would follow the first program alone
 FIRMWARE = programs.FOLDER / "firmware"
 OFF = ("--checks", "off")
 
@@ -29,7 +28,6 @@ class Row:
     scenario: str
     lengths: tuple  # short and long, in ms of simulated time, or what `command` takes
     options: tuple = OFF
-    program: pathlib.Path = programs.SIM
     units: typing.Callable = lambda short, long: (long["simulated_ns"] - short["simulated_ns"]) / 1e6  # of the results of both runs
     start: bool = False  # not the difference, but what is left of the short run without it
     command: typing.Callable = None  # or what is run in the place of a scenario, in a folder, at a length
@@ -57,7 +55,7 @@ def sck_edges(short, long):
 
 
 def on_board(name, unit, what, scenario, lengths, units=arm, **others):
-    return Row(name, unit, what, scenario, lengths, program=BOARD, units=units, **others)
+    return Row(name, unit, what, scenario, lengths, units=units, **others)
 
 
 def compare_megabytes(folder, length):
@@ -104,7 +102,7 @@ def command_of(row, folder, length):
         return row.command(folder, length)
     shipped = programs.ROOT / "scenarios" / f"{row.scenario}.yaml"
     scenario = shipped if shipped.exists() else f"{row.scenario}.yaml"
-    return [row.program, "run", scenario, "--quiet", "--no-progress", "--set", f"end={length}ms", "--result", "result.json", *row.options]
+    return [programs.SIM, "run", scenario, "--quiet", "--no-progress", "--set", f"end={length}ms", "--result", "result.json", *row.options]
 
 
 def counted(row, length):

@@ -7,7 +7,7 @@ from rows import PROFILED
 
 LINE = re.compile(r"^\s*([\d.]+)%\s+(\S.*?)\s+\[[.kgu]\]\s+(\S.*?)\s*$")
 REST = "elsewhere"
-PROGRAM = r"^(dsdpv1-(sim|board)|bench_systemc|libdsdpv1\.so.*)$"  # the second has the rows with an ARM board, the last one the row dpi
+PROGRAM = r"^(dsdpv1-sim|bench_systemc|libdsdpv1\.so.*)$"  # the last one has the row dpi
 # Part, its file (program, library, kernel), its functions: the first that fits. Types in the arguments of a template come last.
 OWNERS = tuple((part, re.compile(file), re.compile(function)) for part, file, function in (
     ("kernel", r"^\[(kernel|vdso)", ""),

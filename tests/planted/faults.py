@@ -82,7 +82,7 @@ def chosen(arguments):
 def targets(names):
     """What has to be built before a fault can be."""
     stages = {stage for name in names for stage in suite.STAGES[name]}
-    return sorted({stage.program for stage in stages} | {"dsdpv1-sim", "dsdpv1-board"} | ({"dsdpv1_rtl_libraries", "dsdpv1_firmware"} if stages else set()))
+    return sorted({stage.program for stage in stages} | {"dsdpv1-sim"} | ({"dsdpv1_rtl_libraries", "dsdpv1_firmware"} if stages else set()))
 
 
 # -------------------------------------------------------------------------------------------------------------- looking
@@ -144,8 +144,7 @@ class Hunt:
         self.running = Running()
         for stage in {stage for stages in suite.STAGES.values() for stage in stages}:
             self.build.know(self.build.program(stage.program))
-        for program in (suite.SIM, suite.BOARD):
-            self.build.know(program)
+        self.build.know(suite.SIM)
 
     def look(self, fault):
         """The test that finds the fault, and after how many seconds."""
@@ -158,20 +157,10 @@ class Hunt:
             shutil.rmtree(folder)
         return found, time.monotonic() - begin
 
-    @staticmethod
-    def simulator(built):
-        """The program that the tests call, with its board beside it; None when the fault is not in it."""
-        sim = built.link(suite.SIM)
-        if sim and not built.link(suite.BOARD):
-            board = pathlib.Path(sim).with_name(pathlib.Path(suite.BOARD).name)
-            board.unlink(missing_ok=True)
-            board.symlink_to(BUILD / suite.BOARD)
-        return sim
-
     def stage(self, built, stage):
         """The test of this stage that fails, None when none does."""
         name = self.build.program(stage.program)
-        sim = self.simulator(built) if stage.calls_sim else None
+        sim = built.link(suite.SIM) if stage.calls_sim else None
         program = built.link(name) or (sim and BUILD / name)
         names = suite.names_of(self.cases, stage)
         if not program or not names:

@@ -3,7 +3,7 @@ import dataclasses
 import json
 import subprocess
 
-SIM, BOARD = "apps/dsdpv1-sim", "apps/dsdpv1-board"  # the one calls the other, which it finds beside itself
+SIM = "apps/dsdpv1-sim"
 LONG, NIGHTLY = "long", "nightly"
 
 

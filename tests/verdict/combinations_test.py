@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The word and the number of a run are the same at every entrance (docs/verdicts.md): each cell of ENTRANCES x SITUATIONS.
 
-    combinations_test.py DSDPV1_SIM DSDPV1_BOARD [rtl]     needs DSDPV1_LIBRARY for the C API and Python; rtl: with cosim and lockstep
+    combinations_test.py DSDPV1_SIM [rtl]     needs DSDPV1_LIBRARY for the C API and Python; rtl: with cosim and lockstep
 """
 import json
 import os
@@ -14,7 +14,7 @@ import xml.etree.ElementTree as xml
 import dsdpv1
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SIM, BOARD, WITH_RTL = sys.argv[1], sys.argv[2], "rtl" in sys.argv[3:]
+SIM, WITH_RTL = sys.argv[1], "rtl" in sys.argv[2:]
 SLAVE = """name: x
 baud: 12M
 end: 8ms
@@ -63,10 +63,6 @@ def run(situation, folder):
 
 def run_tlm(situation, folder):
     by_command("run --view tlm", situation, folder, SIM, "run", "x.yaml", "--no-progress", "--view", "tlm")
-
-
-def board(situation, folder):
-    by_command("dsdpv1-board", situation, folder, BOARD, "run", "x.yaml", "--no-progress")
 
 
 def junit(situation, folder):
@@ -151,7 +147,7 @@ def cosim(situation, folder):
     by_command("cosim", situation, folder, SIM, "cosim", "--rtl", example, "--top", "board_chip", "--pins", pins, "--build", folder.parent / "cosim", "x.yaml")
 
 
-ENTRANCES = [run, run_tlm, board, junit, regress, sweep, serve, traces, replay, c_api_and_python]
+ENTRANCES = [run, run_tlm, junit, regress, sweep, serve, traces, replay, c_api_and_python]
 
 
 def options():

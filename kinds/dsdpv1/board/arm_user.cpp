@@ -54,10 +54,10 @@ void check_objects(const scenario::Scenario& scenario, const scenario::Slave& sl
 
 std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTarget& target) {
   arm::HistoryPlayer::MakeDebugger server;
+  user_cpu::DebugHistory* const way_back = gdb.goes_back ? gdb.history.get() : nullptr;
   if (gdb.port) {
-    server = [&gdb](arm::DebugTarget& noted, std::uint64_t board) {
-      return std::make_unique<arm::GdbServer>(
-          noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say, gdb.history.get(), board});
+    server = [&gdb, way_back](arm::DebugTarget& noted, std::uint64_t board) {
+      return std::make_unique<arm::GdbServer>(noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say, way_back, board});
     };
   }
   return std::make_unique<arm::HistoryPlayer>(target, *gdb.history, server);

@@ -1,7 +1,6 @@
 #include "kinds/dsdpv1/chip/user_maker.hpp"
 
 #include <memory>
-#include <string>
 
 #include "io/input/input_error.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
@@ -34,17 +33,13 @@ MakeArmUser arm_maker = nullptr;
 
 void set_arm_maker(MakeArmUser make) { arm_maker = make; }
 
-bool has_arm_maker() { return arm_maker != nullptr; }
-
 MakeUser make_dsdpv1_user(const UserRequest& request) {
   auto& host = static_cast<user_cpu::HostBus&>(*request.chip.user_side());
   if (own(request.slave.user_cpu).kind != CpuKind::kArm)
     return native_user(request.slave.user_cpu, static_cast<const Dsdpv1Settings&>(*request.scenario.chip), host);
-  if (has_arm_maker()) return arm_maker(request, host);
+  if (arm_maker != nullptr) return arm_maker(request, host);
   throw InputError(request.scenario.file, request.slave.user_cpu.line,
-                   std::string("kind is arm, which ") + kBoardProgram +
-                       " carries out, and that is neither beside this program nor in PATH: it is built where Unicorn "
-                       "is (Debian: libunicorn-dev), allowed without it is native");
+                   "kind is arm, but this program has no ARM board, allowed without it is native");
 }
 
 }  // namespace dsdpv1::tb

@@ -6,14 +6,10 @@
 
 namespace dsdpv1::tb {
 
-/// The program that has the ARM board: its emulator and SystemC must not be in one (docs/licences.md).
-constexpr const char* kBoardProgram = "dsdpv1-board";
-
 using MakeArmUser = MakeUser (*)(const UserRequest& request, user_cpu::HostBus& host);
 
 /// Said by a program that has the ARM board, before the first scenario is read.
 void set_arm_maker(MakeArmUser make);
-bool has_arm_maker();
 
 /// ChipKind::make_user. Throws InputError for an ARM board in a program without.
 MakeUser make_dsdpv1_user(const UserRequest& request);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <systemc>
@@ -88,15 +87,11 @@ class TlmExecution : public Execution {
   bool go_on(const bus::Agent& agent, Tick tick) override { return module_.go_on(agent, tick); }
 
   void run(Tick end, const std::function<bool()>& stopped) override {
+    if (stopped()) return;
     module_.limit = end;
-    // In slices, so that a stop takes effect; the last one ends a tick behind `end`, which SystemC itself would leave
-    // out.
-    constexpr Tick kSlice = bus::kTicksPerMs;
-    for (Tick to = std::min(kSlice, end + 1); !stopped(); to = std::min(to + kSlice, end + 1)) {
-      sc_core::sc_start(dsdpv1::systemc::to_time(to) - sc_core::sc_time_stamp());
-      dsdpv1::systemc::announce_main_stack();
-      if (to > end) return;
-    }
+    module_.stopped = stopped;
+    sc_core::sc_start(dsdpv1::systemc::to_time(end + 1));  // SystemC leaves the last tick out
+    dsdpv1::systemc::announce_main_stack();
   }
 
  private:
