@@ -19,10 +19,8 @@ fs::path source_tree(fs::path folder) {
 
 std::string data_folder() {
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
-  // dsdpv1-sim is in bin/, dsdpv1-board in libexec/dsdpv1/.
-  for (const fs::path& prefix : {folder.parent_path(), folder.parent_path().parent_path()})
-    if (fs::path data = prefix / DSDPV1_DATADIR; fs::is_directory(data / "scenarios")) return data;
-  return source_tree(folder);
+  const fs::path installed = folder.parent_path() / DSDPV1_DATADIR;
+  return fs::is_directory(installed / "scenarios") ? installed : source_tree(folder);
 }
 
 }  // namespace dsdpv1::app

@@ -36,7 +36,7 @@ namespace {
 
 std::string text_of(const char* text) { return text == nullptr ? "" : text; }
 
-// Its emulator is under a licence of its own, and not a part of this library.
+// It needs libdw, which programs with this library need not have.
 void refuse_boards(const Scenario& scenario) {
   const tb::ChipKind& kind = *scenario.kind;
   for (const tb::scenario::Slave& slave : scenario.slaves)

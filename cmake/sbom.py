@@ -23,7 +23,6 @@ import licence_table  # noqa: E402
 PUBLIC_DOMAIN = "Given to the public domain by its authors; see the copyright file of the package."
 TEXTS = {"LicenseRef-Public-Domain": PUBLIC_DOMAIN, "LicenseRef-IEEE-1800": "The header as the standard IEEE 1800 prints it, which says that it may be used."}
 KINDS = {"linked": "DYNAMIC_LINK", "compiled in": "CONTAINS", "embedded": "CONTAINS", "loaded": "DEPENDS_ON", "run": "DEPENDS_ON"}
-OWN = {"dsdpv1-board": "GPL-2.0-only"}  # as a whole; the others
 LICENCE = "Apache-2.0"
 PACKAGE = "SPDXRef-Package-dsdpv1"
 
@@ -62,9 +61,8 @@ def dependency(here, name, licence, version, url):
 
 def built(path):
     """A program or library of the build."""
-    licence = OWN.get(path.name, LICENCE)
     return {"SPDXID": identifier("Built", path.name), "name": path.name, "packageFileName": path.name, "downloadLocation": "NOASSERTION",
-            "filesAnalyzed": False, "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": "2026 the dsdpv1 authors",
+            "filesAnalyzed": False, "licenseConcluded": LICENCE, "licenseDeclared": LICENCE, "copyrightText": "2026 the dsdpv1 authors",
             "checksums": [{"algorithm": "SHA256", "checksumValue": hashlib.sha256(path.read_bytes()).hexdigest()}]}
 
 

@@ -21,10 +21,9 @@ shown(scenario ${sim} run ${DSDPV1_TREE}/scenarios/power_on_12m.yaml --no-progre
 # A scenario whose masters other benches use as well.
 shown(masters ${sim} run ${here}/masters.yaml --no-progress PRINTS "PASSED")
 
-# The example firmware, as it has just been built, on the ARM board; the program finds its other half by itself.
+# The example firmware, as it has just been built, on the ARM board, where the program has it.
 find_program(arm-none-eabi-gcc arm-none-eabi-gcc)
-find_program(dsdpv1-board dsdpv1-board HINTS ${DSDPV1_TREE}/../../libexec/dsdpv1 NO_DEFAULT_PATH)
-needs(there firmware arm-none-eabi-gcc dsdpv1-board)
+needs(there firmware arm-none-eabi-gcc)
 if(there)
   shown(firmware ${sim} run ${DSDPV1_TREE}/scenarios/arm_board_12m.yaml --no-progress --set
         user_cpu.elf=${CMAKE_CURRENT_BINARY_DIR}/firmware/device_O2.elf PRINTS "PASSED")

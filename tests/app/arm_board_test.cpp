@@ -76,6 +76,25 @@ std::vector<std::string> native_scenarios() {
 INSTANTIATE_TEST_SUITE_P(All, ArmScenarios, testing::ValuesIn(native_scenarios()),
                          [](const auto& each) { return each.param; });
 
+class ArmViews : public testing::TestWithParam<std::string> {};
+
+TEST_P(ArmViews, HaveTheSameLog) {
+  const app_test::Folder folder;
+  for (const std::string view : {"pins", "tlm"}) {
+    const Called called = call("run " + scenario(GetParam()) + kArm + FIRMWARE_O2 + " --view " + view + " --log " +
+                                   folder.file(view) + " --result " + folder.file(view + ".json"),
+                               DSDPV1_SOURCE_DIR);
+    ASSERT_EQ(called.status, 0) << called.out << called.err;
+  }
+  EXPECT_TRUE(read(folder.file("pins")) == read(folder.file("tlm")));
+  const auto board = [&](const std::string& view) {
+    return Json::parse(read(folder.file(view + ".json"))).at("slaves").at(0).at("arm_board");
+  };
+  EXPECT_EQ(board("pins"), board("tlm"));
+}
+INSTANTIATE_TEST_SUITE_P(All, ArmViews, testing::ValuesIn(parallel_scenarios()),
+                         [](const auto& each) { return each.param; });
+
 class ArmBaudRates : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 TEST_P(ArmBaudRates, ReachDataExchangeJudgedByTheFirmware) {
@@ -341,13 +360,80 @@ TEST(ArmBoard, FaultEndsTheRunWithTheSourceLine) {
                                           "init: {ident: 1, max_inputs: 2, max_outputs: 2, "
                                           "cfg: \"31\"}, user_cpu: {kind: arm, elf: \""
                                        << FIRMWARE_FAULT << "\"}}\n";
-  const Called called = call("run s.yaml --no-progress --result r.json", folder.path());
-  EXPECT_EQ(called.status, 1);
-  EXPECT_THAT(called.out, HasSubstr("run at fault.c:"));
-  EXPECT_THAT(called.out, HasSubstr("xpsr"));
-  const Json result = Json::parse(read(folder.file("r.json")));
-  EXPECT_LT(result.at("simulated_ns").get<double>(), 1e6);
-  EXPECT_EQ(result.at("events").back().at("code"), "ARM_FAULT");
+  for (const std::string view : {"pins", "tlm"}) {
+    const Called called =
+        call("run s.yaml --no-progress --result r.json --log " + view + " --view " + view, folder.path());
+    EXPECT_EQ(called.status, 1);
+    EXPECT_THAT(called.out, HasSubstr("run at fault.c:"));
+    EXPECT_THAT(called.out, HasSubstr("xpsr"));
+    const Json result = Json::parse(read(folder.file("r.json")));
+    EXPECT_LT(result.at("simulated_ns").get<double>(), 1e6);
+    EXPECT_EQ(result.at("events").back().at("code"), "ARM_FAULT");
+  }
+  EXPECT_EQ(read(folder.file("pins")), read(folder.file("tlm")));
+}
+
+// --- commands --------------------------------------------------------------------------------------------------------
+
+TEST(ArmBoard, ScenarioAndCaptureMayBePipes) {
+  const app_test::Folder folder;
+  std::ofstream(folder.file("s.yaml")) << "name: x\nbaud: 12M\nend: 3ms\nslaves:\n  - {name: own, address: 5, init: "
+                                          "{ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}, user_cpu: {kind: "
+                                          "arm, elf: \""
+                                       << FIRMWARE_O2
+                                       << "\"}}\nmasters:\n  - {name: plc, address: 2, slaves: [{slave: own, outputs: "
+                                          "\"01 02\"}]}\n";
+  const Called called = call(
+      "-ec 'mkfifo s c; cat s.yaml >s & \"$0\" run s --quiet --no-progress --capture c.pcapng; cat c.pcapng >c & "
+      "\"$0\" replay c --as 5 --scenario s.yaml --no-progress' '" +
+          app_test::simulator() + "'",
+      folder.path(), "bash");
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+}
+
+TEST(ArmBoard, CommandsTakeItAsAnyOther) {
+  const app_test::Folder folder;
+  const std::string s = std::string("'") + DSDPV1_SOURCE_DIR "/scenarios/arm_board_12m.yaml'";
+  EXPECT_EQ(call("traces check watchdog arm_board_12m --no-progress", DSDPV1_SOURCE_DIR).status, 0);
+  EXPECT_EQ(call("serve " + s + " --tcp 0 --for 5ms --quiet", folder.path()).status,
+            1);  // ends before its expectations
+  std::ofstream(folder.file("no.elf")) << "no firmware";
+  const Called swept = call(
+      "sweep " + s + " --quiet --no-progress --out o --param 'user_cpu.elf=" + FIRMWARE_O2 + ",no.elf'", folder.path());
+  EXPECT_EQ(swept.status, 0) << swept.err;
+  EXPECT_THAT(read(folder.file("o/results.csv")), HasSubstr("no.elf: is not an ELF file"));
+}
+
+TEST(ArmBoard, InterruptEndsTheRunInBothViews) {
+  const app_test::Folder folder;
+  for (const std::string view : {"pins", "tlm"}) {
+    const Called called =
+        call("--preserve-status -s INT 0.5 '" + app_test::simulator() +
+                 "' run '" DSDPV1_SOURCE_DIR
+                 "/scenarios/arm_board_12m.yaml' --no-progress --quiet --set end=1000s --result r.json "
+                 "--view " +
+                 view,
+             folder.path(), "timeout");
+    EXPECT_EQ(called.status, 130) << called.err;
+    EXPECT_THAT(read(folder.file("r.json")), HasSubstr("\"interrupted\": true"));
+  }
+}
+
+TEST(ArmBoard, ViewTlmHasNoSerialPinsForIt) {
+  const app_test::Folder folder;
+  const Called called =
+      call("run scenarios/arm_spi.yaml --view tlm --result " + folder.file("r.json"), DSDPV1_SOURCE_DIR);
+  EXPECT_EQ(called.status, 2);
+  EXPECT_EQ(called.err,
+            "dsdpv1-sim run: --view tlm has whole frames and telegrams at the chip's serial ports, and "
+            "scenarios/arm_spi.yaml an ARM board that moves their pins, allowed is --view pins\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("r.json")));
+  const std::string folder_of = "'" DSDPV1_SOURCE_DIR "/scenarios/";
+  const Called regressed =
+      call("regress " + folder_of + "arm_spi.yaml' " + folder_of + "arm_board_12m.yaml' --view pins,tlm --no-progress",
+           folder.path());
+  EXPECT_EQ(regressed.status, 0) << regressed.out;
+  EXPECT_THAT(regressed.err, HasSubstr("3 of 3 runs passed; 1 combinations that cannot be are left out"));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ import sys
 import tarfile
 import tempfile
 
-NEEDED = ["libc6", "libstdc++6", "libfmt9", "libsystemc", "libyaml-cpp", "libunicorn2"]
+NEEDED = ["libc6", "libstdc++6", "libfmt9", "libsystemc", "libyaml-cpp", "libdw1"]
 
 
 def output(*command, **more):

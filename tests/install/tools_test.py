@@ -41,6 +41,8 @@ def check_runs(stage, sim):
         call(sim, "rtl-random", "--cycles", "20000", cwd=folder)
         assert "PASSED" in call(sim, "run", data / "scenarios/arm_board_12m.yaml", cwd=folder)
         assert "power_on_12m" in call(sim, "traces", "list", cwd=folder)
+    former = call(str(stage / "libexec/dsdpv1/dsdpv1-board"), "--version")
+    assert former == "dsdpv1-board is deprecated and goes with 0.5: use dsdpv1-sim, which it is\n" + call(sim, "--version"), former
 
 
 def check_version(stage, sim):

@@ -205,7 +205,7 @@ def check(root, build):
         sources = {debian.source_of_file(file) for file in foreign(program, root)} - {None}
         found.setdefault(label_of(name), set()).update(sources)
         yield from faults_of_program(name, sources, rows, debian.source)
-        if sources & strict and label_of(name) != "tests":
+        if sources & strict:
             yield from faults_of_own(name, own_files(program, root, build), reuse)
     yield from stale_rows(found, rows, debian.source)
     yield from faults_of_lists(listed, set().union(*found.values()), rows, debian.source)
