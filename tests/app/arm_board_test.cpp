@@ -380,9 +380,9 @@ TEST(ArmBoard, ScenarioAndCaptureMayBePipes) {
   std::ofstream(folder.file("s.yaml")) << "name: x\nbaud: 12M\nend: 3ms\nslaves:\n  - {name: own, address: 5, init: "
                                           "{ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}, user_cpu: {kind: "
                                           "arm, elf: \""
-                                       << FIRMWARE_O2
+                                       << FIRMWARE_WITHOUT_MAILBOX
                                        << "\"}}\nmasters:\n  - {name: plc, address: 2, slaves: [{slave: own, outputs: "
-                                          "\"01 02\"}]}\n";
+                                          "\"01 02\"}]}\nexpect: [{slave: own, dp_state: wait_prm}]\n";
   const Called called = call(
       "-ec 'mkfifo s c; cat s.yaml >s & \"$0\" run s --quiet --no-progress --capture c.pcapng; cat c.pcapng >c & "
       "\"$0\" replay c --as 5 --scenario s.yaml --no-progress' '" +
