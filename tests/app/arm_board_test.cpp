@@ -391,19 +391,6 @@ TEST(ArmBoard, ScenarioAndCaptureMayBePipes) {
   EXPECT_EQ(called.status, 0) << called.out << called.err;
 }
 
-TEST(ArmBoard, CommandsTakeItAsAnyOther) {
-  const app_test::Folder folder;
-  const std::string s = std::string("'") + DSDPV1_SOURCE_DIR "/scenarios/arm_board_12m.yaml'";
-  EXPECT_EQ(call("traces check watchdog arm_board_12m --no-progress", DSDPV1_SOURCE_DIR).status, 0);
-  EXPECT_EQ(call("serve " + s + " --tcp 0 --for 5ms --quiet", folder.path()).status,
-            1);  // ends before its expectations
-  std::ofstream(folder.file("no.elf")) << "no firmware";
-  const Called swept = call(
-      "sweep " + s + " --quiet --no-progress --out o --param 'user_cpu.elf=" + FIRMWARE_O2 + ",no.elf'", folder.path());
-  EXPECT_EQ(swept.status, 0) << swept.err;
-  EXPECT_THAT(read(folder.file("o/results.csv")), HasSubstr("no.elf: is not an ELF file"));
-}
-
 TEST(ArmBoard, InterruptEndsTheRunInBothViews) {
   const app_test::Folder folder;
   for (const std::string view : {"pins", "tlm"}) {

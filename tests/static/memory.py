@@ -12,9 +12,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIM = ROOT / "build" / "default" / "apps" / "dsdpv1-sim"
-# Not of the shell that asks which libraries a program loads: it says so before valgrind has begun.
-VALGRIND = ("valgrind", "--trace-children=yes", "--trace-children-skip=/bin/sh", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
-            "--smc-check=all-non-file", "--log-file=valgrind.%p", "--")  # smc: the ARM's emulator writes code
+VALGRIND = ("valgrind", "--trace-children=yes", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite", "--log-file=valgrind.%p", "--")
 LIMIT_S = 1800
 
 
@@ -58,7 +56,7 @@ CASES = (
 
 
 def errors_in(logs):
-    """The errors that valgrind counts in each process, and the first words about them. A process that has become the shell has no end in its log."""
+    """The errors that valgrind counts in each process, and the first words about them."""
     counts = [int(count) for log in logs for count in re.findall(r"ERROR SUMMARY: (\d+) errors", log)]
     words = [line.split("== ", 1)[1] for log in logs for line in log.splitlines() if re.search(r"== (Invalid|Conditional|Use of|Syscall|.*definitely lost in)", line)]
     if not counts:
