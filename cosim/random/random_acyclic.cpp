@@ -6,7 +6,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
-constexpr int kSaps[] = {51, 48, 47};  // by channel
+constexpr int kSapOfChannel[] = {51, 48, 47};  // by channel
 constexpr int kC1Ssap = 51, kC2Ssap = 50, kInitiateSap = 49;
 constexpr std::uint8_t kRead = 0x5E, kWrite = 0x5F, kTransport = 0x51, kIdle = 0x48, kAbort = 0x58, kInitiate = 0x57;
 
@@ -21,13 +21,13 @@ void RandomMaster::send_acyclic(int dsap, int ssap, const bus::Bytes& data) {
   send(telegram);
 }
 
-void RandomMaster::acyclic_poll(int channel) { send_acyclic(kSaps[channel], channel == 0 ? kC1Ssap : kC2Ssap, {}); }
+void RandomMaster::acyclic_poll(int channel) { send_acyclic(kSapOfChannel[channel], channel == 0 ? kC1Ssap : kC2Ssap, {}); }
 
 void RandomMaster::acyclic_request(int channel) {
-  send_acyclic(kSaps[channel], channel == 0 ? kC1Ssap : kC2Ssap, acyclic_pdu(channel));
+  send_acyclic(kSapOfChannel[channel], channel == 0 ? kC1Ssap : kC2Ssap, acyclic_pdu(channel));
 }
 
-void RandomMaster::abort(int channel) { send_acyclic(kSaps[channel], kC2Ssap, {kAbort, 0, 0x20, 0}); }
+void RandomMaster::abort(int channel) { send_acyclic(kSapOfChannel[channel], kC2Ssap, {kAbort, 0, 0x20, 0}); }
 
 /// Mostly right: what a slave with the user's help can answer.
 bus::Bytes RandomMaster::acyclic_pdu(int channel) {
