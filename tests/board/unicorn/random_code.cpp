@@ -356,8 +356,23 @@ class Writer {
     switch (below(random_, 16)) {
       case 0: return block();
       case 1: return branch();
+      case 2: return below(random_, 4) == 0 ? exclusive() : add(plain(false));
       default: return add(plain(false));
     }
+  }
+  /// LDREX, STREX at SP, which is aligned. Unicorn asks whether the memory is as it was, a Cortex-M3
+  /// whether LDREX came before; between them stands nothing. Then a STREX that comes alone.
+  void exclusive() {
+    const unsigned base = 13, loaded = below(random_, 3), failed = 3 + below(random_, 2);
+    const unsigned words = below(random_, 256), size = below(random_, 3);
+    const auto load = size == 0 ? 0x0F00 | words : size == 1 ? 0x0F4F : 0x0F5F;
+    const auto store = size == 0 ? failed << 8 | words : (size == 1 ? 0x0F40 : 0x0F50) | failed;
+    const unsigned op = size == 0 ? 0xE840 : 0xE8C0;
+    const auto half = [](unsigned bits) { return static_cast<std::uint16_t>(bits); };
+    inner_.insert({starts_.size() + 1, starts_.size() + 2});
+    add({half(op | 0x10 | base), half(loaded << 12 | load)});
+    add({half(op | base), half(loaded << 12 | store)});
+    add({half(op | base), half(loaded << 12 | store)});
   }
   /// IT with one to four instructions; a branch may be the last one.
   void block() {
