@@ -10,7 +10,7 @@ class PlayListener {
  public:
   virtual ~PlayListener() = default;
   /// The run begins; all pins have their levels of power-on.
-  virtual void begins(const Lockstep& /*lockstep*/) {}
+  virtual void begins(const tb::PinDevice& /*both*/) {}
   /// See Lockstep::on_pin.
   virtual void pin(Tick /*at*/, Side /*side*/, PinNumber /*pin*/, Level /*level*/) {}
   /// Of the model.

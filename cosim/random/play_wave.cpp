@@ -23,9 +23,9 @@ void PlayWave::listen(PlayOptions& options) {
   options.listeners.push_back(this);
 }
 
-void PlayWave::begins(const Lockstep& lockstep) {
+void PlayWave::begins(const tb::PinDevice& both) {
   writer_->say(0, telegram_, "-");
-  for (std::size_t i = 0; i < pins_.size(); ++i) writer_->set(0, pins_[i], lockstep.level(static_cast<PinNumber>(i)));
+  for (std::size_t i = 0; i < pins_.size(); ++i) writer_->set(0, pins_[i], both.level(static_cast<PinNumber>(i)));
 }
 
 void PlayWave::pin(Tick at, Side side, PinNumber pin, Level level) {

@@ -19,7 +19,7 @@ class PlayWave : public PlayListener {
   /// From now on every cycle of the model is evaluated, and this listens.
   void listen(PlayOptions& options);
 
-  void begins(const Lockstep& lockstep) override;
+  void begins(const tb::PinDevice& both) override;
   void pin(Tick at, Side side, PinNumber pin, Level level) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void evaluated(Tick now, tb::PinDevice& model) override;

@@ -52,10 +52,10 @@ const char* answer_of(const bus::Telegram& answer) {
 
 }  // namespace
 
-void SituationWatch::begins(const Lockstep& lockstep) {
-  model_ = &lockstep;
+void SituationWatch::begins(const tb::PinDevice& both) {
+  model_ = &both;
   for (int pin = 0; pin < pin_count(chip_.part); ++pin)
-    levels_.at(static_cast<std::size_t>(pin)) = lockstep.level(static_cast<PinNumber>(pin));
+    levels_.at(static_cast<std::size_t>(pin)) = both.level(static_cast<PinNumber>(pin));
 }
 
 // --- pins ------------------------------------------------------------------------------------------------------------

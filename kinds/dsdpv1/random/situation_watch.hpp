@@ -15,7 +15,7 @@ class SituationWatch : public PlayListener {
  public:
   SituationWatch(const tb::Dsdpv1Settings& chip, Situations& counted) : chip_(chip), situations_(counted) {}
 
-  void begins(const Lockstep& lockstep) override;
+  void begins(const tb::PinDevice& both) override;
   void pin(Tick at, Side side, PinNumber pin, Level level) override;
   void event(const profibus::Event& event) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
