@@ -21,7 +21,9 @@ void RandomMaster::send_acyclic(int dsap, int ssap, const bus::Bytes& data) {
   send(telegram);
 }
 
-void RandomMaster::acyclic_poll(int channel) { send_acyclic(kSapOfChannel[channel], channel == 0 ? kC1Ssap : kC2Ssap, {}); }
+void RandomMaster::acyclic_poll(int channel) {
+  send_acyclic(kSapOfChannel[channel], channel == 0 ? kC1Ssap : kC2Ssap, {});
+}
 
 void RandomMaster::acyclic_request(int channel) {
   send_acyclic(kSapOfChannel[channel], channel == 0 ? kC1Ssap : kC2Ssap, acyclic_pdu(channel));
