@@ -201,6 +201,7 @@ Instruction many(bool loads, bool up, bool writes_back, U8 rn, U32 list) {
                               : &O::store_many<true>;
   Instruction made = with_registers(run, 0, rn, 0, list);
   made.shift = writes_back ? 1 : 0;
+  made.amount = static_cast<U8>(4 * __builtin_popcount(list));
   return made;
 }
 

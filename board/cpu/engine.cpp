@@ -246,22 +246,6 @@ bool Engine::store_part(std::uint32_t address, unsigned bytes, std::uint32_t val
 // --------------------------------------------------------------------------------------------------------------
 // registers
 
-bool Engine::passes(unsigned condition) const {
-  const bool n = (negative_ & kNegative) != 0, v = overflow_ != 0;
-  bool right = true;
-  switch (condition >> 1U) {
-    case 0: right = zero_ == 0; break;
-    case 1: right = carry_ != 0; break;
-    case 2: right = n; break;
-    case 3: right = v; break;
-    case 4: right = carry_ != 0 && zero_ != 0; break;
-    case 5: right = n == v; break;
-    case 6: right = zero_ != 0 && n == v; break;
-    default: return true;
-  }
-  return right != ((condition & 1U) != 0);
-}
-
 std::uint32_t Engine::xpsr() const {
   return (negative_ & kNegative) | (zero_ == 0 ? kZero : 0) | (carry_ != 0 ? kCarry : 0) |
          (overflow_ != 0 ? kOverflow : 0) | (saturated_ ? kSaturated : 0) | (thumb_ ? kThumb : 0) |

@@ -207,4 +207,21 @@ class Engine {
   std::uint32_t ipsr_ = 0, msp_ = 0, psp_ = 0, primask_ = 0, basepri_ = 0, faultmask_ = 0, control_ = 0;
 };
 
+/// A7.3.1. Here, since of most instructions the condition is known when they are compiled.
+inline bool Engine::passes(unsigned condition) const {
+  const bool n = (negative_ & (1U << 31)) != 0, v = overflow_ != 0;
+  bool right = true;
+  switch (condition >> 1U) {
+    case 0: right = zero_ == 0; break;
+    case 1: right = carry_ != 0; break;
+    case 2: right = n; break;
+    case 3: right = v; break;
+    case 4: right = carry_ != 0 && zero_ != 0; break;
+    case 5: right = n == v; break;
+    case 6: right = zero_ != 0 && n == v; break;
+    default: return true;
+  }
+  return right != ((condition & 1U) != 0);
+}
+
 }  // namespace dsdpv1::arm

@@ -68,6 +68,8 @@ struct Operations {
   static U32 sign(U32 value) { return value >> 31; }
   static U32 ror(U32 value, unsigned by) { return by == 0 ? value : value >> by | value << (32 - by); }
   static I32 as_signed(U32 value) { return static_cast<I32>(value); }
+  /// The lowest bit that is set.
+  static std::size_t first_of(U32 bits) { return static_cast<std::size_t>(__builtin_ctz(bits)); }
 
   static void set_nz(Engine& e, U32 result) { e.negative_ = e.zero_ = result; }
 
@@ -341,22 +343,17 @@ struct Operations {
     e.done(i);
   }
 
-  static U32 bytes_of(const Instruction& i) { return static_cast<U32>(__builtin_popcount(i.value)) * 4; }
-  /// LDM, POP; `shift` 1: the base is written back.
+  /// LDM, POP of the registers in `value`, `amount` bytes; `shift` 1: the base is written back.
   template <bool before>
   static void load_many(Engine& e, const Instruction& i) {
     const U32 base = e.r_[i.rn];
-    U32 from = before ? base - bytes_of(i) : base;
-    const U32 after = before ? from : base + bytes_of(i);
+    U32 from = before ? base - i.amount : base;
+    const U32 after = before ? from : base + i.amount;
     std::array<U32, 16> values{};
-    for (unsigned n = 0; n < 16; ++n) {
-      if ((i.value >> n & 1) == 0) continue;
-      if (!e.load<4>(from, values[n])) return;
-      from += 4;
-    }
+    for (U32 left = i.value; left != 0; left &= left - 1, from += 4)
+      if (!e.load<4>(from, values[first_of(left)])) return;
     if (i.shift != 0) e.r_[i.rn] = after;
-    for (unsigned n = 0; n < 15; ++n)
-      if ((i.value >> n & 1) != 0) e.r_[n] = values[n];
+    for (U32 left = i.value & 0x7FFF; left != 0; left &= left - 1) e.r_[first_of(left)] = values[first_of(left)];
     if ((i.value >> 15) == 0) return e.done(i);
     e.pay(i);
     e.exchange(values[15]);
@@ -364,13 +361,10 @@ struct Operations {
   template <bool before>
   static void store_many(Engine& e, const Instruction& i) {
     const U32 base = e.r_[i.rn];
-    U32 to = before ? base - bytes_of(i) : base;
-    const U32 after = before ? to : base + bytes_of(i);
-    for (unsigned n = 0; n < 15; ++n) {
-      if ((i.value >> n & 1) == 0) continue;
-      if (!e.store<4>(to, e.r_[n])) return;
-      to += 4;
-    }
+    U32 to = before ? base - i.amount : base;
+    const U32 after = before ? to : base + i.amount;
+    for (U32 left = i.value; left != 0; left &= left - 1, to += 4)
+      if (!e.store<4>(to, e.r_[first_of(left)])) return;
     if (i.shift != 0) e.r_[i.rn] = after;
     e.done(i);
   }
