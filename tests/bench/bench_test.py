@@ -271,18 +271,18 @@ class Page(unittest.TestCase):
              0.50%  bench_systemc             [.] dsdpv1::systemc::PinModule::evaluate
              0.25%  bench_systemc             [.] dsdpv1::speed::(anonymous namespace)::EdgeMaster::run
              1.00%  dsdpv1-sim                [.] sc_core::sc_signal<bool, (sc_core::sc_writer_policy)0>::write
-             6.00%  libunicorn.so.2           [.] cpu_exec_arm
+             6.00%  dsdpv1-sim                [.] dsdpv1::arm::Engine::run
              0.50%  libdsdpv1.so.0.1.0        [.] dpsim_chip_next
              0.75%  libdsdpv1.so.0.1.0        [.] dsdpv1::capi::(anonymous namespace)::Alone::next
              1.00%  libdsdpv1.so.0.1.0        [.] dsdpv1::Chip::Impl::advance
              1.25%  libdsdpv1_dpi.so.0.1.0    [.] dsdpv1::simulator::Model::step
              2.50%  Vbinding_speed            [.] VlDelayScheduler::resume
-             7.00%  [JIT] tid 29453           [.] 0x00007f2c4c0021c0
+             7.00%  dsdpv1-sim                [.] void dsdpv1::arm::Operations::load_many<false>(dsdpv1::arm::Engine&, dsdpv1::arm::Instruction const&)
              8.00%  libc.so.6                 [.] malloc
              9.00%  [kernel.kallsyms]         [k] clear_page_erms
             10.00%  dsdpv1-sim                [.] dsdpv1_crc
             11.00%  dsdpv1-sim                [.] jump_over"""
-        self.assertEqual(parts.shares(printed), {"chip": 21, "binding": 2.5, "Verilator": 2.5, "module": 2, "bench": 5.25, "bus": 4, "FST library": 3, "SystemC": 3, "Unicorn": 13, "libraries": 8,
+        self.assertEqual(parts.shares(printed), {"chip": 21, "binding": 2.5, "Verilator": 2.5, "module": 2, "bench": 5.25, "bus": 4, "FST library": 3, "SystemC": 3, "processor": 13, "libraries": 8,
                                                  "kernel": 9, "driver": 10, "elsewhere": 11})
 
     def test_a_measured_limit_is_what_the_part_that_bounds_a_row_would_leave(self):

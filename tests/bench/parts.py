@@ -12,7 +12,6 @@ PROGRAM = r"^(dsdpv1-sim|bench_systemc|libdsdpv1\.so.*)$"  # the last one has th
 OWNERS = tuple((part, re.compile(file), re.compile(function)) for part, file, function in (
     ("kernel", r"^\[(kernel|vdso)", ""),
     ("SystemC", "^libsystemc", ""),
-    ("Unicorn", r"unicorn|^\[JIT\]", ""),
     ("Verilator", "^Vbinding_speed$", ""),
     ("binding", r"^libdsdpv1_dpi\.so", ""),
     ("libraries", rf"^(?!{PROGRAM[1:]})", ""),
@@ -23,10 +22,11 @@ OWNERS = tuple((part, re.compile(file), re.compile(function)) for part, file, fu
     ("binding", PROGRAM, r"^dpsim_|^([a-z-]+ thunk to )?dsdpv1::capi::"),
     ("chip", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::((dpram|profibus)::|[A-Z])"),
     ("bus", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::bus::"),
+    ("processor", PROGRAM, r"\bdsdpv1::arm::(Engine|Operations|CortexM3|Nvic|SysTick|Scb)::"),
     ("bench", PROGRAM, r"\bdsdpv1::(tb|user_cpu|checks|arm|systemc_bench|app|speed)::"),
     ("bus", PROGRAM, r"\bdsdpv1::bus::"),
     ("chip", PROGRAM, r"\bdsdpv1::")))
-NAMES = ("chip", "module", "driver", "bus", "bench", "FST library", "SystemC", "Unicorn", "binding", "Verilator", "libraries", "kernel", REST)
+NAMES = ("chip", "module", "driver", "bus", "bench", "processor", "FST library", "SystemC", "binding", "Verilator", "libraries", "kernel", REST)
 
 
 def owner(file, function):

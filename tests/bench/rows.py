@@ -176,10 +176,10 @@ ROWS = (
            "to the run with one busy slave, divided by their number, as a share of that run, which is 2 s long. Their user CPUs do nothing once they have initialised.",
            idle_station, unit="%", at_most=True,
            limit="Of a telegram for others a station is not told; the segment asks whether its filter keeps it from it."),
-    of_sim("arm", 0.5, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",
+    of_sim("arm", 1, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",
            real_time("arm_board_12m", *OFF), targets=("dsdpv1_firmware",),
-           limit="850 thousand instructions in 20 ms, for each of which Unicorn calls back, as their times are counted one by one.",
-           bound="Unicorn"),
+           limit="850 thousand instructions in 20 ms, and after every twelve of them a look whether somebody else has a turn.",
+           bound="processor"),
     of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True,
            limit="The demo without a wave does not make the changes that a wave shows: telegrams and accesses cost one step each. With one, 2.3 million "
                  "changes in 120 ms of simulated time are made: those of telegrams as runs in the recorder, those of accesses edge by edge in the chip. "
