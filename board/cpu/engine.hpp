@@ -86,7 +86,6 @@ class Engine {
   std::uint64_t now() const { return now_; }
   void set_now(std::uint64_t time) { now_ = time; }
   /// When before_instruction() is called next.
-  std::uint64_t attends_at() const { return attend_at_; }
   void attend_at(std::uint64_t time) {
     attend_at_ = time;
     until_ = 0;  // looked at before the next instruction
