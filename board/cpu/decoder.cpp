@@ -22,8 +22,7 @@ constexpr U32 sign_extended(U32 value, unsigned width) {
   return static_cast<U32>(static_cast<std::int32_t>(value << (32 - width)) >> (32 - width));
 }
 
-// -----------------------------------------------------------------------------------------------------------
-// operations
+// --- operations
 
 template <Alu what, Second second>
 Operation alu_of(bool flags, bool to_sp) {
@@ -142,8 +141,7 @@ Operation branch_if_of(unsigned condition) {
   return branch_if_of(condition, std::make_integer_sequence<unsigned, 14>());
 }
 
-// ----------------------------------------------------------------------------------------------------------
-// instructions
+// --- instructions
 
 /// The same inside of an IT block.
 Instruction always(Operation run) { return {run, run}; }
@@ -221,8 +219,7 @@ Instruction hint(U32 number) {
   }
 }
 
-// --------------------------------------------------------------------------------------------------------- one
-// halfword
+// --- one halfword
 
 /// DecodeImmShift (A7.4.2).
 void set_shift(Instruction& of, U32 type, U32 amount) {
@@ -374,8 +371,7 @@ Instruction decode16(U32 address, U32 h) {
   }
 }
 
-// --------------------------------------------------------------------------------------------------------- two
-// halfwords
+// --- two halfwords
 
 /// What op 0 to 14 of A5.3.1 and A5.3.11 means; nothing that a Cortex-M3 has: kMov with `known` false.
 Alu what_of(U32 op, bool discards, bool from_pc, bool& known) {

@@ -30,8 +30,7 @@ Engine::Engine(EngineEvents& events, std::uint32_t cost)
 
 Engine::~Engine() = default;
 
-// -------------------------------------------------------------------------------------------------------- what comes
-// next
+// --- what comes next
 
 Trap Engine::run() {
   struct Running {
@@ -123,8 +122,7 @@ void Engine::decode_here() {
   at_->cost = cost_;
 }
 
-// -----------------------------------------------------------------------------------------------------------------
-// memory
+// --- memory
 
 // NOLINTNEXTLINE(readability-non-const-parameter): stores go there
 void Engine::map(std::uint32_t address, std::uint32_t size, std::uint8_t* memory, bool writable) {
@@ -243,8 +241,7 @@ bool Engine::store_part(std::uint32_t address, unsigned bytes, std::uint32_t val
   return !access_failed_;
 }
 
-// --------------------------------------------------------------------------------------------------------------
-// registers
+// --- registers
 
 std::uint32_t Engine::xpsr() const {
   return (negative_ & kNegative) | (zero_ == 0 ? kZero : 0) | (carry_ != 0 ? kCarry : 0) |

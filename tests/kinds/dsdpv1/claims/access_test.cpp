@@ -4,18 +4,12 @@
 
 #include "tests/kinds/dsdpv1/claims/made_pins.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
-using calibrate::Wire;
-namespace wire = calibrate::wire;
-using calibrate_test::claim;
-using calibrate_test::contradicted;
-using calibrate_test::parameter;
 using testing::IsEmpty;
 
-class MadeAccesses : public calibrate_test::MadePins {
+class MadeAccesses : public MadePins {
  public:
   MadeAccesses() { show({wire::kLReq, wire::kLSta}); }
 };
@@ -199,4 +193,4 @@ TEST(CalibrateIntr0, GapOfWhichOnlyABoundIsSeenIsNotConfirmed) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

@@ -8,8 +8,6 @@
 namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
-
 void exchange_data(MadeCapture& capture, int times) {
   for (int i = 0; i < times; ++i) capture.exchange(data_exchange({1}), data_answer({2}));
 }

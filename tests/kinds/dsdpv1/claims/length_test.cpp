@@ -4,14 +4,9 @@
 
 #include "tests/kinds/dsdpv1/claims/made_pins.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
-using calibrate::Wire;
-namespace wire = calibrate::wire;
-using calibrate_test::claim;
-using calibrate_test::contradicted;
 using testing::IsEmpty;
 
 constexpr double k24MHz = 24e6;
@@ -21,7 +16,7 @@ constexpr double k24MHz = 24e6;
 calibrate::Result judged(double cycles, double ppm, int busy = 0, bool user = true) {
   constexpr int kAccesses = 3'000;
   const double interval = 48 * (1 + ppm * 1e-6);
-  calibrate_test::MadePins made;
+  MadePins made;
   made.show({wire::kLReq, wire::kLSta});
   if (user) made.show({wire::kRReq, wire::kRSta});
   for (int i = 0; i < kAccesses; ++i) made.access(100 + interval * i, busy != 0 && i % busy == 0 ? cycles + 5 : cycles);
@@ -52,4 +47,4 @@ TEST(CalibrateLength, IsNotConfirmedWhereTheSamplesHideACycle) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

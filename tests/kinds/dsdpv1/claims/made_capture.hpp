@@ -10,6 +10,7 @@ namespace dsdpv1::calibrate_test {
 using bus::Bytes;
 using bus::Telegram;
 using bus::Tick;
+using calibrate::Verdict;
 using calibrate::Wire;
 namespace wire = calibrate::wire;
 

@@ -4,16 +4,9 @@
 
 #include "tests/kinds/dsdpv1/claims/made_pins.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
-using calibrate::Wire;
-namespace wire = calibrate::wire;
-using calibrate_test::claim;
-using calibrate_test::contradicted;
-using calibrate_test::MadePins;
-using calibrate_test::parameter;
 using testing::IsEmpty;
 
 constexpr double kCut = 2'071;  ///< cycle of the reset that add_cut_work makes
@@ -186,4 +179,4 @@ TEST(CalibrateStartUp, ThatIsLongerThanAnyOtherAccessIsContradictedWithoutOtherP
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

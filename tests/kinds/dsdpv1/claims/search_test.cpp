@@ -6,8 +6,6 @@
 namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
-
 struct Verdicts {
   Verdict s1, s10;
 };

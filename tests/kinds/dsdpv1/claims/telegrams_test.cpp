@@ -6,7 +6,6 @@
 namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
 namespace fc = bus::fc;
 namespace sap = bus::sap;
 

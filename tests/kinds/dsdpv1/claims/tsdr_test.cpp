@@ -8,7 +8,6 @@
 namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
 namespace sap = bus::sap;
 
 constexpr double kMaxTsdr = 150;  ///< at 1.5M

@@ -4,18 +4,13 @@
 
 #include "tests/kinds/dsdpv1/claims/made_pins.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
-using calibrate::Wire;
-namespace wire = calibrate::wire;
-using calibrate_test::claim;
-using calibrate_test::contradicted;
 using testing::IsEmpty;
 
 /// The chip has the DPRAM every 48 cycles until 388; the user holds it from 410 to 2000.
-class MadeHold : public calibrate_test::MadePins {
+class MadeHold : public MadePins {
  public:
   explicit MadeHold(bool request = true) {
     show({wire::kLReq, wire::kLSta, wire::kRReq, wire::kRSta});
@@ -120,7 +115,7 @@ TEST(CalibrateRead, InResetAndBeforeTheStartUpIsNotJudged) {
 
 TEST(CalibrateRead, InAResetThatNoPinShowsIsNotJudged) {
   const auto judged = [](const std::vector<Wire>& pins) {
-    calibrate_test::MadePins made;
+    MadePins made;
     made.show_host_port();
     made.show(pins, true);
     made.read(500, 0x001, 0xFF);
@@ -274,4 +269,4 @@ TEST(CalibrateFlags, ThatAreReservedStayAsTheUserSetThem) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

@@ -9,8 +9,6 @@
 namespace dsdpv1::calibrate_test {
 namespace {
 
-using calibrate::Verdict;
-
 const Bytes kOutputs = {1, 2};
 
 /// A station that found its rate, with BR, READY and PBF.
