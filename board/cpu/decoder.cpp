@@ -288,6 +288,7 @@ Instruction all_registers(U32 pc, U32 h) {
       return alu_plain(Alu::kAdd, Second::kRegister, rd, rd, rm, 0);
     case 1: return with_registers(alu_of(Alu::kCmp, Second::kRegister, true, 0), 0, rd, rm);
     case 2:
+      if (rd == kPc && rm == kPc) return branch_to(&O::branch, pc);
       if (rd == kPc) return with_registers(&O::move_to_pc<false>, 0, 0, rm);
       if (rm == kPc) return alu_plain(Alu::kMov, Second::kImmediate, rd, 0, 0, pc);
       return alu_plain(Alu::kMov, Second::kRegister, rd, 0, rm, 0);

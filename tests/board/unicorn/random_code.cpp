@@ -385,7 +385,16 @@ class Writer {
     else
       add(plain(true));
   }
-  void branch() { jump(static_cast<Kind>(below(random_, 7))); }
+  void branch() {
+    const unsigned kind = below(random_, 8);
+    if (kind == 7) return over_one();
+    jump(static_cast<Kind>(kind));
+  }
+  /// MOV PC, PC; ADDS r0, #1 behind it is left out.
+  void over_one() {
+    add({0x46FF});
+    add({0x3001});
+  }
   /// Over none to three instructions; kFar: by way of a register.
   void jump(Kind kind) {
     if (kind == Kind::kFar) return far();
