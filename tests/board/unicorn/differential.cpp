@@ -22,7 +22,7 @@
 namespace dsdpv1::arm::differential {
 namespace {
 
-constexpr unsigned kInstructions = 96, kPasses = 24;
+constexpr unsigned kInstructions = 96, kPasses = 24, kMostBlocks = 4'000;
 constexpr std::uint32_t kFlagBits = 0xF8000000, kExceptionBits = 0x1FF, kItBits = 0x0600FC00, kThumb = 1U << 24;
 
 State random_state(Random& random, std::uint32_t pc) {
@@ -99,6 +99,7 @@ class Campaign {
 
   /// False: a difference, which was told.
   bool block() {
+    if (++blocks_ % kMostBlocks == 0) renew();
     const std::vector<std::uint8_t> code = random_code(random_, kInstructions);
     ours_->load(code);
     unicorn_->load(code);
@@ -117,6 +118,11 @@ class Campaign {
   std::uint64_t instructions() const { return compared_; }
 
  private:
+  /// Unicorn crashes now and then after so much code, inside of itself.
+  void renew() {
+    ours_ = make_ours();
+    unicorn_ = make_unicorn();
+  }
   /// From the first instruction to the end; behind one at fault it goes on with other registers.
   bool pass(const std::vector<std::uint8_t>& code) {
     for (std::uint32_t pc = kCode;;) {
@@ -161,6 +167,7 @@ class Campaign {
   Random random_;
   std::unique_ptr<Machine> ours_, unicorn_;
   std::uint64_t compared_ = 0;
+  unsigned blocks_ = 0;
 };
 
 /// Days since 1970.
