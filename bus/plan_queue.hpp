@@ -24,9 +24,8 @@ class PlanQueue {
 
   /// The earliest of all, kNever when nothing is planned.
   Tick earliest() const { return plan_of(1); }
-  /// The earliest of all but `place`, kNever when they plan nothing; or any of them that is due at `at` or before,
-  /// where somebody is.
-  Tick earliest_other(std::size_t place, Tick at) const;
+  /// The earliest of all but `place`, kNever when they plan nothing.
+  Tick earliest_other(std::size_t place) const;
   /// The first place from `from` on, at most one after the last, that is due at `now` or before; else kNone.
   std::size_t first_due(std::size_t from, Tick now) const;
 

@@ -68,18 +68,17 @@ bool Timeline::has_news_of_others(std::size_t place) const {
   return news_.size() > 1 || (news_.size() == 1 && news_.front() != place);
 }
 
-bool Timeline::quiet(const Agent& agent, Tick tick) {
+Tick Timeline::quiet_until(const Agent& agent) {
   if (asked_by_ != agent.place_ || has_news_of_others(agent.place_)) {
     hear_news(&agent);
-    others_at_ = plans_.earliest_other(agent.place_, tick);
-    if (others_at_ <= tick) return false;  // perhaps not the earliest
+    others_at_ = plans_.earliest_other(agent.place_);
     asked_by_ = agent.place_;
   }
-  return tick <= limit_ && tick < others_at_;
+  return limit_ < others_at_ ? limit_ + 1 : others_at_;
 }
 
 bool Timeline::go_on(const Agent& agent, Tick tick) {
-  if (!quiet(agent, tick)) return false;
+  if (quiet_until(agent) <= tick) return false;
   if (checks_)
     for (std::size_t place = 0; place < agents_.size(); ++place)
       if (place != agent.place_) compare(place);

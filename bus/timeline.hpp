@@ -55,10 +55,10 @@ class Timeline {
 
   /// The tick of the earliest planned action of any agent.
   Tick next();
-  /// Nobody but `agent`, which has its turn, has one up to and including `tick`, which is not after the limit of the
-  /// step: as long as it does nothing to others, nothing happens until then.
-  bool quiet(const Agent& agent, Tick tick);
-  /// It is quiet up to `tick`, where `agent` would act next: the step goes on to that tick, and this is its turn there.
+  /// The tick of the first turn of anybody but `agent`, which has its turn, at most the one after the limit of the step:
+  /// as long as it does nothing to others, nothing happens before that.
+  Tick quiet_until(const Agent& agent);
+  /// It is quiet up to and including `tick`, where `agent` would act next: the step goes on to that tick, and this is its turn there.
   /// False: it has to wait for it.
   bool go_on(const Agent& agent, Tick tick);
   /// Runs every action due up to and including `until`; `now()` is then `until`.
@@ -89,7 +89,7 @@ class Timeline {
   std::vector<std::size_t> news_;  ///< who has announced something that was not asked for yet
   Tick now_ = 0;
   Tick limit_ = kNever;  ///< of the step under way
-  // What `quiet` has found out stands until somebody else's plan is another.
+  // What `quiet_until` has found out stands until somebody else's plan is another.
   std::size_t asked_by_ = PlanQueue::kNone;
   Tick others_at_ = kNever;  ///< when all but that place have their next turn
   bool checks_ = false;

@@ -24,10 +24,8 @@ constexpr Region kOutside[] = {
     {0xE0000000, 0x00100000},  // private peripheral bus
 };
 
-// Milliseconds of real time are what a debugger's poll needs; attend() comes every quarter of a microsecond of
-// simulated time.
-constexpr unsigned kAttendsPerPoll = 4096;
-constexpr std::uint64_t kCyclesPerPoll = 720'000;  // while asleep: 10 ms at 72 MHz
+// A debugger is asked what it wants, 1 ms at 72 MHz; 10 ms while asleep.
+constexpr std::uint64_t kCyclesPerPoll = 72'000, kCyclesPerPollAsleep = 720'000;
 
 }  // namespace
 
@@ -100,7 +98,7 @@ void CortexM3::reset_processor() {
   systick_.reset();
   scb_.reset();
   event_ = reset_requested_ = moved_ = false;
-  keep_up_at_ = engine_.now();
+  broken_off_ = {};
   for (const Register mask : {Register::kPrimask, Register::kBasepri, Register::kFaultmask}) engine_.write(mask, 0);
   engine_.set_mode(kThumb, 0, word_at(scb_.vector_table()) & ~3U, 0);
   engine_.write(Register::kLr, 0xFFFFFFFF);  // B1.5.5
@@ -129,6 +127,7 @@ void CortexM3::handle_trap(Trap trap) {
     case Trap::kUndefined: raise(FaultKind::kUndefinedInstruction, 0); break;
     case Trap::kBadFetch: raise(FaultKind::kFetch, pc()); break;
     case Trap::kBadAccess: raise(FaultKind::kData, engine_.bad_address()); break;
+    case Trap::kUnaligned: raise(FaultKind::kUnaligned, 0); break;
   }
 }
 
@@ -143,6 +142,7 @@ void CortexM3::between_instructions() {
 }
 
 bool CortexM3::before_instruction(bool in_it) {
+  arrived_ = engine_.attend_at() != 0 ? engine_.attend_at() : engine_.now();
   catch_up();
   if (debugger_ != nullptr && !stopped_) attend_debugger();
   if (stopped_ || reset_requested_ || moved_ || (!in_it && preempting() != kNoException)) return false;
@@ -151,10 +151,10 @@ bool CortexM3::before_instruction(bool in_it) {
 }
 
 void CortexM3::attend_debugger() {
-  if (debugger_->wanted())
-    debugger_->before_instruction(pc());
-  else if (++polls_ % kAttendsPerPoll == 0)
-    debugger_->poll();
+  if (debugger_->wanted()) return debugger_->before_instruction(pc());
+  if (engine_.now() < poll_at_) return;
+  poll_at_ = engine_.now() + kCyclesPerPoll * kMillis;
+  debugger_->poll();
 }
 
 void CortexM3::catch_up_systick() {
@@ -163,23 +163,22 @@ void CortexM3::catch_up_systick() {
 
 void CortexM3::catch_up() {
   catch_up_systick();
-  if (engine_.now() < keep_up_at_) return;
-  keep_up_at_ = engine_.now() + timing_.quantum * kMillis;
-  system_.keep_up();
+  const std::uint64_t next = system_.keep_up();
+  keep_up_at_ = next == kNever ? kNever : next * kMillis;
 }
 
 // An exception that waits for the end of an IT block is looked for again at once.
 void CortexM3::schedule(bool in_it) {
   const std::uint64_t tick = systick_.next();
   const bool at_once = in_it || (debugger_ != nullptr && debugger_->wanted());
-  engine_.attend_at(at_once ? 0 : std::min(keep_up_at_, tick == kNever ? kNever : tick * kMillis));
+  const std::uint64_t due = std::min(keep_up_at_, tick == kNever ? kNever : tick * kMillis);
+  engine_.attend_at(at_once ? 0 : debugger_ != nullptr ? std::min(due, poll_at_) : due);
 }
 
 // Entry, return and tail-chain. The world comes up to their end: an exception that arrives meanwhile may go first
 // (B1.5.4).
-void CortexM3::spend(std::uint32_t cycles) {
-  engine_.set_now(engine_.now() + cycles * kMillis);
-  keep_up_at_ = engine_.now();
+void CortexM3::spend_until(std::uint64_t end) {
+  engine_.set_now(end);
   catch_up();
 }
 
@@ -195,7 +194,7 @@ void CortexM3::doze(bool for_event) {
   };
   while (!woken()) {
     std::uint64_t until = systick_.next();
-    if (debugger_ != nullptr) until = std::min(until, cycles() + kCyclesPerPoll);
+    if (debugger_ != nullptr) until = std::min(until, cycles() + kCyclesPerPollAsleep);
     system_.sleep(until);
     catch_up();
     if (debugger_ != nullptr) {
@@ -223,9 +222,13 @@ void CortexM3::set_interrupt_level(unsigned irq, bool high) {
 
 void CortexM3::bus_error() { engine_.bus_error(); }
 
-std::uint32_t CortexM3::on_load(std::uint32_t address, unsigned bytes) { return load_outside(address, bytes); }
+std::uint32_t CortexM3::on_load(std::uint32_t address, unsigned bytes) {
+  attend_soon();
+  return load_outside(address, bytes);
+}
 
 void CortexM3::on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  attend_soon();
   store_outside(address, bytes, value);
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 // A Cortex-M3 (ARMv7-M) in simulated time: Engine executes the instructions; exceptions and the system control space
-// stand here. Every instruction is taken to last the same (p), accesses to the System last what the System says. Not
-// modelled: the MPU, unaligned-access and division-by-zero traps (CCR), ICI (LDM and STM are not interrupted). An
-// unaligned access to the System comes in aligned parts.
+// stand here. Instructions last what the technical reference manual says, accesses to the System what the System says.
+// An exception breaks off LDM, STM and divisions (see take_exception). Not modelled: the MPU, unaligned-access and
+// division-by-zero traps (CCR), ICI. An unaligned access to the System comes in aligned parts.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -29,9 +30,9 @@ class System {
   /// CortexM3::advance_to.
   virtual std::uint32_t load(std::uint32_t address, unsigned bytes) = 0;
   virtual void store(std::uint32_t address, unsigned bytes, std::uint32_t value) = 0;
-  /// Called between two instructions at least every Timing::quantum cycles: the rest of the world comes up to cycles();
-  /// may call set_interrupt.
-  virtual void keep_up() = 0;
+  /// Between two instructions: the rest of the world comes up to cycles(); may call set_interrupt. Returns the cycle of
+  /// the next call (kNever: none); after every load and store it is called again.
+  virtual std::uint64_t keep_up() = 0;
   /// WFI or WFE with nothing pending: lets time pass until set_interrupt was called or cycle `until` (kNever: none) has
   /// come; the system calls advance_to.
   virtual void sleep(std::uint64_t until) = 0;
@@ -47,14 +48,12 @@ class System {
   virtual bus::Tick now() const { return 0; }
 };
 
-/// Cycles of HCLK.
+/// Cycles of HCLK (Cortex-M3 technical reference manual r2p0, 3.9.1).
 struct Timing {
-  std::uint32_t millicycles_per_instruction =
-      1500;                            ///< (p) an average: flash wait states with prefetch, branches, multiplications
-  std::uint32_t quantum = 18;          ///< 250 ns at 72 MHz
-  std::uint32_t exception_entry = 12;  ///< Cortex-M3 reference manual, zero wait states
-  std::uint32_t exception_return = 12;
-  std::uint32_t tail_chain = 6;  ///< in place of a return and an entry
+  std::uint32_t millicycles_per_instruction = 0;  ///< 0: each what it lasts; else all the same
+  std::uint32_t exception_entry = 12;             ///< the handler's first instruction is fetched meanwhile
+  std::uint32_t exception_return = 12;            ///< the next instruction is fetched meanwhile
+  std::uint32_t tail_chain = 6;                   ///< in place of a return and an entry; without wait states
 };
 
 /// Sizes are multiples of 4096 bytes. Flash is seen at 0 too.
@@ -82,8 +81,10 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   /// The run ends before the next instruction. Callable from System's functions and on_fault.
   void stop();
 
-  /// Timing::quantum from now on; > 0.
-  void set_quantum(std::uint32_t cycles) { timing_.quantum = cycles; }
+  /// Flash from now on; at first without wait states.
+  void set_flash(unsigned wait_states, bool prefetches) { engine_.set_flash(wait_states, prefetches); }
+  /// System::keep_up is called behind each store to this part of RAM.
+  void watch(std::uint32_t address, std::uint32_t size) { engine_.watch(address, size); }
   /// Cycles of HCLK since the first reset.
   std::uint64_t cycles() const { return engine_.now() / kMillis; }
   /// From System's functions: time has gone on. Not backwards.
@@ -133,7 +134,8 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void catch_up();
   void catch_up_systick();
   void schedule(bool in_it);
-  void spend(std::uint32_t cycles);
+  void spend(std::uint32_t cycles) { spend_until(engine_.now() + cycles * kMillis); }
+  void spend_until(std::uint64_t end);
   void doze(bool for_event);
   const std::uint8_t* host(std::uint32_t address) const;
   std::uint16_t opcode_at(std::uint32_t address) const;
@@ -147,6 +149,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   void on_data(std::uint32_t address, unsigned bytes, bool write) override;
   void on_event() override { event_ = true; }
+  void on_watched_store() override { attend_soon(); }
 
   // private_bus.cpp: bit-band, system control space
   std::uint32_t load_outside(std::uint32_t address, unsigned bytes);
@@ -192,7 +195,10 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   SysTick systick_;
   Scb scb_;
 
-  std::uint64_t keep_up_at_ = 0;  // thousandths of a cycle
+  // Thousandths of a cycle.
+  std::uint64_t keep_up_at_ = 0;
+  std::uint64_t arrived_ = 0;  // when what is pending now became so, at the earliest
+  std::array<std::uint64_t, Nvic::kExceptions> broken_off_{};  // of instructions, by the exceptions that were active
   bool event_ = false;            // the event register of WFE and SEV (B1.5.18)
   bool stopped_ = false, reset_requested_ = false;
   bool moved_ = false;   // a debugger wrote PC
@@ -200,7 +206,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
 
   std::function<void(const Fault&)> report_fault_;
   Debugger* debugger_ = nullptr;
-  unsigned polls_ = 0;
+  std::uint64_t poll_at_ = 0;  // thousandths of a cycle
 };
 
 }  // namespace dsdpv1::arm

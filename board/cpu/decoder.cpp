@@ -13,6 +13,10 @@ using U32 = std::uint32_t;
 
 constexpr U8 kSp = 13, kPc = 15;
 
+// Cycles (Cortex-M3 technical reference manual r2p0, table 3-1 and 3.3.2), where there is more than one.
+constexpr U32 kLoad = 2, kLoadPc = 2, kIndexedStore = 2, kTwo = 3, kExclusive = 2, kTable = 3, kMultiplyAdd = 2,
+              kLongMultiply = 3, kLongMultiplyAdd = 4, kDivide = 2, kToSpecial = 2;
+
 /// `count` bits from bit `from` on.
 constexpr U32 bits(U32 word, unsigned from, unsigned count) { return word >> from & ((1U << count) - 1); }
 constexpr bool bit(U32 word, unsigned at) { return (word >> at & 1) != 0; }
@@ -150,18 +154,32 @@ Instruction undefined() { return always(&O::refused<Trap::kUndefined>); }
 /// Of a halfword: it sets flags, but not inside of an IT block.
 Instruction alu16(Alu what, Second second, U8 rd, U8 rn, U8 rm, U32 value) {
   Instruction made = {alu_of(what, second, true, rd), alu_of(what, second, !has_result(what), rd), value, rd, rn, rm};
+  made.kind = has_result(what) ? Kind::kData : Kind::kCompare;
   return made;
 }
 
 Instruction alu_plain(Alu what, Second second, U8 rd, U8 rn, U8 rm, U32 value) {
   Instruction made = always(alu_of(what, second, false, rd));
   made.rd = rd, made.rn = rn, made.rm = rm, made.value = value;
+  made.kind = Kind::kData;
   return made;
 }
 
 Instruction with_registers(Operation run, U8 rd, U8 rn, U8 rm, U32 value = 0) {
   Instruction made = always(run);
   made.rd = rd, made.rn = rn, made.rm = rm, made.value = value;
+  return made;
+}
+
+/// With a result in rd.
+Instruction data(Operation run, U8 rd, U8 rn, U8 rm, U32 value = 0) {
+  Instruction made = with_registers(run, rd, rn, rm, value);
+  made.kind = Kind::kData;
+  return made;
+}
+
+Instruction lasting(U32 cycles, Instruction made) {
+  made.cost = static_cast<std::uint16_t>(cycles);
   return made;
 }
 
@@ -177,15 +195,21 @@ struct Place {
 
 Instruction load(Access access, U8 rt, const Place& from) {
   const Operation run = rt == kPc ? load_pc_of(from.index) : load_of(access, from.index, rt == kSp || from.writes_sp());
-  Instruction made = with_registers(run, rt, from.rn, from.rm, from.value);
+  Instruction made = lasting(rt == kPc ? kLoadPc : kLoad, with_registers(run, rt, from.rn, from.rm, from.value));
   made.amount = static_cast<U8>(from.amount);
+  if (rt == kPc) return made;
+  made.kind = from.index == Index::kAbsolute   ? Kind::kLoadLiteral
+              : from.index == Index::kRegister ? Kind::kLoadIndexed
+                                               : Kind::kLoad;
   return made;
 }
 
 Instruction store(Access access, U8 rt, const Place& to) {
+  const bool indexed = to.index == Index::kRegister;
   Instruction made = with_registers(store_of(access, to.index, to.writes_sp()), rt, to.rn, to.rm, to.value);
   made.amount = static_cast<U8>(to.amount);
-  return made;
+  made.kind = indexed ? Kind::kStoreIndexed : Kind::kStore;
+  return indexed ? lasting(kIndexedStore, made) : made;
 }
 
 Instruction load_or_store(bool loads, Access access, U8 rt, const Place& place) {
@@ -198,14 +222,22 @@ Instruction many(bool loads, bool up, bool writes_back, U8 rn, U32 list) {
                         : up ? &O::store_many<false>
                               : &O::store_many<true>;
   Instruction made = with_registers(run, 0, rn, 0, list);
+  const auto words = static_cast<U32>(__builtin_popcount(list));
   made.shift = writes_back ? 1 : 0;
-  made.amount = static_cast<U8>(4 * __builtin_popcount(list));
-  return made;
+  made.amount = static_cast<U8>(4 * words);
+  made.kind = Kind::kMany;
+  return lasting(1 + words, made);
 }
 
 Instruction branch_to(Operation run, U32 target) {
   Instruction made = always(run);
   made.value = target;
+  return made;
+}
+
+Instruction if_then(U32 state) {
+  Instruction made = branch_to(&O::it, state);
+  made.kind = Kind::kIt;
   return made;
 }
 
@@ -254,6 +286,7 @@ Instruction data_processing16(U32 h) {
   const auto shift = [&](Shift type) {
     Instruction made = {&O::shift_by_register<true>, &O::shift_by_register<false>, 0, rd, rd, rm};
     made.shift = type;
+    made.kind = Kind::kData;
     return made;
   };
   const auto alu = [&](Alu what) { return alu16(what, Second::kRegister, rd, rd, rm, 0); };
@@ -286,7 +319,7 @@ Instruction all_registers(U32 pc, U32 h) {
       if (rd == kPc) return with_registers(&O::move_to_pc<true>, 0, 0, rm);
       if (rm == kPc) return alu_plain(Alu::kAdd, Second::kImmediate, rd, rd, 0, pc);
       return alu_plain(Alu::kAdd, Second::kRegister, rd, rd, rm, 0);
-    case 1: return with_registers(alu_of(Alu::kCmp, Second::kRegister, true, 0), 0, rd, rm);
+    case 1: return alu16(Alu::kCmp, Second::kRegister, 0, rd, rm, 0);
     case 2:
       if (rd == kPc && rm == kPc) return branch_to(&O::branch, pc);
       if (rd == kPc) return with_registers(&O::move_to_pc<false>, 0, 0, rm);
@@ -308,13 +341,13 @@ Instruction miscellaneous16(U32 h) {
   const U8 rd = low(h, 0), rm = low(h, 3);
   const U32 words = bits(h, 0, 7) * 4;
   switch (h >> 6) {
-    case 0xB200U >> 6: return with_registers(&O::extend<std::int16_t>, rd, 0, rm);
-    case 0xB240U >> 6: return with_registers(&O::extend<std::int8_t>, rd, 0, rm);
-    case 0xB280U >> 6: return with_registers(&O::extend<std::uint16_t>, rd, 0, rm);
-    case 0xB2C0U >> 6: return with_registers(&O::extend<std::uint8_t>, rd, 0, rm);
-    case 0xBA00U >> 6: return with_registers(&O::rev, rd, 0, rm);
-    case 0xBA40U >> 6: return with_registers(&O::rev16, rd, 0, rm);
-    case 0xBAC0U >> 6: return with_registers(&O::revsh, rd, 0, rm);
+    case 0xB200U >> 6: return data(&O::extend<std::int16_t>, rd, 0, rm);
+    case 0xB240U >> 6: return data(&O::extend<std::int8_t>, rd, 0, rm);
+    case 0xB280U >> 6: return data(&O::extend<std::uint16_t>, rd, 0, rm);
+    case 0xB2C0U >> 6: return data(&O::extend<std::uint8_t>, rd, 0, rm);
+    case 0xBA00U >> 6: return data(&O::rev, rd, 0, rm);
+    case 0xBA40U >> 6: return data(&O::rev16, rd, 0, rm);
+    case 0xBAC0U >> 6: return data(&O::revsh, rd, 0, rm);
     default: break;
   }
   switch (h >> 8) {
@@ -322,7 +355,7 @@ Instruction miscellaneous16(U32 h) {
     case 0xBE: return always(&O::refused<Trap::kBreakpoint>);
     case 0xBF:
       if ((h & 15) == 0) return hint(bits(h, 4, 4));
-      return branch_to(&O::it, h & 0xFF);
+      return if_then(h & 0xFF);
     default: break;
   }
   if ((h & 0xFFE8) != 0xB660) return undefined();
@@ -415,6 +448,7 @@ Instruction alu32(U32 h, U32 h2, bool is_immediate) {
   if (!known) return undefined();
   Instruction made = {};
   made.rd = rd, made.rn = rn, made.rm = reg(h2, 0);
+  made.kind = has_result(what) ? Kind::kData : Kind::kCompare;
   Second second = Second::kImmediate;
   if (is_immediate) {
     bool rotated = false;
@@ -435,13 +469,13 @@ Instruction plain_immediate(U32 pc, U32 h, U32 h2) {
   const U32 imm12 = immediate12(h, h2), imm16 = bits(h, 0, 4) << 12 | imm12;
   const U32 first = bits(h2, 12, 3) << 2 | bits(h2, 6, 2), last = bits(h2, 0, 5);
   const auto of_bits = [&](Operation run, U32 count) {
-    Instruction made = with_registers(run, rd, rn, 0);
+    Instruction made = data(run, rd, rn, 0);
     made.shift = static_cast<U8>(first);
     made.amount = static_cast<U8>(count);
     return first + count > 32 || count > 32 ? undefined() : made;
   };
   const auto saturates = [&](Operation run, U32 to) {
-    Instruction made = with_registers(run, rd, rn, 0, to);
+    Instruction made = data(run, rd, rn, 0, to);
     set_shift(made, bit(h, 5) ? kAsr : kLsl, first);
     return bit(h, 5) && first == 0 ? undefined() : made;
   };
@@ -453,7 +487,7 @@ Instruction plain_immediate(U32 pc, U32 h, U32 h2) {
       if (rn == kPc) return alu_plain(Alu::kMov, Second::kImmediate, rd, 0, 0, (pc & ~3U) - imm12);
       return alu_plain(Alu::kSub, Second::kImmediate, rd, rn, 0, imm12);
     case 0b00100: return alu_plain(Alu::kMov, Second::kImmediate, rd, 0, 0, imm16);
-    case 0b01100: return with_registers(&O::move_top, rd, 0, 0, imm16);
+    case 0b01100: return data(&O::move_top, rd, 0, 0, imm16);
     case 0b10000:
     case 0b10010: return saturates(&O::saturate<true>, last + 1);
     case 0b11000:
@@ -485,11 +519,12 @@ Instruction branch_or_control(U32 pc, U32 h, U32 h2) {
   special.shift = bit(h2, 11) ? 1 : 0;
   switch (bits(h, 4, 7)) {
     case 0x38:
-    case 0x39: return special;
+    case 0x39: return lasting(kToSpecial, special);
     case 0x3A: return bits(h2, 8, 3) == 0 ? hint(bits(h2, 0, 8)) : undefined();
     case 0x3B:
       if (bits(h2, 4, 4) == 2) return always(&O::clear_exclusive);
-      return bits(h2, 4, 4) >= 4 && bits(h2, 4, 4) <= 6 ? always(&O::nothing) : undefined();
+      if (bits(h2, 4, 4) == 6) return always(&O::refill);  // ISB
+      return bits(h2, 4, 4) == 4 || bits(h2, 4, 4) == 5 ? always(&O::nothing) : undefined();
     case 0x3E:
     case 0x3F: special.run = special.run_in_it = &O::from_special; return special;
     default: return undefined();
@@ -508,8 +543,9 @@ Instruction dual(U32 pc, U32 h, U32 h2) {
   const U8 rn = reg(h, 0);
   const U32 offset = bits(h2, 0, 8) * 4, value = bit(h, 7) ? offset : 0 - offset;
   const Index index = !before ? Index::kAfter : writes_back ? Index::kBefore : Index::kOffset;
-  Instruction made = with_registers(nullptr, reg(h2, 12), rn, 0, value);
+  Instruction made = lasting(kTwo, with_registers(nullptr, reg(h2, 12), rn, 0, value));
   made.ra = reg(h2, 8);
+  made.kind = Kind::kMany;
   switch (index) {
     case Index::kAfter: made.run = loads ? &O::load_two<Index::kAfter> : &O::store_two<Index::kAfter>; break;
     case Index::kBefore: made.run = loads ? &O::load_two<Index::kBefore> : &O::store_two<Index::kBefore>; break;
@@ -518,6 +554,7 @@ Instruction dual(U32 pc, U32 h, U32 h2) {
   if (loads && rn == kPc) {
     made.run = &O::load_two<Index::kAbsolute>;
     made.value = (pc & ~3U) + value;
+    made.kind = Kind::kOther;
   }
   made.run_in_it = made.run;
   return made;
@@ -527,8 +564,9 @@ Instruction dual(U32 pc, U32 h, U32 h2) {
 Instruction dual_or_exclusive(U32 pc, U32 h, U32 h2) {
   if (bit(h, 8) || bit(h, 5)) return dual(pc, h, h2);
   const bool loads = bit(h, 4);
-  Instruction made = with_registers(nullptr, reg(h2, 12), reg(h, 0), reg(h2, 0), 0);
+  Instruction made = lasting(kExclusive, with_registers(nullptr, reg(h2, 12), reg(h, 0), reg(h2, 0), 0));
   made.ra = reg(h2, 0);
+  made.kind = loads ? Kind::kLoad : Kind::kStoreIndexed;  // STREX is one like LDR
   if (!bit(h, 7)) {
     made.value = bits(h2, 0, 8) * 4;
     made.ra = reg(h2, 8);
@@ -540,6 +578,8 @@ Instruction dual_or_exclusive(U32 pc, U32 h, U32 h2) {
   } else if (loads && bits(h2, 4, 4) < 2) {
     made.run = bit(h2, 4) ? &O::table_branch<std::uint16_t> : &O::table_branch<std::uint8_t>;
     made.shift = made.rn == kPc ? 1 : 0;
+    made.cost = kTable;
+    made.kind = Kind::kLoadIndexed;
   } else {
     return undefined();
   }
@@ -591,7 +631,7 @@ Instruction register32(U32 h, U32 h2) {
   if (bits(h2, 12, 4) != 15) return undefined();
   if (op1 < 8 && op2 == 0) {
     Instruction made =
-        with_registers(bit(h, 4) ? &O::shift_by_register<true> : &O::shift_by_register<false>, rd, rn, rm);
+        data(bit(h, 4) ? &O::shift_by_register<true> : &O::shift_by_register<false>, rd, rn, rm);
     made.shift = static_cast<U8>(op1 >> 1);
     return made;
   }
@@ -599,33 +639,35 @@ Instruction register32(U32 h, U32 h2) {
     static constexpr Operation kExtend[] = {&O::extend<std::int16_t>, &O::extend<std::uint16_t>, nullptr, nullptr,
                                             &O::extend<std::int8_t>,  &O::extend<std::uint8_t>};
     if (op1 > 5 || kExtend[op1] == nullptr) return undefined();
-    Instruction made = with_registers(kExtend[op1], rd, 0, rm);
+    Instruction made = data(kExtend[op1], rd, 0, rm);
     made.amount = static_cast<U8>(bits(h2, 4, 2) * 8);
     return made;
   }
   static constexpr Operation kReverse[] = {&O::rev, &O::rev16, &O::rbit, &O::revsh};
-  if (op1 == 9 && op2 >= 8 && op2 < 12) return with_registers(kReverse[op2 - 8], rd, 0, rm);
-  if (op1 == 11 && op2 == 8) return with_registers(&O::clz, rd, 0, rm);
+  if (op1 == 9 && op2 >= 8 && op2 < 12) return data(kReverse[op2 - 8], rd, 0, rm);
+  if (op1 == 11 && op2 == 8) return data(&O::clz, rd, 0, rm);
   return undefined();
 }
 
 /// A5.3.16, A5.3.17
 Instruction multiply32(U32 h, U32 h2) {
-  Instruction made = with_registers(nullptr, reg(h2, 8), reg(h, 0), reg(h2, 0));
+  Instruction made = data(nullptr, reg(h2, 8), reg(h, 0), reg(h2, 0));
   made.ra = reg(h2, 12);
+  const auto of = [&made](Operation run, U32 cycles) {
+    made.run = made.run_in_it = run;
+    return lasting(cycles, made);
+  };
   switch (bits(h, 4, 4) << 4 | bits(h2, 4, 4)) {
-    case 0x00: made.run = made.ra == kPc ? &O::multiply<false> : &O::multiply_add<false>; break;
-    case 0x01: made.run = &O::multiply_add<true>; break;
-    case 0x80: made.run = &O::multiply_long<true, false>; break;
-    case 0x9F: made.run = &O::divide<true>; break;
-    case 0xA0: made.run = &O::multiply_long<false, false>; break;
-    case 0xBF: made.run = &O::divide<false>; break;
-    case 0xC0: made.run = &O::multiply_long<true, true>; break;
-    case 0xE0: made.run = &O::multiply_long<false, true>; break;
+    case 0x00: return made.ra == kPc ? of(&O::multiply<false>, 1) : of(&O::multiply_add<false>, kMultiplyAdd);
+    case 0x01: return of(&O::multiply_add<true>, kMultiplyAdd);
+    case 0x80: return of(&O::multiply_long<true, false>, kLongMultiply);
+    case 0x9F: return of(&O::divide<true>, kDivide);
+    case 0xA0: return of(&O::multiply_long<false, false>, kLongMultiply);
+    case 0xBF: return of(&O::divide<false>, kDivide);
+    case 0xC0: return of(&O::multiply_long<true, true>, kLongMultiplyAdd);
+    case 0xE0: return of(&O::multiply_long<false, true>, kLongMultiplyAdd);
     default: return undefined();
   }
-  made.run_in_it = made.run;
-  return made;
 }
 
 /// A5.3

@@ -11,8 +11,16 @@ namespace {
 
 constexpr std::uint32_t kNegative = 1U << 31, kZero = 1U << 30, kCarry = 1U << 29, kOverflow = 1U << 28,
                         kSaturated = 1U << 27, kThumb = 1U << 24, kException = 0x1FF, kFlags = 0xF8000000;
+constexpr std::uint32_t kCycle = 1000;
 constexpr std::uint32_t kItLow = 25, kItHigh = 10;  // where its bits 1..0 and 7..2 stand in EPSR
 constexpr Instruction kNotDecoded = {&Operations::not_decoded, &Operations::not_decoded_in_it};
+
+/// It is decoded again; if it is at work, it still ends as it began.
+void forget(Instruction& instruction) {
+  instruction.run = kNotDecoded.run;
+  instruction.run_in_it = kNotDecoded.run_in_it;
+  instruction.entry = Entry::kUnknown;
+}
 
 /// ITSTATE of the instruction that follows (A7.3.2).
 std::uint8_t following(std::uint8_t state) {
@@ -23,7 +31,7 @@ std::uint8_t following(std::uint8_t state) {
 }  // namespace
 
 Engine::Engine(EngineEvents& events, std::uint32_t cost)
-    : events_(events), cost_(cost), nowhere_(std::make_unique<CodePage>()) {
+    : events_(events), cost_(cost), cycle_(cost == 0 ? kCycle : 0), nowhere_(std::make_unique<CodePage>()) {
   nowhere_->instructions.fill({&Operations::no_memory, &Operations::no_memory});
   leave_memory(0);
 }
@@ -57,7 +65,9 @@ bool Engine::before_next() {
     if (const std::uint32_t here = pc(); here - page_->start >= kPageBytes) turn_page(here);
     if (it_ == 0 || passes(it_ >> 4U)) break;
     if (at_->run == kNotDecoded.run) decode_here();
-    done(*at_);
+    now_ += cost_ != 0 ? cost_ : kCycle;
+    ++instructions_;
+    pass(*at_);
     it_ = following(it_);
   }
   return now_ < attend_at_ || events_.before_instruction(it_ != 0);
@@ -73,6 +83,8 @@ void Engine::turn_page(std::uint32_t target) {
   if (Memory* memory = memory_at(target)) {
     page_ = &page_at(*memory, target);
     at_ = &page_->instructions[(target - page_->start) / 2];
+    line_wait_ = page_->in_flash ? flash_wait_ : 0;
+    line_ready_ = now_ + line_wait_ + cycle_;
   } else {
     leave_memory(target);
   }
@@ -82,6 +94,7 @@ void Engine::leave_memory(std::uint32_t pc) {
   nowhere_->start = pc;
   page_ = nowhere_.get();
   at_ = page_->instructions.data();
+  line_wait_ = 0;
 }
 
 Engine::CodePage& Engine::page_at(Memory& memory, std::uint32_t address) {
@@ -89,6 +102,7 @@ Engine::CodePage& Engine::page_at(Memory& memory, std::uint32_t address) {
   if (page) return *page;
   page = std::make_unique<CodePage>();
   page->start = address & ~(kPageBytes - 1);
+  page->in_flash = !memory.writable;
   page->instructions.fill(kNotDecoded);
   for (std::size_t behind = kPageBytes / 2; behind < page->instructions.size(); ++behind)
     page->instructions[behind] = {&Operations::next_page, &Operations::next_page};
@@ -99,7 +113,48 @@ Engine::CodePage& Engine::page_at(Memory& memory, std::uint32_t address) {
   return *page;
 }
 
-void Engine::exchange(std::uint32_t target) {
+/// The target is not known yet, or stands in two of the words that the processor fetches.
+void Engine::enter_split(Refill refill) {
+  if (at_->run == kNotDecoded.run) decode_here();
+  if (at_->entry == Entry::kSplit && refill < kLoaded) spend(1);
+}
+
+/// `last`: where the branch ends. Its own line is there, the next one is under way, any other has to be asked for.
+void Engine::fetch_target(std::uint32_t last) {
+  const std::uint32_t here = pc(), lines = here / line_bytes_ - last / line_bytes_;
+  if (lines == 1) {
+    next_line();
+  } else if (lines != 0) {
+    now_ += line_wait_;
+    line_ready_ = now_ + line_wait_ + cycle_;
+  }
+  if (at_->entry == Entry::kSplit && here % line_bytes_ == line_bytes_ - 2) next_line();
+}
+
+/// The next line is needed. With prefetch its fetch began when this one was there.
+void Engine::next_line() {
+  if (prefetches_)
+    now_ = std::max(now_, line_ready_);
+  else
+    now_ += line_wait_;
+  line_ready_ = now_ + line_wait_ + cycle_;
+}
+
+/// Data go first (p: what the prefetch has begun comes later by that).
+void Engine::read_flash() {
+  now_ += flash_wait_;
+  line_ready_ += flash_wait_ + cycle_;
+}
+
+void Engine::set_flash(unsigned wait_states, bool prefetches) {
+  flash_wait_ = std::uint64_t{wait_states} * cycle_;
+  line_wait_ = page_->in_flash ? flash_wait_ : 0;
+  prefetches_ = prefetches;
+  line_bytes_ = prefetches ? kLineBytes : kWordBytes;
+  forget_code();
+}
+
+void Engine::exchange(std::uint32_t target, Refill refill) {
   constexpr std::uint32_t kReturns = 0xF0000000;
   if (ipsr_ != 0 && target >= kReturns) {
     returned_at_ = pc();
@@ -107,19 +162,29 @@ void Engine::exchange(std::uint32_t target) {
     return trap(Trap::kExceptionReturn);
   }
   thumb_ = (target & 1U) != 0;
-  go(target & ~1U);
+  go(target & ~1U, refill);
   if (!thumb_) trap(Trap::kInvalidState);
 }
 
-/// A second halfword where no memory is counts as 0: nobody could say what a bus would give.
-void Engine::decode_here() {
-  const std::uint32_t address = pc();
+/// A halfword where no memory is counts as 0: nobody could say what a bus would give.
+Instruction Engine::decode_at(std::uint32_t address) {
   std::uint16_t halfwords[2] = {};
   for (std::uint32_t i = 0; i < 2; ++i)
     if (const Memory* memory = memory_at(address + 2 * i))
       std::memcpy(&halfwords[i], memory->bytes + (address + 2 * i - memory->start), 2);
-  *at_ = decode(address, halfwords[0], halfwords[1]);
-  at_->cost = cost_;
+  return decode(address, halfwords[0], halfwords[1]);
+}
+
+void Engine::decode_here() {
+  const std::uint32_t here = pc();
+  Instruction made = decode_at(here);
+  const std::uint32_t behind = here + 2U * made.halfwords;
+  const Instruction next = decode_at(behind);
+  made.entry = made.halfwords == 2 && here % 4 != 0 ? Entry::kSplit : Entry::kPlain;
+  made.cost = static_cast<std::uint16_t>(cost_ != 0 ? cost_ : kCycle * cycles_before(made, next));
+  const std::uint32_t last = behind + 2U * (next.halfwords - 1U);  // halfword that has to be there
+  made.ends_line = line_wait_ != 0 && (behind - 2) / line_bytes_ != last / line_bytes_;
+  *at_ = made;
 }
 
 // --- memory
@@ -151,7 +216,7 @@ void Engine::report_data(bool on) {
 void Engine::forget_code() {
   for (Memory& memory : memories_)
     for (std::unique_ptr<CodePage>& page : memory.pages)
-      if (page) std::fill_n(page->instructions.begin(), kPageBytes / 2, kNotDecoded);
+      if (page) std::for_each_n(page->instructions.begin(), kPageBytes / 2, forget);
 }
 
 /// The instructions that have one of these bytes.
@@ -159,7 +224,7 @@ void Engine::forget_code(Memory& memory, std::uint32_t address, unsigned bytes) 
   const std::uint32_t first = (address - memory.start) / 2, end = (address - memory.start + bytes + 1) / 2;
   for (std::uint32_t halfword = first == 0 ? 0 : first - 1; halfword < end; ++halfword) {
     const std::unique_ptr<CodePage>& page = memory.pages[halfword / (kPageBytes / 2)];
-    if (page) page->instructions[halfword % (kPageBytes / 2)] = kNotDecoded;
+    if (page) forget(page->instructions[halfword % (kPageBytes / 2)]);
   }
 }
 
@@ -219,6 +284,7 @@ bool Engine::store_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_
 
 bool Engine::load_part(std::uint32_t address, unsigned bytes, std::uint32_t& value) {
   if (const Memory* memory = memory_at(address)) {
+    if (!memory->writable) read_flash();
     std::memcpy(&value, memory->bytes + (address - memory->start), bytes);
     return true;
   }
@@ -233,6 +299,7 @@ bool Engine::store_part(std::uint32_t address, unsigned bytes, std::uint32_t val
     if (!memory->writable) return false;
     std::memcpy(memory->bytes + (address - memory->start), &value, bytes);
     forget_code(*memory, address, bytes);
+    if (address - watched_.start < watched_.size) events_.on_watched_store();
     return true;
   }
   if (!is_window(address)) return false;

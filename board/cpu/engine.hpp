@@ -26,6 +26,8 @@ class EngineEvents {
   virtual void on_data(std::uint32_t address, unsigned bytes, bool write) = 0;
   /// SEV.
   virtual void on_event() = 0;
+  /// A store to the range of watch(), done.
+  virtual void on_watched_store() = 0;
 };
 
 /// Why Engine::run() returned.
@@ -43,12 +45,17 @@ enum class Trap : std::uint8_t {
   kUndefined,
   kBadFetch,   ///< no memory is at bad_address(), which is kPc
   kBadAccess,  ///< no memory is at bad_address(), none that may be written, or bus_error()
+  kUnaligned,  ///< an address that has to be a multiple of the size
 };
+
+/// Cycles until the pipeline is full behind a branch whose target is known when it is decoded, when it is executed, or
+/// when it has been loaded. The technical reference manual says 1 to 3, and that it depends on this (3.3.1, 15.3).
+enum Refill : unsigned { kDecoded = 1, kExecuted = 2, kLoaded = 3 };
 
 /// Not copied, not moved: its instructions point into it.
 class Engine {
  public:
-  /// `cost`: of every instruction, thousandths of a cycle.
+  /// `cost`: thousandths of a cycle, if every instruction lasts the same; 0: each what it lasts.
   Engine(EngineEvents& events, std::uint32_t cost);
   ~Engine();
   Engine(const Engine&) = delete;
@@ -63,6 +70,13 @@ class Engine {
   void forget_code();
   /// Whether data accesses call on_data, too; slow.
   void report_data(bool on);
+  /// Stores there call on_watched_store, but for those that report_data reports.
+  void watch(std::uint32_t address, std::uint32_t size) { watched_ = {address, size}; }
+  /// Cycles that a read of memory that cannot be written waits; with `prefetches` the line that follows is fetched
+  /// while one is executed.
+  void set_flash(unsigned wait_states, bool prefetches);
+  /// As given; 0 where every instruction lasts the same.
+  unsigned wait_states() const { return static_cast<unsigned>(flash_wait_ / 1000); }
 
   /// Whatever mode the processor is in.
   std::uint32_t read(Register which) const;
@@ -86,10 +100,13 @@ class Engine {
   std::uint64_t now() const { return now_; }
   void set_now(std::uint64_t time) { now_ = time; }
   /// When before_instruction() is called next.
+  std::uint64_t attend_at() const { return attend_at_; }
   void attend_at(std::uint64_t time) {
     attend_at_ = time;
     until_ = 0;  // looked at before the next instruction
   }
+  /// Since when the instruction executed last could have been broken off by an exception; now(): it could not.
+  std::uint64_t breakable_since() const { return breakable_until_ == now_ ? breakable_since_ : now_; }
   /// Instructions begun, those too whose condition failed.
   std::uint64_t instructions() const { return instructions_ + (running_ ? 1 : 0); }
 
@@ -97,12 +114,14 @@ class Engine {
   friend struct Operations;
 
   static constexpr std::uint32_t kPageBytes = 4096;
+  static constexpr std::uint32_t kLineBytes = 8, kWordBytes = 4;  ///< what flash gives with prefetch, and without
   static constexpr std::uint32_t kNotPrivileged = 1, kSpSel = 2;
 
   /// Instructions of a page of memory by their halfwords, and two behind it, since a long one may begin in its last
   /// halfword.
   struct CodePage {
     std::uint32_t start = 0;
+    bool in_flash = false;
     std::array<Instruction, kPageBytes / 2 + 2> instructions;
   };
   struct Memory {
@@ -127,24 +146,37 @@ class Engine {
     now_ += of.cost;
     ++instructions_;
   }
+  void pass(const Instruction& what) {
+    at_ += what.halfwords;
+    if (what.ends_line) next_line();
+  }
   /// The instruction at work was executed.
   void done(const Instruction& what) {
     pay(what);
-    at_ += what.halfwords;
+    pass(what);
   }
+  /// It takes `cycles` more.
+  void spend(unsigned cycles) { now_ += std::uint64_t{cycles} * cycle_; }
   /// The next instruction is at an even `target`.
-  void go(std::uint32_t target) {
-    const std::uint32_t offset = target - page_->start;
+  void go(std::uint32_t target, Refill refill) {
+    const std::uint32_t last = pc() + 2 * (at_->halfwords - 1U), offset = target - page_->start;
     if (offset < kPageBytes)
       at_ = &page_->instructions[offset / 2];
     else
       turn_page(target);
+    spend(refill);
+    if (at_->entry != Entry::kPlain) enter_split(refill);
+    if (line_wait_ != 0) fetch_target(last);
   }
+  void enter_split(Refill refill);
+  void fetch_target(std::uint32_t last);
+  void next_line();
+  void read_flash();
   void turn_page(std::uint32_t target);
   void leave_memory(std::uint32_t pc);
   CodePage& page_at(Memory& memory, std::uint32_t address);
   /// BXWritePC (ARMv7-M, A2.3.1): a change of state, or the return from an exception.
-  void exchange(std::uint32_t target);
+  void exchange(std::uint32_t target, Refill refill);
   /// Ends run(), the instruction at work executed or not.
   void trap(Trap why) {
     trap_ = why;
@@ -155,6 +187,7 @@ class Engine {
     trap(why);
   }
   std::uint32_t pc() const { return page_->start + static_cast<std::uint32_t>(at_ - page_->instructions.data()) * 2; }
+  Instruction decode_at(std::uint32_t address);
   void decode_here();
 
   // --- memory; false: a trap, the instruction is to be left as it is
@@ -167,6 +200,16 @@ class Engine {
   bool load_part(std::uint32_t address, unsigned bytes, std::uint32_t& value);
   bool store_part(std::uint32_t address, unsigned bytes, std::uint32_t value);
   bool fail(std::uint32_t address);
+  /// False, and a trap: `address` is no multiple of `bytes`.
+  bool aligned(std::uint32_t address, unsigned bytes) {
+    if (address % bytes != 0) refuse(Trap::kUnaligned);
+    return address % bytes == 0;
+  }
+  /// What began at `since` and has lasted until now could have been broken off.
+  void breakable(std::uint64_t since) {
+    breakable_since_ = cycle_ != 0 ? since : now_;
+    breakable_until_ = now_;
+  }
   Memory* memory_at(std::uint32_t address);
   bool is_window(std::uint32_t address) const;
   void forget_code(Memory& memory, std::uint32_t address, unsigned bytes);
@@ -185,16 +228,24 @@ class Engine {
   bool passes(unsigned condition) const;
 
   EngineEvents& events_;
-  const std::uint32_t cost_;
+  const std::uint32_t cost_;   ///< of every instruction; 0: its own
+  const std::uint32_t cycle_;  ///< thousandths of a cycle that a further one takes: 1000, or 0
   std::vector<Memory> memories_;
   std::vector<Window> windows_;
   Direct loads_, stores_, constants_;  ///< RAM, RAM without code, flash
   bool reports_data_ = false, ram_has_code_ = false;
   std::unique_ptr<CodePage> nowhere_;  ///< where no memory is
+  Window watched_ = {};
+  // Thousandths of a cycle: what a read of flash waits, what the fetch of instructions does here; when the line is there
+  // that follows.
+  std::uint64_t flash_wait_ = 0, line_wait_ = 0, line_ready_ = 0;
+  std::uint32_t line_bytes_ = kLineBytes;  ///< that are fetched at once
+  bool prefetches_ = true;
 
   CodePage* page_ = nullptr;
   Instruction* at_ = nullptr;  ///< at work, or next
   std::uint64_t now_ = 0, until_ = 0, attend_at_ = 0, instructions_ = 0;
+  std::uint64_t breakable_since_ = 0, breakable_until_ = 0;
   Trap trap_ = Trap::kNone;
   bool running_ = false, access_failed_ = false;
   std::uint32_t bad_address_ = 0, returned_at_ = 0;

@@ -1,4 +1,5 @@
 // Exception entry and return, and faults (ARMv7-M, B1.5).
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <utility>
@@ -68,8 +69,10 @@ void CortexM3::write_frame(std::uint32_t sp, std::uint32_t return_address, std::
 }
 
 void CortexM3::take_exception(std::uint32_t return_address) {
+  const std::uint64_t now = engine_.now(), begins = std::min(std::max(arrived_, engine_.breakable_since()), now);
+  broken_off_.at(nvic_.active_count()) = now - begins;
   const std::uint32_t exc_return = push_frame(return_address);
-  spend(timing_.exception_entry);
+  spend_until(std::max(now, begins + timing_.exception_entry * kMillis));
   activate(preempting(), exc_return);  // perhaps one that arrived late
 }
 
@@ -116,7 +119,7 @@ void CortexM3::return_from_exception() {
   }
   if ((exc_return & kReturnThreadBit) != 0 && scb_.sleep_on_exit()) doze(false);
   if (preempting() != kNoException) {
-    spend(timing_.tail_chain);
+    spend(timing_.tail_chain + 2 * engine_.wait_states());  // vector and instruction, beside nothing else
     activate(preempting(), exc_return);
   } else {
     unstack(exc_return);
@@ -148,7 +151,7 @@ void CortexM3::unstack(std::uint32_t exc_return) {
       (engine_.read(Register::kControl) & kNotPrivileged) | (to_thread && on_psp ? kSpSel : 0);
   engine_.set_mode(xpsr & ~kAlignedBit, control, msp, psp);
   for (std::uint32_t word = 0; word < 6; ++word) engine_.write(kStacked[word], word_at(frame + 4 * word));
-  spend(timing_.exception_return);
+  spend_until(engine_.now() + timing_.exception_return * kMillis + std::exchange(broken_off_.at(nvic_.active_count()), 0));
   const std::uint32_t target = word_at(frame + 24) & ~1U;
   engine_.clear_exclusive();
   continue_at(target | ((xpsr & kThumb) != 0 ? 1U : 0U));
@@ -177,6 +180,7 @@ unsigned CortexM3::record(FaultKind kind, std::uint32_t address) {
     case FaultKind::kNoCoprocessor: scb_.record_fault(kUfNoCp); return kUsageFault;
     case FaultKind::kInvalidState: scb_.record_fault(kUfInvState); return kUsageFault;
     case FaultKind::kExceptionReturn: scb_.record_fault(kUfInvPc); return kUsageFault;
+    case FaultKind::kUnaligned: scb_.record_fault(kUfUnaligned); return kUsageFault;
     case FaultKind::kData: scb_.record_bus_fault(kBfPrecisErr, address); return kBusFault;
     case FaultKind::kStacking: scb_.record_fault(kBfStkErr); return kBusFault;
     case FaultKind::kUnstacking: scb_.record_fault(kBfUnstkErr); return kBusFault;

@@ -20,6 +20,8 @@ std::string what_happened(const Fault& fault) {
     case FaultKind::kExceptionReturn:
       return fmt::format("exception return with EXC_RETURN or XPSR 0x{:08X}", fault.address);
     case FaultKind::kBreakpoint: return "BKPT without a debugger";
+    case FaultKind::kUnaligned:
+      return "LDM, STM, LDRD, STRD, LDREX or STREX at an address that is no multiple of the size";
     case FaultKind::kSupervisorCall: return "SVC where its handler's priority does not allow it";
   }
   return {};

@@ -26,6 +26,7 @@ enum class FaultKind {
   kExceptionReturn,  ///< EXC_RETURN or the stacked XPSR does not fit
   kBreakpoint,       ///< BKPT
   kSupervisorCall,   ///< SVC where SVCall cannot be taken
+  kUnaligned,        ///< LDM, STM, LDRD, STRD, LDREX, STREX at an address that is no multiple of their size
 };
 
 /// What became of it.

@@ -9,6 +9,23 @@ class Engine;
 /// Length of the instruction that begins with this halfword (ARMv7-M, A5.1).
 constexpr std::uint32_t thumb_bytes(std::uint16_t opcode) { return opcode >= 0xE800 ? 4 : 2; }
 
+/// What an instruction is to the time of its neighbours (timing.cpp).
+enum class Kind : std::uint8_t {
+  kOther,
+  kData,          ///< rd is the result of data processing
+  kCompare,       ///< the same for flags alone
+  kLoad,          ///< of a word at most, from rn + value to rd
+  kLoadLiteral,   ///< no register is part of the address
+  kLoadIndexed,   ///< from rn + rm
+  kStore,         ///< to rn + value
+  kStoreIndexed,  ///< to rn + rm
+  kMany,          ///< several words from rn on
+  kIt,
+};
+
+/// Of a branch's target: whether the pipeline is filled a cycle later.
+enum class Entry : std::uint8_t { kUnknown, kPlain, kSplit };
+
 /// Registers and numbers mean what the operation (operations.hpp) takes them for.
 struct Instruction {
   /// Carries it out, pays for it and goes on to the next one; or leaves it undone with a trap.
@@ -20,11 +37,18 @@ struct Instruction {
   std::uint8_t rd = 0, rn = 0, rm = 0, ra = 0;
   std::uint8_t shift = 0, amount = 0;
   std::uint8_t halfwords = 1;
-  std::uint32_t cost = 0;  ///< thousandths of a cycle
+  Kind kind = Kind::kOther;
+  std::uint16_t cost = 1;  ///< as decode() makes it, cycles; as the engine keeps it, thousandths of a cycle
+  Entry entry = Entry::kUnknown;
+  bool ends_line = false;  ///< the one behind it needs the next line of flash
 };
 
 /// ARMv7-M, chapters A5 to A7: what `first`, and of a long one `second`, at `address` says. What a Cortex-M3 does not
-/// have is undefined, or a coprocessor's. Its cost is for the caller to fill in.
+/// have is undefined, or a coprocessor's. Its cost is without neighbours and memory; `entry` and `ends_line` are for the
+/// caller.
 Instruction decode(std::uint32_t address, std::uint16_t first, std::uint16_t second);
+
+/// Cycles of `one` when `next` is executed behind it.
+unsigned cycles_before(const Instruction& one, const Instruction& next);
 
 }  // namespace dsdpv1::arm

@@ -7,23 +7,35 @@
 
 namespace dsdpv1::arm {
 
+/// Of an access that is not aligned: it is two or three (Cortex-M3 technical reference manual, 3.3.2).
+template <unsigned bytes>
+constexpr unsigned more_cycles(std::uint32_t address) {
+  if (address % bytes == 0) return 0;
+  return bytes == 2 ? 1 : 1 + address % 2;
+}
+
 template <unsigned bytes>
 inline bool Engine::load(std::uint32_t address, std::uint32_t& value) {
-  for (const Direct* memory : {&loads_, &constants_}) {
-    const std::uint32_t offset = address - memory->start;
-    if (offset >= memory->limit) continue;
-    value = 0;
-    std::memcpy(&value, memory->bytes + offset, bytes);
+  if (const unsigned more = more_cycles<bytes>(address); more != 0) spend(more);
+  value = 0;
+  if (const std::uint32_t offset = address - loads_.start; offset < loads_.limit) {
+    std::memcpy(&value, loads_.bytes + offset, bytes);
     return true;
   }
-  return load_elsewhere(address, bytes, value);
+  const std::uint32_t offset = address - constants_.start;
+  if (offset >= constants_.limit) return load_elsewhere(address, bytes, value);
+  read_flash();
+  std::memcpy(&value, constants_.bytes + offset, bytes);
+  return true;
 }
 
 template <unsigned bytes>
 inline bool Engine::store(std::uint32_t address, std::uint32_t value) {
+  if (const unsigned more = more_cycles<bytes>(address); more != 0) spend(more);
   const std::uint32_t offset = address - stores_.start;
   if (offset >= stores_.limit) return store_elsewhere(address, bytes, value);
   std::memcpy(stores_.bytes + offset, &value, bytes);
+  if (address - watched_.start < watched_.size) events_.on_watched_store();
   return true;
 }
 
@@ -207,22 +219,41 @@ struct Operations {
     e.r_[i.rd] = minus ? e.r_[i.ra] - product : e.r_[i.ra] + product;
     e.done(i);
   }
+  /// An operand of more than a halfword takes a cycle more, two of them another one with a sum (p): the manual says 3 to
+  /// 5 in all, 4 to 7 with a sum, by the size of the operands.
+  template <bool is_signed>
+  static unsigned is_wide(U32 operand) {
+    return (is_signed ? as_signed(operand) != static_cast<std::int16_t>(operand) : operand > 0xFFFF) ? 1 : 0;
+  }
   /// rd and ra: high and low word.
   template <bool is_signed, bool accumulates>
   static void multiply_long(Engine& e, const Instruction& i) {
     U64 result =
         is_signed ? static_cast<U64>(I64{as_signed(e.r_[i.rn])} * as_signed(e.r_[i.rm])) : U64{e.r_[i.rn]} * e.r_[i.rm];
+    const unsigned wide = is_wide<is_signed>(e.r_[i.rn]) + is_wide<is_signed>(e.r_[i.rm]);
+    e.spend(wide + (accumulates && wide == 2 ? 1 : 0));
     if constexpr (accumulates) result += U64{e.r_[i.rd]} << 32 | e.r_[i.ra];
     e.r_[i.rd] = static_cast<U32>(result >> 32);
     e.r_[i.ra] = static_cast<U32>(result);
     e.done(i);
   }
+  static int zeros_before(U32 value) { return value == 0 ? 32 : __builtin_clz(value); }
+  /// More than 2 cycles for a quotient of `bits` at most, 0 or less to 32 (p): the manual says 2 to 12 in all.
+  static unsigned divide_cycles(int bits) { return bits <= 0 ? 0 : static_cast<unsigned>(bits * 10 + 31) / 32; }
+  template <bool is_signed>
+  static U32 magnitude(U32 value) {
+    return is_signed && sign(value) != 0 ? 0 - value : value;
+  }
   /// By 0 gives 0: CCR.DIV_0_TRP is not modelled.
   template <bool is_signed>
   static void divide(Engine& e, const Instruction& i) {
     const U32 by = e.r_[i.rm], what = e.r_[i.rn];
+    const U64 since = e.now_;
+    if (by != 0)
+      e.spend(divide_cycles(zeros_before(magnitude<is_signed>(by)) - zeros_before(magnitude<is_signed>(what)) + 1));
     e.r_[i.rd] = by == 0 ? 0 : is_signed ? static_cast<U32>(I64{as_signed(what)} / as_signed(by)) : what / by;
     e.done(i);
+    e.breakable(since);
   }
 
   /// Of `amount` bits from bit `shift` on.
@@ -316,7 +347,7 @@ struct Operations {
     if (!e.load<4>(address<index>(e, i), value)) return;
     write_back<index>(e, i);
     e.pay(i);
-    e.exchange(value);
+    e.exchange(value, kLoaded);
   }
   template <class Type, Index index>
   static void store(Engine& e, const Instruction& i) {
@@ -329,7 +360,7 @@ struct Operations {
   static void load_two(Engine& e, const Instruction& i) {
     const U32 from = address<index>(e, i);
     U32 first = 0, second = 0;
-    if (!e.load<4>(from, first) || !e.load<4>(from + 4, second)) return;
+    if (!e.aligned(from, 4) || !e.load<4>(from, first) || !e.load<4>(from + 4, second)) return;
     write_back<index>(e, i);
     e.r_[i.rd] = first;
     e.r_[i.ra] = second;
@@ -338,7 +369,7 @@ struct Operations {
   template <Index index>
   static void store_two(Engine& e, const Instruction& i) {
     const U32 to = address<index>(e, i);
-    if (!e.store<4>(to, e.r_[i.rd]) || !e.store<4>(to + 4, e.r_[i.ra])) return;
+    if (!e.aligned(to, 4) || !e.store<4>(to, e.r_[i.rd]) || !e.store<4>(to + 4, e.r_[i.ra])) return;
     write_back<index>(e, i);
     e.done(i);
   }
@@ -349,30 +380,39 @@ struct Operations {
     const U32 base = e.r_[i.rn];
     U32 from = before ? base - i.amount : base;
     const U32 after = before ? from : base + i.amount;
+    const U64 since = e.now_;
     std::array<U32, 16> values{};
+    if (!e.aligned(from, 4)) return;
     for (U32 left = i.value; left != 0; left &= left - 1, from += 4)
       if (!e.load<4>(from, values[first_of(left)])) return;
     if (i.shift != 0) e.r_[i.rn] = after;
     for (U32 left = i.value & 0x7FFF; left != 0; left &= left - 1) e.r_[first_of(left)] = values[first_of(left)];
-    if ((i.value >> 15) == 0) return e.done(i);
+    if ((i.value >> 15) == 0) {
+      e.done(i);
+      return e.breakable(since);
+    }
     e.pay(i);
-    e.exchange(values[15]);
+    e.exchange(values[15], kLoaded);
   }
   template <bool before>
   static void store_many(Engine& e, const Instruction& i) {
     const U32 base = e.r_[i.rn];
     U32 to = before ? base - i.amount : base;
     const U32 after = before ? to : base + i.amount;
+    const U64 since = e.now_;
+    if (!e.aligned(to, 4)) return;
     for (U32 left = i.value; left != 0; left &= left - 1, to += 4)
       if (!e.store<4>(to, e.r_[first_of(left)])) return;
     if (i.shift != 0) e.r_[i.rn] = after;
     e.done(i);
+    e.breakable(since);
   }
 
   template <class Type>
   static void load_exclusive(Engine& e, const Instruction& i) {
+    const U32 from = e.r_[i.rn] + i.value;
     U32 value = 0;
-    if (!e.load<sizeof(Type)>(e.r_[i.rn] + i.value, value)) return;
+    if (!e.aligned(from, sizeof(Type)) || !e.load<sizeof(Type)>(from, value)) return;
     e.exclusive_ = true;
     e.r_[i.rd] = value;
     e.done(i);
@@ -380,7 +420,8 @@ struct Operations {
   /// ra: 0 when it was stored.
   template <class Type>
   static void store_exclusive(Engine& e, const Instruction& i) {
-    if (e.exclusive_ && !e.store<sizeof(Type)>(e.r_[i.rn] + i.value, e.r_[i.rd])) return;
+    const U32 to = e.r_[i.rn] + i.value;
+    if (!e.aligned(to, sizeof(Type)) || (e.exclusive_ && !e.store<sizeof(Type)>(to, e.r_[i.rd]))) return;
     e.r_[i.ra] = e.exclusive_ ? 0 : 1;
     e.exclusive_ = false;
     e.done(i);
@@ -392,9 +433,10 @@ struct Operations {
 
   // --- branches
 
+  template <Refill refill = kDecoded>
   static void branch(Engine& e, const Instruction& i) {
     e.pay(i);
-    e.go(i.value);
+    e.go(i.value, refill);
   }
   template <unsigned condition>
   static void branch_if(Engine& e, const Instruction& i) {
@@ -405,15 +447,17 @@ struct Operations {
   template <bool not_zero>
   static void branch_if_zero(Engine& e, const Instruction& i) {
     if ((e.r_[i.rn] != 0) != not_zero) return e.done(i);
-    branch(e, i);
+    branch<kExecuted>(e, i);
   }
   static void branch_link(Engine& e, const Instruction& i) {
     e.r_[14] = (e.pc() + 4) | 1;
     branch(e, i);
   }
+  /// LR is looked at when the branch is decoded.
+  static Refill by_register(const Instruction& i) { return i.rm == 14 ? kDecoded : kExecuted; }
   static void branch_exchange(Engine& e, const Instruction& i) {
     e.pay(i);
-    e.exchange(e.r_[i.rm]);
+    e.exchange(e.r_[i.rm], by_register(i));
   }
   /// Not the way back from an exception (A7.7.19): BLXWritePC.
   static void branch_link_exchange(Engine& e, const Instruction& i) {
@@ -421,7 +465,7 @@ struct Operations {
     e.r_[14] = (e.pc() + 2) | 1;
     e.pay(i);
     e.thumb_ = (target & 1) != 0;
-    e.go(target & ~U32{1});
+    e.go(target & ~U32{1}, by_register(i));
     if (!e.thumb_) e.trap(Trap::kInvalidState);
   }
   /// MOV and ADD to PC.
@@ -429,7 +473,7 @@ struct Operations {
   static void move_to_pc(Engine& e, const Instruction& i) {
     const U32 value = adds ? e.pc() + 4 + e.r_[i.rm] : e.r_[i.rm];
     e.pay(i);
-    e.go(value & ~U32{1});
+    e.go(value & ~U32{1}, adds ? kExecuted : by_register(i));
   }
   /// TBB, TBH; rn is PC where `shift` is 1.
   template <class Type>
@@ -438,12 +482,17 @@ struct Operations {
     U32 halfwords = 0;
     if (!e.load<sizeof(Type)>(base + e.r_[i.rm] * static_cast<U32>(sizeof(Type)), halfwords)) return;
     e.pay(i);
-    e.go(here + 2 * halfwords);
+    e.go(here + 2 * halfwords, kLoaded);
   }
 
   // --- others
 
   static void nothing(Engine& e, const Instruction& i) { e.done(i); }
+  /// ISB.
+  static void refill(Engine& e, const Instruction& i) {
+    e.pay(i);
+    e.go(e.pc() + 4, kLoaded);
+  }
   static void it(Engine& e, const Instruction& i) {
     e.it_ = static_cast<std::uint8_t>(i.value);
     e.until_ = 0;  // what follows is chosen by before_next()

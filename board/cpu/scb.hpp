@@ -19,6 +19,7 @@ enum FaultStatus : std::uint32_t {
   kUfInvState = 1U << 17,
   kUfInvPc = 1U << 18,
   kUfNoCp = 1U << 19,
+  kUfUnaligned = 1U << 24,
 };
 
 /// HardFault Status Register, B3.2.16.

@@ -117,7 +117,7 @@ bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_co
 
 bool TlmModule::is_alone(Tick begin, Tick end) {
   if (hears_host() || !R_REQ.read() || !R_STA.read() || chip_tick(begin) < chip().now()) return false;
-  if (!kernel_is_quiet(end) || host_bus_.trylock() != 0) return false;
+  if (kernel_quiet_until() <= end || host_bus_.trylock() != 0) return false;
   host_bus_.unlock();
   return true;
 }

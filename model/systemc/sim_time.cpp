@@ -94,7 +94,11 @@ Tick current_tick() {
 
 sc_core::sc_time time_until(Tick tick) { return sc_core::sc_time::from_value(units_until(tick)); }
 
-bool kernel_is_quiet(Tick tick) { return sc_core::sc_time_to_pending_activity().value() > units_until(tick); }
+Tick kernel_quiet_until() {
+  const sc_core::sc_time pending = sc_core::sc_time_stamp() + sc_core::sc_time_to_pending_activity();
+  const Tick tick = to_tick(pending);
+  return units(tick) < pending.value() ? tick + 1 : tick;
+}
 
 void require_resolution() {
   announce_main_stack_at_exit();  // here, as every program with a simulation comes by

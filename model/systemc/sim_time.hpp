@@ -25,9 +25,9 @@ Tick current_tick();
 /// From the present simulation time to that of `tick`, zero when it is over.
 sc_core::sc_time time_until(Tick tick);
 
-/// But for the process that asks, the kernel has nothing to do up to and including `tick`: no process to run, no signal
-/// to update, no event to notify.
-bool kernel_is_quiet(Tick tick);
+/// But for the process that asks, the kernel has nothing to do before this tick: no process to run, no signal to update,
+/// no event to notify.
+Tick kernel_quiet_until();
 
 /// Fixes the time resolution of the simulation at what the program has set, or at SystemC's own 1 ps, and reports the
 /// error /dsdpv1/time_resolution (which SystemC throws as sc_core::sc_report) when it is not 1 fs to 1 ps. Every module

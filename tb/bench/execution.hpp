@@ -23,8 +23,8 @@ class Execution {
   /// It has ended the run before its time, by itself.
   virtual bool broken_off() { return false; }
 
-  /// As bus::Timeline has them; false: each action has a turn of its own.
-  virtual bool quiet(const bus::Agent& /*agent*/, Tick /*tick*/) { return false; }
+  /// As bus::Timeline has them; 0 and false: each action has a turn of its own.
+  virtual Tick quiet_until(const bus::Agent& /*agent*/) { return 0; }
   virtual bool go_on(const bus::Agent& /*agent*/, Tick /*tick*/) { return false; }
 
   bus::Segment& segment() { return segment_; }

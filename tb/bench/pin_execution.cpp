@@ -8,7 +8,7 @@ namespace {
 
 class PinExecution : public Execution {
  public:
-  bool quiet(const bus::Agent& agent, Tick tick) override { return timeline_.quiet(agent, tick); }
+  Tick quiet_until(const bus::Agent& agent) override { return timeline_.quiet_until(agent); }
   bool go_on(const bus::Agent& agent, Tick tick) override { return timeline_.go_on(agent, tick); }
 
   void run(Tick end, const std::function<bool()>& stopped) override {

@@ -49,7 +49,7 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   SlaveResult result() const;
 
  private:
-  bool quiet(Tick tick) override { return execution_.quiet(*this, tick); }
+  Tick quiet_until() override { return execution_.quiet_until(*this); }
   bool go_on(Tick tick) override;
 
   const std::size_t number_;

@@ -48,12 +48,12 @@ void TimelineModule::follow_accesses() {
     if (chip->in_access()) chip->sync();
 }
 
-bool TimelineModule::quiet(const bus::Agent& agent, bus::Tick tick) {
-  return !in_access() && dsdpv1::systemc::kernel_is_quiet(tick) && timeline_.quiet(agent, tick);
+bus::Tick TimelineModule::quiet_until(const bus::Agent& agent) {
+  return in_access() ? 0 : std::min(dsdpv1::systemc::kernel_quiet_until(), timeline_.quiet_until(agent));
 }
 
 bool TimelineModule::go_on(const bus::Agent& agent, bus::Tick tick) {
-  return !in_access() && dsdpv1::systemc::kernel_is_quiet(tick) && timeline_.go_on(agent, tick);
+  return !in_access() && dsdpv1::systemc::kernel_quiet_until() > tick && timeline_.go_on(agent, tick);
 }
 
 void TimelineModule::catch_up() {

@@ -28,7 +28,7 @@ class TimelineModule : public sc_core::sc_module {
 
   /// As bus::Timeline has them: neither an agent nor the kernel does anything until then. The agent, and what it calls
   /// with the timeline's time, is ahead of simulation time from then on.
-  bool quiet(const bus::Agent& agent, bus::Tick tick);
+  bus::Tick quiet_until(const bus::Agent& agent);
   bool go_on(const bus::Agent& agent, bus::Tick tick);
   /// By how much the timeline is ahead of simulation time.
   sc_core::sc_time ahead() const { return dsdpv1::systemc::time_until(timeline_.now()); }

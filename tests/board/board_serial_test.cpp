@@ -161,7 +161,7 @@ TEST_F(BoardSerial, Spi1MovesThePinsOfCard1AtItsTicks) {
 class Lonely : public user_cpu::Others {
  public:
   explicit Lonely(Tick end) : end_(end) {}
-  bool quiet(Tick tick) override { return tick <= end_; }
+  Tick quiet_until() override { return end_ + 1; }
   bool go_on(Tick tick) override { return tick <= end_; }
 
  private:

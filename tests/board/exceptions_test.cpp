@@ -65,9 +65,9 @@ TEST_F(Exceptions, AHigherOneThatArrivesDuringEntryGoesFirst) {
   const std::uint32_t times = 1;
   std::copy_n(reinterpret_cast<const std::uint8_t*>(&times), 4, processor.ram() + 0x100);
   // Both have priority 0: of those pending when the entry ends, the lower number goes first.
-  system.interrupts = {{100, 1}, {115, 0}};
+  system.interrupts = {{100, 1}, {111, 0}};
   run("waiting");
-  EXPECT_THAT(system.notes, ElementsAre(1U, 1U, 11U, 2U)) << "entry of interrupt 1 from 108 to 120";
+  EXPECT_THAT(system.notes, ElementsAre(1U, 1U, 11U, 2U)) << "entry of interrupt 1 from 100 to 112";
 }
 
 TEST_F(Exceptions, AnItBlockIsFinishedFirst) {
@@ -84,7 +84,6 @@ TEST_F(Exceptions, AnItBlockIsFinishedFirst) {
 std::vector<std::uint32_t> interrupted_at(std::optional<std::uint64_t> cycle, bool& came) {
   Timing timing;
   timing.millicycles_per_instruction = 1000;
-  timing.quantum = 1;
   NotingSystem system;
   CortexM3 processor(system, MemoryMap{}, timing);
   system.processor = &processor;
@@ -114,6 +113,33 @@ TEST(Interrupted, ProgramsLeaveTheSameInWhicheverCycleItIs) {
     times += came ? 1 : 0;
   }
   EXPECT_GT(times, 60U) << "cycles of the program";
+}
+
+/// Cycles of the notes of a program whose interrupt 0 comes at `cycle`, if any.
+std::vector<std::uint64_t> notes_of_broken_off(std::optional<std::uint64_t> cycle) {
+  NotingSystem system;
+  CortexM3 processor(system, MemoryMap{}, Timing{});
+  system.processor = &processor;
+  if (cycle) system.interrupts = {{*cycle, 0}};
+  const std::vector<std::uint8_t> image = read_program("broken_off");
+  processor.load(MemoryMap{}.flash_base, image.data(), image.size());
+  processor.run();
+  return system.note_cycles;
+}
+
+TEST(Interrupted, LongInstructionsAreBrokenOffAndEndLater) {
+  const std::vector<std::uint64_t> alone = notes_of_broken_off(std::nullopt);
+  ASSERT_EQ(alone.size(), 2U);
+  EXPECT_EQ(alone[1] - alone[0], 1 + 2 + 10 + 10 + 12 + 5 + 3U);
+  unsigned latest = 0;
+  for (std::uint64_t cycle = alone[0] + 2; cycle < alone[1]; ++cycle) {
+    const std::vector<std::uint64_t> notes = notes_of_broken_off(cycle);
+    ASSERT_EQ(notes.size(), 3U);
+    EXPECT_GE(notes[1], cycle + 12) << cycle;
+    latest = std::max(latest, static_cast<unsigned>(notes[1] - cycle - 12));
+    EXPECT_EQ(notes[2] - alone[1], 12 + 1 + 1 + 12U) << "entry, STR, BX LR, return: " << cycle;
+  }
+  EXPECT_LE(latest, 4U) << "of the long multiplication, which is not broken off";
 }
 
 TEST_F(Exceptions, SysTickComesToTheCycle) {
@@ -283,7 +309,8 @@ constexpr Handled kHandledFaults[] = {
     {1, 0x70000, 5, 0x00008200, 0},    {3, 0x70000, 5, 0x00008200, 0},  {4, 0x70000, 6, 0x00020000, 0},
     {5, 0x70000, 5, 0x00000100, 0},    {6, 0x70000, 4, 0x00000001, 0},  {7, 0x70000, 3, 0, 0x80000000},
     {8, 0x70000, 3, 0, 0x40000000},    {9, 0x70000, 6, 0x00040000, 0},  {11, 0x70000, 6, 0x00080000, 0},
-    {12, 0x70000, 5, 0x00000800, 0},   {13, 0x70000, 5, 0x00008200, 0},
+    {12, 0x70000, 5, 0x00000800, 0},   {13, 0x70000, 5, 0x00008200, 0}, {14, 0x70000, 6, 0x01000000, 0},
+    {15, 0x70000, 6, 0x01000000, 0},   {16, 0, 3, 0x01000000, 0x40000000},
 };
 INSTANTIATE_TEST_SUITE_P(All, HandledFaults, testing::ValuesIn(kHandledFaults));
 

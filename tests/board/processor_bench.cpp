@@ -32,13 +32,14 @@ void NotingSystem::store(std::uint32_t address, unsigned bytes, std::uint32_t va
   if (on_access) on_access({true, address, bytes, value, processor->cycles()});
 }
 
-void NotingSystem::keep_up() {
+std::uint64_t NotingSystem::keep_up() {
   kept_up_at.push_back(processor->cycles());
   while (!interrupts.empty() && interrupts.begin()->first <= processor->cycles()) {
     processor->set_interrupt(interrupts.begin()->second);
     interrupts.erase(interrupts.begin());
   }
   if (on_keep_up) on_keep_up();
+  return interrupts.empty() ? next_keep_up : std::min(next_keep_up, interrupts.begin()->first);
 }
 
 void NotingSystem::sleep(std::uint64_t until) {

@@ -28,7 +28,7 @@ class NotingSystem : public System {
 
   std::uint32_t load(std::uint32_t address, unsigned bytes) override;
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
-  void keep_up() override;
+  std::uint64_t keep_up() override;
   void sleep(std::uint64_t until) override;
   void reset() override { ++resets; }
 
@@ -41,6 +41,7 @@ class NotingSystem : public System {
   std::function<void()> on_keep_up;
   std::function<void(std::uint64_t)> on_sleep;
   std::vector<std::uint64_t> kept_up_at;
+  std::uint64_t next_keep_up = kNever;
   std::uint32_t access_cycles = 0;  // each access takes this
   unsigned resets = 0;
   std::map<std::uint64_t, unsigned> interrupts;  // cycle -> irq, set by keep_up and sleep

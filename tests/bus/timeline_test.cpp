@@ -21,7 +21,7 @@ TEST(PlanQueue, PlansNothingAtFirst) {
   EXPECT_EQ(queue.first_due(0, 1'000'000), PlanQueue::kNone);
   EXPECT_EQ(queue.add(), 0U);
   EXPECT_EQ(queue.earliest(), kNever);
-  EXPECT_EQ(queue.earliest_other(0, kNever - 1), kNever);
+  EXPECT_EQ(queue.earliest_other(0), kNever);
 }
 
 TEST(PlanQueue, KeepsItsPlansWhenPlacesAreAdded) {
@@ -194,17 +194,15 @@ TEST_F(TimelineTest, WhatLiesInThePastIsDueNow) {
   EXPECT_EQ(a.last, 100);
 }
 
-TEST_F(TimelineTest, WhetherItIsQuietIsKnownInTheMiddleOfATurn) {
+TEST_F(TimelineTest, HowLongItIsQuietIsKnownInTheMiddleOfATurn) {
   a.plan(10);
   b.plan(30);
   a.act = [&](Tick) {
-    EXPECT_TRUE(timeline.quiet(a, 25));
-    EXPECT_FALSE(timeline.quiet(a, 26)) << "behind the end of the run is nobody";
+    EXPECT_EQ(timeline.quiet_until(a), 26) << "behind the end of the run is nobody";
     c.plan(20);
-    EXPECT_TRUE(timeline.quiet(a, 19));
-    EXPECT_FALSE(timeline.quiet(a, 20));
+    EXPECT_EQ(timeline.quiet_until(a), 20);
     a.plan(12);
-    EXPECT_TRUE(timeline.quiet(a, 19)) << "its own plans do not count";
+    EXPECT_EQ(timeline.quiet_until(a), 20) << "its own plans do not count";
     a.act = nullptr;
   };
   timeline.run_until(25);

@@ -121,7 +121,7 @@ struct DecoupledRun : private user_cpu::Others {
   }
 
  private:
-  bool quiet(Tick tick) override { return timeline_module.quiet(cpu, tick); }
+  Tick quiet_until() override { return timeline_module.quiet_until(cpu); }
   bool go_on(Tick tick) override { return timeline_module.go_on(cpu, tick); }
 };
 

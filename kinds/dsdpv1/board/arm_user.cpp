@@ -75,7 +75,7 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
     request.left_out.merge(missing.left_out);
   }
   check_objects(request.scenario, request.slave, *options.firmware);
-  options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(own.cpi * 1000);
+  options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(own.cpi.value_or(0) * 1000);
   if (own.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*own.fsmc);
   if (own.access) options.access = static_cast<const AccessTiming&>(*own.access);
   options.switches = switches_of(own);

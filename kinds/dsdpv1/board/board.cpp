@@ -14,8 +14,6 @@ namespace {
 // The board's wiring.
 constexpr unsigned kRReqPin = 6, kRStaPin = 7;
 
-constexpr std::int64_t kQuantaASecond = 4'000'000;  // interrupts are looked for every 250 ns
-
 /// Something that the bench does on its own stack, at once.
 class AtOnce : public user_cpu::Transfer {
  public:
@@ -58,8 +56,10 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
   cpu_.others = this;
   for (const Segment& segment : options_.firmware->image.segments)
     core_.load(segment.address, segment.bytes.data(), segment.bytes.size());
-  if (options_.firmware->mailbox)
-    mailbox_.emplace(core_.ram() + (*options_.firmware->mailbox - MemoryMap().ram_base), options_.program);
+  if (const auto mailbox = options_.firmware->mailbox) {
+    mailbox_.emplace(core_.ram() + (*mailbox - MemoryMap().ram_base), options_.program);
+    core_.watch(*mailbox, sizeof(dsdpv1_mailbox));
+  }
   if (options_.make_debugger) debugger_ = options_.make_debugger(core_);
   core_.attach(debugger_.get());
   follow_clock();
@@ -200,7 +200,6 @@ void Board::follow_clock() {
   const std::int64_t hz = hclk_hz(), common = std::gcd(hz, bus::kTicksPerSecond);
   cycle_ticks_ = bus::kTicksPerSecond / common;
   cycle_parts_ = hz / common;
-  core_.set_quantum(static_cast<std::uint32_t>(std::max<std::int64_t>(hz / kQuantaASecond, 1)));
   if (pins_ != nullptr) set_access_timing();
 }
 
@@ -215,14 +214,16 @@ void Board::meet_serial() {
   if (serial_tick() <= now()) come_up();
 }
 
-/// The processor may stay ahead of the others as long as nobody has anything to do; the bench hears of news at the same
-/// time in any case.
-void Board::keep_up() {
-  if (has_news() || !quiet(now())) come_up();
+/// The processor may stay ahead of the others as long as nobody has anything to do.
+std::uint64_t Board::keep_up() {
+  if (has_news() || quiet_until() <= now()) come_up();
+  Tick next = quiet_until();
+  if (!intr0_edges_.empty()) next = std::min(next, intr0_edges_.front().at);
+  return next == bus::kNever ? kNever : cycle_of(std::max(next, now()));
 }
 
 /// The serial peripherals are others, too.
-bool Board::quiet(Tick tick) { return serial_tick() > tick && others() != nullptr && others()->quiet(tick); }
+Tick Board::quiet_until() { return others() != nullptr ? std::min(serial_tick(), others()->quiet_until()) : 0; }
 
 bool Board::go_on(Tick tick) { return serial_tick() > tick && turn_goes_on(tick); }
 

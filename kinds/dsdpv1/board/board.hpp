@@ -11,9 +11,8 @@
 //   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, RD, WR, CSR; the 2 KB repeat
 //   USART1                a terminal
 //
-// HCLK follows the firmware's RCC, 8 MHz from the HSI at first; an instruction takes
-// Timing::millicycles_per_instruction, an access to a peripheral two cycles more (p: the bridge to APB), an access to
-// the chip what the FSMC's registers say.
+// HCLK follows the firmware's RCC, 8 MHz from the HSI at first; an instruction takes what it lasts, an access to a
+// peripheral two cycles more (p: the bridge to APB), an access to the chip what the FSMC's registers say.
 #include <algorithm>
 #include <array>
 #include <bitset>
@@ -102,13 +101,13 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   };
 
   // Others, for the CPU that moves the pins
-  bool quiet(Tick tick) override;
+  Tick quiet_until() override;
   bool go_on(Tick tick) override;
 
   // System
   std::uint32_t load(std::uint32_t address, unsigned bytes) override;
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
-  void keep_up() override;
+  std::uint64_t keep_up() override;
   std::optional<std::uint32_t> peek(std::uint32_t address) const override;
   std::vector<MemoryRegion> regions() const override;
   void sleep(std::uint64_t until) override;
@@ -142,6 +141,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
 
   std::uint32_t load_chip(std::uint32_t address, unsigned bytes);
   void store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  void end_accesses(unsigned count);
   void set_access_timing();
   bool may_access(std::uint32_t address, bool write);
   std::uint32_t load_word(std::uint32_t address);

@@ -51,7 +51,7 @@ std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
   std::uint32_t value = 0;
   for (unsigned i = 0; i < bytes; ++i)
     value |= static_cast<std::uint32_t>(pins_->read(static_cast<std::uint16_t>((address + i) & kChipMask))) << i * 8;
-  core_.advance_to(cycle_of(pins_->now()));
+  end_accesses(bytes);
   return value;
 }
 
@@ -60,8 +60,11 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
   come_up();
   for (unsigned i = 0; i < bytes; ++i)
     pins_->write(static_cast<std::uint16_t>((address + i) & kChipMask), static_cast<std::uint8_t>(value >> i * 8));
-  core_.advance_to(cycle_of(pins_->now()));
+  end_accesses(bytes);
 }
+
+/// They were whole cycles, each rounded to ticks.
+void Board::end_accesses(unsigned count) { core_.advance_to(cycle_of(pins_->now() - count)); }
 
 void Board::set_access_timing() {
   const user_cpu::FsmcAccess made = user_cpu::access_timing(fsmc_.bank(hclk_hz()));

@@ -72,7 +72,7 @@ struct Dsdpv1User : OwnSettings {
   Name elf;                                                  ///< kArm
   WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
   std::vector<Name> switches;                                ///< kArm: "PA0=low"
-  double cpi = 1.5;                                          ///< kArm: cycles of HCLK per instruction
+  std::optional<double> cpi;                                 ///< kArm: cycles of HCLK that every instruction takes
   std::optional<CpuTimes> timing;  ///< kNative; its `access` is left alone: that is the next member
   std::optional<AccessTimes> access;
   std::optional<Fsmc> fsmc;

@@ -83,7 +83,7 @@ class TlmExecution : public Execution {
     return make_view(request, options);
   }
 
-  bool quiet(const bus::Agent& agent, Tick tick) override { return module_.quiet(agent, tick); }
+  Tick quiet_until(const bus::Agent& agent) override { return module_.quiet_until(agent); }
   bool go_on(const bus::Agent& agent, Tick tick) override { return module_.go_on(agent, tick); }
 
   void run(Tick end, const std::function<bool()>& stopped) override {

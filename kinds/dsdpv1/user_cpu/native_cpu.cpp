@@ -82,7 +82,7 @@ void NativeCpu::begin_access() {
   ready_at_ = bus_.end() + timing_.overhead;
   // Its edges have one turn each, unless nobody else has one before the last: then all of them are this one; or unless
   // nobody else hears of them: then they are its last.
-  const bool in_one_go = others != nullptr && others->quiet(bus_.end());
+  const bool in_one_go = others != nullptr && others->quiet_until() > bus_.end();
   put_off_ = others != nullptr && !in_one_go && bus_.put_off();
   if (put_off_) return;
   const Tick until = in_one_go ? bus_.end() : now_;

@@ -9,9 +9,9 @@ using bus::Tick;
 class Others {
  public:
   virtual ~Others() = default;
-  /// None of them has a turn up to and including `tick`: until then nothing reaches this CPU.
-  virtual bool quiet(Tick tick) = 0;
-  /// The same, and what this CPU does at `tick` is part of this turn. False: it is to wait for its turn there.
+  /// None of them has a turn before this tick: until then nothing reaches this CPU.
+  virtual Tick quiet_until() = 0;
+  /// That is behind `tick`, and what this CPU does there is part of this turn. False: it is to wait for its turn there.
   virtual bool go_on(Tick tick) = 0;
 };
 

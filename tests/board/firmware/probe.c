@@ -140,7 +140,7 @@ static void inputs(void) {
 
 /* Ten accesses at each clock: HSI, crystal, PLL from half of the HSI times 16, PLL from the crystal times 9, half of
  * it. */
-static void ten_accesses(void) {
+__attribute__((noinline)) static void ten_accesses(void) {
   for (int i = 0; i < 10; ++i) CHIP(0) = (uint8_t)i;
 }
 static void clock_tree(void) {

@@ -53,6 +53,7 @@ class Ours : public Machine, private EngineEvents {
   }
   void on_data(std::uint32_t /*address*/, unsigned /*bytes*/, bool /*write*/) override {}
   void on_event() override {}
+  void on_watched_store() override {}
 
   std::uint64_t end_ = 0;
   std::vector<std::uint8_t> code_ = std::vector<std::uint8_t>(kCodeBytes);

@@ -37,7 +37,7 @@ class NativeCpu : public testing::Test {
   /// As a bench tells them.
   struct OnTimeline final : user_cpu::Others {
     explicit OnTimeline(NativeCpu& of) : test(of) {}
-    bool quiet(Tick tick) override { return test.timeline.quiet(*test.cpu, tick); }
+    Tick quiet_until() override { return test.timeline.quiet_until(*test.cpu); }
     bool go_on(Tick tick) override { return test.timeline.go_on(*test.cpu, tick); }
     NativeCpu& test;
   };

@@ -1,0 +1,23 @@
+@ Instructions of several cycles, in which interrupt 0 comes.
+        .include "vectors.inc"
+function main
+        control 0x100, 1
+        ldr     r0, =0x20000400
+        ldr     r3, =PORT
+        mov     r1, #-1
+        mov     r2, #1
+        str     r2, [r3]
+        nop
+        nop
+        ldm     r0, {r4-r12}
+        stm     r0, {r4-r12}
+        udiv    r4, r1, r2
+        umull   r4, r5, r1, r1
+        nop
+        nop
+        mov     r2, #2
+        str     r2, [r3]
+        exit
+function irq0
+        str     r3, [r3]
+        bx      lr

@@ -1,0 +1,51 @@
+@ Code that flash cannot deliver at once: each sequence twice, so that the difference is that of the longer one.
+        .include "vectors.inc"
+        .include "measure.inc"
+        .macro  repeated what:vararg
+        begin
+        .rept   32
+        \what
+        .endr
+        end
+        begin
+        .rept   64
+        \what
+        .endr
+        end
+        .endm
+        .macro  loop count, nops
+        begin
+        mov     r6, #\count
+        .balign 8
+1:      .rept   \nops
+        nop
+        .endr
+        subs    r6, #1
+        bne     1b
+        end
+        .endm
+function main
+        begin_to_count
+        repeated nop
+        repeated add.w r8, r8, r8
+        loop    10, 0                   @ in one line
+        loop    20, 0
+        loop    10, 12                  @ from the fourth line back to the first
+        loop    20, 12
+        loop    10, 4                   @ from the second line back to the first
+        loop    20, 4
+        begin
+        .rept   8
+        ldr     r8, 1f
+        nop
+        .endr
+        end
+        begin
+        .rept   16
+        ldr     r8, 1f
+        nop
+        .endr
+        end
+        exit
+        .balign 4
+1:      .word   7
