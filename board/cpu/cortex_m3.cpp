@@ -143,10 +143,13 @@ void CortexM3::between_instructions() {
 
 bool CortexM3::before_instruction(bool in_it) {
   arrived_ = engine_.attend_at() != 0 ? engine_.attend_at() : engine_.now();
-  catch_up();
+  const bool looked = std::exchange(stays_, false) && !is_due();
+  looked ? catch_up_systick() : catch_up();
   if (debugger_ != nullptr && !stopped_) attend_debugger();
   if (stopped_ || reset_requested_ || moved_ || (!in_it && preempting() != kNoException)) return false;
   schedule(in_it);
+  if (timing_.leaves_out_polls && !in_it && debugger_ == nullptr)
+    looked ? polling_.looked(engine_.attend_at()) : polling_.pass_by();
   return true;
 }
 
@@ -163,8 +166,15 @@ void CortexM3::catch_up_systick() {
 
 void CortexM3::catch_up() {
   catch_up_systick();
+  if (is_due()) polling_.end();
   const std::uint64_t next = system_.keep_up();
   keep_up_at_ = next == kNever ? kNever : next * kMillis;
+}
+
+void CortexM3::stays(std::uint64_t until) {
+  if (is_due()) polling_.end();
+  keep_up_at_ = until == kNever ? kNever : until * kMillis;
+  stays_ = true;
 }
 
 // An exception that waits for the end of an IT block is looked for again at once.
@@ -224,11 +234,15 @@ void CortexM3::bus_error() { engine_.bus_error(); }
 
 std::uint32_t CortexM3::on_load(std::uint32_t address, unsigned bytes) {
   attend_soon();
-  return load_outside(address, bytes);
+  stays_ = false;
+  const std::uint32_t value = load_outside(address, bytes);
+  if (!stays_) polling_.end();
+  return value;
 }
 
 void CortexM3::on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   attend_soon();
+  polling_.end();
   store_outside(address, bytes, value);
 }
 

@@ -15,6 +15,7 @@
 #include "board/cpu/engine.hpp"
 #include "board/cpu/fault.hpp"
 #include "board/cpu/nvic.hpp"
+#include "board/cpu/polling.hpp"
 #include "board/cpu/scb.hpp"
 #include "board/cpu/systick.hpp"
 
@@ -54,6 +55,7 @@ struct Timing {
   std::uint32_t exception_entry = 12;             ///< the handler's first instruction is fetched meanwhile
   std::uint32_t exception_return = 12;            ///< the next instruction is fetched meanwhile
   std::uint32_t tail_chain = 6;                   ///< in place of a return and an entry; without wait states
+  bool leaves_out_polls = true;                   ///< see Polling; nothing is different but the time that a run takes
 };
 
 /// Sizes are multiples of 4096 bytes. Flash is seen at 0 too.
@@ -102,6 +104,9 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void set_interrupt_level(unsigned irq, bool high);
   /// From System::load and store: nothing answers at this address; the access ends with a bus fault.
   void bus_error();
+  /// From System::load, which has come up to cycles(): once more it would do nothing else before cycle `until`, where
+  /// keep_up is due.
+  void stays(std::uint64_t until);
 
   Registers registers() const;
   /// Called for each fault once, also when the firmware handles it.
@@ -136,6 +141,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void schedule(bool in_it);
   void spend(std::uint32_t cycles) { spend_until(engine_.now() + cycles * kMillis); }
   void spend_until(std::uint64_t end);
+  bool is_due() const { return engine_.now() >= keep_up_at_; }
   void doze(bool for_event);
   const std::uint8_t* host(std::uint32_t address) const;
   std::uint16_t opcode_at(std::uint32_t address) const;
@@ -190,6 +196,8 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   std::uint8_t* flash_ = nullptr;
   std::uint8_t* ram_ = nullptr;
   Engine engine_;
+  Polling polling_{engine_};
+  bool stays_ = false;  ///< what the load at work, or the last one, has found
 
   Nvic nvic_;
   SysTick systick_;

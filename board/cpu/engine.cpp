@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 #include <utility>
 
 #include "board/cpu/operations.hpp"
@@ -49,7 +50,7 @@ Trap Engine::run() {
   trap_ = thumb_ ? Trap::kNone : Trap::kInvalidState;
   while (trap_ == Trap::kNone && before_next()) {
     if (it_ != 0) {
-      run_in_block();
+      step_in_block();
       continue;
     }
     until_ = attend_at_;
@@ -62,26 +63,41 @@ Trap Engine::run() {
 /// Instructions whose condition fails take their time, and nobody is asked before them.
 bool Engine::before_next() {
   for (;;) {
-    if (const std::uint32_t here = pc(); here - page_->start >= kPageBytes) turn_page(here);
+    if (at_end_of_page()) turn_page(pc());
     if (it_ == 0 || passes(it_ >> 4U)) break;
-    if (at_->run == kNotDecoded.run) decode_here();
-    now_ += cost_ != 0 ? cost_ : kCycle;
-    ++instructions_;
-    pass(*at_);
-    it_ = following(it_);
+    skip();
   }
   return now_ < attend_at_ || events_.before_instruction(it_ != 0);
 }
 
-void Engine::run_in_block() {
+/// The instruction in an IT block whose condition fails.
+void Engine::skip() {
+  if (at_->run == kNotDecoded.run) decode_here();
+  now_ += cost_ != 0 ? cost_ : kCycle;
+  ++instructions_;
+  pass(*at_);
+  it_ = following(it_);
+}
+
+void Engine::step_in_block() {
   const std::uint8_t state = it_;
   at_->run_in_it(*this, *at_);
   if (trap_ <= Trap::kInvalidState) it_ = following(state);
 }
 
+/// An IT block, as far as nobody is to be asked.
+void Engine::run_block() {
+  while (it_ != 0 && trap_ == Trap::kNone && now_ < attend_at_ && !at_end_of_page())
+    passes(it_ >> 4U) ? step_in_block() : skip();
+  if (it_ != 0) until_ = 0;
+}
+
 void Engine::turn_page(std::uint32_t target) {
-  if (Memory* memory = memory_at(target)) {
-    page_ = &page_at(*memory, target);
+  if (code_ == nullptr || target - code_->start >= code_->size) code_ = memory_at(target);
+  if (code_ != nullptr) {
+    std::unique_ptr<CodePage>& page = code_->pages[(target - code_->start) / kPageBytes];
+    if (!page) make_page(*code_, page, target);
+    page_ = page.get();
     at_ = &page_->instructions[(target - page_->start) / 2];
     line_wait_ = page_->in_flash ? flash_wait_ : 0;
     line_ready_ = now_ + line_wait_ + cycle_;
@@ -97,9 +113,7 @@ void Engine::leave_memory(std::uint32_t pc) {
   line_wait_ = 0;
 }
 
-Engine::CodePage& Engine::page_at(Memory& memory, std::uint32_t address) {
-  std::unique_ptr<CodePage>& page = memory.pages[(address - memory.start) / kPageBytes];
-  if (page) return *page;
+void Engine::make_page(Memory& memory, std::unique_ptr<CodePage>& page, std::uint32_t address) {
   page = std::make_unique<CodePage>();
   page->start = address & ~(kPageBytes - 1);
   page->in_flash = !memory.writable;
@@ -110,7 +124,6 @@ Engine::CodePage& Engine::page_at(Memory& memory, std::uint32_t address) {
     ram_has_code_ = true;
     set_direct();
   }
-  return *page;
 }
 
 /// The target is not known yet, or stands in two of the words that the processor fetches.
@@ -193,6 +206,7 @@ void Engine::decode_here() {
 void Engine::map(std::uint32_t address, std::uint32_t size, std::uint8_t* memory, bool writable) {
   memories_.push_back({address, size, memory, writable, {}});
   memories_.back().pages.resize(size / kPageBytes);
+  code_ = nullptr;
   set_direct();
 }
 
@@ -204,8 +218,13 @@ void Engine::set_direct() {
     const Direct direct = {memory.start, memory.size - 3, memory.bytes};
     if (!memory.writable && constants_.limit == 0) constants_ = direct;
     if (memory.writable) loads_ = direct;
-    if (memory.writable && !ram_has_code_) stores_ = direct;
+    if (memory.writable && !ram_has_code_ && !looks_at_stores_) stores_ = direct;
   }
+}
+
+void Engine::look_at_stores(bool on) {
+  has_stored_ = false;
+  if (std::exchange(looks_at_stores_, on) != on) set_direct();
 }
 
 void Engine::report_data(bool on) {
@@ -297,6 +316,7 @@ bool Engine::load_part(std::uint32_t address, unsigned bytes, std::uint32_t& val
 bool Engine::store_part(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   if (Memory* memory = memory_at(address)) {
     if (!memory->writable) return false;
+    has_stored_ = true;
     std::memcpy(memory->bytes + (address - memory->start), &value, bytes);
     forget_code(*memory, address, bytes);
     if (address - watched_.start < watched_.size) events_.on_watched_store();
@@ -374,6 +394,28 @@ void Engine::write(Register which, std::uint32_t value) {
       break;
     default: r_.at(static_cast<std::size_t>(which)) = value; break;
   }
+}
+
+bool EngineState::operator==(const EngineState& other) const {
+  const auto all = [](const EngineState& s) {
+    return std::tie(s.pc, s.xpsr, s.msp, s.psp, s.primask, s.basepri, s.faultmask, s.control, s.r, s.exclusive, s.phase,
+                    s.line_ready);
+  };
+  return all(*this) == all(other);
+}
+
+EngineState Engine::state() const {
+  EngineState state = {pc(), xpsr(), msp_, psp_, primask_, basepri_, faultmask_, control_, {}, exclusive_, 0, 0};
+  std::copy_n(r_.begin(), state.r.size(), state.r.begin());
+  state.phase = now_ % kCycle;
+  state.line_ready = line_ready_ > now_ ? line_ready_ - now_ : 0;
+  return state;
+}
+
+void Engine::repeat(std::uint64_t times, std::uint64_t time, std::uint64_t instructions) {
+  now_ += times * time;
+  line_ready_ += times * time;
+  instructions_ += times * instructions;
 }
 
 // Numbers of SYSm (B5.2.2).

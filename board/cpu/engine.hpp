@@ -30,6 +30,15 @@ class EngineEvents {
   virtual void on_watched_store() = 0;
 };
 
+/// All that decides what an Engine does next, but for memory.
+struct EngineState {
+  std::uint32_t pc, xpsr, msp, psp, primask, basepri, faultmask, control;
+  std::array<std::uint32_t, 15> r;
+  bool exclusive;
+  std::uint64_t phase, line_ready;  ///< thousandths of a cycle: since it began; until flash has the next line
+  bool operator==(const EngineState& other) const;
+};
+
 /// Why Engine::run() returned.
 enum class Trap : std::uint8_t {
   kNone,  ///< before_instruction() wanted it
@@ -107,6 +116,13 @@ class Engine {
   }
   /// Since when the instruction executed last could have been broken off by an exception; now(): it could not.
   std::uint64_t breakable_since() const { return breakable_until_ == now_ ? breakable_since_ : now_; }
+  EngineState state() const;
+  /// Whether stores to memory are looked at from now on.
+  void look_at_stores(bool on);
+  /// There was one since then.
+  bool has_stored() const { return has_stored_; }
+  /// What took this long and so many instructions happens again as often.
+  void repeat(std::uint64_t times, std::uint64_t time, std::uint64_t instructions);
   /// Instructions begun, those too whose condition failed.
   std::uint64_t instructions() const { return instructions_ + (running_ ? 1 : 0); }
 
@@ -141,7 +157,10 @@ class Engine {
 
   // --- what comes next
   bool before_next();
-  void run_in_block();
+  void step_in_block();
+  void run_block();
+  void skip();
+  bool at_end_of_page() const { return at_ - page_->instructions.data() >= kPageBytes / 2; }
   void pay(const Instruction& of) {
     now_ += of.cost;
     ++instructions_;
@@ -174,7 +193,7 @@ class Engine {
   void read_flash();
   void turn_page(std::uint32_t target);
   void leave_memory(std::uint32_t pc);
-  CodePage& page_at(Memory& memory, std::uint32_t address);
+  void make_page(Memory& memory, std::unique_ptr<CodePage>& page, std::uint32_t address);
   /// BXWritePC (ARMv7-M, A2.3.1): a change of state, or the return from an exception.
   void exchange(std::uint32_t target, Refill refill);
   /// Ends run(), the instruction at work executed or not.
@@ -234,7 +253,9 @@ class Engine {
   std::vector<Window> windows_;
   Direct loads_, stores_, constants_;  ///< RAM, RAM without code, flash
   bool reports_data_ = false, ram_has_code_ = false;
+  bool looks_at_stores_ = false, has_stored_ = false;
   std::unique_ptr<CodePage> nowhere_;  ///< where no memory is
+  Memory* code_ = nullptr;             ///< that instructions came from last
   Window watched_ = {};
   // Thousandths of a cycle: what a read of flash waits, what the fetch of instructions does here; when the line is there
   // that follows.

@@ -79,6 +79,7 @@ void CortexM3::take_exception(std::uint32_t return_address) {
 // The handler begins; what it interrupted is on the stack.
 void CortexM3::activate(unsigned exception, std::uint32_t exc_return) {
   nvic_.begin(exception);
+  polling_.end();
   event_ = true;
   engine_.clear_exclusive();
   const std::uint32_t flags = engine_.read(Register::kXpsr) & kFlags;

@@ -495,8 +495,8 @@ struct Operations {
   }
   static void it(Engine& e, const Instruction& i) {
     e.it_ = static_cast<std::uint8_t>(i.value);
-    e.until_ = 0;  // what follows is chosen by before_next()
     e.done(i);
+    e.run_block();
   }
   template <Trap why>
   static void executed(Engine& e, const Instruction& i) {

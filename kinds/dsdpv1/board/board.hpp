@@ -108,6 +108,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::uint32_t load(std::uint32_t address, unsigned bytes) override;
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   std::uint64_t keep_up() override;
+  std::uint64_t next_due();
   std::optional<std::uint32_t> peek(std::uint32_t address) const override;
   std::vector<MemoryRegion> regions() const override;
   void sleep(std::uint64_t until) override;
@@ -145,7 +146,9 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void set_access_timing();
   bool may_access(std::uint32_t address, bool write);
   std::uint32_t load_word(std::uint32_t address);
+  std::uint32_t load_register(std::uint32_t address);
   void store_word(std::uint32_t address, std::uint32_t value);
+  bool stays(std::uint32_t address) const;
   std::uint32_t load_port(unsigned port, std::uint32_t offset);
   Levels outside(unsigned port);
   /// What the chip's outputs make of pins: L_REQ, L_STA; lamps as user_cpu::HostBus has them; MISO.

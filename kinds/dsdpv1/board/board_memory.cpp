@@ -14,7 +14,7 @@ constexpr std::uint32_t kUsart1 = 0x4001'3800, kRcc = 0x4002'1000, kBlock = 0x40
 constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000, kFsmcBlock = 0x1000;
 constexpr std::uint32_t kChipMask = 0x7FF;  // A10..A0
 constexpr std::uint32_t kGpioIdr = 0x08;
-constexpr std::uint32_t kAfioMapr = 0x04;
+constexpr std::uint32_t kAfioMapr = 0x04, kSpiSr = 0x08, kUsartSr = 0x00;
 
 // The board's wiring.
 constexpr unsigned kLReqPin = 8, kLStaPin = 9;
@@ -84,6 +84,12 @@ bool Board::may_access(std::uint32_t address, bool write) {
 std::uint32_t Board::load_word(std::uint32_t address) {
   core_.advance_to(core_.cycles() + kApbCycles);
   look_at_clock(address);
+  const std::uint32_t value = load_register(address);
+  if (stays(address)) core_.stays(next_due());
+  return value;
+}
+
+std::uint32_t Board::load_register(std::uint32_t address) {
   if (address >= kGpioA && address < kGpioEnd) return load_port((address - kGpioA) / kBlock, address % kBlock);
   if (within(address, kAfio)) return exti_.read_afio(address - kAfio);
   if (within(address, kExti)) {
@@ -100,6 +106,15 @@ std::uint32_t Board::load_word(std::uint32_t address) {
   }
   if (address - Fsmc::kBase < Fsmc::kSize) return fsmc_.read(address - Fsmc::kBase);
   return others_.read(address, core_.pc());
+}
+
+/// A register whose look has no effect, or the same effect again: DR has others. MISO is not among what quiet_until
+/// counts; accesses to what is not there are counted.
+bool Board::stays(std::uint32_t address) const {
+  if (address >= kGpioA && address < kGpioEnd) return !serial_.has_miso((address - kGpioA) / kBlock);
+  if (const SerialSide::Block block = SerialSide::block_of(address); block != SerialSide::kNone)
+    return address % kBlock == (block == SerialSide::kUsart2 ? kUsartSr : kSpiSr);
+  return within(address, kAfio) || within(address, kExti) || within(address, kUsart1) || within(address, kRcc);
 }
 
 std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {

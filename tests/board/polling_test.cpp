@@ -1,0 +1,118 @@
+// Passes of a loop that are left out: what a program sees and when is the same without.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "tests/board/processor_bench.hpp"
+
+namespace dsdpv1::arm {
+namespace {
+
+constexpr std::uint32_t kDevice = 0x40001000;
+
+/// A device that becomes 1 at a cycle; whoever looks at it is counted.
+class Device : public NotingSystem {
+ public:
+  std::uint32_t load(std::uint32_t address, unsigned bytes) override {
+    if (address - kDevice >= 8) return NotingSystem::load(address, bytes);
+    ++looks;
+    processor->advance_to(processor->cycles() + 2);
+    if (stays) processor->stays(keep_up());
+    return address == kDevice && processor->cycles() >= rises ? 1 : 0;
+  }
+  std::uint64_t keep_up() override {
+    const std::uint64_t next = NotingSystem::keep_up();
+    return processor->cycles() < rises ? std::min(next, rises) : next;
+  }
+  std::uint64_t rises = 0;
+  unsigned looks = 0;
+  bool stays = true;
+};
+
+struct Seen {
+  std::vector<std::uint32_t> notes;
+  std::vector<std::uint64_t> cycles;
+  std::uint64_t instructions;
+  bool operator==(const Seen& other) const {
+    return notes == other.notes && cycles == other.cycles && instructions == other.instructions;
+  }
+};
+std::ostream& operator<<(std::ostream& out, const Seen& seen) {
+  return out << testing::PrintToString(seen.notes) << testing::PrintToString(seen.cycles) << seen.instructions;
+}
+
+struct Run {
+  std::uint32_t way;
+  std::uint64_t rises;
+  std::uint64_t interrupt = 0;  ///< 0: none
+  std::uint32_t millicycles = 0;
+  bool stays = true;
+};
+
+Seen seen(const Run& run, bool leaves_out, unsigned& looks) {
+  Device system;
+  Timing timing;
+  timing.leaves_out_polls = leaves_out;
+  timing.millicycles_per_instruction = run.millicycles;
+  CortexM3 processor(system, MemoryMap{}, timing);
+  system.processor = &processor;
+  system.rises = run.rises;
+  system.stays = run.stays;
+  if (run.interrupt != 0) system.interrupts = {{run.interrupt, 0}};
+  const std::vector<std::uint8_t> image = read_program("polls");
+  processor.load(MemoryMap{}.flash_base, image.data(), image.size());
+  std::memcpy(processor.ram() + 0x100, &run.way, sizeof run.way);
+  processor.set_flash(2, true);
+  processor.run();
+  looks = system.looks;
+  return {system.notes, system.note_cycles, processor.instructions()};
+}
+
+enum Way : std::uint32_t { kLook, kTwo, kMemory, kCounts, kStores, kBlock, kWorks, kCalls, kWays };
+
+/// Looks without leaving out, and with it.
+std::pair<unsigned, unsigned> compare(const Run& run) {
+  unsigned all = 0, some = 0;
+  const Seen expected = seen(run, false, all);
+  EXPECT_EQ(seen(run, true, some), expected) << "way " << run.way << ", rises at " << run.rises << ", interrupt at "
+                                             << run.interrupt << ", millicycles " << run.millicycles;
+  return {all, some};
+}
+
+TEST(Polls, LeaveEverythingAsItIsWheneverTheDeviceChanges) {
+  for (std::uint32_t way = 0; way < kWays; ++way)
+    for (std::uint64_t rises = 400; rises < 500; ++rises) compare({way, rises});
+}
+
+TEST(Polls, LeaveEverythingAsItIsWheneverAnInterruptComes) {
+  for (std::uint32_t way = 0; way < kWays; ++way)
+    for (std::uint64_t interrupt = 300; interrupt < 350; ++interrupt) compare({way, 600, interrupt});
+}
+
+TEST(Polls, LeaveEverythingAsItIsWhenInstructionsLastTheSame) {
+  for (const std::uint32_t millicycles : {1000, 1500, 1333})
+    for (std::uint32_t way = 0; way < kWays; ++way)
+      for (std::uint64_t rises = 900; rises < 920; ++rises) compare({way, rises, 700, millicycles});
+}
+
+TEST(Polls, AreLeftOutWhereEachPassIsLikeTheOneBefore) {
+  for (const Way way : {kLook, kTwo, kMemory, kBlock, kWorks, kCalls}) {
+    const auto [all, some] = compare({way, 100'000});
+    EXPECT_GT(all, 700U) << way;
+    EXPECT_LT(some, 20U) << way;
+  }
+  for (const Way way : {kCounts, kStores}) {
+    const auto [all, some] = compare({way, 100'000});
+    EXPECT_EQ(all, some) << way;
+  }
+}
+
+TEST(Polls, AreMadeWhereTheSystemDoesNotSayThatItStays) {
+  const auto [all, some] = compare({kLook, 100'000, 0, 0, false});
+  EXPECT_EQ(all, some);
+}
+
+}  // namespace
+}  // namespace dsdpv1::arm
