@@ -88,8 +88,8 @@ class Dsdpv1Kind : public ChipKind {
   }
   std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
   std::string cell_of(const profibus::Event& event) const override {
-    const bool has_cell = dsdpv1::text_template(event.reason).find("B{a:3x}") != std::string::npos;
-    return has_cell ? fmt::format("B{:03X}", event.a) : "";
+    const std::string_view text = event.reason.row().text;
+    return text.find("B{a:3x}") != std::string_view::npos ? fmt::format("B{:03X}", event.a) : "";
   }
   std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<LastAccess>(); }
   std::unique_ptr<HostReader> make_host_reader(const OwnSettings& chip) const override {

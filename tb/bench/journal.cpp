@@ -24,19 +24,21 @@ void Journal::count_one(Tick at, const std::string& station, const std::string& 
   observers_.tell(&Observer::counted, at, station, code, violation, count);
 }
 
-void Journal::happened(Occurrence occurrence) {
+void Journal::happened(Occurrence occurrence, const profibus::Event* event) {
+  const auto text = [&] { return event != nullptr ? scenario_.kind->describe(*event) : occurrence.text; };
   const bool violation = occurrence.severity == profibus::Severity::kViolation;
   count_one(occurrence.at, occurrence.station, occurrence.code, violation);
   occurrence.allowed = violation && scenario::allows(scenario_, occurrence.code, occurrence.station);
   if (violation) {
     ++(occurrence.allowed ? allowed_ : violations_);
-    violated_.count(occurrence);
+    violated_.count(occurrence, text);
   }
-  if (occurrence.severity == profibus::Severity::kRefusal) refusals_.count(occurrence);
-  log({occurrence.at, occurrence.station, occurrence.allowed ? "allowed" : name(occurrence.severity), occurrence.text,
-       occurrence.code});
-  if (occurrences_.size() < RunResult::kKept)
-    occurrences_.push_back(std::move(occurrence));
+  if (occurrence.severity == profibus::Severity::kRefusal) refusals_.count(occurrence, text);
+  if (log_)
+    log({occurrence.at, occurrence.station, occurrence.allowed ? "allowed" : name(occurrence.severity), text(),
+         occurrence.code});
+  if (kept_.size() < RunResult::kKept)
+    kept_.push_back({std::move(occurrence), event != nullptr ? std::optional(*event) : std::nullopt});
   else
     ++occurrences_dropped_;
 }
@@ -53,7 +55,7 @@ void Journal::violated(const std::string& slave, const checks::Violation& violat
 
 void Journal::event(std::size_t slave, const profibus::Event& event) {
   happened({event.at, name_of(slave), profibus::code(event.reason), profibus::severity(event.reason),
-            scenario_.kind->describe(event), scenario_.kind->cell_of(event)});
+            {}, scenario_.kind->cell_of(event)}, &event);
 }
 
 void Journal::telegram(const HeardTelegram& telegram) {
@@ -94,7 +96,10 @@ std::uint64_t Journal::count(const std::string& station, const std::string& code
 }
 
 void Journal::fill(RunResult& result) const {
-  result.occurrences = occurrences_;
+  for (const Kept& kept : kept_) {
+    result.occurrences.push_back(kept.occurrence);
+    if (kept.event) result.occurrences.back().text = scenario_.kind->describe(*kept.event);
+  }
   std::stable_sort(result.occurrences.begin(), result.occurrences.end(), [](const Occurrence& a, const Occurrence& b) {
     return std::tie(a.at, a.station) < std::tie(b.at, b.station);
   });

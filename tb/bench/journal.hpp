@@ -26,8 +26,9 @@ class Journal : public Observer {
   void log(LogEntry entry);
   /// Bytes as the log shows them inside of a text.
   std::string in_log(const bus::Bytes& bytes) const;
-  /// An event of the chip, an error of the program, a flag of the monitor.
-  void happened(Occurrence occurrence);
+  /// An error of the program, a flag of the monitor; `event`: an event of the chip, whose words are written when
+  /// somebody wants them.
+  void happened(Occurrence occurrence, const profibus::Event* event = nullptr);
 
   // Observer
   void event(std::size_t slave, const profibus::Event& event) override;
@@ -57,7 +58,11 @@ class Journal : public Observer {
   const Observers& observers_;
   LogForm form_;
   std::optional<RunLog> log_;
-  std::vector<Occurrence> occurrences_;
+  struct Kept {
+    Occurrence occurrence;
+    std::optional<profibus::Event> event;  ///< whose words are not written yet
+  };
+  std::vector<Kept> kept_;
   std::uint64_t occurrences_dropped_ = 0, violations_ = 0, allowed_ = 0;
   Repetitions refusals_, violated_;
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code

@@ -34,10 +34,10 @@ const char* name(ChecksMode mode) {
   return "";
 }
 
-void Repetitions::count(const Occurrence& occurrence) {
+void Repetitions::count(const Occurrence& occurrence, const std::function<std::string()>& text) {
   Repeated& entry = entries_[{occurrence.station, occurrence.code, occurrence.place}];
   if (entry.count++ == 0)
-    entry = {occurrence.station, occurrence.code, occurrence.place, occurrence.text, occurrence.at, occurrence.at, 1,
+    entry = {occurrence.station, occurrence.code, occurrence.place, text(), occurrence.at, occurrence.at, 1,
              occurrence.allowed};
   entry.last = std::max(entry.last, occurrence.at);
 }

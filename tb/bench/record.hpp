@@ -1,6 +1,7 @@
 #pragma once
 // What a run has brought, as plain values: for expectations, the result file and the table.
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,7 +45,8 @@ struct Repeated {
 
 class Repetitions {
  public:
-  void count(const Occurrence& occurrence);
+  /// `text` writes the words of one that comes for the first time.
+  void count(const Occurrence& occurrence, const std::function<std::string()>& text);
   /// By the first time.
   std::vector<Repeated> list() const;
 
