@@ -244,6 +244,7 @@ void Board::reset() {
   ports_ = {};
   exti_ = {};
   rcc_ = {};
+  flash_ = {};
   serial_.reset();
   serial_.follow(rcc_);
   fsmc_ = Fsmc(options_.fsmc);
