@@ -8,8 +8,8 @@ constexpr std::uint32_t kLines = 0x7'FFFF;
 constexpr std::uint32_t kLines5To9 = 0x03E0, kLines10To15 = 0xFC00;
 
 constexpr RegisterList kExtiRegisters = {  // of 19 lines; only 0 to 15 are pins
-    {kImr, "IMR", 0, kLines},   {kEmr, "EMR", 0, kLines},     {kRtsr, "RTSR", 0, kLines},
-    {kFtsr, "FTSR", 0, kLines}, {kSwier, "SWIER", 0, kLines}, {kPr, "PR"}};
+    {kImr, "IMR", 0, kLines},   {kEmr, "EMR", 0, kLines}, {kRtsr, "RTSR", 0, kLines},
+    {kFtsr, "FTSR", 0, kLines}, {kSwier, "SWIER"},        {kPr, "PR"}};
 constexpr TagList kExtiTags = {  // PVD, RTC alarm, USB wake-up
     {kImr, 16, 3, "MR[18:16]"},
     {kEmr, 16, 3, "MR[18:16]"},

@@ -352,10 +352,9 @@ TEST_F(BoardSerial, ClocksOffAndFunctionsThatAreMissingAreListed) {
   start(kMisused);
   run();
   EXPECT_EQ(cell(0), 0);  // RCC has reset it
-  EXPECT_THAT(board->board()->notes,
-              ElementsAre(HasSubstr("SPI1 is used while its clock is off in RCC_APB2ENR"),
-                          HasSubstr("SPI1_CR1.RXONLY is set to 0x1, which the board does not"),
-                          HasSubstr("USART2_CR3.HDSEL is set to 0x1, which the board does not")));
+  EXPECT_THAT(board->board()->notes, ElementsAre(HasSubstr("SPI1 is used while its clock is off in RCC_APB2ENR"),
+                                                 HasSubstr("SPI1_CR1.RXONLY is set to 1, which the board does not"),
+                                                 HasSubstr("USART2_CR3.HDSEL is set to 1, which the board does not")));
 }
 
 }  // namespace

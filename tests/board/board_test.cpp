@@ -39,7 +39,8 @@ enum Program {
   kClockTree,
   kNonsense,
   kLacking,
-  kRegisters
+  kRegisters,
+  kClocksOff
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -398,14 +399,27 @@ TEST_F(BoardTest, FieldsAndRegistersThatTheBoardDoesNotHaveAreListedOnceWithThei
     return testing::AllOf(testing::StartsWith(what), testing::EndsWith("probe.c:" + std::to_string(last - before)));
   };
   EXPECT_THAT(board->board()->notes,
-              ElementsAre(lacks("AFIO_MAPR.USART1_REMAP is set to 0x1, which the board does not have, first in", 12),
-                          lacks("EXTI_IMR.MR[18:16] is set to 0x2,", 11), lacks("GPIOB_LCKR.LCKK is set to 0x1,", 10),
-                          lacks("SPI1_CR2.TXDMAEN is set to 0x1,", 9), lacks("SPI1_CR2.RXDMAEN is set to 0x1,", 8),
-                          lacks("SPI2_CR1.MSTR is set to 0x0,", 7), lacks("USART1_CR1.RE is set to 0x1,", 6),
-                          lacks("USART2_CR3.CTSE is set to 0x1,", 5), lacks("RCC_CR.HSITRIM is set to 0x0,", 4),
+              ElementsAre(lacks("AFIO_MAPR.USART1_REMAP is set to 1, which the board does not have, first in", 12),
+                          lacks("EXTI_IMR.MR[18:16] is set to 2,", 11), lacks("GPIOB_LCKR.LCKK is set to 1,", 10),
+                          lacks("SPI1_CR2.TXDMAEN is set to 1,", 9), lacks("SPI1_CR2.RXDMAEN is set to 1,", 8),
+                          lacks("SPI2_CR1.MSTR is set to 0,", 7), lacks("USART1_CR1.RE is set to 1,", 6),
+                          lacks("USART2_CR3.CTSE is set to 1,", 5), lacks("RCC_CR.HSITRIM is set to 0,", 4),
                           lacks("RCC has no register at 0x40021028 on the board, first in", 3),
-                          lacks("FLASH_ACR.HLFCYA is set to 0x1,", 2), lacks("FSMC_BCR1.MTYP is set to 0x1,", 1),
-                          lacks("FSMC_BCR1.MWID is set to 0x1,", 1)));
+                          lacks("FLASH_ACR.HLFCYA is set to 1,", 2), lacks("FSMC_BCR1.MTYP is set to 1,", 1),
+                          lacks("FSMC_BCR1.MWID is set to 1,", 1)));
+}
+
+TEST_F(BoardTest, PeripheralsWithoutTheirClockAreListed) {
+  start(kClocksOff);
+  run();
+  std::vector<std::string> notes = board->board()->notes;
+  for (std::string& note : notes) note.resize(note.find(','));
+  const auto off = [](const std::string& name, const std::string& bus = "APB2") {
+    return name + " is used while its clock is off in RCC_" + bus + "ENR";
+  };
+  EXPECT_THAT(notes, ElementsAre(off("AFIO"), off("GPIOA"), off("GPIOB"), off("GPIOC"), off("GPIOD"), off("GPIOE"),
+                                 off("GPIOF"), off("GPIOG"), off("SPI1"), off("USART1"), off("SPI2", "APB1"),
+                                 off("USART2", "APB1"), off("FSMC", "AHB")));
 }
 
 // Although the firmware has a handler for it, which writes to the chip.

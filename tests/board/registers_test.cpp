@@ -187,6 +187,7 @@ TEST(Registers, OfFsmc) {
                                  {0x18, enable},
                                  {0x104, mode}});
   // NWAIT is asked for in bursts only.
+  EXPECT_EQ(Fsmc::kRegisters.asked(0x00, 0xDFFF).size(), Fsmc::kRegisters.asked(0x00, 0xFFFF).size() - 1);
   ASSERT_EQ(Fsmc::kRegisters.asked(0x00, 0x2100).size(), 2U);
   EXPECT_STREQ(Fsmc::kRegisters.asked(0x00, 0x2100)[1]->name, "WAITEN");
 }

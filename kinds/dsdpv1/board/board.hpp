@@ -147,8 +147,10 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   };
   Levels wired(unsigned port, const Outputs& chip) const;
   std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
+  /// Notes what of a register's use a real one would not answer or the board does not have.
   void look_at(std::uint32_t address, std::optional<std::uint32_t> written);
   void look_at_clock(const Peripheral& of);
+  /// Once for each; `what`: a bit of the register, or more.
   bool is_new(std::uint32_t address, unsigned what) { return noted_.emplace(address, what).second; }
   void note(const std::string& text);
 
@@ -172,7 +174,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
   user_cpu::HandshakeCounters handshake_;
   unsigned requests_ = 0;  ///< of exti_ and, above them, serial_, as the processor knows them
-  std::set<std::pair<std::uint32_t, unsigned>> noted_;  ///< what is said once only
+  std::set<std::pair<std::uint32_t, unsigned>> noted_;  ///< by is_new
   std::vector<std::string> notes_;
   std::optional<Fault> fault_;  ///< that the firmware would have handled
   CortexM3 core_;

@@ -34,7 +34,7 @@ constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
 constexpr std::uint64_t kApbCycles = 2;
 constexpr std::int64_t kGreatestHclk = 72'000'000;
 
-enum : unsigned { kNoRegister = 32, kClockOff, kTooFast };  // is_new: behind the bits of a register
+enum : unsigned { kNoRegister = 32, kClockOff, kTooFast };  // is_new: beside the bits of a register
 
 constexpr std::array<Peripheral, 16> kMap = {{
     {kAfio, "AFIO", &Exti::kAfioRegisters, Rcc::kApb2enr, 0},
@@ -298,8 +298,8 @@ void Board::look_at(std::uint32_t address, std::optional<std::uint32_t> written)
   if (to == nullptr || !written) return;
   for (const Tag* tag : here->registers->asked(offset, *written))
     if (is_new(address, tag->bit))
-      note(fmt::format("{}_{}.{} is set to 0x{:X}, which the board does not have", here->name, to->name, tag->name,
-                       tag->value_in(*written)));
+      note(fmt::format("{}_{}.{} is set to {}{:X}, which the board does not have", here->name, to->name, tag->name,
+                       tag->value_in(*written) > 9 ? "0x" : "", tag->value_in(*written)));
 }
 
 void Board::look_at_clock(const Peripheral& of) {

@@ -211,6 +211,22 @@ static void registers(void) {
   all_registers();
 }
 
+/* Each is read with all clocks but its own. */
+static void clocks_off(void) {
+  static const uint32_t uses[][3] = {
+      {RCC_APB2ENR, 0, 0x40010000},  {RCC_APB2ENR, 2, 0x40010800},  {RCC_APB2ENR, 3, 0x40010C00},
+      {RCC_APB2ENR, 4, 0x40011000},  {RCC_APB2ENR, 5, 0x40011400},  {RCC_APB2ENR, 6, 0x40011800},
+      {RCC_APB2ENR, 7, 0x40011C00},  {RCC_APB2ENR, 8, 0x40012000},  {RCC_APB2ENR, 12, 0x40013000},
+      {RCC_APB2ENR, 14, 0x40013800}, {RCC_APB1ENR, 14, 0x40003800}, {RCC_APB1ENR, 17, 0x40004400},
+      {RCC_AHBENR, 8, FSMC_BTR1},    {RCC_AHBENR, 8, 0x60000000},   {RCC_AHBENR, 8, EXTI_PR}};
+  for (unsigned i = 0; i < sizeof uses / sizeof *uses; ++i) {
+    serial_clocks();
+    REG(RCC_AHBENR) = 0x114;
+    REG(uses[i][0]) &= ~(1u << uses[i][1]);
+    (void)REG(uses[i][2]);
+  }
+}
+
 /* The test has told the board that the mailbox is here. */
 static void nonsense(void) {
   volatile dsdpv1_mailbox* box = (volatile dsdpv1_mailbox*)0x20008000u;
@@ -237,9 +253,9 @@ void EXTI9_5_handler(void) {
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {handshake, accesses,   unset_accesses, interrupt, chip_reset,
-                                           text,      strange,    undefined,      bank_off,  masked_and_rising,
-                                           inputs,    clock_tree, nonsense,       lacking,   registers};
+  static void (*const programs[])(void) = {
+      handshake, accesses,          unset_accesses, interrupt,  chip_reset, text,    strange,   undefined,
+      bank_off,  masked_and_rising, inputs,         clock_tree, nonsense,   lacking, registers, clocks_off};
   edges = 0;
   clocks();
   programs[program]();
