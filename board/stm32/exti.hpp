@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "board/stm32/registers.hpp"
+
 namespace dsdpv1::arm {
 
 /// Which interrupts of the NVIC the pending lines ask for: bit 0..4 lines 0..4, bit 5 lines 5 to 9, bit 6 lines 10
@@ -13,10 +15,12 @@ constexpr std::array<unsigned, 7> kExtiIrq = {6, 7, 8, 9, 10, 23, 40};
 
 class Exti {
  public:
-  std::uint32_t read(std::uint32_t offset) const;
+  static const RegisterTable kRegisters, kAfioRegisters;
+
+  std::uint32_t read(std::uint32_t offset) const { return words_.read(offset); }
   void write(std::uint32_t offset, std::uint32_t value);
-  std::uint32_t read_afio(std::uint32_t offset) const;
-  void write_afio(std::uint32_t offset, std::uint32_t value);
+  std::uint32_t read_afio(std::uint32_t offset) const { return afio_.read(offset); }
+  void write_afio(std::uint32_t offset, std::uint32_t value) { afio_.write(offset, value); }
 
   /// The pin `line` of `port` (0 = A ... 6 = G) has got this level.
   void edge(unsigned port, unsigned line, bool level);
@@ -28,11 +32,11 @@ class Exti {
   unsigned requests() const;
 
  private:
-  unsigned port_of(unsigned line) const { return exticr_.at(line / 4) >> (line % 4 * 4) & 0xFU; }
+  static constexpr std::uint32_t kExticr1 = 0x08;
+  unsigned port_of(unsigned line) const { return afio_[kExticr1 + line / 4 * 4] >> (line % 4 * 4) & 0xFU; }
   void request(std::uint32_t lines);
-  std::uint32_t imr_ = 0, emr_ = 0, rtsr_ = 0, ftsr_ = 0, swier_ = 0, pr_ = 0;
-  std::uint32_t evcr_ = 0, mapr_ = 0;
-  std::array<std::uint32_t, 4> exticr_{};
+  RegisterWords<kRegisters, 6> words_;
+  RegisterWords<kAfioRegisters, 8> afio_;
   bool event_ = false;
 };
 

@@ -3,8 +3,28 @@
 namespace dsdpv1::arm {
 namespace {
 
-constexpr std::uint32_t kBcr1 = 0x000, kBtr1 = 0x004, kBwtr1 = 0x104;
-constexpr std::uint32_t kMbken = 1U << 0U, kMwid16 = 1U << 4U, kWren = 1U << 12U, kExtmod = 1U << 14U;
+constexpr std::uint32_t kBcr1 = 0x000, kBtr1 = 0x004, kBcr2 = 0x008, kBcr3 = 0x010, kBcr4 = 0x018, kBwtr1 = 0x104;
+constexpr std::uint32_t kMbken = 1U << 0U, kBursten = 1U << 8U, kWren = 1U << 12U, kExtmod = 1U << 14U;
+
+constexpr std::uint32_t kBcr = 0x8'FF7F, kBtr = 0x3FFF'FFFF, kBwtr = 0x300F'FFFF, kLongest = 0x0FFF'FFFF;
+constexpr RegisterList kFsmcRegisters = {
+    {kBcr1, "BCR1", 0x30DB, kBcr}, {kBtr1, "BTR1", kLongest, kBtr}, {kBwtr1, "BWTR1", kLongest, kBwtr},
+    {kBcr2, "BCR2", 0x30D2, kBcr}, {0x00C, "BTR2", kLongest, kBtr}, {0x10C, "BWTR2", kLongest, kBwtr},
+    {kBcr3, "BCR3", 0x30D2, kBcr}, {0x014, "BTR3", kLongest, kBtr}, {0x114, "BWTR3", kLongest, kBwtr},
+    {kBcr4, "BCR4", 0x30D2, kBcr}, {0x01C, "BTR4", kLongest, kBtr}, {0x11C, "BWTR4", kLongest, kBwtr}};
+constexpr TagList kFsmcTags = {  // zeros are SRAM of 8 bits, asynchronous, at NE1
+    {kBcr1, 1, 1, "MUXEN"},
+    {kBcr1, 2, 2, "MTYP"},
+    {kBcr1, 4, 2, "MWID"},
+    {kBcr1, 8, 1, "BURSTEN"},
+    {kBcr1, 13, 1, "WAITEN", 0, kBursten},
+    {kBcr1, 15, 1, "ASYNCWAIT"},
+    {kBcr1, 19, 1, "CBURSTRW"},
+    {kBtr1, 28, 2, "ACCMOD"},
+    {kBwtr1, 28, 2, "ACCMOD"},
+    {kBcr2, 0, 1, "MBKEN"},
+    {kBcr3, 0, 1, "MBKEN"},
+    {kBcr4, 0, 1, "MBKEN"}};
 
 user_cpu::FsmcTiming fields(std::uint32_t btr) {
   user_cpu::FsmcTiming timing;
@@ -16,28 +36,26 @@ user_cpu::FsmcTiming fields(std::uint32_t btr) {
 
 }  // namespace
 
-std::uint32_t Fsmc::read(std::uint32_t offset) const { return offset < kSize ? words_.at(offset / 4) : 0; }
+constexpr RegisterTable Fsmc::kRegisters{kFsmcRegisters, kFsmcTags};
 
 void Fsmc::write(std::uint32_t offset, std::uint32_t value) {
-  if (offset >= kSize) return;
-  words_.at(offset / 4) = value;
-  written_.at(offset / 4) = true;
+  words_.write(offset, value);
+  btr1_written_ = btr1_written_ || offset == kBtr1;
+  bwtr1_written_ = bwtr1_written_ || offset == kBwtr1;
 }
 
 bool Fsmc::refuses(bool write) const {
   const std::uint32_t needed = kMbken | (write ? kWren : 0);
-  return written_[kBcr1 / 4] && (words_[kBcr1 / 4] & needed) != needed;
+  return (words_[kBcr1] & needed) != needed;
 }
-
-bool Fsmc::is_wide() const { return written_[kBcr1 / 4] && (words_[kBcr1 / 4] & kMwid16) != 0; }
 
 user_cpu::FsmcBank Fsmc::bank(std::int64_t hclk_hz) const {
   user_cpu::FsmcBank bank;
   bank.hclk_hz = hclk_hz;
-  if (written_[kBcr1 / 4] && (words_[kBcr1 / 4] & kExtmod) != 0) bank.mode = user_cpu::FsmcMode::kA;
-  if (written_[kBtr1 / 4]) bank.read = bank.write = fields(words_[kBtr1 / 4]);
+  if ((words_[kBcr1] & kExtmod) != 0) bank.mode = user_cpu::FsmcMode::kA;
+  if (btr1_written_) bank.read = bank.write = fields(words_[kBtr1]);
   if (bank.mode == user_cpu::FsmcMode::kA)
-    bank.write = written_[kBwtr1 / 4] ? fields(words_[kBwtr1 / 4]) : user_cpu::FsmcTiming();
+    bank.write = bwtr1_written_ ? fields(words_[kBwtr1]) : user_cpu::FsmcTiming();
   return user_cpu::with(bank, given_);
 }
 

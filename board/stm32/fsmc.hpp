@@ -1,20 +1,20 @@
 #pragma once
 // The FSMC of the STM32F103, bank 1 region 1 (NE1), where the chip is (RM0008, chapter FSMC): its registers.
-#include <array>
 #include <cstdint>
 
 #include "board/stm32/fsmc_timing.hpp"
+#include "board/stm32/registers.hpp"
 
 namespace dsdpv1::arm {
 
 class Fsmc {
  public:
-  static constexpr std::uint32_t kBase = 0xA000'0000, kSize = 0x120;
+  static constexpr std::uint32_t kBase = 0xA000'0000, kSize = 0x1000;
+  static const RegisterTable kRegisters;
 
   explicit Fsmc(const user_cpu::FsmcOverride& given) : given_(given) {}
 
-  /// Registers of the bank: BCR1 0x000, BTR1 0x004, BWTR1 0x104; others are kept and do nothing.
-  std::uint32_t read(std::uint32_t offset) const;
+  std::uint32_t read(std::uint32_t offset) const { return words_.read(offset); }
   void write(std::uint32_t offset, std::uint32_t value);
 
   /// As the firmware's registers say, with the scenario's values on top. What the firmware never wrote is as FsmcBank's
@@ -22,14 +22,11 @@ class Fsmc {
   user_cpu::FsmcBank bank(std::int64_t hclk_hz) const;
   /// The firmware has switched the bank off (MBKEN), or writing to it (WREN).
   bool refuses(bool write) const;
-  /// The firmware has chosen a bus of 16 bits (MWID); the chip has 8.
-  bool is_wide() const;
 
  private:
-  static constexpr std::size_t kWords = kSize / 4;
   user_cpu::FsmcOverride given_;
-  std::array<std::uint32_t, kWords> words_{};
-  std::array<bool, kWords> written_{};
+  RegisterWords<kRegisters, 0x120 / 4> words_;
+  bool btr1_written_ = false, bwtr1_written_ = false;
 };
 
 }  // namespace dsdpv1::arm

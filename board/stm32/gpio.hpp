@@ -2,12 +2,16 @@
 // A GPIO port of the STM32F103 (RM0008, chapter GPIO): its registers, and what they make of 16 pins.
 #include <cstdint>
 
+#include "board/stm32/registers.hpp"
+
 namespace dsdpv1::arm {
 
 class Gpio {
  public:
-  /// Register at `offset` (CRL 0x00, CRH 0x04, IDR 0x08, ODR 0x0C, LCKR 0x18; BSRR and BRR read 0). `driven`: pins that
-  /// somebody outside drives, `levels`: how.
+  static constexpr std::uint32_t kOdr = 0x0C;
+  static const RegisterTable kRegisters;
+
+  /// `driven`: pins that somebody outside drives, `levels`: how.
   std::uint32_t read(std::uint32_t offset, std::uint16_t driven, std::uint16_t levels) const;
   void write(std::uint32_t offset, std::uint32_t value);
 
@@ -16,16 +20,14 @@ class Gpio {
   /// Pins that are left to a peripheral's output (alternate function, push-pull or open drain).
   bool is_alternate(unsigned pin) const { return (alternate_ >> pin & 1U) != 0; }
   /// The pin when the port drives it, else `floating`: what the board pulls it to.
-  bool level(unsigned pin, bool floating) const { return drives(pin) ? (odr_ >> pin & 1U) != 0 : floating; }
+  bool level(unsigned pin, bool floating) const { return drives(pin) ? (words_[kOdr] >> pin & 1U) != 0 : floating; }
 
  private:
-  unsigned driven() const { return outputs_ & (pushed_ | ~unsigned{odr_}); }
+  unsigned driven() const { return outputs_ & (pushed_ | ~words_[kOdr]); }
   std::uint16_t input(std::uint16_t outside, std::uint16_t levels) const;
   void set_modes();
 
-  // Reset values: every pin a floating input.
-  std::uint32_t crl_ = 0x4444'4444, crh_ = 0x4444'4444, lckr_ = 0;
-  std::uint16_t odr_ = 0;
+  RegisterWords<kRegisters, 7> words_;
   // What CRL and CRH say, pin by pin: general purpose outputs, those of them that drive 1, too, alternate functions,
   // inputs with a pull-up or -down, inputs whose Schmitt trigger is off.
   std::uint16_t outputs_ = 0, pushed_ = 0, alternate_ = 0, pulled_ = 0, analog_ = 0;

@@ -10,11 +10,8 @@ namespace {
 
 constexpr std::uint32_t kBlock = 0x400;
 
-/// Flash wait states and what the debug port does: every start-up sets them, and neither means anything here.
-bool is_of_every_start_up(std::uint32_t block) {
-  constexpr std::uint32_t kFlashInterface = 0x4002'2000, kDbgmcu = 0xE004'2000;
-  return block == kFlashInterface || block == kDbgmcu;
-}
+/// What the debug port does: every start-up sets it, and it means nothing here.
+constexpr std::uint32_t kDbgmcu = 0xE004'2000;
 
 struct Named {
   std::uint32_t address;
@@ -65,7 +62,7 @@ void OtherRegisters::write(std::uint32_t address, std::uint32_t value, std::uint
 std::vector<std::string> OtherRegisters::notes(const std::function<std::string(std::uint32_t)>& place) const {
   std::vector<std::string> lines;
   for (const auto& [block, use] : uses_) {
-    if (is_of_every_start_up(block)) continue;
+    if (block == kDbgmcu) continue;
     lines.push_back(fmt::format("{} is not on the board: {} reads and {} writes, the first in {}", name_of(block),
                                 use.reads, use.writes, place(use.first_pc)));
   }

@@ -5,45 +5,58 @@
 namespace dsdpv1::arm {
 namespace {
 
-constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSr = 0x08, kDr = 0x0C;
-constexpr std::uint32_t kRxOnly = 1U << 10U, kCrcEn = 1U << 13U, kBidi = 1U << 15U;
-constexpr std::uint32_t kDma = 3U << 0U, kErrIe = 1U << 5U, kRxneIe = 1U << 6U, kTxeIe = 1U << 7U;
+constexpr std::uint32_t kErrIe = 1U << 5U, kRxneIe = 1U << 6U, kTxeIe = 1U << 7U;
+constexpr std::uint32_t kI2scfgr = 0x1C;
+constexpr RegisterList kSpiRegisters = {  // I2S also for SPI1: drivers switch it off
+    {Spi::kCr1, "CR1", 0, 0xFFFF},
+    {Spi::kCr2, "CR2", 0, 0xE7},
+    {Spi::kSr, "SR", 0x02},
+    {Spi::kDr, "DR"},
+    {0x10, "CRCPR", 7, 0xFFFF},
+    {0x14, "RXCRCR"},
+    {0x18, "TXCRCR"},
+    {kI2scfgr, "I2SCFGR", 0, 0xFBF},
+    {0x20, "I2SPR", 2, 0x3FF}};
+constexpr TagList kTags = {  // MSTR counts with SPE
+    {Spi::kCr1, 2, 1, "MSTR", 1, 1U << 6U},
+    {Spi::kCr1, 10, 1, "RXONLY"},
+    {Spi::kCr1, 13, 1, "CRCEN"},
+    {Spi::kCr1, 15, 1, "BIDIMODE"},
+    {Spi::kCr2, 0, 1, "RXDMAEN"},
+    {Spi::kCr2, 1, 1, "TXDMAEN"},
+    {kI2scfgr, 11, 1, "I2SMOD"}};
 
 }  // namespace
+
+constexpr RegisterTable Spi::kRegisters{kSpiRegisters, kTags};
 
 // ---------------------------------------------------------------------------------------------------------- registers
 
 std::uint32_t Spi::peek(std::uint32_t offset) const {
-  switch (offset) {
-    case kCr1: return cr1_;
-    case kCr2: return cr2_;
-    case kSr: return sr_ | ((cr1_ & kSpe) != 0 && (transfers() || (sr_ & kTxe) == 0) ? kBsy : 0);
-    case kDr: return rx_;
-    default: return 0;
-  }
+  const bool busy = offset == kSr && (words_[kCr1] & kSpe) != 0 && (transfers() || (words_[kSr] & kTxe) == 0);
+  return words_.read(offset) | (busy ? kBsy : 0);
 }
 
 std::uint32_t Spi::read(std::uint32_t offset) {
   const std::uint32_t value = peek(offset);
   if (offset == kDr) {
-    sr_ &= ~kRxne;
-    ovr_read_ = (sr_ & kOvr) != 0;
+    words_[kSr] &= ~kRxne;
+    ovr_read_ = (words_[kSr] & kOvr) != 0;
   } else if (offset == kSr) {
-    if (std::exchange(ovr_read_, false)) sr_ &= ~kOvr;
-    modf_read_ = (sr_ & kModf) != 0;
+    if (std::exchange(ovr_read_, false)) words_[kSr] &= ~kOvr;
+    modf_read_ = (words_[kSr] & kModf) != 0;
   }
   return value;
 }
 
 void Spi::write(std::uint32_t offset, std::uint32_t value, std::uint64_t now) {
   switch (offset) {
-    case kCr1: return write_control(value & 0xFFFFU, now);
-    case kCr2: cr2_ = value & 0xE7U; return check_mode();
+    case kCr1: return write_control(value, now);
     case kDr:
       tx_ = static_cast<std::uint16_t>(value);
-      sr_ &= ~kTxe;
+      words_[kSr] &= ~kTxe;
       return load_soon(now);
-    default: return;
+    default: words_.write(offset, value); return check_mode();
   }
 }
 
@@ -58,29 +71,29 @@ void Spi::reset() {
 }
 
 void Spi::write_control(std::uint32_t value, std::uint64_t now) {
-  if (std::exchange(modf_read_, false)) sr_ &= ~kModf;
-  cr1_ = value;
+  if (std::exchange(modf_read_, false)) words_[kSr] &= ~kModf;
+  words_.write(kCr1, value);
   check_mode();
   load_soon(now);
 }
 
 /// What follows from the control registers and NSS: whether it is a master, and how SCK idles.
 void Spi::check_mode() {
-  if ((cr1_ & kMstr) != 0 && nss_is_low()) {
-    cr1_ &= ~(kMstr | kSpe);
-    sr_ |= kModf;
+  if ((words_[kCr1] & kMstr) != 0 && nss_is_low()) {
+    words_[kCr1] &= ~(kMstr | kSpe);
+    words_[kSr] |= kModf;
   }
   if (!drives()) {
     edge_ = 0;  // a transfer under way is cut off
     at_ = kNever;
   }
-  if (!transfers()) sck_ = (cr1_ & kCpol) != 0;
+  if (!transfers()) sck_ = (words_[kCr1] & kCpol) != 0;
 }
 
 /// SSI in its place (SSM), nothing when NSS is an output (SSOE).
 bool Spi::nss_is_low() const {
-  if ((cr1_ & kSsm) != 0) return (cr1_ & kSsi) == 0;
-  return (cr1_ & kSpe) != 0 && (cr2_ & kSsoe) == 0 && !nss_;
+  if ((words_[kCr1] & kSsm) != 0) return (words_[kCr1] & kSsi) == 0;
+  return (words_[kCr1] & kSpe) != 0 && (words_[kCr2] & kSsoe) == 0 && !nss_;
 }
 
 void Spi::set_nss(bool level) {
@@ -89,30 +102,22 @@ void Spi::set_nss(bool level) {
 }
 
 bool Spi::asks() const {
-  return ((cr2_ & kTxeIe) != 0 && (sr_ & kTxe) != 0) || ((cr2_ & kRxneIe) != 0 && (sr_ & kRxne) != 0) ||
-         ((cr2_ & kErrIe) != 0 && (sr_ & (kOvr | kModf)) != 0);
-}
-
-const char* Spi::missing() const {
-  if ((cr1_ & kSpe) == 0) return nullptr;
-  if ((cr1_ & kMstr) == 0 && (sr_ & kModf) == 0) return "slave mode (MSTR = 0)";
-  if ((cr1_ & kBidi) != 0) return "BIDIMODE";
-  if ((cr1_ & kRxOnly) != 0) return "RXONLY";
-  if ((cr1_ & kCrcEn) != 0) return "CRCEN";
-  return (cr2_ & kDma) != 0 ? "DMA" : nullptr;
+  return ((words_[kCr2] & kTxeIe) != 0 && (words_[kSr] & kTxe) != 0) ||
+         ((words_[kCr2] & kRxneIe) != 0 && (words_[kSr] & kRxne) != 0) ||
+         ((words_[kCr2] & kErrIe) != 0 && (words_[kSr] & (kOvr | kModf)) != 0);
 }
 
 // ----------------------------------------------------------------------------------------------------------- transfer
 
 void Spi::load_soon(std::uint64_t now) {
-  if (drives() && (sr_ & kTxe) == 0 && at_ == kNever) at_ = (now / divider_ + 1) * divider_;
+  if (drives() && (words_[kSr] & kTxe) == 0 && at_ == kNever) at_ = (now / divider_ + 1) * divider_;
 }
 
 /// Edge 0 is the load, 1 to twice the number of bits are SCK's; with the last one the transfer is over.
 void Spi::run(bool miso) {
   if (!transfers()) return load();
   const unsigned edge = edge_++;
-  sck_ = (edge % 2 == 1) != ((cr1_ & kCpol) != 0);
+  sck_ = (edge % 2 == 1) != ((words_[kCr1] & kCpol) != 0);
   if (sampling(edge))
     sample(miso);
   else
@@ -124,7 +129,7 @@ void Spi::run(bool miso) {
 /// The buffer is empty from here on (TXE), and what was in it goes out.
 void Spi::load() {
   out_ = tx_;
-  sr_ |= kTxe;
+  words_[kSr] |= kTxe;
   bit_ = sampled_ = 0;
   in_ = 0;
   edge_ = 1;
@@ -135,32 +140,32 @@ void Spi::load() {
 void Spi::end() {
   edge_ = 0;
   at_ -= half_bit();
-  if ((sr_ & kTxe) == 0) return load();  // without a gap
+  if ((words_[kSr] & kTxe) == 0) return load();  // without a gap
   at_ = kNever;
 }
 
 void Spi::put_out() {
   if (bit_ == bits()) return;
-  const unsigned place = (cr1_ & kLsbFirst) != 0 ? bit_ : bits() - 1 - bit_;
+  const unsigned place = (words_[kCr1] & kLsbFirst) != 0 ? bit_ : bits() - 1 - bit_;
   mosi_ = (out_ >> place & 1U) != 0;
   ++bit_;
 }
 
 void Spi::sample(bool miso) {
-  const unsigned place = (cr1_ & kLsbFirst) != 0 ? sampled_ : bits() - 1 - sampled_;
+  const unsigned place = (words_[kCr1] & kLsbFirst) != 0 ? sampled_ : bits() - 1 - sampled_;
   in_ = static_cast<std::uint16_t>(in_ | static_cast<unsigned>(miso) << place);
   if (++sampled_ == bits()) receive();
 }
 
 /// With the last sampling edge. What comes while RXNE or OVR stands is lost (overrun flag).
 void Spi::receive() {
-  if ((sr_ & (kRxne | kOvr)) != 0) {
-    sr_ |= kOvr;
+  if ((words_[kSr] & (kRxne | kOvr)) != 0) {
+    words_[kSr] |= kOvr;
     ++lost_;
     return;
   }
-  rx_ = in_;
-  sr_ |= kRxne;
+  words_[kDr] = in_;
+  words_[kSr] |= kRxne;
 }
 
 }  // namespace dsdpv1::arm

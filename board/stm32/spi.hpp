@@ -6,17 +6,20 @@
 #include <cstdint>
 #include <limits>
 
+#include "board/stm32/registers.hpp"
+
 namespace dsdpv1::arm {
 
 class Spi {
  public:
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSr = 0x08, kDr = 0x0C;
+  static const RegisterTable kRegisters;
 
   /// Cycles of HCLK that PCLK's cycle lasts: 1, 2, 4, 8 or 16. From the next edge on.
   void set_divider(unsigned hclk_cycles) { divider_ = hclk_cycles; }
 
-  /// CR1 0x00, CR2 0x04, SR 0x08, DR 0x0C; CRCPR 0x10 and what follows keep nothing. A read of DR or SR has its effects
-  /// (RXNE, OVR, MODF); a debugger peeks.
+  /// A read of DR or SR has its effects (RXNE, OVR, MODF); a debugger peeks.
   std::uint32_t peek(std::uint32_t offset) const;
   std::uint32_t read(std::uint32_t offset);
   void write(std::uint32_t offset, std::uint32_t value, std::uint64_t now);
@@ -31,15 +34,13 @@ class Spi {
   void set_nss(bool level);
 
   /// It drives SCK and MOSI: enabled as a master.
-  bool drives() const { return (cr1_ & (kSpe | kMstr)) == (kSpe | kMstr); }
+  bool drives() const { return (words_[kCr1] & (kSpe | kMstr)) == (kSpe | kMstr); }
   bool sck() const { return sck_; }
   bool mosi() const { return mosi_; }
   /// It drives NSS, low, while it is enabled (SSOE).
-  bool selects() const { return drives() && (cr1_ & kSsm) == 0 && (cr2_ & kSsoe) != 0; }
+  bool selects() const { return drives() && (words_[kCr1] & kSsm) == 0 && (words_[kCr2] & kSsoe) != 0; }
   /// Asks for its interrupt.
   bool asks() const;
-  /// What has been switched on and is not there, like "RXONLY"; null: nothing.
-  const char* missing() const;
   /// Bytes that came while the one before had not been fetched.
   std::uint64_t lost() const { return lost_; }
 
@@ -49,9 +50,9 @@ class Spi {
   static constexpr std::uint32_t kSsoe = 1U << 2U;
   static constexpr std::uint32_t kRxne = 1U << 0U, kTxe = 1U << 1U, kModf = 1U << 5U, kOvr = 1U << 6U, kBsy = 1U << 7U;
 
-  unsigned bits() const { return (cr1_ & kDff) != 0 ? 16 : 8; }
-  std::uint64_t half_bit() const { return std::uint64_t{divider_} << (cr1_ >> 3U & 7U); }
-  bool sampling(unsigned edge) const { return (edge % 2 == 1) == ((cr1_ & kCpha) == 0); }
+  unsigned bits() const { return (words_[kCr1] & kDff) != 0 ? 16 : 8; }
+  std::uint64_t half_bit() const { return std::uint64_t{divider_} << (words_[kCr1] >> 3U & 7U); }
+  bool sampling(unsigned edge) const { return (edge % 2 == 1) == ((words_[kCr1] & kCpha) == 0); }
   bool transfers() const { return edge_ > 0; }
   bool nss_is_low() const;
   void write_control(std::uint32_t value, std::uint64_t now);
@@ -64,8 +65,8 @@ class Spi {
   void receive();
 
   unsigned divider_ = 1;
-  std::uint32_t cr1_ = 0, cr2_ = 0, sr_ = kTxe;
-  std::uint16_t tx_ = 0, rx_ = 0;              ///< the buffers behind DR
+  RegisterWords<kRegisters, 9> words_;
+  std::uint16_t tx_ = 0;                       ///< the buffer behind DR, to be sent
   std::uint16_t out_ = 0, in_ = 0;             ///< the shift register
   unsigned edge_ = 0, bit_ = 0, sampled_ = 0;  ///< the next of SCK's edges, 0: no transfer; bits out and in
   std::uint64_t at_ = kNever;

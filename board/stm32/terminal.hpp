@@ -1,16 +1,19 @@
 #pragma once
 // USART1 of the STM32F103 (RM0008, chapter USART) as a terminal: what is sent comes out as lines; nothing is received.
 // It is always ready: the bit rate is not simulated.
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
+
+#include "board/stm32/registers.hpp"
 
 namespace dsdpv1::arm {
 
 class Terminal {
  public:
-  std::uint32_t read(std::uint32_t offset) const;
+  static const RegisterTable kRegisters;
+
+  std::uint32_t read(std::uint32_t offset) const { return words_.read(offset); }
   void write(std::uint32_t offset, std::uint32_t value);
 
   /// A line without its end; longer ones than 200 characters are cut. Unprintable characters are dots.
@@ -20,8 +23,7 @@ class Terminal {
 
  private:
   void send(char character);
-  static constexpr std::size_t kWords = 7;  // SR ... GTPR
-  std::array<std::uint32_t, kWords> words_{};
+  RegisterWords<kRegisters, 7> words_;
   std::string line_;
 };
 

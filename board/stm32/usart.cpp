@@ -7,37 +7,26 @@
 namespace dsdpv1::arm {
 namespace {
 
-constexpr std::uint32_t kSr = 0x00, kDr = 0x04, kBrr = 0x08, kCr1 = 0x0C, kCr2 = 0x10, kCr3 = 0x14, kGtpr = 0x18;
-// CR1, CR2, CR3
-constexpr std::uint32_t kSbk = 1U << 0U, kRwu = 1U << 1U, kIdleIe = 1U << 4U, kRxneIe = 1U << 5U, kTcIe = 1U << 6U,
-                        kTxeIe = 1U << 7U, kPeIe = 1U << 8U;
-constexpr std::uint32_t kClkEn = 1U << 11U, kLinEn = 1U << 14U;
-constexpr std::uint32_t kEie = 1U << 0U, kIrEn = 1U << 1U, kHdSel = 1U << 3U, kScEn = 1U << 5U, kDma = 3U << 6U,
-                        kCtse = 1U << 9U;
+constexpr std::uint32_t kIdleIe = 1U << 4U, kRxneIe = 1U << 5U, kTcIe = 1U << 6U, kTxeIe = 1U << 7U, kPeIe = 1U << 8U;
+constexpr std::uint32_t kEie = 1U << 0U;
 constexpr unsigned kFirstSample = 8, kLastSample = 10;  // of 16 a bit: the three that vote
+
+constexpr TagList kTags = {{Usart::kCr1, 0, 1, "SBK"},    {Usart::kCr1, 1, 1, "RWU"},   {Usart::kCr2, 11, 1, "CLKEN"},
+                           {Usart::kCr2, 14, 1, "LINEN"}, {Usart::kCr3, 1, 1, "IREN"},  {Usart::kCr3, 3, 1, "HDSEL"},
+                           {Usart::kCr3, 5, 1, "SCEN"},   {Usart::kCr3, 6, 1, "DMAR"},  {Usart::kCr3, 7, 1, "DMAT"},
+                           {Usart::kCr3, 9, 1, "CTSE"},   {Usart::kCr3, 10, 1, "CTSIE"}};
 
 }  // namespace
 
-// ---------------------------------------------------------------------------------------------------------- registers
+constexpr RegisterTable Usart::kRegisters{kUsartRegisters, kTags};
 
-std::uint32_t Usart::peek(std::uint32_t offset) const {
-  switch (offset) {
-    case kSr: return sr_;
-    case kDr: return rdr_;
-    case kBrr: return brr_;
-    case kCr1: return cr1_;
-    case kCr2: return cr2_;
-    case kCr3: return cr3_;
-    case kGtpr: return gtpr_;
-    default: return 0;
-  }
-}
+// ---------------------------------------------------------------------------------------------------------- registers
 
 std::uint32_t Usart::read(std::uint32_t offset) {
   const std::uint32_t value = peek(offset);
   if (offset == kSr) seen_ = value;
   if (offset == kDr) {
-    sr_ &= ~(kRxne | (seen_ & (kPe | kFe | kNe | kOre | kIdle)));
+    words_[kSr] &= ~(kRxne | (seen_ & (kPe | kFe | kNe | kOre | kIdle)));
     seen_ &= kTc;
   }
   return value;
@@ -45,18 +34,14 @@ std::uint32_t Usart::read(std::uint32_t offset) {
 
 void Usart::write(std::uint32_t offset, std::uint32_t value, std::uint64_t now) {
   switch (offset) {
-    case kSr: sr_ &= value | ~(kRxne | kTc); return;  // the others cannot be written
+    case kSr: words_[kSr] &= value | ~(kRxne | kTc); return;  // the others cannot be written
     case kDr:
       tdr_ = value & 0x1FFU;
-      sr_ &= ~(kTxe | (seen_ & (kTc | kPe)));
+      words_[kSr] &= ~(kTxe | (seen_ & (kTc | kPe)));
       seen_ = 0;
       return begin_soon(now);
-    case kBrr: brr_ = value & 0xFFFFU; return begin_soon(now);
-    case kCr1: return write_control(value & 0x3FFFU, now);
-    case kCr2: cr2_ = value & 0x7F6FU; return;
-    case kCr3: cr3_ = value & 0x07FFU; return;
-    case kGtpr: gtpr_ = value & 0xFFFFU; return;
-    default: return;
+    case kCr1: return write_control(value, now);
+    default: words_.write(offset, value); return begin_soon(now);
   }
 }
 
@@ -72,10 +57,10 @@ void Usart::reset() {
 
 /// TE begins with an idle frame; RE listens from here on.
 void Usart::write_control(std::uint32_t value, std::uint64_t now) {
-  const std::uint32_t turned_on = value & ~cr1_;
-  cr1_ = value;
+  const std::uint32_t turned_on = value & ~words_[kCr1];
+  words_.write(kCr1, value);
   if ((turned_on & (kUe | kTe)) != 0) tx_free_ = pclk_after(now) + frame();
-  if ((cr1_ & kUe) == 0 || ((cr1_ & kTe) == 0 && !sends())) {
+  if ((words_[kCr1] & kUe) == 0 || ((words_[kCr1] & kTe) == 0 && !sends())) {
     cell_ = 0;
     tx_at_ = kNever;
     tx_ = true;
@@ -89,41 +74,29 @@ void Usart::write_control(std::uint32_t value, std::uint64_t now) {
 }
 
 void Usart::begin_soon(std::uint64_t now) {
-  const bool waits = (cr1_ & (kUe | kTe)) == (kUe | kTe) && brr_ != 0 && (sr_ & kTxe) == 0;
+  const bool waits = (words_[kCr1] & (kUe | kTe)) == (kUe | kTe) && words_[kBrr] != 0 && (words_[kSr] & kTxe) == 0;
   if (waits && tx_at_ == kNever) tx_at_ = std::max(pclk_after(now), tx_free_);
 }
 
 bool Usart::asks() const {
   const auto stands = [this](std::uint32_t enable, std::uint32_t flags) {
-    return (cr1_ & enable) != 0 && (sr_ & flags) != 0;
+    return (words_[kCr1] & enable) != 0 && (words_[kSr] & flags) != 0;
   };
-  const bool dma_error = (cr3_ & kEie) != 0 && (cr3_ & 1U << 6U) != 0 && (sr_ & (kFe | kNe | kOre)) != 0;
+  const bool dma_error =
+      (words_[kCr3] & kEie) != 0 && (words_[kCr3] & 1U << 6U) != 0 && (words_[kSr] & (kFe | kNe | kOre)) != 0;
   return stands(kTxeIe, kTxe) || stands(kTcIe, kTc) || stands(kRxneIe, kRxne | kOre) || stands(kIdleIe, kIdle) ||
          stands(kPeIe, kPe) || dma_error;
 }
 
-const char* Usart::missing() const {
-  if ((cr1_ & kUe) == 0) return nullptr;
-  if ((cr1_ & kSbk) != 0) return "SBK";
-  if ((cr1_ & kRwu) != 0) return "RWU";
-  if ((cr2_ & kClkEn) != 0) return "CLKEN";
-  if ((cr2_ & kLinEn) != 0) return "LINEN";
-  if ((cr3_ & kIrEn) != 0) return "IREN";
-  if ((cr3_ & kHdSel) != 0) return "HDSEL";
-  if ((cr3_ & kScEn) != 0) return "SCEN";
-  if ((cr3_ & kCtse) != 0) return "CTSE";
-  return (cr3_ & kDma) != 0 ? "DMA" : nullptr;
-}
-
 unsigned Usart::half_stops() const {
   static constexpr std::array<unsigned, 4> kHalves = {2, 1, 4, 3};  // STOP: 1, 0.5, 2, 1.5
-  return kHalves.at(cr2_ >> 12U & 3U);
+  return kHalves.at(words_[kCr2] >> 12U & 3U);
 }
 
 bool Usart::parity_of(unsigned data) const {
   bool odd = false;
   for (; data != 0; data &= data - 1) odd = !odd;
-  return odd != ((cr1_ & kPs) != 0);
+  return odd != ((words_[kCr1] & kPs) != 0);
 }
 
 std::uint64_t Usart::next() const {
@@ -136,7 +109,7 @@ void Usart::run() {
   if (tx_at_ == now) send_cell();
   if (idle_at_ == now) {
     idle_at_ = kNever;
-    sr_ |= kIdle;
+    words_[kSr] |= kIdle;
   }
   if (start_ == kNever || sample_at(started_ ? word_end() : 0, kLastSample) != now) return;
   if (started_)
@@ -150,8 +123,8 @@ void Usart::run() {
 /// TDR to the shift register: TXE.
 void Usart::load() {
   const unsigned data = tdr_ & data_mask();
-  out_ = (cr1_ & kPce) != 0 ? data | static_cast<unsigned>(parity_of(data)) << (word_end() - 2) : data;
-  sr_ |= kTxe;
+  out_ = (words_[kCr1] & kPce) != 0 ? data | static_cast<unsigned>(parity_of(data)) << (word_end() - 2) : data;
+  words_[kSr] |= kTxe;
   frame_begin_ = tx_at_;
   tx_ = false;
   cell_ = 1;
@@ -168,12 +141,12 @@ void Usart::send_cell() {
     tx_ = true;
     ++cell_;
     tx_at_ = frame_begin_ + frame();
-  } else if ((sr_ & kTxe) == 0 && (cr1_ & kTe) != 0) {
+  } else if ((words_[kSr] & kTxe) == 0 && (words_[kCr1] & kTe) != 0) {
     load();
   } else {
     cell_ = 0;
     tx_at_ = kNever;
-    sr_ |= kTc;
+    words_[kSr] |= kTc;
   }
 }
 
@@ -210,7 +183,7 @@ bool Usart::vote(unsigned bit_number) {
 void Usart::hunt() {
   bool level = before_;
   for (const Edge& edge : edges_) {
-    if (level && !edge.level && brr_ != 0) {
+    if (level && !edge.level && words_[kBrr] != 0) {
       start_ = pclk_after(edge.at - 1);
       started_ = noise_ = false;
       idle_at_ = kNever;
@@ -246,14 +219,14 @@ void Usart::take_character() {
 
 /// With the stop bit's last sample. What comes while RXNE stands is lost; what was there is kept (ORE).
 void Usart::receive(unsigned word, bool framing, bool noise) {
-  if ((sr_ & kRxne) != 0) {
-    sr_ |= kOre;
+  if ((words_[kSr] & kRxne) != 0) {
+    words_[kSr] |= kOre;
     ++lost_;
     return;
   }
-  const bool parity = (cr1_ & kPce) != 0 && parity_of(word & data_mask()) != (word >> (word_end() - 2) != 0);
-  rdr_ = word;
-  sr_ |= kRxne | (parity ? kPe : 0) | (framing ? kFe : 0) | (noise ? kNe : 0);
+  const bool parity = (words_[kCr1] & kPce) != 0 && parity_of(word & data_mask()) != (word >> (word_end() - 2) != 0);
+  words_[kDr] = word;
+  words_[kSr] |= kRxne | (parity ? kPe : 0) | (framing ? kFe : 0) | (noise ? kNe : 0);
 }
 
 void Usart::forget_until(std::uint64_t cycle) {

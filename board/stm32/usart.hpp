@@ -6,18 +6,27 @@
 #include <deque>
 #include <limits>
 
+#include "board/stm32/registers.hpp"
+
 namespace dsdpv1::arm {
+
+/// Of USART1 as well.
+constexpr RegisterList kUsartRegisters = {{0x00, "SR", 0xC0},       {0x04, "DR"},
+                                          {0x08, "BRR", 0, 0xFFFF}, {0x0C, "CR1", 0, 0x3FFF},
+                                          {0x10, "CR2", 0, 0x7F6F}, {0x14, "CR3", 0, 0x07FF},
+                                          {0x18, "GTPR", 0, 0xFFFF}};
 
 class Usart {
  public:
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint32_t kSr = 0x00, kDr = 0x04, kBrr = 0x08, kCr1 = 0x0C, kCr2 = 0x10, kCr3 = 0x14;
+  static const RegisterTable kRegisters;
 
   /// Cycles of HCLK that PCLK's cycle lasts: 1, 2, 4, 8 or 16.
   void set_divider(unsigned hclk_cycles) { divider_ = hclk_cycles; }
 
-  /// SR 0x00, DR 0x04, BRR 0x08, CR1 0x0C, CR2 0x10, CR3 0x14, GTPR 0x18. A read of DR after one of SR takes errors and
-  /// IDLE away; a debugger peeks.
-  std::uint32_t peek(std::uint32_t offset) const;
+  /// A read of DR after one of SR takes errors and IDLE away; a debugger peeks.
+  std::uint32_t peek(std::uint32_t offset) const { return words_.read(offset); }
   std::uint32_t read(std::uint32_t offset);
   void write(std::uint32_t offset, std::uint32_t value, std::uint64_t now);
   /// As after a reset, but for the clock, the line and lost().
@@ -31,17 +40,15 @@ class Usart {
   void rx_changed(std::uint64_t at, bool level);
 
   /// It drives TX: the transmitter is on, or still sends.
-  bool drives() const { return (cr1_ & kUe) != 0 && ((cr1_ & kTe) != 0 || sends()); }
+  bool drives() const { return (words_[kCr1] & kUe) != 0 && ((words_[kCr1] & kTe) != 0 || sends()); }
   bool tx() const { return tx_; }
   /// RTS (RTSE), low while a character can be taken; `drives_rts` false: the pin is somebody else's.
-  bool drives_rts() const { return (cr1_ & kUe) != 0 && (cr3_ & kRtse) != 0; }
-  bool rts() const { return (sr_ & kRxne) != 0; }
+  bool drives_rts() const { return (words_[kCr1] & kUe) != 0 && (words_[kCr3] & kRtse) != 0; }
+  bool rts() const { return (words_[kSr] & kRxne) != 0; }
   /// RX as it was told last.
   bool rx() const { return rx_; }
   /// Asks for its interrupt.
   bool asks() const;
-  /// What has been switched on and is not there, like "LINEN"; null: nothing.
-  const char* missing() const;
   /// Characters that came while the one before had not been fetched.
   std::uint64_t lost() const { return lost_; }
 
@@ -57,17 +64,17 @@ class Usart {
   };
 
   /// Start, data and parity: what stands before the stop bits.
-  unsigned word_end() const { return 1 + ((cr1_ & kM) != 0 ? 9 : 8); }
+  unsigned word_end() const { return 1 + ((words_[kCr1] & kM) != 0 ? 9 : 8); }
   unsigned half_stops() const;
-  std::uint64_t bit() const { return std::uint64_t{brr_} * divider_; }
+  std::uint64_t bit() const { return std::uint64_t{words_[kBrr]} * divider_; }
   std::uint64_t frame() const { return word_end() * bit() + half_stops() * bit() / 2; }
   std::uint64_t pclk_after(std::uint64_t cycle) const { return (cycle / divider_ + 1) * divider_; }
-  unsigned data_mask() const { return (1U << (word_end() - 1 - ((cr1_ & kPce) != 0 ? 1 : 0))) - 1; }
+  unsigned data_mask() const { return (1U << (word_end() - 1 - ((words_[kCr1] & kPce) != 0 ? 1 : 0))) - 1; }
   bool parity_of(unsigned data) const;
 
   void write_control(std::uint32_t value, std::uint64_t now);
   bool sends() const { return cell_ > 0; }
-  bool listens() const { return (cr1_ & (kUe | kRe)) == (kUe | kRe); }
+  bool listens() const { return (words_[kCr1] & (kUe | kRe)) == (kUe | kRe); }
   void begin_soon(std::uint64_t now);
   void load();
   void send_cell();
@@ -81,7 +88,7 @@ class Usart {
   void forget_until(std::uint64_t cycle);
 
   unsigned divider_ = 1;
-  std::uint32_t sr_ = kTxe | kTc, brr_ = 0, cr1_ = 0, cr2_ = 0, cr3_ = 0, gtpr_ = 0;
+  RegisterWords<kRegisters, 7> words_;
   std::uint32_t seen_ = 0;  ///< flags of the last read of SR: DR may take them away
   // transmitter
   unsigned tdr_ = 0, out_ = 0, cell_ = 0;           ///< the next bit to put out; 0: idle
@@ -89,7 +96,6 @@ class Usart {
   std::uint64_t tx_free_ = 0;                       ///< the idle frame after TE is over
   bool tx_ = true;
   // receiver
-  unsigned rdr_ = 0;
   std::deque<Edge> edges_;          ///< of RX, not before the character that comes
   bool rx_ = true, before_ = true;  ///< now, and before the first of the edges
   std::uint64_t start_ = kNever;    ///< of the character that comes

@@ -353,8 +353,8 @@ TEST_F(BoardSerial, ClocksOffAndFunctionsThatAreMissingAreListed) {
   run();
   EXPECT_EQ(cell(0), 0);  // RCC has reset it
   EXPECT_THAT(board->board()->notes, ElementsAre(HasSubstr("SPI1 is used while its clock is off in RCC_APB2ENR"),
-                                                 "SPI1: RXONLY is switched on, which the board does not have",
-                                                 "USART2: HDSEL is switched on, which the board does not have"));
+                                                 HasSubstr("SPI1_CR1.RXONLY is set to 1, which the board does not"),
+                                                 HasSubstr("USART2_CR3.HDSEL is set to 1, which the board does not")));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -36,7 +37,10 @@ enum Program {
   kMaskedAndRising,
   kInputs,
   kClockTree,
-  kNonsense
+  kNonsense,
+  kLacking,
+  kRegisters,
+  kClocksOff
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -271,14 +275,14 @@ TEST_F(BoardTest, HclkFollowsRccFrom8MhzOn) {
   EXPECT_EQ(board->board()->hclk_source, "PLL, 9 x HSE, divided by 2");
 }
 
-/// Halts once, and looks.
+/// Halts once, at the thirtieth instruction or at an address, and looks.
 class Looker : public arm::Debugger {
  public:
-  Looker(arm::DebugTarget& target, std::function<void(arm::DebugTarget&)> look)
-      : target_(target), look_(std::move(look)) {}
+  Looker(arm::DebugTarget& target, std::function<void(arm::DebugTarget&)> look, std::uint32_t place = 0)
+      : target_(target), look_(std::move(look)), place_(place) {}
   bool wanted() const override { return true; }
-  void before_instruction(std::uint32_t) override {
-    if (++instructions_ == 30) look_(target_);
+  void before_instruction(std::uint32_t pc) override {
+    if (place_ != 0 ? pc == place_ : ++instructions_ == 30) look_(target_);
   }
   void data_access(std::uint32_t, std::uint32_t, bool) override {}
   void poll() override {}
@@ -287,6 +291,7 @@ class Looker : public arm::Debugger {
  private:
   arm::DebugTarget& target_;
   std::function<void(arm::DebugTarget&)> look_;
+  std::uint32_t place_;
   int instructions_ = 0;
 };
 
@@ -333,6 +338,32 @@ TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
   for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_EQ(changes[i].at, pins.changes[i].at);
 }
 
+TEST_F(BoardTest, DebuggerSeesInEachRegisterWhatTheFirmwareReads) {
+  arm::BoardOptions options;
+  options.firmware = with(kRegisters);
+  std::vector<int> seen;
+  std::size_t lamps = 0;  // the chip's, of whom this debugger sees nothing
+  const auto look = [&](arm::DebugTarget& target) {
+    for (const std::uint32_t base : {0x40010000U, 0x40010400U, 0x40010800U, 0x40010C00U, 0x40011000U, 0x40011400U,
+                                     0x40011800U, 0x40011C00U, 0x40012000U, 0x40013000U, 0x40003800U, 0x40004400U,
+                                     0x40013800U, 0x40021000U, 0x40022000U, 0xA0000000U, 0xA0000100U})
+      for (std::uint32_t offset = 0; offset < 0x40; offset += 4) {
+        std::array<std::uint8_t, 4> bytes{};
+        EXPECT_EQ(target.read_memory(base + offset, bytes.data(), 4), 4U);
+        if (base + offset == 0x4001'2008) lamps = seen.size();
+        seen.insert(seen.end(), bytes.begin(), bytes.end());
+      }
+  };
+  const std::uint32_t place = options.firmware->image.symbols.at("all_registers").address & ~1U;
+  options.make_debugger = [&](arm::DebugTarget& target) { return std::make_unique<Looker>(target, look, place); };
+  board = std::make_unique<arm::Board>(
+      host, std::move(options), [](Tick, bool) {}, kStart);
+  run_until(kStart + 10 * bus::kTicksPerMs);
+  ASSERT_EQ(pins.written.size(), seen.size());
+  seen.at(lamps + 1) |= pins.written.at(lamps + 1).second & 0x70;
+  for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], pins.written[i].second) << i;
+}
+
 TEST_F(BoardTest, HclkOfTheScenarioStandsAboveRcc) {
   start(kClockTree);
   run();
@@ -358,6 +389,37 @@ TEST_F(BoardTest, OtherPeripheralsKeepWhatIsWrittenAndAreListed) {
               ElementsAre(HasSubstr("GPIOB is used while its clock is off in RCC_APB2ENR"),
                           testing::AllOf(HasSubstr("TIM2 is not on the board: 2 reads and 1 writes"),
                                          HasSubstr("strange at probe.c"))));
+}
+
+TEST_F(BoardTest, FieldsAndRegistersThatTheBoardDoesNotHaveAreListedOnceWithTheirLine) {
+  start(kLacking);
+  run();
+  const int last = pins.written.at(0).second | pins.written.at(1).second << 8;
+  const auto lacks = [last](const std::string& what, int before) {
+    return testing::AllOf(testing::StartsWith(what), testing::EndsWith("probe.c:" + std::to_string(last - before)));
+  };
+  EXPECT_THAT(board->board()->notes,
+              ElementsAre(lacks("AFIO_MAPR.USART1_REMAP is set to 1, which the board does not have, first in", 12),
+                          lacks("EXTI_IMR.MR[18:16] is set to 2,", 11), lacks("GPIOB_LCKR.LCKK is set to 1,", 10),
+                          lacks("SPI1_CR2.TXDMAEN is set to 1,", 9), lacks("SPI1_CR2.RXDMAEN is set to 1,", 8),
+                          lacks("SPI2_CR1.MSTR is set to 0,", 7), lacks("USART1_CR1.RE is set to 1,", 6),
+                          lacks("USART2_CR3.CTSE is set to 1,", 5), lacks("RCC_CR.HSITRIM is set to 0,", 4),
+                          lacks("RCC has no register at 0x40021028 on the board, first in", 3),
+                          lacks("FLASH_ACR.HLFCYA is set to 1,", 2), lacks("FSMC_BCR1.MTYP is set to 1,", 1),
+                          lacks("FSMC_BCR1.MWID is set to 1,", 1)));
+}
+
+TEST_F(BoardTest, PeripheralsWithoutTheirClockAreListed) {
+  start(kClocksOff);
+  run();
+  std::vector<std::string> notes = board->board()->notes;
+  for (std::string& note : notes) note.resize(note.find(','));
+  const auto off = [](const std::string& name, const std::string& bus = "APB2") {
+    return name + " is used while its clock is off in RCC_" + bus + "ENR";
+  };
+  EXPECT_THAT(notes, ElementsAre(off("AFIO"), off("GPIOA"), off("GPIOB"), off("GPIOC"), off("GPIOD"), off("GPIOE"),
+                                 off("GPIOF"), off("GPIOG"), off("SPI1"), off("USART1"), off("SPI2", "APB1"),
+                                 off("USART2", "APB1"), off("FSMC", "AHB")));
 }
 
 // Although the firmware has a handler for it, which writes to the chip.

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -242,21 +241,6 @@ TEST_F(SpiBlock, WhatIsInTheBufferWaitsForTheEnable) {
   EXPECT_EQ(spi.next(), Spi::kNever);
   EXPECT_FALSE(spi.drives());
   EXPECT_EQ(spi.peek(kSr), kTxe);
-}
-
-TEST_F(SpiBlock, FunctionsThatAreMissingAreNamed) {
-  const auto missing = [](std::uint32_t cr1, std::uint32_t cr2) {
-    Spi each;
-    each.write(kCr2, cr2, 0);
-    each.write(kCr1, cr1, 0);
-    return std::string(each.missing() == nullptr ? "" : each.missing());
-  };
-  EXPECT_EQ(missing(kOn, 0), "");
-  EXPECT_EQ(missing(kEnabled, 0), "slave mode (MSTR = 0)");
-  EXPECT_EQ(missing(kOn | 1U << 15U, 0), "BIDIMODE");
-  EXPECT_EQ(missing(kOn | 1U << 10U, 0), "RXONLY");
-  EXPECT_EQ(missing(kOn | 1U << 13U, 0), "CRCEN");
-  EXPECT_EQ(missing(kOn, 2), "DMA");
 }
 
 }  // namespace

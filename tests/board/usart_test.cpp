@@ -288,24 +288,5 @@ TEST_F(UsartBlock, RtsIsHighWhileACharacterWaits) {
   EXPECT_FALSE(usart.rts());
 }
 
-TEST_F(UsartBlock, FunctionsThatAreMissingAreNamed) {
-  const auto missing = [](std::uint32_t reg, std::uint32_t value) {
-    Usart each;
-    each.write(kCr1, kOn, 0);
-    each.write(reg, reg == kCr1 ? kOn | value : value, 0);
-    return std::string(each.missing() == nullptr ? "" : each.missing());
-  };
-  EXPECT_EQ(missing(kCr1, 0), "");
-  EXPECT_EQ(missing(kCr1, 1), "SBK");
-  EXPECT_EQ(missing(kCr1, 2), "RWU");
-  EXPECT_EQ(missing(kCr2, 1U << 11U), "CLKEN");
-  EXPECT_EQ(missing(kCr2, 1U << 14U), "LINEN");
-  EXPECT_EQ(missing(kCr3, 1U << 1U), "IREN");
-  EXPECT_EQ(missing(kCr3, 1U << 3U), "HDSEL");
-  EXPECT_EQ(missing(kCr3, 1U << 5U), "SCEN");
-  EXPECT_EQ(missing(kCr3, 1U << 9U), "CTSE");
-  EXPECT_EQ(missing(kCr3, 1U << 6U), "DMA");
-}
-
 }  // namespace
 }  // namespace dsdpv1::arm

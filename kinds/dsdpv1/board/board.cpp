@@ -63,6 +63,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
   if (options_.make_debugger) debugger_ = options_.make_debugger(core_);
   core_.attach(debugger_.get());
   follow_clock();
+  follow_flash();
   core_.on_fault([this](const Fault& fault) { note_fault(fault); });
   terminal_.on_line = [this](const std::string& line) {
     if (on_text) on_text(now(), line);
@@ -250,6 +251,8 @@ void Board::reset() {
   ports_ = {};
   exti_ = {};
   rcc_ = {};
+  flash_ = {};
+  follow_flash();
   serial_.reset();
   serial_.follow(rcc_);
   fsmc_ = Fsmc(options_.fsmc);

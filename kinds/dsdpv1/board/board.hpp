@@ -15,15 +15,16 @@
 // peripheral two cycles more (p: the bridge to APB), an access to the chip what the FSMC's registers say.
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <deque>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "board/cpu/cortex_m3.hpp"
 #include "board/firmware/firmware.hpp"
 #include "board/stm32/exti.hpp"
+#include "board/stm32/flash_interface.hpp"
 #include "board/stm32/fsmc.hpp"
 #include "board/stm32/gpio.hpp"
 #include "board/stm32/other_registers.hpp"
@@ -39,6 +40,7 @@
 namespace dsdpv1::arm {
 
 using bus::Tick;
+struct Peripheral;
 
 /// Switches that hold input pins.
 struct Switches {
@@ -89,16 +91,6 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
     std::uint16_t driven, levels;
   };
   enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
-  /// What is said once only; the first are the clocks of the ports.
-  enum class Noted : unsigned {
-    kFsmcClock = kPorts,
-    kAfioClock,
-    kTerminalClock,
-    kSerialClocks,
-    kWideBus = kSerialClocks + SerialSide::kNone,
-    kClockTooFast,
-    kCount
-  };
 
   // Others, for the CPU that moves the pins
   Tick quiet_until() override;
@@ -138,6 +130,8 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void store_rcc(std::uint32_t offset, std::uint32_t value);
   void store_serial(std::uint32_t address, std::uint32_t value);
   void follow_clock();
+  void follow_flash();
+  void check_clock();
   std::int64_t hclk_hz() const;
 
   std::uint32_t load_chip(std::uint32_t address, unsigned bytes);
@@ -158,9 +152,12 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   };
   Levels wired(unsigned port, const Outputs& chip) const;
   std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
-  void look_at_clock(std::uint32_t address);
-  void note_clock(const char* peripheral, const char* reg, Noted which);
-  void note(const std::string& text, Noted which);
+  /// Notes what of a register's use a real one would not answer or the board does not have.
+  void look_at(std::uint32_t address, std::optional<std::uint32_t> written);
+  void look_at_clock(const Peripheral& of);
+  /// Once for each; `what`: a bit of the register, or more.
+  bool is_new(std::uint32_t address, unsigned what) { return noted_.emplace(address, what).second; }
+  void note(const std::string& text);
 
   BoardOptions options_;
   user_cpu::HostBus& bus_;
@@ -173,6 +170,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   SerialSide serial_;
   Exti exti_;
   Rcc rcc_;
+  FlashInterface flash_;
   Terminal terminal_;
   Fsmc fsmc_;
   OtherRegisters others_;
@@ -181,7 +179,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
   user_cpu::HandshakeCounters handshake_;
   unsigned requests_ = 0;  ///< of exti_ and, above them, serial_, as the processor knows them
-  std::bitset<static_cast<std::size_t>(Noted::kCount)> noted_;
+  std::set<std::pair<std::uint32_t, unsigned>> noted_;  ///< by is_new
   std::vector<std::string> notes_;
   std::optional<Fault> fault_;  ///< that the firmware would have handled
   CortexM3 core_;

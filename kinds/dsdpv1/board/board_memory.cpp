@@ -1,17 +1,28 @@
 // What the processor finds at an address: the chip on the memory bus, registers, and what a debugger sees of them.
 #include <fmt/format.h>
 
+#include <array>
+
 #include "kinds/dsdpv1/board/board.hpp"
 #include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
 
 namespace dsdpv1::arm {
+
+struct Peripheral {
+  std::uint32_t base;
+  const char* name;
+  const RegisterTable* registers;
+  std::uint32_t clock_enables = 0;  ///< the register of RCC; 0: it always has its clock
+  unsigned clock_bit = 0;
+};
+
 namespace {
 
 // RM0008, memory map.
 constexpr std::uint32_t kBank1 = 0x6000'0000, kBank1End = 0x7000'0000, kRegionSize = 0x0400'0000;
 constexpr std::uint32_t kAfio = 0x4001'0000, kExti = 0x4001'0400, kGpioA = 0x4001'0800, kGpioEnd = 0x4001'2400;
-constexpr std::uint32_t kUsart1 = 0x4001'3800, kRcc = 0x4002'1000, kBlock = 0x400;
-constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000, kFsmcBlock = 0x1000;
+constexpr std::uint32_t kUsart1 = 0x4001'3800, kRcc = 0x4002'1000, kFlash = 0x4002'2000, kBlock = 0x400;
+constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000;
 constexpr std::uint32_t kChipMask = 0x7FF;  // A10..A0
 constexpr std::uint32_t kGpioIdr = 0x08;
 constexpr std::uint32_t kAfioMapr = 0x04, kSpiSr = 0x08, kUsartSr = 0x00;
@@ -21,7 +32,42 @@ constexpr unsigned kLReqPin = 8, kLStaPin = 9;
 constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
 
 constexpr std::uint64_t kApbCycles = 2;
-constexpr std::int64_t kGreatestHclk = 72'000'000;
+constexpr std::int64_t kGreatestHclk = 72'000'000, kHclkWithoutWait = 24'000'000;
+
+enum : unsigned { kNoRegister = 32, kClockOff, kTooFast };  // is_new: beside the bits of a register
+
+constexpr std::array<Peripheral, 16> kMap = {{
+    {kAfio, "AFIO", &Exti::kAfioRegisters, Rcc::kApb2enr, 0},
+    {kExti, "EXTI", &Exti::kRegisters},
+    {kGpioA, "GPIOA", &Gpio::kRegisters, Rcc::kApb2enr, 2},
+    {kGpioA + 1 * kBlock, "GPIOB", &Gpio::kRegisters, Rcc::kApb2enr, 3},
+    {kGpioA + 2 * kBlock, "GPIOC", &Gpio::kRegisters, Rcc::kApb2enr, 4},
+    {kGpioA + 3 * kBlock, "GPIOD", &Gpio::kRegisters, Rcc::kApb2enr, 5},
+    {kGpioA + 4 * kBlock, "GPIOE", &Gpio::kRegisters, Rcc::kApb2enr, 6},
+    {kGpioA + 5 * kBlock, "GPIOF", &Gpio::kRegisters, Rcc::kApb2enr, 7},
+    {kGpioA + 6 * kBlock, "GPIOG", &Gpio::kRegisters, Rcc::kApb2enr, 8},
+    {0x4001'3000, "SPI1", &Spi::kRegisters, Rcc::kApb2enr, 12},
+    {kUsart1, "USART1", &Terminal::kRegisters, Rcc::kApb2enr, 14},
+    {0x4000'3800, "SPI2", &Spi::kRegisters, Rcc::kApb1enr, 14},
+    {0x4000'4400, "USART2", &Usart::kRegisters, Rcc::kApb1enr, 17},
+    {kRcc, "RCC", &Rcc::kRegisters},
+    {kFlash, "FLASH", &FlashInterface::kRegisters},
+    {Fsmc::kBase, "FSMC", &Fsmc::kRegisters, Rcc::kAhbenr, 8},
+}};
+constexpr const Peripheral& kFsmc = kMap.back();
+
+/// Null: nothing there that the board has.
+const Peripheral* peripheral_at(std::uint32_t address) {
+  static constexpr auto kPlaces = [] {  // from 1 on, by block
+    std::array<std::uint8_t, kPeripheralsSize / kBlock> places{};
+    for (std::uint8_t i = 0; i + 1U < kMap.size(); ++i) places[(kMap[i].base - kPeripherals) / kBlock] = i + 1;
+    return places;
+  }();
+  if (address - Fsmc::kBase < Fsmc::kSize) return &kFsmc;
+  const std::uint32_t block = (address - kPeripherals) / kBlock;
+  const unsigned place = block < kPlaces.size() ? kPlaces[block] : 0;
+  return place != 0 ? &kMap[place - 1] : nullptr;
+}
 
 bool within(std::uint32_t address, std::uint32_t base) { return address - base < kBlock; }
 
@@ -76,14 +122,13 @@ bool Board::may_access(std::uint32_t address, bool write) {
     core_.bus_error();
     return false;
   }
-  if (fsmc_.is_wide()) note("FSMC_BCR1.MWID says 16 bits, the chip's bus has 8", Noted::kWideBus);
-  if ((rcc_.ahb_clocks() & 1U << 8U) == 0) note_clock("FSMC", "RCC_AHBENR", Noted::kFsmcClock);
+  look_at_clock(kFsmc);
   return true;
 }
 
 std::uint32_t Board::load_word(std::uint32_t address) {
   core_.advance_to(core_.cycles() + kApbCycles);
-  look_at_clock(address);
+  look_at(address, {});
   const std::uint32_t value = load_register(address);
   if (stays(address)) core_.stays(next_due());
   return value;
@@ -98,6 +143,7 @@ std::uint32_t Board::load_register(std::uint32_t address) {
   }
   if (within(address, kUsart1)) return terminal_.read(address - kUsart1);
   if (within(address, kRcc)) return rcc_.read(address - kRcc);
+  if (within(address, kFlash)) return flash_.read(address - kFlash);
   if (SerialSide::block_of(address) != SerialSide::kNone) {
     meet_serial();
     const std::uint32_t value = serial_.read(address);
@@ -154,7 +200,7 @@ Board::Levels Board::wired(unsigned port, const Outputs& chip) const {
 // ------------------------------------------------------------------------------------------------- a debugger's looks
 
 std::vector<MemoryRegion> Board::regions() const {
-  std::vector<MemoryRegion> all = {{kPeripherals, kPeripheralsSize, false}, {Fsmc::kBase, kFsmcBlock, false}};
+  std::vector<MemoryRegion> all = {{kPeripherals, kPeripheralsSize, false}, {Fsmc::kBase, Fsmc::kSize, false}};
   if (options_.chip) all.push_back({kBank1, kRegionSize, false});
   return all;
 }
@@ -167,13 +213,14 @@ std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
       word |= std::uint32_t{chip.peek(static_cast<std::uint16_t>((address + i) & kChipMask))} << i * 8;
     return word;
   }
-  if (address - Fsmc::kBase < kFsmcBlock) return fsmc_.read(address - Fsmc::kBase);
+  if (address - Fsmc::kBase < Fsmc::kSize) return fsmc_.read(address - Fsmc::kBase);
   if (address - kPeripherals >= kPeripheralsSize) return std::nullopt;
   if (address >= kGpioA && address < kGpioEnd) return peek_port((address - kGpioA) / kBlock, address % kBlock);
   if (within(address, kAfio)) return exti_.read_afio(address - kAfio);
   if (within(address, kExti)) return exti_.read(address - kExti);
   if (within(address, kUsart1)) return terminal_.read(address - kUsart1);
   if (within(address, kRcc)) return rcc_.read(address - kRcc);
+  if (within(address, kFlash)) return flash_.read(address - kFlash);
   if (SerialSide::block_of(address) != SerialSide::kNone) return serial_.peek(address);
   return others_.peek(address);
 }
@@ -194,7 +241,7 @@ std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
 
 void Board::store_word(std::uint32_t address, std::uint32_t value) {
   core_.advance_to(core_.cycles() + kApbCycles);
-  look_at_clock(address);
+  look_at(address, value);
   if (address >= kGpioA && address < kGpioEnd) {
     store_gpio((address - kGpioA) / kBlock, address % kBlock, value);
   } else if (within(address, kAfio)) {
@@ -209,6 +256,10 @@ void Board::store_word(std::uint32_t address, std::uint32_t value) {
     terminal_.write(address - kUsart1, value);
   } else if (within(address, kRcc)) {
     store_rcc(address - kRcc, value);
+  } else if (within(address, kFlash)) {
+    flash_.write(address - kFlash, value);
+    follow_flash();
+    check_clock();
   } else if (SerialSide::block_of(address) != SerialSide::kNone) {
     store_serial(address, value);
   } else if (address - Fsmc::kBase < Fsmc::kSize) {
@@ -242,8 +293,19 @@ void Board::store_rcc(std::uint32_t offset, std::uint32_t value) {
   serial_.follow(rcc_);
   update_serial_pins();
   update_interrupts();
-  if (hclk_hz() > kGreatestHclk)
-    note(fmt::format("HCLK is {} MHz, allowed is 72 MHz", hclk_hz() / 1'000'000), Noted::kClockTooFast);
+  check_clock();
+}
+
+void Board::follow_flash() { core_.set_flash(flash_.wait_states(), flash_.prefetch()); }
+
+/// RM0008, FLASH_ACR: a wait state for each 24 MHz that are begun, but the first.
+void Board::check_clock() {
+  const std::int64_t hz = rcc_.hclk_hz(), mhz = hz / 1'000'000, wanted = (hz - 1) / kHclkWithoutWait;
+  if (hclk_hz() > kGreatestHclk && is_new(kRcc, kTooFast))
+    note(fmt::format("HCLK is {} MHz, allowed is 72 MHz", hclk_hz() / 1'000'000));
+  else if (wanted > flash_.wait_states() && is_new(kFlash, kTooFast))
+    note(fmt::format("HCLK is {} MHz with {} wait states of flash (FLASH_ACR.LATENCY), which needs {}", mhz,
+                     flash_.wait_states(), wanted));
 }
 
 void Board::store_serial(std::uint32_t address, std::uint32_t value) {
@@ -255,33 +317,29 @@ void Board::store_serial(std::uint32_t address, std::uint32_t value) {
 
 // ------------------------------------------------------------------------------------------------- notes
 
-void Board::look_at_clock(std::uint32_t address) {
-  const auto is_on = [this](unsigned bit) { return (rcc_.apb2_clocks() >> bit & 1U) != 0; };
-  const SerialSide::Block serial = SerialSide::block_of(address);
-  if (address >= kGpioA && address < kGpioEnd) {
-    static constexpr std::array<const char*, kPorts> kNames = {"GPIOA", "GPIOB", "GPIOC", "GPIOD",
-                                                               "GPIOE", "GPIOF", "GPIOG"};
-    const unsigned port = (address - kGpioA) / kBlock;
-    if (!is_on(2 + port)) note_clock(kNames.at(port), "RCC_APB2ENR", static_cast<Noted>(port));
-  } else if (within(address, kAfio) && !is_on(0)) {
-    note_clock("AFIO", "RCC_APB2ENR", Noted::kAfioClock);
-  } else if (within(address, kUsart1) && !is_on(14)) {
-    note_clock("USART1", "RCC_APB2ENR", Noted::kTerminalClock);
-  } else if (serial != SerialSide::kNone && !SerialSide::is_clocked(serial, rcc_)) {
-    note_clock(SerialSide::name_of(serial), serial == SerialSide::kSpi1 ? "RCC_APB2ENR" : "RCC_APB1ENR",
-               static_cast<Noted>(static_cast<unsigned>(Noted::kSerialClocks) + serial));
-  }
+void Board::look_at(std::uint32_t address, std::optional<std::uint32_t> written) {
+  const Peripheral* const here = peripheral_at(address);
+  if (here == nullptr) return;
+  look_at_clock(*here);
+  const std::uint32_t offset = address - here->base;
+  if (here->registers->is_plain(offset)) return;
+  const RegisterEntry* const to = here->registers->find(offset);
+  if (to == nullptr && is_new(address, kNoRegister))
+    note(fmt::format("{} has no register at 0x{:08X} on the board", here->name, address));
+  if (to == nullptr || !written) return;
+  for (const Tag* tag : here->registers->asked(offset, *written))
+    if (is_new(address, tag->bit))
+      note(fmt::format("{}_{}.{} is set to {}{:X}, which the board does not have", here->name, to->name, tag->name,
+                       tag->value_in(*written) > 9 ? "0x" : "", tag->value_in(*written)));
 }
 
-void Board::note_clock(const char* peripheral, const char* reg, Noted which) {
-  if (noted_.test(static_cast<std::size_t>(which))) return;
-  note(fmt::format("{} is used while its clock is off in {}, where a real one does not answer", peripheral, reg),
-       which);
+void Board::look_at_clock(const Peripheral& of) {
+  if (of.clock_enables == 0 || rcc_.is_clocked(of.clock_enables, of.clock_bit) || !is_new(of.base, kClockOff)) return;
+  note(fmt::format("{} is used while its clock is off in RCC_{}, where a real one does not answer", of.name,
+                   Rcc::kRegisters.find(of.clock_enables)->name));
 }
 
-void Board::note(const std::string& text, Noted which) {
-  if (noted_.test(static_cast<std::size_t>(which))) return;
-  noted_.set(static_cast<std::size_t>(which));
+void Board::note(const std::string& text) {
   notes_.push_back(fmt::format("{}, first in {}", text, options_.firmware->lines.at(core_.pc())));
 }
 

@@ -35,13 +35,6 @@ SerialSide::Block SerialSide::block_of(std::uint32_t address) {
   return kNone;
 }
 
-const char* SerialSide::name_of(Block block) { return kNames.at(block); }
-
-bool SerialSide::is_clocked(Block block, const Rcc& rcc) {
-  if (block == kSpi1) return is_on(rcc.apb2_clocks(), 12);
-  return is_on(rcc.apb1_clocks(), block == kSpi2 ? 14 : 17);
-}
-
 std::uint32_t SerialSide::peek(std::uint32_t address) const {
   const Block block = block_of(address);
   return block == kUsart2 ? usart_.peek(address % kBlock) : spi_.at(block).peek(address % kBlock);
@@ -58,7 +51,6 @@ void SerialSide::write(std::uint32_t address, std::uint32_t value, std::uint64_t
     usart_.write(address % kBlock, value, now);
   else
     spi_.at(block).write(address % kBlock, value, now);
-  note_missing(block);
 }
 
 void SerialSide::follow(const Rcc& rcc) {
@@ -181,18 +173,10 @@ SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {
 
 // -------------------------------------------------------------------------------------------------------------- notes
 
-void SerialSide::note_missing(Block block) {
-  const char*& noted = missing_.at(block);
-  if (noted == nullptr) noted = block == kUsart2 ? usart_.missing() : spi_.at(block).missing();
-}
-
 std::vector<std::string> SerialSide::notes() const {
   std::vector<std::string> lines;
   const std::array<std::uint64_t, 3> lost = {spi_[0].lost(), spi_[1].lost(), usart_.lost()};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (missing_.at(i) != nullptr)
-      lines.push_back(
-          fmt::format("{}: {} is switched on, which the board does not have", kNames.at(i), missing_.at(i)));
     if (lost.at(i) != 0)
       lines.push_back(fmt::format("{}: {} bytes were lost, since those before them had not been fetched ({})",
                                   kNames.at(i), lost.at(i), i == kUsart2 ? "ORE" : "OVR"));

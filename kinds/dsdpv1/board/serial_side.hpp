@@ -36,8 +36,6 @@ class SerialSide {
   SerialSide(const Ports& ports, unsigned card) : ports_(ports), card_(card) {}
 
   static Block block_of(std::uint32_t address);
-  static const char* name_of(Block block);
-  static bool is_clocked(Block block, const Rcc& rcc);
   std::uint32_t peek(std::uint32_t address) const;
   std::uint32_t read(std::uint32_t address);
   void write(std::uint32_t address, std::uint32_t value, std::uint64_t now);
@@ -72,7 +70,7 @@ class SerialSide {
 
   /// Holds of the DPRAM, as the frames between the pins tell.
   const user_cpu::HoldCounters& holds() const { return claims_.counters(); }
-  /// For the end of the run: bytes lost, functions that are not there.
+  /// For the end of the run: bytes lost.
   std::vector<std::string> notes() const;
 
  private:
@@ -92,7 +90,6 @@ class SerialSide {
   bool level(const Alternate& alternate, bool floating) const;
   Levels wanted() const;
   void follow_frame(Tick at, const Levels& before, user_cpu::SerialPins& chip);
-  void note_missing(Block block);
 
   const Ports& ports_;
   unsigned card_;
@@ -104,7 +101,6 @@ class SerialSide {
   unsigned frame_bits_ = 0;
   Tick frame_begin_ = 0;
   user_cpu::ClaimCounters claims_;
-  std::array<const char*, 3> missing_{};  ///< by block: the first function that it lacks
 };
 
 }  // namespace dsdpv1::arm

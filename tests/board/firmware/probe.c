@@ -9,6 +9,7 @@
 #define CHIP16(offset) (*(volatile uint16_t*)(0x60000000u + (offset)))
 
 enum {
+  AFIO_MAPR = 0x40010004,
   AFIO_EXTICR2 = 0x4001000C,
   EXTI_IMR = 0x40010400,
   EXTI_RTSR = 0x40010408,
@@ -18,6 +19,7 @@ enum {
   GPIOA_IDR = 0x40010808,
   GPIOA_ODR = 0x4001080C,
   GPIOB_ODR = 0x40010C0C,
+  GPIOB_LCKR = 0x40010C18,
   GPIOC_CRL = 0x40011000,
   GPIOC_IDR = 0x40011008,
   GPIOC_ODR = 0x4001100C,
@@ -27,14 +29,23 @@ enum {
   GPIOE_IDR = 0x40011808,
   GPIOE_BSRR = 0x40011810,
   GPIOG_IDR = 0x40012008,
+  SPI1_CR1 = 0x40013000,
+  SPI1_CR2 = 0x40013004,
+  SPI1_SR = 0x40013008,
+  SPI1_DR = 0x4001300C,
+  SPI2_CR1 = 0x40003800,
   USART1_SR = 0x40013800,
   USART1_DR = 0x40013804,
   USART1_CR1 = 0x4001380C,
+  USART2_CR3 = 0x40004414,
   TIM2_CNT = 0x40000024,
   RCC_CR = 0x40021000,
   RCC_CFGR = 0x40021004,
   RCC_AHBENR = 0x40021014,
-  RCC_APB2ENR = 0x40021018
+  RCC_APB2ENR = 0x40021018,
+  RCC_APB1ENR = 0x4002101C,
+  RCC_AHBRSTR = 0x40021028, /* not in this family */
+  FLASH_ACR = 0x40022000
 };
 #define FSMC_BCR1 0xA0000000u
 #define FSMC_BTR1 0xA0000004u
@@ -93,7 +104,7 @@ static void chip_reset(void) {
 
 static void text(void) {
   static const char words[] = "ready\r\nhalf a li";
-  REG(RCC_CR) = 0x01010001; /* HSI, HSE, PLL on */
+  REG(RCC_CR) |= 0x01010001; /* HSI, HSE, PLL on */
   REG(RCC_CFGR) = 2;
   CHIP(0) = (REG(RCC_CR) & 0x02020002u) == 0x02020002u && (REG(RCC_CFGR) & 0xCu) == 0x8u;
   REG(USART1_CR1) = 0x2008;
@@ -156,6 +167,66 @@ static void clock_tree(void) {
   ten_accesses();
 }
 
+static void serial_clocks(void) {
+  REG(RCC_APB2ENR) = 0x51FD;
+  REG(RCC_APB1ENR) = 1u << 14 | 1u << 17;
+}
+
+/* What the board does not have, a line each, and that of the last is told. */
+static void lacking(void) {
+  serial_clocks();
+  REG(AFIO_MAPR) = 1u << 2 | 1u; /* USART1_REMAP; the board follows SPI1_REMAP */
+  REG(EXTI_IMR) = 1u << 17 | 1u << 3;
+  REG(GPIOB_LCKR) = 1u << 16;
+  REG(SPI1_CR2) = 1u << 1; /* TXDMAEN */
+  REG(SPI1_CR2) = 3u;      /* RXDMAEN, too */
+  REG(SPI2_CR1) = 1u << 6; /* a slave */
+  REG(USART1_CR1) = 0x200C;
+  REG(USART2_CR3) = 1u << 9;
+  REG(RCC_CR) &= ~(1u << 7); /* HSITRIM */
+  REG(RCC_AHBRSTR) = REG(RCC_AHBRSTR) + 1u;
+  REG(FLASH_ACR) = 1u << 3;
+  REG(FSMC_BCR1) = 0x1095; /* MWID, MTYP */
+  CHIP16(0) = __LINE__;
+}
+
+/* All words of all peripherals, with a byte in SPI1 that has come. The test looks at them before. */
+__attribute__((noinline, used)) static void all_registers(void) {
+  static const uint32_t bases[] = {0x40010000, 0x40010400, 0x40010800, 0x40010C00, 0x40011000, 0x40011400,
+                                   0x40011800, 0x40011C00, 0x40012000, 0x40013000, 0x40003800, 0x40004400,
+                                   0x40013800, 0x40021000, 0x40022000, 0xA0000000, 0xA0000100};
+  for (unsigned i = 0; i < sizeof bases / sizeof *bases; ++i)
+    for (uint32_t offset = 0; offset < 0x40; offset += 4) {
+      const uint32_t word = REG(bases[i] + offset);
+      CHIP16(0) = (uint16_t)word;
+      CHIP16(2) = (uint16_t)(word >> 16);
+    }
+}
+static void registers(void) {
+  serial_clocks();
+  REG(SPI1_CR1) = 0x0344; /* SSM, SSI, SPE, MSTR */
+  REG(SPI1_DR) = 0x5A;
+  while (!(REG(SPI1_SR) & 1u)) {
+  }
+  all_registers();
+}
+
+/* Each is read with all clocks but its own. */
+static void clocks_off(void) {
+  static const uint32_t uses[][3] = {
+      {RCC_APB2ENR, 0, 0x40010000},  {RCC_APB2ENR, 2, 0x40010800},  {RCC_APB2ENR, 3, 0x40010C00},
+      {RCC_APB2ENR, 4, 0x40011000},  {RCC_APB2ENR, 5, 0x40011400},  {RCC_APB2ENR, 6, 0x40011800},
+      {RCC_APB2ENR, 7, 0x40011C00},  {RCC_APB2ENR, 8, 0x40012000},  {RCC_APB2ENR, 12, 0x40013000},
+      {RCC_APB2ENR, 14, 0x40013800}, {RCC_APB1ENR, 14, 0x40003800}, {RCC_APB1ENR, 17, 0x40004400},
+      {RCC_AHBENR, 8, FSMC_BTR1},    {RCC_AHBENR, 8, 0x60000000},   {RCC_AHBENR, 8, EXTI_PR}};
+  for (unsigned i = 0; i < sizeof uses / sizeof *uses; ++i) {
+    serial_clocks();
+    REG(RCC_AHBENR) = 0x114;
+    REG(uses[i][0]) &= ~(1u << uses[i][1]);
+    (void)REG(uses[i][2]);
+  }
+}
+
 /* The test has told the board that the mailbox is here. */
 static void nonsense(void) {
   volatile dsdpv1_mailbox* box = (volatile dsdpv1_mailbox*)0x20008000u;
@@ -182,9 +253,9 @@ void EXTI9_5_handler(void) {
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {handshake, accesses,   unset_accesses, interrupt, chip_reset,
-                                           text,      strange,    undefined,      bank_off,  masked_and_rising,
-                                           inputs,    clock_tree, nonsense};
+  static void (*const programs[])(void) = {
+      handshake, accesses,          unset_accesses, interrupt,  chip_reset, text,    strange,   undefined,
+      bank_off,  masked_and_rising, inputs,         clock_tree, nonsense,   lacking, registers, clocks_off};
   edges = 0;
   clocks();
   programs[program]();
