@@ -9,17 +9,17 @@
 namespace dsdpv1::arm {
 
 struct RegisterEntry {
-  std::uint32_t offset;
-  const char* name;
+  std::uint32_t offset = 0;
+  const char* name = nullptr;
   std::uint32_t reset = 0;
   std::uint32_t writable = 0;  ///< bits that keep what is written; all others stay
 };
 
 /// A field that the board does not follow.
 struct Tag {
-  std::uint32_t offset;
-  unsigned bit, bits;  ///< its lowest bit, and how many
-  const char* name;
+  std::uint32_t offset = 0;
+  unsigned bit = 0, bits = 1;  ///< its lowest bit, and how many
+  const char* name = nullptr;
   std::uint32_t as = 0;    ///< the value that the board behaves as
   std::uint32_t with = 0;  ///< bits of the register: the field means nothing while all of them are 0
 
@@ -43,7 +43,7 @@ class RegisterTable {
   bool is_plain(std::uint32_t offset) const { return offset < kQuick && (plain_ >> offset / 4 & 1U) != 0; }
   /// Null: no register is there.
   const RegisterEntry* find(std::uint32_t offset) const;
-  /// TagList that `word`, written there, gives another value than the board's.
+  /// Tags that `word`, written there, gives another value than the board's.
   std::vector<const Tag*> asked(std::uint32_t offset, std::uint32_t word) const;
 
  private:

@@ -9,9 +9,9 @@
 namespace dsdpv1::arm {
 
 struct Peripheral {
-  std::uint32_t base;
-  const char* name;
-  const RegisterTable* registers;
+  std::uint32_t base = 0;
+  const char* name = nullptr;
+  const RegisterTable* registers = nullptr;
   std::uint32_t clock_enables = 0;  ///< the register of RCC; 0: it always has its clock
   unsigned clock_bit = 0;
 };
