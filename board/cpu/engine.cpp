@@ -134,14 +134,14 @@ void Engine::enter_split(Refill refill) {
 
 /// `last`: where the branch ends. Its own line is there, the next one is under way, any other has to be asked for.
 void Engine::fetch_target(std::uint32_t last) {
-  const std::uint32_t here = pc(), lines = here / line_bytes_ - last / line_bytes_;
+  const std::uint32_t here = pc(), lines = (here >> line_bits_) - (last >> line_bits_);
   if (lines == 1) {
     next_line();
   } else if (lines != 0) {
     now_ += line_wait_;
     line_ready_ = now_ + line_wait_ + cycle_;
   }
-  if (at_->entry == Entry::kSplit && here % line_bytes_ == line_bytes_ - 2) next_line();
+  if (at_->entry == Entry::kSplit && ((here + 2) >> line_bits_) != here >> line_bits_) next_line();
 }
 
 /// The next line is needed. With prefetch its fetch began when this one was there.
@@ -163,7 +163,7 @@ void Engine::set_flash(unsigned wait_states, bool prefetches) {
   flash_wait_ = std::uint64_t{wait_states} * cycle_;
   line_wait_ = page_->in_flash ? flash_wait_ : 0;
   prefetches_ = prefetches;
-  line_bytes_ = prefetches ? kLineBytes : kWordBytes;
+  line_bits_ = prefetches ? kLineBits : kWordBits;
   forget_code();
 }
 
@@ -196,7 +196,7 @@ void Engine::decode_here() {
   made.entry = made.halfwords == 2 && here % 4 != 0 ? Entry::kSplit : Entry::kPlain;
   made.cost = static_cast<std::uint16_t>(cost_ != 0 ? cost_ : kCycle * cycles_before(made, next));
   const std::uint32_t last = behind + 2U * (next.halfwords - 1U);  // halfword that has to be there
-  made.ends_line = line_wait_ != 0 && (behind - 2) / line_bytes_ != last / line_bytes_;
+  made.ends_line = line_wait_ != 0 && (behind - 2) >> line_bits_ != last >> line_bits_;
   *at_ = made;
 }
 

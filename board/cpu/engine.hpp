@@ -130,7 +130,7 @@ class Engine {
   friend struct Operations;
 
   static constexpr std::uint32_t kPageBytes = 4096;
-  static constexpr std::uint32_t kLineBytes = 8, kWordBytes = 4;  ///< what flash gives with prefetch, and without
+  static constexpr unsigned kLineBits = 3, kWordBits = 2;  ///< flash gives 8 bytes at once with prefetch, 4 without
   static constexpr std::uint32_t kNotPrivileged = 1, kSpSel = 2;
 
   /// Instructions of a page of memory by their halfwords, and two behind it, since a long one may begin in its last
@@ -260,7 +260,7 @@ class Engine {
   // Thousandths of a cycle: what a read of flash waits, what the fetch of instructions does here; when the line is there
   // that follows.
   std::uint64_t flash_wait_ = 0, line_wait_ = 0, line_ready_ = 0;
-  std::uint32_t line_bytes_ = kLineBytes;  ///< that are fetched at once
+  unsigned line_bits_ = kLineBits;  ///< of an address inside of what is fetched at once
   bool prefetches_ = true;
 
   CodePage* page_ = nullptr;

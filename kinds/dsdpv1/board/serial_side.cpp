@@ -42,7 +42,10 @@ std::uint32_t SerialSide::peek(std::uint32_t address) const {
 
 std::uint32_t SerialSide::read(std::uint32_t address) {
   const Block block = block_of(address);
-  return block == kUsart2 ? usart_.read(address % kBlock) : spi_.at(block).read(address % kBlock);
+  const std::uint32_t value =
+      block == kUsart2 ? usart_.read(address % kBlock) : spi_.at(block).read(address % kBlock);
+  plan();
+  return value;
 }
 
 void SerialSide::write(std::uint32_t address, std::uint32_t value, std::uint64_t now) {
@@ -51,6 +54,7 @@ void SerialSide::write(std::uint32_t address, std::uint32_t value, std::uint64_t
     usart_.write(address % kBlock, value, now);
   else
     spi_.at(block).write(address % kBlock, value, now);
+  plan();
 }
 
 void SerialSide::follow(const Rcc& rcc) {
@@ -60,17 +64,19 @@ void SerialSide::follow(const Rcc& rcc) {
   if (is_on(rcc.apb2_resets(), 12)) spi_[0].reset();
   if (is_on(rcc.apb1_resets(), 14)) spi_[1].reset();
   if (is_on(rcc.apb1_resets(), 17)) usart_.reset();
+  plan();
 }
 
 void SerialSide::reset() {
   for (Spi& each : spi_) each.reset();
   usart_.reset();
   mapr_ = 0;
+  plan();
 }
 
 // --------------------------------------------------------------------------------------------------------------- time
 
-std::uint64_t SerialSide::next() const { return std::min({spi_[0].next(), spi_[1].next(), usart_.next()}); }
+void SerialSide::plan() { next_ = std::min({spi_[0].next(), spi_[1].next(), usart_.next()}); }
 
 void SerialSide::run(Tick at, user_cpu::SerialPins& chip) {
   const std::uint64_t now = next();
@@ -78,9 +84,13 @@ void SerialSide::run(Tick at, user_cpu::SerialPins& chip) {
     if (spi_.at(i).next() == now) spi_.at(i).run(!has_miso(i) || chip.miso(at));
   if (usart_.next() == now) usart_.run();
   if (moved()) move(at, chip);
+  plan();
 }
 
-void SerialSide::txd_changed(std::uint64_t cycle, bool level) { usart_.rx_changed(cycle, level); }
+void SerialSide::txd_changed(std::uint64_t cycle, bool level) {
+  usart_.rx_changed(cycle, level);
+  plan();
+}
 
 unsigned SerialSide::requests() const {
   const auto bit = [](bool asks, unsigned number) { return static_cast<unsigned>(asks) << number; };
@@ -122,6 +132,7 @@ SerialSide::Levels SerialSide::wanted() const {
 
 bool SerialSide::moved() {
   for (unsigned i = 0; i < spi_.size(); ++i) spi_.at(i).set_nss(ports_.at(i).level(kFirstPin.at(i), true));
+  plan();
   return card_ != 0 && levels_ != wanted();
 }
 

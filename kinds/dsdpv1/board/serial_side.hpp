@@ -46,7 +46,7 @@ class SerialSide {
   void reset();
 
   /// The cycle of HCLK of their next action.
-  std::uint64_t next() const;
+  std::uint64_t next() const { return next_; }
   /// Acts at cycle next(), which begins at tick `at`; the chip's pins follow.
   void run(Tick at, user_cpu::SerialPins& chip);
   /// The chip's TXD changed; cycle `cycle` is the first that sees it.
@@ -86,6 +86,7 @@ class SerialSide {
     unsigned port, pin;
     bool drives, level;
   };
+  void plan();
   std::array<Alternate, 8> alternates() const;
   bool level(const Alternate& alternate, bool floating) const;
   Levels wanted() const;
@@ -96,6 +97,7 @@ class SerialSide {
   std::uint32_t mapr_ = 0;
   std::array<Spi, 2> spi_;
   Usart usart_;
+  std::uint64_t next_ = kNever;  ///< of all three
   Levels levels_;
   std::vector<std::uint8_t> out_, in_;  ///< of the frame, both ways; the bits of an unfinished byte in the last ones
   unsigned frame_bits_ = 0;
