@@ -16,7 +16,6 @@ import scenarios
 
 RECORD = pathlib.Path(__file__).with_name("instructions.tsv")
 GROWN = 1.05  # times the record: a row that takes more fails
-FIRMWARE = programs.FOLDER / "firmware"
 OFF = ("--checks", "off")
 
 
@@ -85,32 +84,17 @@ NAMES = tuple(row.name for row in ROWS)
 TARGETS = ("dsdpv1-sim", "dsdpv1_firmware", "bench_firmware")
 
 
-def loop(name):
-    """A board whose firmware loops; its slave never leaves WAIT_PRM, which nobody expects."""
-    return {"name": name, "baud": "12M", "end": "1ms", "masters": [{"name": "plc", "address": 2, "start": "100us", "slaves": [{"slave": "board", "watchdog": "100ms"}]}],
-            "slaves": [{"name": "board", "address": 5, "gsd": str(programs.ROOT / "scenarios" / "dsdpv1.gsd"), "modules": ["8 bytes in, 8 bytes out"],
-                        "user_cpu": {"kind": "arm", "elf": str(FIRMWARE / f"{name}.elf"), "fsmc": {"hclk": 72}}, "release_reset": "20us"}]}
-
-
-def write_scenarios(folder):
-    scenarios.write_all(folder)
-    for name in ("loop_ram", "loop_gpio", "loop_dpram"):
-        (folder / f"{name}.yaml").write_text(json.dumps(loop(name)), encoding="utf-8")
-
-
 def command_of(row, folder, length):
     if row.command:
         return row.command(folder, length)
-    shipped = programs.ROOT / "scenarios" / f"{row.scenario}.yaml"
-    scenario = shipped if shipped.exists() else f"{row.scenario}.yaml"
-    return [programs.SIM, "run", scenario, "--quiet", "--no-progress", "--set", f"end={length}ms", "--result", "result.json", *row.options]
+    return programs.run_command(row.scenario, "--set", f"end={length}ms", "--result", "result.json", *row.options)
 
 
 def counted(row, length):
     """Instructions of a run of this length, and its result."""
     with tempfile.TemporaryDirectory(prefix="instructions-") as name:
         folder = pathlib.Path(name)
-        write_scenarios(folder)
+        scenarios.write_all(folder)
         valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", f"--log-file={folder / 'log'}"]
         done = subprocess.run([*map(str, valgrind + command_of(row, folder, length))], cwd=folder, env=programs.QUIET, capture_output=True, text=True, check=False)
         collected = re.search(r"Collected : (\d+)", (folder / "log").read_text(encoding="utf-8") if (folder / "log").exists() else "")

@@ -7,12 +7,11 @@ import shutil
 import subprocess
 import time
 
-import scenarios
-
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "default"
 SIM = BUILD / "apps" / "dsdpv1-sim"
 FOLDER = BUILD / "tests" / "bench"
+FIRMWARE = BUILD / "examples" / "firmware"
 QUIET = {**os.environ, "SYSTEMC_DISABLE_COPYRIGHT_MESSAGE": "1"}
 
 
@@ -93,9 +92,8 @@ def samples(folder, command, keys):
 
 def run_command(scenario, *options):
     """A quiet run of dsdpv1-sim; `scenario` is one of scenarios/ or of scenarios.py."""
-    file = f"{scenario}.yaml"  # of its own folder, so that an error names no place of this machine
-    path = file if scenario in scenarios.SCENARIOS else ROOT / "scenarios" / file
-    return [SIM, "run", path, "--quiet", "--no-progress", *options]
+    shipped, file = ROOT / "scenarios" / f"{scenario}.yaml", f"{scenario}.yaml"  # of its own folder, so that an error names no place of this machine
+    return [SIM, "run", shipped if shipped.exists() else file, "--quiet", "--no-progress", *options]
 
 
 def calibration():

@@ -63,6 +63,10 @@ def of_sim(name, goal, what, measure, **others):
     return Row(name, goal, others.pop("unit", TIMES), what, measure, ("dsdpv1-sim", *others.pop("targets", ())), **others)
 
 
+def on_board(name, goal, what, scenario, **others):
+    return of_sim(name, goal, f"{what} Checks off.", real_time(scenario, *OFF, "--set", "end=50ms"), targets=("bench_firmware",), **others)
+
+
 def without(part, row):
     """The row, if this part of its run cost nothing."""
     return lambda values, profiles: values[row] / (1 - profiles[row][part] / 100)
@@ -176,10 +180,18 @@ ROWS = (
            "to the run with one busy slave, divided by their number, as a share of that run, which is 2 s long. Their user CPUs do nothing once they have initialised.",
            idle_station, unit="%", at_most=True,
            limit="Of a telegram for others a station is not told; the segment asks whether its filter keeps it from it."),
-    of_sim("arm", 1, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",
+    of_sim("arm", 2, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",
            real_time("arm_board_12m", *OFF), targets=("dsdpv1_firmware",),
-           limit="850 thousand instructions in 20 ms, and after every twelve of them a look whether somebody else has a turn.",
+           limit="600 thousand instructions in 20 ms, and a look at whom else it concerns after each access to the chip or a peripheral.",
            bound="processor"),
+    on_board("arm_busy", 2, "Firmware that counts in RAM without a pause.", "loop_ram"),
+    on_board("arm_gpio", 5, "Firmware that looks at L_REQ by GPIO without a pause.", "loop_gpio"),
+    on_board("arm_dpram", 5, "Firmware that reads a cell of the DPRAM without a pause, and without holding it: each access is a violation.", "loop_dpram",
+             limit="Each access is made edge by edge, as those of the owner are, and reported."),
+    of_sim("arm_interrupts", None, "The example firmware with power_on_9k6: asleep until INTR0 or its cycle of a millisecond. Checks off.",
+           real_time("power_on_9k6", *OFF, "--set", "user_cpu.kind=arm", "--set", f"user_cpu.elf={programs.FIRMWARE / 'device_interrupts.elf'}"), targets=("dsdpv1_firmware",)),
+    of_sim("arm_spi", None, "The scenario arm_spi, checks off.", real_time("arm_spi", *OFF), targets=("dsdpv1_firmware",)),
+    of_sim("arm_uart", None, "The scenario arm_uart, checks off.", real_time("arm_uart", *OFF), targets=("dsdpv1_firmware",)),
     of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True,
            limit="The demo without a wave does not make the changes that a wave shows: telegrams and accesses cost one step each. With one, 2.3 million "
                  "changes in 120 ms of simulated time are made: those of telegrams as runs in the recorder, those of accesses edge by edge in the chip. "

@@ -1,6 +1,8 @@
 """The scenarios of the speed table that are in no file of scenarios/: as JSON, which is YAML."""
 import json
 
+import programs
+
 IDENT = 0x0CC9
 IDLE = 8  # slaves that nobody addresses, beside the busy one
 
@@ -48,8 +50,16 @@ def with_idle(count):
     return scenario(f"A busy slave and {count} that nobody addresses", "12M", "2s", [busy, *idle], [busy])
 
 
+def loop(name):
+    """A board whose firmware loops and never initialises its chip; nobody is on the bus."""
+    return {"name": name, "baud": "12M", "end": "1ms", "expect": [{"slave": "board", "dp_state": "offline"}],
+            "slaves": [{"name": "board", "address": 5, "gsd": str(programs.ROOT / "scenarios" / "dsdpv1.gsd"), "modules": ["8 bytes in, 8 bytes out"],
+                        "user_cpu": {"kind": "arm", "elf": str(programs.FOLDER / "firmware" / f"{name}.elf"), "fsmc": {"hclk": 72}}, "release_reset": "20us"}]}
+
+
 SCENARIOS = {"1m5": slow_line(), "spi_9m": serial_port("spi", spi={"clock": 9000}), "uart_1m8": serial_port("uart"), "slaves_32": many(32, "40ms"), "slaves_125": many(125, "100ms"),
-             "one_busy": with_idle(0), "with_idle": with_idle(IDLE)}
+             "one_busy": with_idle(0), "with_idle": with_idle(IDLE),
+             **{name: loop(name) for name in ("loop_ram", "loop_gpio", "loop_dpram")}}
 
 
 def write_all(folder):

@@ -7,7 +7,7 @@
 __attribute__((used)) void run(void) {
   REGISTER(0x40021018) = 0x1FD;    /* RCC_APB2ENR: the ports' clocks */
   REGISTER(0x40021014) |= 1u << 8; /* RCC_AHBENR: the FSMC's */
-  REGISTER(0xA0000000) = 0x1011;   /* FSMC_BCR1: bank on, 8 bit, write enable */
+  REGISTER(0xA0000000) = 0x1001;   /* FSMC_BCR1: bank on, 8 bit, write enable */
 #if LOOP == GPIO                   /* L_REQ on PC8 until it falls, then until it rises */
   for (;;) {
     while (REGISTER(0x40011008) & 0x100) {
