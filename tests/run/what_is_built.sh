@@ -15,7 +15,7 @@ fail() {
 mkdir -p "$folder"/{tools,build/default/apps,scenarios}
 cp "$run" "$folder/run"
 cp "$source"/scenarios/*.yaml "$folder/scenarios"
-echo bash >"$folder/packages.txt"
+printf '[toolchain]\nbash\n[firmware]\nbash\n' >"$folder/packages.txt"
 touch "$folder/CMakePresets.json"
 printf '#!/bin/sh\necho "$@"\n' >"$folder/build/default/apps/dsdpv1-sim"
 cat >"$folder/tools/cmake" <<STUB
@@ -53,6 +53,7 @@ builds " dsdpv1_rtl_libraries" traces check power_on_12m --engine rtl
 builds "" traces list
 builds " dsdpv1_firmware" regress
 for engines in skip,rtl rtl,skip step,rtl,skip skip,lockstep; do builds " dsdpv1_rtl_libraries dsdpv1_firmware" regress --engine "$engines"; done
+builds "" run scenarios/arm_board_12m.yaml --set user_cpu.elf=my.elf
 echo '# elf: build/default/examples/firmware/device_O2.elf' >"$folder/mine.yaml"
 builds "" run mine.yaml
 
