@@ -2,7 +2,7 @@
 # What ./run installs for each command, and what it says: a clone on a bare system, whose apt-get only writes down what it is asked for.
 set -euo pipefail
 run=$1
-source=$2
+packages=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failures=0
@@ -15,7 +15,7 @@ fail() {
 # Nothing is installed but what $folder/there names; the user is $folder/user, and there is no sudo.
 mkdir "$folder/tools"
 for tool in bash env dirname awk sed sort comm grep mkdir tail nproc cat paste; do ln -s "$(command -v "$tool")" "$folder/tools/$tool"; done
-cp "$run" "$source/packages.txt" "$source/CMakeLists.txt" "$folder"
+cp "$run" "$packages" "$folder"
 cat >"$folder/tools/dpkg-query" <<'STUB'
 #!/usr/bin/env bash
 for name in "${@:4}"; do ! grep -qx -e "$name" -e all "${0%/*}/../there" || echo "installed $name"; done
@@ -32,7 +32,10 @@ case "$*" in
     ;;
 esac
 STUB
-printf '#!/usr/bin/env bash\ncat "${0%%/*}/../user"\n' >"$folder/tools/id"
+cat >"$folder/tools/id" <<'STUB'
+#!/usr/bin/env bash
+cat "${0%/*}/../user"
+STUB
 chmod +x "$folder"/tools/{dpkg-query,apt-get,id}
 printf '0 upgraded, 173 newly installed, 0 to remove.\nNeed to get 12.5 MB/137 MB of archives.\nAfter this operation, 1.2 GB of additional disk space will be used.\n' >"$folder/sizes"
 echo 0 >"$folder/user"
@@ -50,7 +53,7 @@ calls() {
 # in_groups GROUP...: the names that packages.txt has below these heads.
 in_groups() {
   local group
-  for group in "$@"; do sed -n "/^\[$group\]$/,/^\[.*\]$/{/^[a-z]/p}" "$source/packages.txt"; done | sort | paste -sd ' '
+  for group in "$@"; do sed -n "/^\[$group\]$/,/^\[.*\]$/{/^[a-z]/p}" "$packages"; done | sort | paste -sd ' '
 }
 
 # expects STATUS WORDS WHAT
@@ -72,8 +75,8 @@ while IFS=$'\t' read -r command groups; do
 done <<<"$needs"
 [ "$(grep -c . <<<"$needs")" -ge 20 ] || fail "deps --commands: $needs"
 for command in demo sim; do grep -qx "$command"$'\ttoolchain libraries d3 fst' <<<"$needs" || fail "$command needs more than its own groups: $needs"; done
-mapfile -t known < <(sed -n 's/^\[\(.*\)\]$/\1/p' "$source/packages.txt")
-for group in $(cut -f 2 <<<"$needs"); do [[ " ${known[*]} " == *" $group "* ]] || fail "packages.txt has no group $group"; done
+mapfile -t known < <(sed -n 's/^\[\(.*\)\]$/\1/p' "$packages")
+while read -r group; do [[ " ${known[*]} " == *" $group "* ]] || fail "packages.txt has no group $group"; done < <(cut -f 2 <<<"$needs" | tr ' ' '\n')
 for group in "${known[@]}"; do
   grep -q "\b$group\b" <<<"$needs" || fail "no command needs the group $group"
   [ -n "$(in_groups "$group")" ] || fail "the group $group is empty"

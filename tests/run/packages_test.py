@@ -2,7 +2,7 @@
 """The groups of packages.txt against what is used: what dsdpv1-sim is compiled and linked from, and what a configuration without tests finds, is in the groups of
 `./run demo`; what one with tests finds is in those of `./run test` and `./run nightly`. Files are given to packages by dpkg.
 
-    packages_test.py ROOT BUILD FOLDER      FOLDER: for a configuration without tests
+    packages_test.py ROOT PACKAGES DSDPV1_SIM FOLDER      FOLDER: for a configuration without tests
 """
 import os
 import pathlib
@@ -10,8 +10,9 @@ import re
 import subprocess
 import sys
 
-ROOT, BUILD, FOLDER = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-sys.path.insert(0, str(ROOT / "cmake"))
+ROOT, PACKAGES, SIM, FOLDER = (pathlib.Path(word).resolve() for word in sys.argv[1:5])
+BUILD = SIM.parents[1]
+sys.path.insert(0, str(ROOT / "tests/licences"))
 
 import ninja_build  # noqa: E402
 
@@ -24,7 +25,7 @@ def output(*command):
 
 def names_of_groups():
     groups = {}
-    for line in (ROOT / "packages.txt").read_text(encoding="utf-8").splitlines():
+    for line in PACKAGES.read_text(encoding="utf-8").splitlines():
         if line.startswith("["):
             names = groups[line.strip("[]")] = set()
         elif line and line[0] != "#":
@@ -75,7 +76,7 @@ def owners(files):
 
 def cached(build):
     """What CMake has looked for and found: file to the name that it is kept under."""
-    entries = re.findall(r"^([^#/\n][^:\n]*):(?:FILEPATH|PATH)=(/usr/.+)$", (build / "CMakeCache.txt").read_text(encoding="utf-8"), re.M)
+    entries = re.findall(r"^([^#/\n][^:\n]*):(?:FILEPATH|PATH|INTERNAL)=(/usr/.+)$", (build / "CMakeCache.txt").read_text(encoding="utf-8"), re.M)
     return {file: name for name, file in entries if name not in UNASKED and os.path.exists(file)}
 
 
@@ -93,7 +94,7 @@ def main():
         return installed.with_dependencies({name for command in commands for group in needs[command].split() if group != less for name in groups[group]})
 
     output("cmake", "--preset", "default", "--fresh", "-S", ROOT, "-B", FOLDER, "-DBUILD_TESTING=OFF")
-    program = ninja_build.programs(BUILD)["apps/dsdpv1-sim"]
+    program = ninja_build.programs(BUILD)[str(SIM.relative_to(BUILD))]
     parts = {file: "dsdpv1-sim" for file in program.files | program.libraries if not file.startswith(f"{ROOT}/")} | cached(FOLDER)
     faults = [f"./run demo does not install {each}" for each in strangers(parts, brought("demo"))]
     faults += [f"neither ./run test nor ./run nightly installs {each}" for each in strangers(cached(BUILD), brought("test", "nightly"))]
