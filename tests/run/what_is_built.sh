@@ -57,5 +57,31 @@ builds "" run scenarios/arm_board_12m.yaml --set user_cpu.elf=my.elf
 echo '# elf: build/default/examples/firmware/device_O2.elf' >"$folder/mine.yaml"
 builds "" run mine.yaml
 
+# configures OPTIONS COMMAND [ARGUMENTS...]: with these options, "-" for not at all.
+configures() {
+  local options=$1 found
+  shift
+  : >"$folder/asked"
+  (cd "$folder" && PATH=$folder/tools:$PATH ./run "$@") >/dev/null 2>&1 || fail "$*: exit $?"
+  found=$(sed -n 's/^--preset //p' "$folder/asked")
+  [ "${found:--}" = "$options" ] || fail "$*: configures $found, not $options"
+}
+
+# tests come in with the first command that builds them, and stay; what has been installed since is found
+rm "$folder/build/default/build.ninja"
+configures "default --fresh -DBUILD_TESTING=OFF" sim run mine.yaml
+echo BUILD_TESTING:BOOL=OFF >"$folder/build/default/CMakeCache.txt"
+configures - sim run mine.yaml
+configures "default -DBUILD_TESTING=ON" build
+echo BUILD_TESTING:BOOL=ON >"$folder/build/default/CMakeCache.txt"
+configures - build
+configures - sim run mine.yaml
+touch -d @1 "$folder/CMakePresets.json"
+touch -d @2 "$folder/build/default/build.ninja"
+configures default sim run mine.yaml
+configures "debug --fresh -DBUILD_TESTING=ON" build debug
+configures "fast --fresh -DBUILD_TESTING=OFF" build fast
+configures "fuzz --fresh -DBUILD_TESTING=OFF" build fuzz
+
 echo "$failures failures"
 [ "$failures" -eq 0 ]
