@@ -5,9 +5,10 @@
     check_docs.py files            files named in backquotes exist
     check_docs.py table            README.md's table names every document of docs/
     check_docs.py snippets         code after a comment "from FILE" is in that file
+    check_docs.py packages         the tables of docs/install.md are those of packages.txt and ./run deps --commands
     check_docs.py readme SIM       the demo's output in README.md is what dsdpv1-sim prints
     check_docs.py picture SIM      docs/img/power_on_12m.svg is drawn from what dsdpv1-sim writes
-    check_docs.py update SIM       writes README.md and the picture anew
+    check_docs.py update SIM       writes README.md, the picture and the tables of packages again
 
 --root FOLDER: another project than the one this file is in. Python's standard library only.
 """
@@ -221,6 +222,35 @@ def update_regress(root, sim):
         path.write_text(text[:block.start(2)] + table + text[block.end(2):], encoding="utf-8")
 
 
+# ------------------------------------------------------------------------------------------------------------- packages
+INSTALL = "docs/install.md"
+PACKAGES = re.compile(r"(<!-- packages: [^\n]*-->\n)(.*?)(?=<!-- /packages -->)", re.S)
+
+
+def tables_of_packages(root):
+    """Commands that need the same groups are one row."""
+    told = subprocess.run([root / "run", "deps", "--commands"], check=True, text=True, stdout=subprocess.PIPE).stdout
+    commands = {}
+    for line in told.splitlines():
+        command, groups = line.split("\t")
+        commands.setdefault(groups, []).append(f"`{command}`")
+    groups = re.findall(r"^# (.*)\n\[(\w+)\]\n((?:\w.*\n)+)", (root / "packages.txt").read_text(encoding="utf-8"), re.M)
+    return ("| `./run` | groups |\n|---|---|\n" + "".join(f"| {', '.join(names)} | {each} |\n" for each, names in commands.items()) +
+            "\n| group | packages | what they are |\n|---|---|---|\n" + "".join(f"| {name} | {' '.join(names.split())} | {what} |\n" for what, name, names in groups))
+
+
+def check_packages(root):
+    text = (root / INSTALL).read_text(encoding="utf-8")
+    block = PACKAGES.search(text)
+    if block.group(2) != tables_of_packages(root):
+        yield fault(root, root / INSTALL, text, block.start(), "packages.txt and ./run deps --commands say otherwise: ./run generate")
+
+
+def update_packages(root):
+    path = root / INSTALL
+    path.write_text(PACKAGES.sub(lambda block: block.group(1) + tables_of_packages(root), path.read_text(encoding="utf-8")), encoding="utf-8")
+
+
 def update(root, sim):
     readme = root / "README.md"
     output = simulate(root, sim).strip("\n") + "\n"
@@ -231,6 +261,7 @@ def update(root, sim):
     draw(root, sim, root / PICTURE)
     update_sweep(root, sim)
     update_regress(root, sim)
+    update_packages(root)
     return []
 
 
@@ -238,13 +269,13 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "table", "snippets", "readme", "picture", "sweep", "regress",
+    parser.add_argument("what", choices=["links", "files", "table", "snippets", "packages", "readme", "picture", "sweep", "regress",
                                          "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
     with_sim = {"readme": check_readme, "picture": check_picture, "sweep": check_sweep, "regress": check_regress,
                 "update": update}
-    without = {"links": check_links, "files": check_files, "table": check_table, "snippets": check_snippets}
+    without = {"links": check_links, "files": check_files, "table": check_table, "snippets": check_snippets, "packages": check_packages}
     if arguments.what in with_sim:
         if arguments.sim is None:
             parser.error(f"{arguments.what} needs the path of dsdpv1-sim")

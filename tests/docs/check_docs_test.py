@@ -10,7 +10,11 @@ RIGHT = {
                  "```\n[no](link.md) in code\n```\n"
                  "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
                  "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times real time\n```\n<!-- /demo -->\n"
-                 "| [docs/chip.md](docs/chip.md) | the chip |\n",
+                 "| [docs/chip.md](docs/chip.md) | the chip |\n| [docs/install.md](docs/install.md) | packages |\n",
+    "docs/install.md": "# Install\n<!-- packages: x -->\n| `./run` | groups |\n|---|---|\n| `demo`, `sim` | tools |\n"
+                       "\n| group | packages | what they are |\n|---|---|---|\n| tools | cmake g++ | to build |\n<!-- /packages -->\n",
+    "packages.txt": "# all\n\n# to build\n[tools]\ncmake\ng++\n",
+    "run": "#!/bin/sh\nprintf 'demo\\ttools\\nsim\\ttools\\n'\n",
     "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
     "model/core.cpp": "",
     "examples/one.cpp": "// one\nint main() {}\n",
@@ -23,11 +27,12 @@ class Project(small_project.SmallProject):
 
     def setUp(self):
         super().setUp()
-        (self.root / "sim").chmod(0o755)
+        for name in ("sim", "run"):
+            (self.root / name).chmod(0o755)
 
     def faults(self):
         found = []
-        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_table, check_docs.check_snippets):
+        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_table, check_docs.check_snippets, check_docs.check_packages):
             found += check(self.root)
         return found + list(check_docs.check_readme(self.root, str(self.root / "sim")))
 
@@ -54,6 +59,14 @@ class Project(small_project.SmallProject):
     def test_a_bare_name_that_no_file_has(self):
         self.change("README.md", "`core.cpp`", "`heart.cpp`")
         self.expect("there is no heart.cpp")
+
+    def test_a_group_with_another_package(self):
+        self.change("packages.txt", "g++\n", "g++\nninja\n")
+        self.expect("docs/install.md:2: packages.txt and ./run deps --commands say otherwise")
+
+    def test_a_command_with_another_group(self):
+        (self.root / "run").write_text("#!/bin/sh\nprintf 'demo\\ttools\\nsim\\ttools d3\\n'\n", encoding="utf-8")
+        self.expect("docs/install.md:2: packages.txt and ./run deps --commands say otherwise")
 
     def test_a_document_that_the_table_does_not_name(self):
         self.write("docs/new.md", "# New\n")

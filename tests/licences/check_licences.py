@@ -42,7 +42,7 @@ def listed_packages(root):
     for name in LISTS:
         for line in (root / name).read_text(encoding="utf-8").splitlines():
             word = line.split("#")[0].strip().split("==")[0]
-            if word:
+            if word and not word.startswith("["):  # the head of a group
                 found[word] = name
     return found
 

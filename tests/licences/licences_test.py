@@ -189,7 +189,7 @@ class Packages(unittest.TestCase):
     def test_lists_are_read_without_remarks_and_versions(self):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
-            for name, text in (("packages.txt", "# all\nlibx-dev\n\n"), ("requirements.txt", "A==1.0\n"), ("requirements-test.txt", "b==2  # x\n"),
+            for name, text in (("packages.txt", "# all\n[libraries]\nlibx-dev\n\n"), ("requirements.txt", "A==1.0\n"), ("requirements-test.txt", "b==2  # x\n"),
                                ("requirements-lint.txt", "")):
                 (root / name).write_text(text, encoding="utf-8")
             self.assertEqual(check_licences.listed_packages(root), {"libx-dev": "packages.txt", "A": "requirements.txt", "b": "requirements-test.txt"})

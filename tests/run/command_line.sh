@@ -39,7 +39,11 @@ if git -C "$(dirname "$run")" rev-parse HEAD >/dev/null 2>&1; then
   [[ $version == *"($(git -C "$(dirname "$run")" describe --always --abbrev=9)"*")" ]] || fail "--version names no commit: $version"
 fi
 
-refuses "allowed are demo test edit sim" dmeo
+refuses "unknown command dmeo (did you mean demo?), allowed are demo test edit sim" dmeo
+refuses "unknown command whatever, allowed are demo" whatever
+refuses "unknown group tets (did you mean tests?), allowed are toolchain libraries" deps d3 tets
+refuses "unknown group --force, allowed are toolchain" deps --force
+refuses "--tsv is for --list" deps --tsv
 refuses "no file of the project" edit nowhere.cpp
 refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again

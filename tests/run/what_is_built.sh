@@ -15,7 +15,7 @@ fail() {
 mkdir -p "$folder"/{tools,build/default/apps,scenarios}
 cp "$run" "$folder/run"
 cp "$source"/scenarios/*.yaml "$folder/scenarios"
-echo bash >"$folder/packages.txt"
+printf '[toolchain]\nbash\n[firmware]\nbash\n' >"$folder/packages.txt"
 touch "$folder/CMakePresets.json"
 printf '#!/bin/sh\necho "$@"\n' >"$folder/build/default/apps/dsdpv1-sim"
 cat >"$folder/tools/cmake" <<STUB
@@ -53,8 +53,35 @@ builds " dsdpv1_rtl_libraries" traces check power_on_12m --engine rtl
 builds "" traces list
 builds " dsdpv1_firmware" regress
 for engines in skip,rtl rtl,skip step,rtl,skip skip,lockstep; do builds " dsdpv1_rtl_libraries dsdpv1_firmware" regress --engine "$engines"; done
+builds "" run scenarios/arm_board_12m.yaml --set user_cpu.elf=my.elf
 echo '# elf: build/default/examples/firmware/device_O2.elf' >"$folder/mine.yaml"
 builds "" run mine.yaml
+
+# configures OPTIONS COMMAND [ARGUMENTS...]: with these options, "-" for not at all.
+configures() {
+  local options=$1 found
+  shift
+  : >"$folder/asked"
+  (cd "$folder" && PATH=$folder/tools:$PATH ./run "$@") >/dev/null 2>&1 || fail "$*: exit $?"
+  found=$(sed -n 's/^--preset //p' "$folder/asked")
+  [ "${found:--}" = "$options" ] || fail "$*: configures $found, not $options"
+}
+
+# tests come in with the first command that builds them, and stay; what has been installed since is found
+rm "$folder/build/default/build.ninja"
+configures "default --fresh -DBUILD_TESTING=OFF" sim run mine.yaml
+echo BUILD_TESTING:BOOL=OFF >"$folder/build/default/CMakeCache.txt"
+configures - sim run mine.yaml
+configures "default -DBUILD_TESTING=ON" build
+echo BUILD_TESTING:BOOL=ON >"$folder/build/default/CMakeCache.txt"
+configures - build
+configures - sim run mine.yaml
+touch -d @1 "$folder/CMakePresets.json"
+touch -d @2 "$folder/build/default/build.ninja"
+configures default sim run mine.yaml
+configures "debug --fresh -DBUILD_TESTING=ON" build debug
+configures "fast --fresh -DBUILD_TESTING=OFF" build fast
+configures "fuzz --fresh -DBUILD_TESTING=OFF" build fuzz
 
 echo "$failures failures"
 [ "$failures" -eq 0 ]
