@@ -59,10 +59,10 @@ TEST(Summary, ListsWhatWasRefused) {
 TEST(Summary, HasEqualViolationsInOneRow) {
   tb::Repetitions repetitions;
   for (tb::Tick at = 1; at <= 6000; ++at)
-    repetitions.count(
-        {at * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "B31A is accessed", "B31A"});
-  repetitions.count(
-      {7 * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "B31B is accessed", "B31B"});
+    repetitions.count({at * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "", "B31A"},
+                      [] { return "B31A is accessed"; });
+  repetitions.count({7 * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "", "B31B"},
+                    [] { return "B31B is accessed"; });
   tb::RunResult result;
   result.violated = repetitions.list();
   const std::string text = tb::summary(result);
