@@ -398,16 +398,15 @@ void Engine::write(Register which, std::uint32_t value) {
 
 bool EngineState::operator==(const EngineState& other) const {
   const auto all = [](const EngineState& s) {
-    return std::tie(s.pc, s.xpsr, s.msp, s.psp, s.primask, s.basepri, s.faultmask, s.control, s.r, s.exclusive, s.phase,
+    return std::tie(s.pc, s.xpsr, s.msp, s.psp, s.primask, s.basepri, s.faultmask, s.control, s.r, s.exclusive,
                     s.line_ready);
   };
   return all(*this) == all(other);
 }
 
 EngineState Engine::state() const {
-  EngineState state = {pc(), xpsr(), msp_, psp_, primask_, basepri_, faultmask_, control_, {}, exclusive_, 0, 0};
+  EngineState state = {pc(), xpsr(), msp_, psp_, primask_, basepri_, faultmask_, control_, {}, exclusive_, 0};
   std::copy_n(r_.begin(), state.r.size(), state.r.begin());
-  state.phase = now_ % kCycle;
   state.line_ready = line_ready_ > now_ ? line_ready_ - now_ : 0;
   return state;
 }

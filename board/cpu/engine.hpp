@@ -35,7 +35,7 @@ struct EngineState {
   std::uint32_t pc, xpsr, msp, psp, primask, basepri, faultmask, control;
   std::array<std::uint32_t, 15> r;
   bool exclusive;
-  std::uint64_t phase, line_ready;  ///< thousandths of a cycle: since it began; until flash has the next line
+  std::uint64_t line_ready;  ///< thousandths of a cycle until flash has the next line
   bool operator==(const EngineState& other) const;
 };
 

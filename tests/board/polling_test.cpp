@@ -18,8 +18,8 @@ class Device : public NotingSystem {
   std::uint32_t load(std::uint32_t address, unsigned bytes) override {
     if (address - kDevice >= 8) return NotingSystem::load(address, bytes);
     ++looks;
-    processor->advance_to(processor->cycles() + 2);
-    if (stays) processor->stays(keep_up());
+    processor->advance_to(processor->cycles() + latency);
+    if (stays && (address == kDevice || second_stays)) processor->stays(keep_up());
     return address == kDevice && processor->cycles() >= rises ? 1 : 0;
   }
   std::uint64_t keep_up() override {
@@ -27,8 +27,8 @@ class Device : public NotingSystem {
     return processor->cycles() < rises ? std::min(next, rises) : next;
   }
   std::uint64_t rises = 0;
-  unsigned looks = 0;
-  bool stays = true;
+  unsigned looks = 0, latency = 2;
+  bool stays = true, second_stays = true;
 };
 
 struct Seen {
@@ -43,15 +43,16 @@ std::ostream& operator<<(std::ostream& out, const Seen& seen) {
   return out << testing::PrintToString(seen.notes) << testing::PrintToString(seen.cycles) << seen.instructions;
 }
 
-struct Run {
+struct Wait {
   std::uint32_t way;
   std::uint64_t rises;
   std::uint64_t interrupt = 0;  ///< 0: none
   std::uint32_t millicycles = 0;
-  bool stays = true;
+  bool stays = true, second_stays = true;
+  unsigned irq = 0, latency = 2;
 };
 
-Seen seen(const Run& run, bool leaves_out, unsigned& looks) {
+Seen seen(const Wait& run, bool leaves_out, unsigned& looks) {
   Device system;
   Timing timing;
   timing.leaves_out_polls = leaves_out;
@@ -60,7 +61,9 @@ Seen seen(const Run& run, bool leaves_out, unsigned& looks) {
   system.processor = &processor;
   system.rises = run.rises;
   system.stays = run.stays;
-  if (run.interrupt != 0) system.interrupts = {{run.interrupt, 0}};
+  system.second_stays = run.second_stays;
+  system.latency = run.latency;
+  if (run.interrupt != 0) system.interrupts = {{run.interrupt, run.irq}};
   const std::vector<std::uint8_t> image = read_program("polls");
   processor.load(MemoryMap{}.flash_base, image.data(), image.size());
   std::memcpy(processor.ram() + 0x100, &run.way, sizeof run.way);
@@ -70,10 +73,10 @@ Seen seen(const Run& run, bool leaves_out, unsigned& looks) {
   return {system.notes, system.note_cycles, processor.instructions()};
 }
 
-enum Way : std::uint32_t { kLook, kTwo, kMemory, kCounts, kStores, kBlock, kWorks, kCalls, kWays };
+enum Way : std::uint32_t { kLook, kTwo, kMemory, kCounts, kStores, kBlock, kWorks, kCalls, kWide, kWays };
 
 /// Looks without leaving out, and with it.
-std::pair<unsigned, unsigned> compare(const Run& run) {
+std::pair<unsigned, unsigned> compare(const Wait& run) {
   unsigned all = 0, some = 0;
   const Seen expected = seen(run, false, all);
   EXPECT_EQ(seen(run, true, some), expected) << "way " << run.way << ", rises at " << run.rises << ", interrupt at "
@@ -83,12 +86,23 @@ std::pair<unsigned, unsigned> compare(const Run& run) {
 
 TEST(Polls, LeaveEverythingAsItIsWheneverTheDeviceChanges) {
   for (std::uint32_t way = 0; way < kWays; ++way)
-    for (std::uint64_t rises = 400; rises < 500; ++rises) compare({way, rises});
+    for (std::uint64_t rises = 400; rises < 500; ++rises)
+      for (const unsigned latency : {0U, 2U}) compare({way, rises, 0, 0, true, true, 0, latency});
 }
 
 TEST(Polls, LeaveEverythingAsItIsWheneverAnInterruptComes) {
   for (std::uint32_t way = 0; way < kWays; ++way)
-    for (std::uint64_t interrupt = 300; interrupt < 350; ++interrupt) compare({way, 600, interrupt});
+    for (std::uint64_t interrupt = 300; interrupt < 350; ++interrupt) {
+      compare({way, 600, interrupt});
+      compare({way, 600, interrupt, 0, true, true, 1});
+    }
+}
+
+TEST(Polls, InterruptsComeAsIfNobodySaidThatALookStays) {
+  unsigned looks = 0;
+  for (std::uint64_t interrupt = 300; interrupt < 350; ++interrupt)
+    EXPECT_EQ(seen({kLook, 600, interrupt}, true, looks), seen({kLook, 600, interrupt, 0, false}, true, looks))
+        << interrupt;
 }
 
 TEST(Polls, LeaveEverythingAsItIsWhenInstructionsLastTheSame) {
@@ -98,7 +112,7 @@ TEST(Polls, LeaveEverythingAsItIsWhenInstructionsLastTheSame) {
 }
 
 TEST(Polls, AreLeftOutWhereEachPassIsLikeTheOneBefore) {
-  for (const Way way : {kLook, kTwo, kMemory, kBlock, kWorks, kCalls}) {
+  for (const Way way : {kLook, kTwo, kMemory, kBlock, kWorks, kCalls, kWide}) {
     const auto [all, some] = compare({way, 100'000});
     EXPECT_GT(all, 700U) << way;
     EXPECT_LT(some, 20U) << way;
@@ -110,8 +124,10 @@ TEST(Polls, AreLeftOutWhereEachPassIsLikeTheOneBefore) {
 }
 
 TEST(Polls, AreMadeWhereTheSystemDoesNotSayThatItStays) {
-  const auto [all, some] = compare({kLook, 100'000, 0, 0, false});
-  EXPECT_EQ(all, some);
+  for (const Wait& run : {Wait{kLook, 100'000, 0, 0, false}, Wait{kTwo, 100'000, 0, 0, true, false}}) {
+    const auto [all, some] = compare(run);
+    EXPECT_EQ(all, some);
+  }
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ constexpr std::uint32_t kUsart1 = 0x4001'3800, kRcc = 0x4002'1000, kFlash = 0x40
 constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000;
 constexpr std::uint32_t kChipMask = 0x7FF;  // A10..A0
 constexpr std::uint32_t kGpioIdr = 0x08;
-constexpr std::uint32_t kAfioMapr = 0x04, kSpiSr = 0x08, kUsartSr = 0x00;
+constexpr std::uint32_t kAfioMapr = 0x04;
 
 // The board's wiring.
 constexpr unsigned kLReqPin = 8, kLStaPin = 9;
@@ -154,13 +154,11 @@ std::uint32_t Board::load_register(std::uint32_t address) {
   return others_.read(address, core_.pc());
 }
 
-/// A register whose look has no effect, or the same effect again: DR has others. MISO is not among what quiet_until
-/// counts; accesses to what is not there are counted.
+/// A register whose look has no effect, or none once more. MISO is not among what quiet_until counts; accesses to what is
+/// not there are counted.
 bool Board::stays(std::uint32_t address) const {
   if (address >= kGpioA && address < kGpioEnd) return !serial_.has_miso((address - kGpioA) / kBlock);
-  if (const SerialSide::Block block = SerialSide::block_of(address); block != SerialSide::kNone)
-    return address % kBlock == (block == SerialSide::kUsart2 ? kUsartSr : kSpiSr);
-  return within(address, kAfio) || within(address, kExti) || within(address, kUsart1) || within(address, kRcc);
+  return peripheral_at(address) != nullptr;
 }
 
 std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {

@@ -165,6 +165,8 @@ static void clock_tree(void) {
   ten_accesses();
   REG(RCC_CFGR) = 7u << 18 | 1u << 16 | 8u << 4 | 2u;
   ten_accesses();
+  REG(0x40022000) = 2; /* FLASH_ACR: two wait states, no prefetch */
+  ten_accesses();
 }
 
 static void serial_clocks(void) {

@@ -34,6 +34,20 @@ function main
         loop    20, 12
         loop    10, 4                   @ from the second line back to the first
         loop    20, 4
+        .macro  split count
+        begin
+        mov     r6, #\count
+        .balign 8
+        nop
+        nop
+        nop
+1:      add.w   r8, r8, r8
+        subs    r6, #1
+        bne     1b
+        end
+        .endm
+        split   10                      @ to an instruction that stands in two lines
+        split   20
         begin
         .rept   8
         ldr     r8, 1f

@@ -2,7 +2,7 @@
         .include "vectors.inc"
         .equ    DEVICE, 0x40001000
 function main
-        control 0x100, 1
+        control 0x100, 3
         control 0xDFC, 0x01000000
         ldr     r2, =0xE0001000
         movs    r1, #1
@@ -17,7 +17,7 @@ function main
         ldr     r0, [r0]
         tbb     [pc, r0]
 ways:   .byte   (look - ways) / 2, (two - ways) / 2, (memory - ways) / 2, (counts - ways) / 2, (stores - ways) / 2, (block - ways) / 2
-        .byte   (works - ways) / 2, (calls - ways) / 2
+        .byte   (works - ways) / 2, (calls - ways) / 2, (wide - ways) / 2
         .balign 2
 look:   ldr     r1, [r3]                @ at one register
         cmp     r1, #1
@@ -54,6 +54,13 @@ block:  ldr     r1, [r3]                @ with an IT block
         movne   r7, #0
         bne     block
         b       over
+wide:   ldr     r1, [r3]                @ with more than flash gives at once
+        .rept   6
+        add.w   r8, r8, #0
+        .endr
+        cmp     r1, #1
+        bne     wide
+        b       over
 works:  ldr     r1, [r3]                @ with more than a few instructions between two looks
         .rept   80
         add     r8, r8, #0
@@ -75,6 +82,9 @@ over:   ldr     r2, =0xE0001000
         .pool
 function reads
         ldr     r1, [r3]
+        bx      lr
+@ Leaves everything as it was.
+function irq1
         bx      lr
 function irq0
         ldr     r0, =PORT
