@@ -50,6 +50,7 @@ struct Wait {
   std::uint32_t millicycles = 0;
   bool stays = true, second_stays = true;
   unsigned irq = 0, latency = 2;
+  std::uint32_t tick = 0;  ///< reload value of SysTick
 };
 
 Seen seen(const Wait& run, bool leaves_out, unsigned& looks) {
@@ -67,6 +68,7 @@ Seen seen(const Wait& run, bool leaves_out, unsigned& looks) {
   const std::vector<std::uint8_t> image = read_program("polls");
   processor.load(MemoryMap{}.flash_base, image.data(), image.size());
   std::memcpy(processor.ram() + 0x100, &run.way, sizeof run.way);
+  std::memcpy(processor.ram() + 0x104, &run.tick, sizeof run.tick);
   processor.set_flash(2, true);
   processor.run();
   looks = system.looks;
@@ -96,6 +98,10 @@ TEST(Polls, LeaveEverythingAsItIsWheneverAnInterruptComes) {
       compare({way, 600, interrupt});
       compare({way, 600, interrupt, 0, true, true, 1});
     }
+}
+
+TEST(Polls, LeaveEverythingAsItIsWhileSysTickGoesOn) {
+  for (std::uint32_t tick = 60; tick < 100; ++tick) compare({kLook, 3000, 0, 0, true, true, 0, 2, tick});
 }
 
 TEST(Polls, InterruptsComeAsIfNobodySaidThatALookStays) {

@@ -217,15 +217,20 @@ void Board::meet_serial() {
 
 /// The processor may stay ahead of the others as long as nobody has anything to do.
 std::uint64_t Board::keep_up() {
-  if (has_news() || quiet_until() <= now()) come_up();
+  if (has_news() || stays_until() <= now()) come_up();
   return next_due();
 }
 
 /// The cycle up to which the processor may stay ahead.
 std::uint64_t Board::next_due() {
-  Tick next = quiet_until();
-  if (!intr0_edges_.empty()) next = std::min(next, intr0_edges_.front().at);
+  const Tick next = stays_until();
   return next == bus::kNever ? kNever : cycle_of(std::max(next, now()));
+}
+
+/// A chip that runs ahead tells of its edges before their time.
+Tick Board::stays_until() {
+  const Tick quiet = quiet_until();
+  return intr0_edges_.empty() ? quiet : std::min(quiet, intr0_edges_.front().at);
 }
 
 /// The serial peripherals are others, too.

@@ -101,6 +101,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   std::uint64_t keep_up() override;
   std::uint64_t next_due();
+  Tick stays_until();
   std::optional<std::uint32_t> peek(std::uint32_t address) const override;
   std::vector<MemoryRegion> regions() const override;
   void sleep(std::uint64_t until) override;

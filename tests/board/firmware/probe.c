@@ -82,11 +82,19 @@ static void accesses(void) {
 
 static void unset_accesses(void) { CHIP(1) = CHIP(2); }
 
-static void interrupt(void) {
+static void wait_for_edges(void) {
   REG(AFIO_EXTICR2) = 6u << 8; /* line 6: port G */
   REG(EXTI_FTSR) = 1u << 6;
   REG(EXTI_IMR) = 1u << 6;
   REG(NVIC_ISER0) = 1u << 23;
+}
+static void busy(void) {
+  wait_for_edges();
+  for (;;) {
+  }
+}
+static void interrupt(void) {
+  wait_for_edges();
   for (;;) {
     __asm volatile("wfi");
     CHIP(0) = (uint8_t)edges;
@@ -257,7 +265,8 @@ void run(void);
 void run(void) {
   static void (*const programs[])(void) = {
       handshake, accesses,          unset_accesses, interrupt,  chip_reset, text,    strange,   undefined,
-      bank_off,  masked_and_rising, inputs,         clock_tree, nonsense,   lacking, registers, clocks_off};
+      bank_off,  masked_and_rising, inputs,         clock_tree, nonsense,   lacking, registers, clocks_off,
+      busy};
   edges = 0;
   clocks();
   programs[program]();

@@ -7,7 +7,14 @@ function main
         ldr     r2, =0xE0001000
         movs    r1, #1
         str     r1, [r2]
-        ldr     r3, =DEVICE
+        ldr     r0, =0x20000104
+        ldr     r0, [r0]
+        cbz     r0, 1f
+        ldr     r1, =SCS + 0x010        @ SysTick with this reload value
+        str     r0, [r1, #4]
+        movs    r0, #7
+        str     r0, [r1]
+1:      ldr     r3, =DEVICE
         ldr     r4, =0x20000200
         movs    r5, #0
         movs    r6, #0
@@ -85,6 +92,8 @@ function reads
         bx      lr
 @ Leaves everything as it was.
 function irq1
+        bx      lr
+function sys_tick
         bx      lr
 function irq0
         ldr     r0, =PORT
