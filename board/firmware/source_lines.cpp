@@ -58,9 +58,8 @@ std::string_view without_folders(std::string_view path) { return path.substr(pat
 
 }  // namespace
 
-SourceLines::SourceLines(const ElfImage& image, std::vector<std::uint8_t> file) {
+SourceLines::SourceLines(const ElfImage& image, std::vector<std::uint8_t> file) : file_(std::move(file)) {
   read_functions(image);
-  read_lines(std::move(file));
 }
 
 void SourceLines::read_functions(const ElfImage& image) {
@@ -70,23 +69,30 @@ void SourceLines::read_functions(const ElfImage& image) {
             [](const Function& a, const Function& b) { return a.address < b.address; });
 }
 
-void SourceLines::read_lines(std::vector<std::uint8_t> file) {
+const SourceLines::Table& SourceLines::table() const {
+  if (!table_) table_ = read_table(std::move(file_));
+  return *table_;
+}
+
+SourceLines::Table SourceLines::read_table(std::vector<std::uint8_t> file) {
+  Table table;
   ::elf_version(EV_CURRENT);
   const std::unique_ptr<Elf, EndElf> elf(::elf_memory(reinterpret_cast<char*>(file.data()), file.size()));
   const std::unique_ptr<Dwarf, EndDwarf> dwarf(::dwarf_begin_elf(elf.get(), DWARF_C_READ, nullptr));
-  if (!dwarf) return;
+  if (!dwarf) return table;
   std::unordered_map<std::string, std::uint32_t> numbers;
   for_each_row(dwarf.get(), [&](const Row& row) {
     const auto [number, is_new] =
-        numbers.try_emplace(std::string(without_folders(row.source)), static_cast<std::uint32_t>(files_.size()));
-    if (is_new) files_.push_back(number->first);
-    lines_.push_back({row.address, number->second, row.line});
+        numbers.try_emplace(std::string(without_folders(row.source)), static_cast<std::uint32_t>(table.files.size()));
+    if (is_new) table.files.push_back(number->first);
+    table.lines.push_back({row.address, number->second, row.line});
   });
   // Where one sequence ends another may begin: its line counts. Of several rows for an address the last counts, as in
   // gdb.
-  std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) {
+  std::stable_sort(table.lines.begin(), table.lines.end(), [](const Line& a, const Line& b) {
     return std::make_tuple(a.address, a.line != 0) < std::make_tuple(b.address, b.line != 0);
   });
+  return table;
 }
 
 namespace {
@@ -108,7 +114,7 @@ const SourceLines::Function* SourceLines::function_at(std::uint32_t address) con
 }
 
 const SourceLines::Line* SourceLines::line_at(std::uint32_t address) const {
-  const Line* const found = last_until(lines_, address);
+  const Line* const found = last_until(table().lines, address);
   return found != nullptr && found->line > 0 ? found : nullptr;
 }
 
@@ -116,7 +122,7 @@ std::string SourceLines::at(std::uint32_t address) const {
   address &= ~1U;
   const Function* const function = function_at(address);
   if (const Line* const line = line_at(address)) {
-    const std::string place = fmt::format("{}:{}", files_[line->file], line->line);
+    const std::string place = fmt::format("{}:{}", table().files[line->file], line->line);
     return function != nullptr ? fmt::format("{} at {}", function->name, place) : place;
   }
   if (function == nullptr) return fmt::format("0x{:08X}", address);

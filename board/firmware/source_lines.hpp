@@ -1,6 +1,7 @@
 #pragma once
 // Where in the source an instruction comes from: the line table of the firmware's DWARF and its symbols.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,7 +10,8 @@
 
 namespace dsdpv1::arm {
 
-/// Everything is read once, at construction; a look-up is two binary searches.
+/// Lines are read when the first one is asked for, most runs need none; a look-up is two binary searches. For one
+/// thread.
 class SourceLines {
  public:
   /// `file` is the ELF file (read_elf_file()) that `image` comes from. Without debug information, or where it is
@@ -21,12 +23,12 @@ class SourceLines {
   std::string at(std::uint32_t address) const;
 
   /// Whether there is any line at all.
-  bool has_lines() const { return !lines_.empty(); }
+  bool has_lines() const { return !table().lines.empty(); }
 
  private:
   struct Line {
     std::uint32_t address;
-    std::uint32_t file;  ///< index into files_
+    std::uint32_t file;  ///< index into Table::files
     int line;            ///< 0: from here on there is no line
   };
   struct Function {
@@ -34,14 +36,20 @@ class SourceLines {
     std::string name;
   };
 
-  void read_lines(std::vector<std::uint8_t> file);
+  struct Table {
+    std::vector<std::string> files;  ///< without folders
+    std::vector<Line> lines;         ///< by address
+  };
+
+  const Table& table() const;
+  static Table read_table(std::vector<std::uint8_t> file);
   void read_functions(const ElfImage& image);
   const Function* function_at(std::uint32_t address) const;
   const Line* line_at(std::uint32_t address) const;
 
-  std::vector<std::string> files_;   ///< without folders
-  std::vector<Line> lines_;          ///< by address
   std::vector<Function> functions_;  ///< by address
+  mutable std::vector<std::uint8_t> file_;
+  mutable std::optional<Table> table_;
 };
 
 }  // namespace dsdpv1::arm
