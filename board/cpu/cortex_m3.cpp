@@ -166,13 +166,13 @@ void CortexM3::catch_up_systick() {
 
 void CortexM3::catch_up() {
   catch_up_systick();
-  if (is_due()) polling_.end();
+  if (is_due()) polling_.restart();
   const std::uint64_t next = system_.keep_up();
   keep_up_at_ = next == kNever ? kNever : next * kMillis;
 }
 
 void CortexM3::stays(std::uint64_t until) {
-  if (is_due()) polling_.end();
+  if (is_due()) polling_.restart();
   keep_up_at_ = until == kNever ? kNever : until * kMillis;
   stays_ = true;
 }

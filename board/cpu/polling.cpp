@@ -3,7 +3,9 @@
 namespace dsdpv1::arm {
 
 void Polling::looked(std::uint64_t until) {
-  if (!begun_ || ++looks_ > kMostLooks) return begin(false);
+  if (looks_ > kMostLooks) end();
+  if (!begun_) return begin(looks_at_stores_);
+  ++looks_;
   if (engine_.read(Register::kPc) != first_.pc) return;
   const bool alike = engine_.state() == first_ && !engine_.has_stored();
   if (!alike || !looks_at_stores_) return begin(alike);
@@ -30,7 +32,7 @@ void Polling::end() {
 }
 
 void Polling::pass_by() {
-  if (begun_ && engine_.instructions() - instructions_ > kMostInstructions) end();
+  if ((begun_ || looks_at_stores_) && engine_.instructions() - instructions_ > kMostInstructions) end();
 }
 
 }  // namespace dsdpv1::arm

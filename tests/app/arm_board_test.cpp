@@ -95,6 +95,27 @@ TEST_P(ArmViews, HaveTheSameLog) {
 INSTANTIATE_TEST_SUITE_P(All, ArmViews, testing::ValuesIn(parallel_scenarios()),
                          [](const auto& each) { return each.param; });
 
+/// Passes of its loops that are left out are left out in skip alone.
+TEST(ArmPolls, SeeThePinsInTheSameCyclesInEveryEngine) {
+  const app_test::Folder folder;
+  std::ofstream(folder.file("s.yaml"))
+      << "name: looks\nbaud: 12M\nend: 3ms\nslaves: [{name: board, address: 5, gsd: \"" << DSDPV1_SOURCE_DIR
+      << "/scenarios/dsdpv1.gsd\", modules: [\"8 bytes in, 8 bytes out\"], user_cpu: {kind: arm, elf: \""
+      << FIRMWARE_LOOKS << "\", fsmc: {hclk: 72}}}]\nexpect: [{slave: board, dp_state: offline}]\n";
+  const auto log = [&](const std::string& options) {
+    const Called called = call("run s.yaml --no-progress --log log " + options, folder.path());
+    EXPECT_EQ(called.status, 0) << called.out << called.err;
+    return read(folder.file("log"));
+  };
+  const std::string stepped = log("--engine step --checks off");
+  EXPECT_GT(std::count(stepped.begin(), stepped.end(), '\n'), 190);
+  EXPECT_EQ(log("--engine skip --checks off"), stepped) << "nobody watches the pins";
+  EXPECT_EQ(log("--view tlm --checks off"), stepped);
+  const std::string watched = log("--engine step");
+  EXPECT_EQ(log("--engine skip"), watched);
+  EXPECT_EQ(log("--view tlm"), watched);
+}
+
 class ArmBaudRates : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 TEST_P(ArmBaudRates, ReachDataExchangeJudgedByTheFirmware) {

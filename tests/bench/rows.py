@@ -185,7 +185,7 @@ ROWS = (
            limit="600 thousand instructions in 20 ms, and a look at whom else it concerns after each access to the chip or a peripheral.",
            bound="processor"),
     on_board("arm_busy", 2, "Firmware that counts in RAM without a pause.", "loop_ram"),
-    on_board("arm_gpio", 5, "Firmware that looks at L_REQ by GPIO without a pause.", "loop_gpio"),
+    on_board("arm_gpio", 5, "Firmware that raises R_REQ and then looks at L_REQ by GPIO without a pause.", "loop_gpio"),
     on_board("arm_dpram", 5, "Firmware that reads a cell of the DPRAM without a pause, and without holding it: each access is a violation.", "loop_dpram",
              limit="Each access is made edge by edge, as those of the owner are, and reported."),
     of_sim("arm_interrupts", None, "The example firmware with power_on_9k6: asleep until INTR0 or its cycle of a millisecond. Checks off.",

@@ -154,11 +154,14 @@ std::uint32_t Board::load_register(std::uint32_t address) {
   return others_.read(address, core_.pc());
 }
 
-/// A register whose look has no effect, or none once more. MISO is not among what quiet_until counts; accesses to what is
-/// not there are counted.
+/// A register whose look has no effect, or none once more, until somebody has a turn. That does not hold for MISO and the
+/// lamps; for L_REQ and L_STA while a chip that nobody asks, and nobody watches, makes up its accesses afterwards; and
+/// for what is not there, where accesses are counted.
 bool Board::stays(std::uint32_t address) const {
-  if (address >= kGpioA && address < kGpioEnd) return !serial_.has_miso((address - kGpioA) / kBlock);
-  return peripheral_at(address) != nullptr;
+  if (address < kGpioA || address >= kGpioEnd) return peripheral_at(address) != nullptr;
+  const unsigned port = (address - kGpioA) / kBlock;
+  if (port == kC) return r_req_ || r_sta_;
+  return port != kG && !serial_.has_miso(port);
 }
 
 std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {

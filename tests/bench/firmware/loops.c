@@ -8,7 +8,9 @@ __attribute__((used)) void run(void) {
   REGISTER(0x40021018) = 0x1FD;    /* RCC_APB2ENR: the ports' clocks */
   REGISTER(0x40021014) |= 1u << 8; /* RCC_AHBENR: the FSMC's */
   REGISTER(0xA0000000) = 0x1001;   /* FSMC_BCR1: bank on, 8 bit, write enable */
-#if LOOP == GPIO                   /* L_REQ on PC8 until it falls, then until it rises */
+#if LOOP == GPIO                   /* R_REQ, then L_REQ on PC8 until it falls, then until it rises */
+  REGISTER(0x40011000) = 0x11444444;
+  REGISTER(0x40011010) = 1u << 6;
   for (;;) {
     while (REGISTER(0x40011008) & 0x100) {
     }
