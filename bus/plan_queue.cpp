@@ -30,8 +30,7 @@ void PlanQueue::set(std::size_t place, Tick at) {
 Tick PlanQueue::earliest_other(std::size_t place) const {
   if (winners_[1] != place) return earliest();
   Tick earliest = kNever;
-  for (std::size_t node = leaves_ + place; node > 1; node /= 2)
-    earliest = std::min(earliest, plan_of(node ^ 1U));
+  for (std::size_t node = leaves_ + place; node > 1; node /= 2) earliest = std::min(earliest, plan_of(node ^ 1U));
   return earliest;
 }
 

@@ -55,11 +55,11 @@ class Timeline {
 
   /// The tick of the earliest planned action of any agent.
   Tick next();
-  /// The tick of the first turn of anybody but `agent`, which has its turn, at most the one after the limit of the step:
-  /// as long as it does nothing to others, nothing happens before that.
+  /// The tick of the first turn of anybody but `agent`, which has its turn, at most the one after the limit of the
+  /// step: as long as it does nothing to others, nothing happens before that.
   Tick quiet_until(const Agent& agent);
-  /// It is quiet up to and including `tick`, where `agent` would act next: the step goes on to that tick, and this is its turn there.
-  /// False: it has to wait for it.
+  /// It is quiet up to and including `tick`, where `agent` would act next: the step goes on to that tick, and this is
+  /// its turn there. False: it has to wait for it.
   bool go_on(const Agent& agent, Tick tick);
   /// Runs every action due up to and including `until`; `now()` is then `until`.
   void run_until(Tick until);

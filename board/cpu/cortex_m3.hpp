@@ -205,9 +205,9 @@ class CortexM3 : public DebugTarget, private EngineEvents {
 
   // Thousandths of a cycle.
   std::uint64_t keep_up_at_ = 0;
-  std::uint64_t arrived_ = 0;  // when what is pending now became so, at the earliest
+  std::uint64_t arrived_ = 0;                                  // when what is pending now became so, at the earliest
   std::array<std::uint64_t, Nvic::kExceptions> broken_off_{};  // of instructions, by the exceptions that were active
-  bool event_ = false;            // the event register of WFE and SEV (B1.5.18)
+  bool event_ = false;                                         // the event register of WFE and SEV (B1.5.18)
   bool stopped_ = false, reset_requested_ = false;
   bool moved_ = false;   // a debugger wrote PC
   bool asleep_ = false;  // while a debugger is asked

@@ -630,8 +630,7 @@ Instruction register32(U32 h, U32 h2) {
   const U32 op1 = bits(h, 4, 4), op2 = bits(h2, 4, 4);
   if (bits(h2, 12, 4) != 15) return undefined();
   if (op1 < 8 && op2 == 0) {
-    Instruction made =
-        data(bit(h, 4) ? &O::shift_by_register<true> : &O::shift_by_register<false>, rd, rn, rm);
+    Instruction made = data(bit(h, 4) ? &O::shift_by_register<true> : &O::shift_by_register<false>, rd, rn, rm);
     made.shift = static_cast<U8>(op1 >> 1);
     return made;
   }

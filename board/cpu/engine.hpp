@@ -257,8 +257,8 @@ class Engine {
   std::unique_ptr<CodePage> nowhere_;  ///< where no memory is
   Memory* code_ = nullptr;             ///< that instructions came from last
   Window watched_ = {};
-  // Thousandths of a cycle: what a read of flash waits, what the fetch of instructions does here; when the line is there
-  // that follows.
+  // Thousandths of a cycle: what a read of flash waits, what the fetch of instructions does here; when the line is
+  // there that follows.
   std::uint64_t flash_wait_ = 0, line_wait_ = 0, line_ready_ = 0;
   unsigned line_bits_ = kLineBits;  ///< of an address inside of what is fetched at once
   bool prefetches_ = true;

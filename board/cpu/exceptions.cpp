@@ -152,7 +152,8 @@ void CortexM3::unstack(std::uint32_t exc_return) {
       (engine_.read(Register::kControl) & kNotPrivileged) | (to_thread && on_psp ? kSpSel : 0);
   engine_.set_mode(xpsr & ~kAlignedBit, control, msp, psp);
   for (std::uint32_t word = 0; word < 6; ++word) engine_.write(kStacked[word], word_at(frame + 4 * word));
-  spend_until(engine_.now() + timing_.exception_return * kMillis + std::exchange(broken_off_.at(nvic_.active_count()), 0));
+  spend_until(engine_.now() + timing_.exception_return * kMillis +
+              std::exchange(broken_off_.at(nvic_.active_count()), 0));
   const std::uint32_t target = word_at(frame + 24) & ~1U;
   engine_.clear_exclusive();
   continue_at(target | ((xpsr & kThumb) != 0 ? 1U : 0U));

@@ -44,8 +44,8 @@ struct Instruction {
 };
 
 /// ARMv7-M, chapters A5 to A7: what `first`, and of a long one `second`, at `address` says. What a Cortex-M3 does not
-/// have is undefined, or a coprocessor's. Its cost is without neighbours and memory; `entry` and `ends_line` are for the
-/// caller.
+/// have is undefined, or a coprocessor's. Its cost is without neighbours and memory; `entry` and `ends_line` are for
+/// the caller.
 Instruction decode(std::uint32_t address, std::uint16_t first, std::uint16_t second);
 
 /// Cycles of `one` when `next` is executed behind it.

@@ -219,8 +219,8 @@ struct Operations {
     e.r_[i.rd] = minus ? e.r_[i.ra] - product : e.r_[i.ra] + product;
     e.done(i);
   }
-  /// An operand of more than a halfword takes a cycle more, two of them another one with a sum (p): the manual says 3 to
-  /// 5 in all, 4 to 7 with a sum, by the size of the operands.
+  /// An operand of more than a halfword takes a cycle more, two of them another one with a sum (p): the manual says 3
+  /// to 5 in all, 4 to 7 with a sum, by the size of the operands.
   template <bool is_signed>
   static unsigned is_wide(U32 operand) {
     return (is_signed ? as_signed(operand) != static_cast<std::int16_t>(operand) : operand > 0xFFFF) ? 1 : 0;

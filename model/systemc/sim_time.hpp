@@ -25,8 +25,8 @@ Tick current_tick();
 /// From the present simulation time to that of `tick`, zero when it is over.
 sc_core::sc_time time_until(Tick tick);
 
-/// But for the process that asks, the kernel has nothing to do before this tick: no process to run, no signal to update,
-/// no event to notify.
+/// But for the process that asks, the kernel has nothing to do before this tick: no process to run, no signal to
+/// update, no event to notify.
 Tick kernel_quiet_until();
 
 /// Fixes the time resolution of the simulation at what the program has set, or at SystemC's own 1 ps, and reports the

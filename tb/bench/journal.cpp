@@ -54,8 +54,13 @@ void Journal::violated(const std::string& slave, const checks::Violation& violat
 }
 
 void Journal::event(std::size_t slave, const profibus::Event& event) {
-  happened({event.at, name_of(slave), profibus::code(event.reason), profibus::severity(event.reason),
-            {}, scenario_.kind->cell_of(event)}, &event);
+  happened({event.at,
+            name_of(slave),
+            profibus::code(event.reason),
+            profibus::severity(event.reason),
+            {},
+            scenario_.kind->cell_of(event)},
+           &event);
 }
 
 void Journal::telegram(const HeardTelegram& telegram) {

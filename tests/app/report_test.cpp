@@ -59,8 +59,9 @@ TEST(Summary, ListsWhatWasRefused) {
 TEST(Summary, HasEqualViolationsInOneRow) {
   tb::Repetitions repetitions;
   for (tb::Tick at = 1; at <= 6000; ++at)
-    repetitions.count({at * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "", "B31A"},
-                      [] { return "B31A is accessed"; });
+    repetitions.count(
+        {at * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "", "B31A"},
+        [] { return "B31A is accessed"; });
   repetitions.count({7 * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "", "B31B"},
                     [] { return "B31B is accessed"; });
   tb::RunResult result;

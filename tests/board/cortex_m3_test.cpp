@@ -49,16 +49,16 @@ TEST(ExecutionTime, IsThatOfTheTechnicalReferenceManual) {
   processor.load(0x08000000, image.data(), image.size());
   processor.run();
   EXPECT_THAT(system.notes, ElementsAreArray({
-                                1, 1, 2,          // data processing
-                                3, 5, 4, 7,       // long products
-                                2, 3, 12, 3,      // divisions
-                                2, 3, 4, 6,       // loads
-                                1, 2, 3, 3, 4,    // stores, an address just computed
-                                5, 5, 3, 3,       // several words
-                                3, 4, 3, 2,       // not aligned
-                                2, 4, 3, 4,       // branches
-                                4, 5, 5, 9, 6,    // by registers and loads
-                                2, 3, 1, 2, 1, 4  // IT, special registers, barriers
+                                1, 1, 2,           // data processing
+                                3, 5, 4,  7,       // long products
+                                2, 3, 12, 3,       // divisions
+                                2, 3, 4,  6,       // loads
+                                1, 2, 3,  3, 4,    // stores, an address just computed
+                                5, 5, 3,  3,       // several words
+                                3, 4, 3,  2,       // not aligned
+                                2, 4, 3,  4,       // branches
+                                4, 5, 5,  9, 6,    // by registers and loads
+                                2, 3, 1,  2, 1, 4  // IT, special registers, barriers
                             }));
 }
 
@@ -82,7 +82,8 @@ TEST(ExecutionTime, IsThatOfFlashWhereItIsLonger) {
   // 32 NOPs, 32 instructions of two halfwords; ten loops of 2, 14, 6 and 3 instructions, 8 literals with a NOP each.
   EXPECT_THAT(in_flash(0, true), ElementsAre(32U, 32U, 30U, 150U, 70U, 50U, 24U));
   // A line of 8 bytes every 3 cycles: NOPs need it every 4, the others every 2. A loop that leaves two lines waits for
-  // the first one, and for both where its first instruction stands in two; six lines and eight literals keep flash busy for 14 times 3 cycles.
+  // the first one, and for both where its first instruction stands in two; six lines and eight literals keep flash busy
+  // for 14 times 3 cycles.
   EXPECT_THAT(in_flash(2, true), ElementsAre(32U, 48U, 30U, 170U, 90U, 100U, 42U));
   EXPECT_THAT(in_flash(1, true), ElementsAre(32U, 32U, 30U, 160U, 80U, 80U, 32U));
   // Without prefetch words of 4 bytes, each with 2 cycles of waiting.

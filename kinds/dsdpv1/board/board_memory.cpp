@@ -154,9 +154,9 @@ std::uint32_t Board::load_register(std::uint32_t address) {
   return others_.read(address, core_.pc());
 }
 
-/// A register whose look has no effect, or none once more, until somebody has a turn. That does not hold for MISO and the
-/// lamps; for L_REQ and L_STA while a chip that nobody asks, and nobody watches, makes up its accesses afterwards; and
-/// for what is not there, where accesses are counted.
+/// A register whose look has no effect, or none once more, until somebody has a turn. That does not hold for MISO and
+/// the lamps; for L_REQ and L_STA while a chip that nobody asks, and nobody watches, makes up its accesses afterwards;
+/// and for what is not there, where accesses are counted.
 bool Board::stays(std::uint32_t address) const {
   if (address < kGpioA || address >= kGpioEnd) return peripheral_at(address) != nullptr;
   const unsigned port = (address - kGpioA) / kBlock;

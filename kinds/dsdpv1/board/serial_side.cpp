@@ -42,8 +42,7 @@ std::uint32_t SerialSide::peek(std::uint32_t address) const {
 
 std::uint32_t SerialSide::read(std::uint32_t address) {
   const Block block = block_of(address);
-  const std::uint32_t value =
-      block == kUsart2 ? usart_.read(address % kBlock) : spi_.at(block).read(address % kBlock);
+  const std::uint32_t value = block == kUsart2 ? usart_.read(address % kBlock) : spi_.at(block).read(address % kBlock);
   plan();
   return value;
 }

@@ -192,7 +192,9 @@ ObjectOf<Dsdpv1User> plain_user_keys() {
           "Switches that hold input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 but for those that "
           "the board wires to the "
           "chip. Pins without one have their pull-up or pull-down only.");
-  o.number("cpi", &U::cpi, {1, 10}, "HCLK", "Cycles that every instruction of the ARM board takes; left out: each what it lasts, flash wait states with it.");
+  o.number(
+      "cpi", &U::cpi, {1, 10}, "HCLK",
+      "Cycles that every instruction of the ARM board takes; left out: each what it lasts, flash wait states with it.");
   o.object("timing", &U::timing, timing_keys(), "How fast it is.");
   o.object("access", &U::access, access_keys(),
            "When it moves the pins of its bus; on an ARM board in place of the FSMC.");

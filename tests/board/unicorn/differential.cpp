@@ -135,8 +135,7 @@ class Campaign {
       const Trap other = unicorn_->run();
       compared_ += ours_->instructions() - before;
       // A Cortex-M3 refuses LDM and others that are not aligned (A3.2.1), Unicorn does not.
-      if (ours == Trap::kUnaligned ||
-          (ours == other && ours == Trap::kBadAccess && may_differ(opcode_at(code, at)))) {
+      if (ours == Trap::kUnaligned || (ours == other && ours == Trap::kBadAccess && may_differ(opcode_at(code, at)))) {
         unicorn_->ram() = ours_->ram();
         return true;
       }
