@@ -283,7 +283,7 @@ bool Engine::load_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t
     const unsigned part = part_of(at, bytes - done);
     std::uint32_t piece = 0;
     if (!load_part(at, part, piece)) return fail(at);
-    value |= piece << 8 * done;
+    value |= piece << 8 * (done & 3U);
     done += part;
   }
   return true;
@@ -295,7 +295,7 @@ bool Engine::store_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_
     const std::uint32_t at = address + done;
     const unsigned part = part_of(at, bytes - done);
     const std::uint32_t mask = part == 4 ? ~0U : (1U << 8 * part) - 1;
-    if (!store_part(at, part, value >> 8 * done & mask)) return fail(at);
+    if (!store_part(at, part, value >> 8 * (done & 3U) & mask)) return fail(at);
     done += part;
   }
   return true;

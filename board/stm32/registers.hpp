@@ -57,6 +57,7 @@ class RegisterTable {
 template <const RegisterTable& kTable, std::size_t kWords>
 class RegisterWords {
  public:
+  // NOLINTBEGIN(readability-redundant-parentheses): clang sees some round kTable
   RegisterWords() {
     for (const RegisterEntry& each : kTable.registers()) words_.at(each.offset / 4) = each.reset;
   }
@@ -68,6 +69,7 @@ class RegisterWords {
     if (const RegisterEntry* to = kTable.find(offset))
       words_[offset / 4] = (words_[offset / 4] & ~to->writable) | (value & to->writable);
   }
+  // NOLINTEND(readability-redundant-parentheses)
 
  private:
   std::array<std::uint32_t, kWords> words_{};

@@ -99,9 +99,9 @@ INSTANTIATE_TEST_SUITE_P(All, ArmViews, testing::ValuesIn(parallel_scenarios()),
 TEST(ArmPolls, SeeThePinsInTheSameCyclesInEveryEngine) {
   const app_test::Folder folder;
   std::ofstream(folder.file("s.yaml"))
-      << "name: looks\nbaud: 12M\nend: 3ms\nslaves: [{name: board, address: 5, gsd: \"" << DSDPV1_SOURCE_DIR
-      << "/scenarios/dsdpv1.gsd\", modules: [\"8 bytes in, 8 bytes out\"], user_cpu: {kind: arm, elf: \""
-      << FIRMWARE_LOOKS << "\", fsmc: {hclk: 72}}}]\nexpect: [{slave: board, dp_state: offline}]\n";
+      << "name: looks\nbaud: 12M\nend: 3ms\nslaves: [{name: board, address: 5, gsd: '" << DSDPV1_SOURCE_DIR
+      << "/scenarios/dsdpv1.gsd', modules: ['8 bytes in, 8 bytes out'], user_cpu: {kind: arm, elf: '" << FIRMWARE_LOOKS
+      << "', fsmc: {hclk: 72}}}]\nexpect: [{slave: board, dp_state: offline}]\n";
   const auto log = [&](const std::string& options) {
     const Called called = call("run s.yaml --no-progress --log log " + options, folder.path());
     EXPECT_EQ(called.status, 0) << called.out << called.err;

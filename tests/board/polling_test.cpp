@@ -44,8 +44,8 @@ std::ostream& operator<<(std::ostream& out, const Seen& seen) {
 }
 
 struct Wait {
-  std::uint32_t way;
-  std::uint64_t rises;
+  std::uint32_t way = 0;
+  std::uint64_t rises = 0;
   std::uint64_t interrupt = 0;  ///< 0: none
   std::uint32_t millicycles = 0;
   bool stays = true, second_stays = true;
