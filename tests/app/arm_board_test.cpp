@@ -26,13 +26,14 @@ const std::string kArm = " --set user_cpu.kind=arm --set user_cpu.elf=";
 std::string scenario(const std::string& name) { return std::string("scenarios/") + name + ".yaml --no-progress"; }
 
 /// What the bus has seen of a slave in the end. `counts`: its inputs count the exchanges, which hang on the CPU's
-/// speed.
+/// speed. So does how far the master is with a slave that it brings up again and again.
 Json on_the_bus(const Json& slave, bool counts) {
   Json seen;
   for (const char* key :
        {"name", "address", "dp_state", "baud", "master", "master_state", "inputs", "outputs", "rm_registry"})
     seen[key] = slave.at(key);
   if (counts) seen.erase("inputs");
+  if (slave.at("dp_state") != "DATA_EXCH") seen.erase("master_state");
   return seen;
 }
 
@@ -167,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(All, ArmUartRates,
 TEST(ArmPorts, Card2IsReachedOverSpi2AndTheUart) {
   for (const char* port : {"arm_spi", "arm_uart"}) {
     const Called called =
-        call("run " + scenario(port) + " --set chip.address=2 --checks fail --set user_cpu.elf=" + FIRMWARE_O0,
+        call("run " + scenario(port) + " --set chip.address=2 --checks fail --set user_cpu.elf=" + FIRMWARE_O2,
              DSDPV1_SOURCE_DIR);
     EXPECT_EQ(called.status, 0) << called.out << called.err;
   }
