@@ -37,6 +37,7 @@ class Run : public Command {
                    "The verdict for CI as JUnit's XML: a case for the run, its violations, each check and expectation");
     add_capture_options(app, given_.capture);
     of_whole_run_.push_back(add_checks_option(app, given_.checks));
+    add_checks_table_option(app, given_.check_rows);
     add_comparison_options(app);
     of_whole_run_.push_back(add_set_option(app, given_.set));
     add_ways_back(app);

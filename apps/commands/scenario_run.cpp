@@ -149,7 +149,8 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
     write_save_files(arguments.wave.file, *scenario.kind);
   if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
   const bool ran_through = !lockstep.report || lockstep.report();
-  if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << rewind.report() << std::flush;
+  if (!arguments.quiet && ran_through)
+    std::cout << tb::summary(result, arguments.check_rows) << rewind.report() << std::flush;
   const bool broken_off = result.interrupted && golden.same();
   const std::string of_golden = ran_through && !broken_off ? golden.report() : "";
   std::cout << of_golden << std::flush;

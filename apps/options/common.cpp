@@ -27,6 +27,12 @@ CLI::Option* add_checks_option(CLI::App& app, std::string& word) {
                         "out: as the scenario says, else fail");
 }
 
+void add_checks_table_option(CLI::App& app, tb::CheckRows& rows) {
+  app.add_flag_callback(
+      "--checks-table", [&rows] { rows = tb::CheckRows::kAll; },
+      "A row for each check in the summary, not only for those that were violated");
+}
+
 std::optional<tb::ChecksMode> checks_mode(const std::string& command, const std::string& word) {
   using Mode = tb::ChecksMode;
   if (word.empty()) return std::nullopt;
