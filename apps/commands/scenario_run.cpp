@@ -12,6 +12,7 @@
 #include "apps/options/outputs.hpp"
 #include "apps/options/rewind.hpp"
 #include "apps/options/saved_runs.hpp"
+#include "apps/options/scenario_files.hpp"
 #include "apps/options/words.hpp"
 #include "bus/printable.hpp"
 #include "cosim/reference_rtl.hpp"
@@ -211,7 +212,8 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
 }
 
 /// From the command line; throws tb::InputError.
-RunRequest scenario_request(const RunArguments& arguments) {
+RunRequest scenario_request(RunArguments arguments) {
+  arguments.scenario = scenario_file("dsdpv1-sim run", arguments.scenario);
   RunRequest request{arguments, {}, options_of(arguments), {}, {}};
   const std::string text = tb::read_file(arguments.scenario, tb::kScenarioFile);
   request.scenario = tb::scenario::parse(text, arguments.scenario, tb::scenario::parse_settings(arguments.set));
@@ -234,8 +236,8 @@ RunRequest restored_request(const RunArguments& arguments) {
 }
 
 RunRequest request_of(const RunArguments& arguments) {
-  if (arguments.scenario.empty() == arguments.restore.empty())
-    throw tb::InputError("dsdpv1-sim run: allowed is one of SCENARIO and --restore");
+  if (arguments.scenario.empty() && arguments.restore.empty())
+    throw tb::InputError("dsdpv1-sim run: a scenario is missing (dsdpv1-sim run FILE.yaml, or --restore FILE)");
   return arguments.restore.empty() ? scenario_request(arguments) : restored_request(arguments);
 }
 

@@ -9,6 +9,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/scenario_files.hpp"
 #include "apps/options/wave_options.hpp"
 #include "apps/options/words.hpp"
 #include "bus/baud.hpp"
@@ -57,6 +58,7 @@ class Serve : public Command {
 
   int carry_out() override {
     leave_nothing_on_signals();
+    scenario_ = scenario_file("dsdpv1-sim serve", scenario_);
     tb::scenario::Scenario scenario = tb::scenario::load(scenario_, tb::scenario::parse_settings(set_));
     if (!baud_.empty()) scenario.baud = baud_index("dsdpv1-sim serve: --baud", baud_);
     scenario.end = duration_.empty() ? kOpenEnd : time_of("dsdpv1-sim serve: --for", duration_, 1);

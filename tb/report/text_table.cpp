@@ -123,6 +123,25 @@ std::string line_of(const std::string& text) {
   return row_text({shown}, {std::min(width_of(shown), limit > kGap ? limit - kGap : 1)}, {false});
 }
 
+std::string wrapped_text(const std::string& text) {
+  std::string lines;
+  for (const std::string& line : wrapped(text, limit)) lines += without_end(line);
+  return lines;
+}
+
+std::string command_lines(const std::string& command) {
+  constexpr std::size_t kTaken = 3 * kGap + 2;  // by blanks and the backslash
+  const std::string own(kGap, ' ');
+  if (width_of(command) <= limit) return without_end(command);
+  std::string lines, indent = own;
+  std::vector<std::string> parts = wrapped(command, limit > kTaken ? limit - kTaken : 1);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    lines += without_end(indent + parts[i] + (i + 1 < parts.size() ? " \\" : ""));
+    indent = own + own + own;
+  }
+  return lines;
+}
+
 void TextTable::add(std::vector<std::string> row) {
   for (std::string& cell : row) cell = bus::printable(cell);
   rows_.push_back(std::move(row));

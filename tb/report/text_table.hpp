@@ -28,6 +28,13 @@ std::string named_line(const std::string& name, const std::string& text, std::si
 /// A line "  text", wrapped in the same way.
 std::string line_of(const std::string& text);
 
+/// The text at the line's begin, wrapped in the same way.
+std::string wrapped_text(const std::string& text);
+
+/// A command of a shell, behind two blanks: where it is too wide it goes on below, each line but the last with a
+/// backslash.
+std::string command_lines(const std::string& command);
+
 /// Columns as wide as their widest cell, a rule under the head; numbers, also those with a unit of time, stand to the
 /// right. Where that is too wide the widest columns are wrapped
 /// between words; where that is not enough, or takes more lines, each row becomes a block of lines, a cell each.

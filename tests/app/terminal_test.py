@@ -125,6 +125,24 @@ def faults_of_regress(folder, sim):
         yield f"regress on a narrow terminal: {blocks!r}"
 
 
+def faults_of_help(folder, sim):
+    """Each command has a help, in no line wider than the terminal, and is in a group of the program's own."""
+    help_text = on_terminal(folder, [sim, "--help"], 80)
+    commands = re.findall(r"^  ([a-z][a-z-]*)  ", help_text, re.M)
+    if len(commands) < 18 or help_text.find("Run scenarios:") > help_text.find("  run  "):
+        yield f"--help: {help_text}"
+    for command in [[], *([name] for name in commands), ["traces", "check"]]:
+        for columns in (60, 80, 100):
+            text = on_terminal(folder, [sim, *command, "--help"], columns)
+            if len(longest := widest(text)) > columns:
+                yield f"{command} --help at {columns} columns: {longest}"
+            if "Usage: dsdpv1-sim" not in text or "Needs:" in text or "TEXT" in text:
+                yield f"{command} --help: {text}"
+    alone = subprocess.run([sim], capture_output=True, text=True, check=False)
+    if alone.returncode != 2 or alone.stdout or alone.stderr != through_pipe(folder, [sim, "--help"]):
+        yield f"without a command: {alone}"
+
+
 def main():
     sim = sys.argv[1]
     with tempfile.TemporaryDirectory() as name:
@@ -132,7 +150,7 @@ def main():
         (folder / "short.yaml").write_text(SCENARIO, encoding="utf-8")
         run = [sim, "run", "short.yaml"]
         found = [*faults_of_widths(folder, run), *faults_of_colours(folder, run), *faults_of_others(folder, sim, run),
-                 *faults_of_regress(folder, sim)]
+                 *faults_of_regress(folder, sim), *faults_of_help(folder, sim)]
     print("\n".join(found) if found else "terminal: right")
     return 1 if found else 0
 
