@@ -1,9 +1,13 @@
 #include "apps/command_line.hpp"
 
 #include <algorithm>
+#include <iostream>
 #include <optional>
+#include <utility>
 
 #include "apps/commands/command.hpp"
+#include "apps/help.hpp"
+#include "apps/options/shown_options.hpp"
 #include "apps/options/words.hpp"
 #include "apps/terminal.hpp"
 #include "io/input/input_error.hpp"
@@ -13,11 +17,18 @@
 namespace dsdpv1::app {
 namespace {
 
+struct Group {
+  const char* name;
+  std::vector<std::unique_ptr<Command> (*)()> commands;
+};
+
 /// In the order of --help.
-constexpr std::unique_ptr<Command> (*kCommands[])() = {
-    make_run,    make_schema,    make_gsd,        make_decode,     make_serve,  make_reasons,
-    make_sweep,  make_regress,   make_rtl_random, make_rtl_faults, make_cosim,  make_compare,
-    make_replay, make_calibrate, make_traces,     make_recover,    make_manual, make_completion};
+const Group kGroups[] = {
+    {"Run scenarios", {make_run, make_serve, make_sweep, make_regress}},
+    {"Look into runs, captures and files",
+     {make_decode, make_compare, make_replay, make_calibrate, make_recover, make_gsd, make_reasons}},
+    {"Model and RTL", {make_cosim, make_rtl_random, make_rtl_faults, make_traces}},
+    {"Beside them", {make_schema, make_manual, make_completion}}};
 
 std::vector<CLI::App*> subcommands(CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
@@ -25,11 +36,12 @@ std::vector<CLI::App*> subcommands(CLI::App& app) {
 
 std::vector<std::unique_ptr<Command>> add_commands(CLI::App& app) {
   std::vector<std::unique_ptr<Command>> commands;
-  for (const auto make : kCommands) {
-    commands.push_back(make());
-    Command& command = *commands.back();
-    command.options(*app.add_subcommand(command.name(), command.line()));
-  }
+  for (const Group& group : kGroups)
+    for (const auto make : group.commands) {
+      commands.push_back(make());
+      Command& command = *commands.back();
+      command.options(*app.add_subcommand(command.name(), command.line())->group(group.name));
+    }
   return commands;
 }
 
@@ -51,29 +63,79 @@ void describe_program(CLI::App& app) {
              kExitCodes);
 }
 
-/// CLI11's words for a wrong command line, as one line that says what is allowed.
-std::string in_one_line(CLI::App& app, const CLI::ParseError& error, const std::string& first) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : subcommands(app)) names.push_back(command->get_name());
-  const bool known = std::find(names.begin(), names.end(), first) != names.end();
-  if (first.empty()) return "dsdpv1-sim: a command is missing, allowed are " + tb::join(names);
-  if (!known && first[0] != '-')
-    return "dsdpv1-sim: unknown command " + first + tb::did_you_mean(first, names) + ", allowed are " + tb::join(names);
-  if (!known)
-    return "dsdpv1-sim: unknown option " + first + ", allowed are --help, --version and the commands " +
-           tb::join(names);
-  std::string text = error.what();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return "dsdpv1-sim " + first + ": " + text + ", see --help for what is allowed";
+/// The command that was called, or the one of it.
+CLI::App& called_of(CLI::App& app) {
+  CLI::App* called = &app;
+  while (!called->get_subcommands().empty()) called = called->get_subcommands().back();
+  return *called;
 }
 
-/// What to return at once, after --help and --version.
+/// "dsdpv1-sim traces check".
+std::string words_of(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return (parent != nullptr ? words_of(*parent) + " " : "") + command.get_name();
+}
+
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : shown_commands(app)) names.push_back(command->get_name());
+  return names;
+}
+
+/// The first option that the command does not have, else the first word too many.
+std::string unexpected(const CLI::App& command, const std::vector<std::string>& words) {
+  const auto option = std::find_if(words.begin(), words.end(), [](const std::string& each) { return each[0] == '-'; });
+  const std::vector<std::string> actions = names_of(command);
+  if (option == words.end() && !actions.empty())
+    return "unknown action " + words.front() + tb::did_you_mean(words.front(), actions);
+  if (option == words.end()) return "unexpected argument " + words.front();
+  std::vector<std::string> known;
+  for (const CLI::Option* each : shown_options(command))
+    for (std::string& word : spellings(*each)) known.push_back(std::move(word));
+  return "unknown option " + *option + tb::did_you_mean(*option, known);
+}
+
+std::string without_command(const CLI::App& app, const std::string& first) {
+  const std::vector<std::string> names = names_of(app);
+  const std::string allowed = ", allowed are " + tb::join(names);
+  if (app.get_option_no_throw(first) != nullptr) return "dsdpv1-sim: a command is missing" + allowed;
+  if (first[0] == '-') return "dsdpv1-sim: " + unexpected(app, {first}) + ", see --help for what is allowed";
+  return "dsdpv1-sim: unknown command " + first + tb::did_you_mean(first, names) + allowed;
+}
+
+/// "FILE is missing", "--log needs FILE"; else as CLI11 says it.
+std::string what_is_wrong(CLI::App& app, const CLI::App& called, const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::vector<std::string> more = app.remaining(true);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !more.empty()) return unexpected(called, more);
+  if (const std::size_t at = text.find(" is required"); error.get_name() == "RequiredError" && at != std::string::npos)
+    return text.substr(0, at) + " is missing (" + words_of(called) + arguments_of(called) + ")";
+  const CLI::Option* option = called.get_option_no_throw(text.substr(0, text.find(':')));
+  if (error.get_name() == "ArgumentMismatch" && option != nullptr && text.find(" required ") != std::string::npos)
+    return option->get_name() + " needs " + value_word(*option);
+  return text;
+}
+
+/// A wrong command line as one line that says what is allowed.
+std::string in_one_line(CLI::App& app, const CLI::ParseError& error, const std::string& first) {
+  const CLI::App& called = called_of(app);
+  if (&called == &app) return without_command(app, first);
+  std::string text = what_is_wrong(app, called, error);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return words_of(called) + ": " + text + ", see --help for what is allowed";
+}
+
+/// What to return at once: after --help and --version, and where there is no command.
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << app.help();
+    return kWrongInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    throw tb::InputError(in_one_line(app, error, argc > 1 ? argv[1] : ""));
+    throw tb::InputError(in_one_line(app, error, argv[1]));
   }
   return std::nullopt;
 }
@@ -83,6 +145,10 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv) {
 int command_line(int argc, char** argv, PrintableOutput& output) {
   CLI::App app("Cycle-accurate simulation of the DSDPV1 PROFIBUS-DP slave chip with its bus and its user CPU.",
                "dsdpv1-sim");
+  const auto help = std::make_shared<Help>();
+  help->label("Positionals", "Arguments");
+  help->label("SUBCOMMAND", "COMMAND");
+  app.formatter(help);
   describe_program(app);
   const std::vector<std::unique_ptr<Command>> commands = add_commands(app);
   std::string color = "auto";

@@ -17,7 +17,8 @@ constexpr Tick kUs = 1000 * kNs;
 
 void print_change(void*, Tick at, Pin pin, dsdpv1::Level level) {
   if (pin == Pin::kDOut && level < 0) return;  // only what can be read
-  std::printf("%12.3f us  %-6s %x\n", static_cast<double>(at) / kUs, dsdpv1::name(pin), static_cast<unsigned>(level));
+  std::printf("%12.3f us  %-6s %0*X\n", static_cast<double>(at) / kUs, dsdpv1::name(pin), pin == Pin::kDOut ? 2 : 1,
+              static_cast<unsigned>(level));
 }
 
 // Table 15: A no later than RD's fall, D certain 31.25 ns after it.

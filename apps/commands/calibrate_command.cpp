@@ -58,8 +58,7 @@ void take_map(const std::string& path, calibrate::Names& names) {
 class Calibrate : public Command {
  public:
   Calibrate()
-      : Command("calibrate",
-                "Holds a capture of a real chip's pins against the rulings and fits the chip's parameters") {}
+      : Command("calibrate", "Checks a capture of a real chip against the rulings and measures its parameters") {}
 
   void options(CLI::App& app) override {
     constexpr double kMostJitter = 1000, kMostPpm = 20'000;  // ns; 2 %

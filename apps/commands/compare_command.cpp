@@ -35,7 +35,7 @@ std::optional<Femtoseconds> duration(const std::string& option, const std::strin
 
 class Compare : public Command {
  public:
-  Compare() : Command("compare", "Holds a simulator's wave against another's: VCD and FST of any") {}
+  Compare() : Command("compare", "Compares two waves, VCD or FST of any simulator") {}
 
   void options(CLI::App& app) override {
     app.add_option("A", a_, "Wave of what is expected, such as the model's")->required();

@@ -63,7 +63,7 @@ std::string zsh_option(const CLI::Option& option) {
   for (const std::string& word : spellings(option))
     text += fmt::format(" \\\n        '{}{}[{}]{}'", option.get_items_expected_max() > 1 ? "*" : "", word,
                         in_zsh(option.get_description()),
-                        takes_value(option) ? ":" + in_zsh(option.get_type_name()) + ":_files" : "");
+                        takes_value(option) ? ":" + in_zsh(value_word(option)) + ":_files" : "");
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include "apps/commands/scenario_run.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/scenario_files.hpp"
 #include "cosim/joined_wave.hpp"
 #include "io/input/input_error.hpp"
 
@@ -51,6 +52,7 @@ class Cosim : public Command {
   int carry_out() override {
     if (run_.scenario.empty() == replay_.empty())
       throw tb::InputError(std::string(kCosim) + ": allowed is one of SCENARIO and --replay");
+    run_.scenario = scenario_file(kCosim, run_.scenario);
     if (!replay_.empty()) return rtl_random(stimulus());
     leave_nothing_on_signals();
     RunRequest request{run_, {}, options_of(run_), {}, {}};

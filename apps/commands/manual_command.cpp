@@ -32,7 +32,7 @@ std::string italic(const std::string& text) { return "\\fI" + roff(text) + "\\fR
 std::string value(const CLI::Option& option) {
   if (!takes_value(option)) return "";
   const std::string usual = option.get_default_str();
-  return " " + italic(option.get_type_name()) + (usual.empty() ? "" : roff(" (left out: " + usual + ")"));
+  return " " + italic(value_word(option)) + (usual.empty() ? "" : roff(" (left out: " + usual + ")"));
 }
 
 std::string paragraph(const std::string& head, const std::string& text) {
@@ -53,15 +53,9 @@ std::string footer(const CLI::App& command) {
                             (text.back() == '\n' ? "" : "\n") + ".fi\n";
 }
 
-std::string synopsis(const CLI::App& command) {
-  std::string line = command.get_name();
-  for (const CLI::Option* option : shown_positionals(command))
-    line += option->get_required() ? " " + option->get_name(true) : " [" + option->get_name(true) + "]";
-  return line + " [OPTIONS]";
-}
-
 std::string command_section(const CLI::App& command) {
-  std::string text = fmt::format(".SS \"{}\"\n{}\n", roff(synopsis(command)), roff(command.get_description()));
+  std::string text = fmt::format(".SS \"{}\"\n{}\n", roff(command.get_name() + arguments_of(command) + " [OPTIONS]"),
+                                 roff(command.get_description()));
   for (const CLI::Option* option : shown_positionals(command))
     text += paragraph(bold(option->get_name(true)), option->get_description());
   for (const CLI::Option* option : shown_options(command)) text += option_paragraph(*option);

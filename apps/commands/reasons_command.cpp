@@ -12,6 +12,7 @@
 #include "io/input/suggest.hpp"
 #include "kinds/dsdpv1/checks/markdown.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/report/text_table.hpp"
 #include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::app {
@@ -77,7 +78,9 @@ std::vector<tb::CodeText> check_codes(const tb::ChipKind& kind) {
 
 void print(std::string& text, const std::vector<tb::CodeText>& reasons) {
   for (const tb::CodeText& each : reasons)
-    text += fmt::format("{} ({})\n    {}\n    {}\n", each.code, each.severity, each.text, each.advice);
+    text += fmt::format("{} ({})\n", each.code, each.severity) +
+            tb::named_line("", each.example.empty() ? each.text : "such as: " + each.example, 0) +
+            tb::named_line("", each.advice, 0);
 }
 
 void print_table(std::string& text, const std::string& head, const std::vector<tb::CodeText>& reasons) {

@@ -43,7 +43,7 @@ std::uint64_t recover_wave(tb::WaveFormat format, const std::string& part, const
 
 class Recover : public Command {
  public:
-  Recover() : Command("recover", "Makes a complete wave of what a killed run (SIGKILL) has left of it") {}
+  Recover() : Command("recover", "Makes a complete wave of what a killed run has left") {}
 
   void options(CLI::App& app) override {
     app.add_option("FILE", part_, "The wave's temporary file, NAME.PID.part; FST needs FILE.hier beside it")

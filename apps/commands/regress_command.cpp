@@ -9,6 +9,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/options/campaign.hpp"
 #include "apps/options/common.hpp"
+#include "apps/options/scenario_files.hpp"
 #include "apps/options/words.hpp"
 #include "apps/terminal.hpp"
 #include "io/input/input_error.hpp"
@@ -250,7 +251,8 @@ class Regress : public Command {
             ->allow_extra_args(false);
     CLI::Option* checks = app.add_option("--checks", description_.checks, "As of run");
     CLI::Option* shard = app.add_option("--shard", shard_, "2/5: the second fifth of the runs, always the same");
-    CLI::Option* wave = app.add_option("--wave", description_.wave, "Each run writes waves: vcd, fst; left out: none");
+    CLI::Option* wave = app.add_option("--wave", description_.wave, "Each run writes waves: vcd, fst; left out: none")
+                            ->type_name("WORD");
     CLI::Option* report = app.add_flag("--report", description_.report,
                                        "Each run writes its page of charts and timing diagrams (docs/report.md)");
     CLI::Option* keep = app.add_option(
@@ -270,6 +272,7 @@ class Regress : public Command {
   }
 
   void take_request() {
+    for (std::string& each : request_.scenarios) each = scenario_file("dsdpv1-sim regress", each);
     if (request_.scenarios.empty()) request_.scenarios = {"scenarios"};
     check_words("--engine", request_.engines, {"step", "skip", "rtl", "lockstep"});
     check_words("--view", request_.views, {"pins", "tlm"});

@@ -25,7 +25,7 @@ constexpr const char* kRunExamples =
 
 class Run : public Command {
  public:
-  Run() : Command("run", "Carries out a scenario and judges it") {}
+  Run() : Command("run", "Runs a scenario and says whether it passed") {}
 
   void options(CLI::App& app) override {
     add_what_to_run(app);
@@ -37,6 +37,7 @@ class Run : public Command {
                    "The verdict for CI as JUnit's XML: a case for the run, its violations, each check and expectation");
     add_capture_options(app, given_.capture);
     of_whole_run_.push_back(add_checks_option(app, given_.checks));
+    add_checks_table_option(app, given_.check_rows);
     add_comparison_options(app);
     of_whole_run_.push_back(add_set_option(app, given_.set));
     add_ways_back(app);
@@ -82,13 +83,12 @@ class Run : public Command {
   /// To a time of the run, or to one before it.
   void add_ways_back(CLI::App& app) {
     app.add_option("--save-at", given_.save_at,
-                   "TIME FILE: saves the run as it is then, for --restore; once for each time (docs/save_restore.md)")
+                   "Saves the run as it is then, for --restore; once for each time (docs/save_restore.md)")
         ->type_name("TIME FILE")
         ->allow_extra_args(false);
     CLI::Option* rewind = app.add_option("--rewind-on", given_.rewind_on,
-                                         "CODE TIME: no wave until an event with this code of the log, or a violation, "
-                                         "happens; then the run is done again from a snapshot, with the wave from so "
-                                         "long before it to as long behind it (docs/save_restore.md)")
+                                         "The wave only from TIME before the first event with this CODE of the log, or "
+                                         "violation, to TIME after it; the run goes back for it (docs/save_restore.md)")
                               ->type_name("CODE TIME")
                               ->needs(app.get_option("--wave"));
     for (const char* each : {"--wave-on", "--wave-from", "--wave-to", "--wave-inside"})

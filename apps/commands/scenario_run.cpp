@@ -12,6 +12,7 @@
 #include "apps/options/outputs.hpp"
 #include "apps/options/rewind.hpp"
 #include "apps/options/saved_runs.hpp"
+#include "apps/options/scenario_files.hpp"
 #include "apps/options/words.hpp"
 #include "bus/printable.hpp"
 #include "cosim/reference_rtl.hpp"
@@ -149,7 +150,8 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
     write_save_files(arguments.wave.file, *scenario.kind);
   if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
   const bool ran_through = !lockstep.report || lockstep.report();
-  if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << rewind.report() << std::flush;
+  if (!arguments.quiet && ran_through)
+    std::cout << tb::summary(result, arguments.check_rows) << rewind.report() << std::flush;
   const bool broken_off = result.interrupted && golden.same();
   const std::string of_golden = ran_through && !broken_off ? golden.report() : "";
   std::cout << of_golden << std::flush;
@@ -210,7 +212,8 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
 }
 
 /// From the command line; throws tb::InputError.
-RunRequest scenario_request(const RunArguments& arguments) {
+RunRequest scenario_request(RunArguments arguments) {
+  arguments.scenario = scenario_file("dsdpv1-sim run", arguments.scenario);
   RunRequest request{arguments, {}, options_of(arguments), {}, {}};
   const std::string text = tb::read_file(arguments.scenario, tb::kScenarioFile);
   request.scenario = tb::scenario::parse(text, arguments.scenario, tb::scenario::parse_settings(arguments.set));
@@ -233,8 +236,8 @@ RunRequest restored_request(const RunArguments& arguments) {
 }
 
 RunRequest request_of(const RunArguments& arguments) {
-  if (arguments.scenario.empty() == arguments.restore.empty())
-    throw tb::InputError("dsdpv1-sim run: allowed is one of SCENARIO and --restore");
+  if (arguments.scenario.empty() && arguments.restore.empty())
+    throw tb::InputError("dsdpv1-sim run: a scenario is missing (dsdpv1-sim run FILE.yaml, or --restore FILE)");
   return arguments.restore.empty() ? scenario_request(arguments) : restored_request(arguments);
 }
 

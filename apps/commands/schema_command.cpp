@@ -13,7 +13,7 @@ class Schema : public Command {
   Schema() : Command("schema", "Prints the JSON Schema of a scenario, or of a result") {}
 
   void options(CLI::App& app) override {
-    CLI::Option* result = app.add_flag("--result", result_, "Of the file that run --result writes");
+    CLI::Option* result = app.add_flag("--result", result_, "Of result files of run instead");
     app.add_flag("--rtl-random", rtl_random_, "Of the file that rtl-random --result writes")->excludes(result);
     app.add_flag("--markdown", markdown_,
                  "Prints docs/scenarios.md, docs/result.md, or the table of docs/cosim.md instead");

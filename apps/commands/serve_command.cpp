@@ -9,6 +9,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/scenario_files.hpp"
 #include "apps/options/wave_options.hpp"
 #include "apps/options/words.hpp"
 #include "bus/baud.hpp"
@@ -43,6 +44,7 @@ class Serve : public Command {
     add_report_option(app, report_);
     app.add_option("--junit", junit_, "As of run");
     add_checks_option(app, checks_);
+    add_checks_table_option(app, check_rows_);
     add_set_option(app, set_);
     add_capture_options(app, capture_);
     add_quiet_option(app, quiet_);
@@ -56,6 +58,7 @@ class Serve : public Command {
 
   int carry_out() override {
     leave_nothing_on_signals();
+    scenario_ = scenario_file("dsdpv1-sim serve", scenario_);
     tb::scenario::Scenario scenario = tb::scenario::load(scenario_, tb::scenario::parse_settings(set_));
     if (!baud_.empty()) scenario.baud = baud_index("dsdpv1-sim serve: --baud", baud_);
     scenario.end = duration_.empty() ? kOpenEnd : time_of("dsdpv1-sim serve: --for", duration_, 1);
@@ -88,7 +91,7 @@ class Serve : public Command {
     result_file.write([&] { return tb::result_json(result); });
     junit_file.write([&] { return tb::junit("dsdpv1-sim serve", tb::run_cases(result)); });
     if (report_file) report_file->write(result, DSDPV1_VERSION);
-    if (!quiet_) std::cout << tb::summary(result) << std::flush;
+    if (!quiet_) std::cout << tb::summary(result, check_rows_) << std::flush;
     return exit_code(verdict(result));
   }
 
@@ -147,7 +150,8 @@ class Serve : public Command {
   WaveArguments wave_;
   tb::RunOptions run_;
   std::string result_, report_, junit_;  ///< files, empty: not wanted
-  std::string checks_;                   ///< empty: as the scenario says
+  tb::CheckRows check_rows_ = tb::CheckRows::kViolated;
+  std::string checks_;  ///< empty: as the scenario says
   std::vector<std::string> set_;
   CaptureArguments capture_;
   bool quiet_ = false;

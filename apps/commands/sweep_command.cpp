@@ -10,6 +10,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/options/campaign.hpp"
 #include "apps/options/common.hpp"
+#include "apps/options/scenario_files.hpp"
 #include "apps/options/words.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
@@ -167,7 +168,8 @@ class Sweep : public Command {
     add_set_option(app, plan_.settings);
     app.add_option("--checks", plan_.checks, "As of run, report or fail; left out: as run does");
     app.add_flag("--strict", strict_, "Exit 1 when a point does not hold, 3 when one judged nothing");
-    app.add_option("--map", map_, "Check whose margin the pictures show; left out: the worst of all");
+    app.add_option("--map", map_, "Check whose margin the pictures show; left out: the worst of all")
+        ->type_name("CHECK");
     add_campaign_options(app, campaign_, "sweep_ and the scenario's name");
     app.footer(
         "\nExamples:\n"
@@ -184,6 +186,7 @@ class Sweep : public Command {
   int carry_out() override {
     leave_nothing_on_signals();
     take_words();
+    plan_.scenario = scenario_file("dsdpv1-sim sweep", plan_.scenario);
     tb::campaign::fingerprint_of_file(plan_.scenario);  // refuses what can be read only once, before it is read
     check_loads(plan_);
     const tb::sweep::Inputs inputs(plan_);

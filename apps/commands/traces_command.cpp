@@ -14,6 +14,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/options/outputs.hpp"
 #include "apps/options/rtl_options.hpp"
+#include "apps/options/scenario_files.hpp"
 #include "bus/printable.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
@@ -55,31 +56,6 @@ std::string folder_of(const TracesArguments& given) {
   return fs::path(data_folder()) / "traces";
 }
 
-fs::path scenario_folder() { return fs::path(data_folder()) / "scenarios"; }
-
-std::vector<std::string> own_scenarios() {
-  std::error_code error;
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(scenario_folder(), error))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  if (error)
-    throw tb::InputError(scenario_folder(), 0, "is no folder of scenarios, allowed are scenarios by their paths");
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-/// A path as it is; a name without folder and ending is that of a scenario of this source tree.
-std::string scenario_file(const std::string& word) {
-  const bool path = word.find('/') != std::string::npos || fs::path(word).has_extension();
-  if (path) return word;
-  std::string file = scenario_folder() / (word + ".yaml");
-  if (fs::exists(file)) return file;
-  std::vector<std::string> names;
-  for (const std::string& each : own_scenarios()) names.push_back(golden_name(each));
-  throw tb::InputError(fmt::format("dsdpv1-sim traces: there is no scenario {}{}, allowed are {}", word,
-                                   tb::did_you_mean(word, names), tb::join(names)));
-}
-
 /// Exit codes of several scenarios: wrong input before a difference, and that before one that judged nothing.
 int worse(int a, int b) {
   static constexpr std::array<int, 4> kFromBest = {kPassed, kNothingJudged, kFailed, kWrongInput};
@@ -105,7 +81,7 @@ int for_each(const std::vector<std::string>& files, const std::function<int(cons
 int report_orphans(const std::string& folder) {
   int status = kPassed;
   for (const std::string& name : tb::traces::golden_names(folder)) {
-    const fs::path file = scenario_folder() / (name + ".yaml");
+    const fs::path file = fs::path(scenario_folder()) / (name + ".yaml");
     if (fs::exists(file)) continue;
     std::cerr << fmt::format("{}: there is no scenario {}, allowed are goldens of scenarios: remove it and {}\n",
                              tb::traces::manifest_path(folder, name), file.string(),
@@ -118,11 +94,12 @@ int report_orphans(const std::string& folder) {
 /// The scenarios given, or all and then the goldens without one.
 int for_scenarios(const TracesArguments& given, const std::function<int(const std::string& file)>& work) {
   if (given.scenarios.empty()) {
-    const int status = for_each(own_scenarios(), work);
+    const int status = for_each(shipped_scenarios(), work);
     return status == kInterrupted ? status : worse(status, report_orphans(folder_of(given)));
   }
   std::vector<std::string> files;
-  std::transform(given.scenarios.begin(), given.scenarios.end(), std::back_inserter(files), scenario_file);
+  std::transform(given.scenarios.begin(), given.scenarios.end(), std::back_inserter(files),
+                 [](const std::string& word) { return scenario_file("dsdpv1-sim traces", word); });
   return for_each(files, work);
 }
 
@@ -259,7 +236,7 @@ int wave(const TracesArguments& given) {
 
 class Traces : public Command {
  public:
-  Traces() : Command("traces", "Golden traces of all pins: what a chip has to do in each scenario") {}
+  Traces() : Command("traces", "Checks, regenerates or exports golden traces of all pins") {}
 
   void options(CLI::App& app) override {
     app.require_subcommand(0, 1);  // carry_out says in its own words what is missing

@@ -15,7 +15,7 @@ namespace dsdpv1::app {
 CLI::Option* add_set_option(CLI::App& app, std::vector<std::string>& settings) {
   return app
       .add_option("--set", settings,
-                  "PATH=VALUE instead of what the scenario says, once for each key: slaves.0.user_cpu.cycle=40us, "
+                  "Instead of what the scenario says, once for each key: slaves.0.user_cpu.cycle=40us, "
                   "slaves.plant.init.dpv1=true, or of every slave user_cpu.fsmc.datast=3")
       ->allow_extra_args(false);
 }
@@ -25,6 +25,12 @@ CLI::Option* add_checks_option(CLI::App& app, std::string& word) {
                         "The checks of docs/checks.md on handshake, bus timing and DPRAM: fail (exit 1 on a violation "
                         "that the scenario does not allow), report (listed, and counted beside the verdict), off; left "
                         "out: as the scenario says, else fail");
+}
+
+void add_checks_table_option(CLI::App& app, tb::CheckRows& rows) {
+  app.add_flag_callback(
+      "--checks-table", [&rows] { rows = tb::CheckRows::kAll; },
+      "A row for each check in the summary, not only for those that were violated");
 }
 
 std::optional<tb::ChecksMode> checks_mode(const std::string& command, const std::string& word) {
@@ -70,7 +76,7 @@ void add_output_options(CLI::App& app, std::optional<bool>& progress, bool& quie
   app.add_flag_callback(
       "--progress", [&progress] { progress = true; }, "Show a progress bar (on a terminal it is shown anyway)");
   app.add_flag_callback(
-      "--no-progress", [&progress] { progress = false; }, "Show none");
+      "--no-progress", [&progress] { progress = false; }, "Show no progress bar");
   add_quiet_option(app, quiet);
 }
 

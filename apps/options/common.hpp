@@ -8,6 +8,7 @@
 
 #include "tb/bench/capture_recorder.hpp"
 #include "tb/bench/verdict.hpp"
+#include "tb/report/check_report.hpp"
 
 namespace dsdpv1::app {
 
@@ -15,6 +16,8 @@ namespace dsdpv1::app {
 CLI::Option* add_set_option(CLI::App& app, std::vector<std::string>& settings);
 
 CLI::Option* add_checks_option(CLI::App& app, std::string& word);
+/// --checks-table; `rows`: those of the summary.
+void add_checks_table_option(CLI::App& app, tb::CheckRows& rows);
 /// Absent for an empty word: as the scenario says. Throws tb::InputError; `command` as "dsdpv1-sim run".
 std::optional<tb::ChecksMode> checks_mode(const std::string& command, const std::string& word);
 

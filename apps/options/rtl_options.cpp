@@ -23,6 +23,7 @@ std::vector<const tb::ChipKind*> random_kinds() {
 
 void add_chip_options(CLI::App& app, RtlChip& chip) {
   app.add_option("--chip", chip.chip, "The chip of the reference RTL: dsdpv1, dsdpv1_r, dsdpv1_rsu")
+      ->type_name("WORD")
       ->capture_default_str();
   app.add_option("--mode", chip.mode, "Of the dsdpv1_rsu, for random cases: the host's port, parallel, spi or uart")
       ->capture_default_str();

@@ -26,6 +26,7 @@ struct RunArguments {
   std::pair<std::string, std::string> rewind_on;             ///< code and time; empty: not wanted
   std::string restore;                                       ///< a saved run in the place of a scenario, empty: none
   std::optional<int> gdb;                                    ///< TCP port for the debugger of the first ARM board
+  tb::CheckRows check_rows = tb::CheckRows::kViolated;       ///< of the summary
   bool log_whole = false, quiet = false;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What manual pages and completions show of the command line: commands and options that are not hidden.
+// What --help, manual pages and completions show of the command line: commands and options that are not hidden.
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -21,6 +21,12 @@ inline std::vector<const CLI::Option*> shown_positionals(const CLI::App& command
 }
 
 inline bool takes_value(const CLI::Option& option) { return option.get_type_size() != 0; }
+
+/// What stands for the option's value: "FILE", "TIME", "PATH=VALUE".
+std::string value_word(const CLI::Option& option);
+
+/// What has to follow and what may, but for options: " CAPTURE --as ADDRESS", " [SCENARIO]".
+std::string arguments_of(const CLI::App& command);
 
 /// -q, --quiet
 inline std::vector<std::string> spellings(const CLI::Option& option) {

@@ -52,7 +52,7 @@ void add_wave_options(CLI::App& command, WaveArguments& arguments) {
                         ->needs(wave)
                         ->excludes(from)
                         ->excludes(to);
-  command.add_option("--wave-around", arguments.around, "Up to this long before and behind it")
+  command.add_option("--wave-around", arguments.around, "Up to this long before and after it")
       ->capture_default_str()
       ->needs(on);
   CLI::Option* wires =

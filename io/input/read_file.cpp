@@ -7,15 +7,20 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <map>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "io/input/descriptor.hpp"
 #include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::tb {
 namespace {
+
+constexpr const char* kAbsent = "no such file";
 
 /// 0, or what errno said. At most `most` bytes and one more, which shows that there would be more.
 int read_all(int fd, std::size_t most, std::string& text) {
@@ -40,7 +45,7 @@ std::map<std::string, std::string>& provided() {
 void provide_file(const std::string& path, std::string text) { provided()[path] = std::move(text); }
 
 std::string what_is_wrong(int error) {
-  if (error == ENOENT || error == ENOTDIR) return "no such file";
+  if (error == ENOENT || error == ENOTDIR) return kAbsent;
   if (error == EISDIR) return "is a folder";
   return fmt::format("cannot be read ({})", std::generic_category().message(error));
 }
@@ -60,8 +65,31 @@ ReadFile try_read_file(const std::string& path, std::size_t most_mb) {
   return result;
 }
 
+std::string nearest_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path wanted(path), folder = wanted.parent_path();
+  std::vector<std::string> stems;
+  std::error_code error;
+  for (fs::directory_iterator each(folder.empty() ? "." : folder, error), end; !error && each != end;
+       each.increment(error))
+    if (each->path().extension() == wanted.extension()) stems.push_back(each->path().stem());
+  std::sort(stems.begin(), stems.end());
+  const std::string stem = nearest(wanted.stem(), stems);
+  return stem.empty() ? "" : (folder / (stem + wanted.extension().string())).string();
+}
+
+namespace {
+
+std::string did_you_mean_file(const std::string& path) {
+  const std::string file = nearest_file(path);
+  return file.empty() ? "" : " (did you mean " + file + "?)";
+}
+
+}  // namespace
+
 std::string read_file(const std::string& path, const FileKind& kind) {
   ReadFile file = try_read_file(path, kind.most_mb);
+  if (file.wrong == kAbsent) file.wrong += did_you_mean_file(path);
   if (!file.wrong.empty()) throw InputError(path, 0, fmt::format("{}, allowed is {}", file.wrong, kind.what));
   return std::move(file.text);
 }

@@ -33,6 +33,9 @@ std::string what_is_wrong(int error);
 ReadFile try_read_file(const std::string& path, std::size_t most_mb);
 /// From now on who reads `path`, where there is no such file, gets this text.
 void provide_file(const std::string& path, std::string text);
+/// The file beside `path`, of the same ending, that was probably meant where `path` is not there; empty when none is
+/// near.
+std::string nearest_file(const std::string& path);
 /// As try_read_file; throws InputError with one line when there is anything wrong.
 std::string read_file(const std::string& path, const FileKind& kind);
 

@@ -45,6 +45,7 @@ struct OwnSettings {
 /// A code that logs, result files and scenarios may hold, what it says and what to do about it.
 struct CodeText {
   std::string code, severity, text, advice;
+  std::string example = {};  ///< the text with values in it; empty where it has none
 };
 
 /// Codes of one origin, in the order of their table.

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "io/input/units.hpp"
 #include "tb/report/text_table.hpp"
 
 namespace dsdpv1::tb {
@@ -13,6 +16,7 @@ namespace {
 
 /// One check on all slaves.
 struct Row {
+  const checks::Rule* rule = nullptr;
   std::uint64_t count = 0, violations = 0, allowed = 0;
   const CheckResult* worst = nullptr;
 };
@@ -26,6 +30,7 @@ bool is_worse(const CheckResult& a, const CheckResult& b) {
 
 Row row_of(const RunResult& result, const checks::Rule* rule) {
   Row row;
+  row.rule = rule;
   for (const CheckResult& each : result.checks) {
     if (each.rule != rule) continue;
     row.count += each.record.count;
@@ -36,47 +41,102 @@ Row row_of(const RunResult& result, const checks::Rule* rule) {
   return row;
 }
 
-std::string worst_text(const checks::Record& record) {
-  if (record.worst_margin) return checks::ns_text(*record.worst_margin);
-  return record.worst_value ? checks::ns_text(*record.worst_value) + " measured, no limit" : "-";
+/// Those that were evaluated.
+std::vector<Row> rows_of(const RunResult& result) {
+  std::vector<Row> rows;
+  for (const CheckResult& first : result.checks) {
+    if (first.slave != result.checks.front().slave) break;  // every slave has the same checks
+    if (const Row row = row_of(result, first.rule); row.count != 0) rows.push_back(row);
+  }
+  return rows;
 }
 
-std::string at_text(const CheckResult& worst) {
-  if (!worst.record.at) return "";
-  return fmt::format("{:.3f} us at {}", static_cast<double>(*worst.record.at) / static_cast<double>(bus::kTicksPerUs),
-                     worst.slave);
+/// " at demo"; nothing where there is one slave only.
+std::string at_slave(const RunResult& result, const CheckResult& check) {
+  return result.slaves.size() > 1 ? " at " + check.slave : "";
 }
 
-std::string violations_text(const Row& row) {
-  return row.allowed == 0 ? fmt::format("{}", row.violations)
-                          : fmt::format("{} ({} allowed)", row.violations, row.allowed);
+std::string tightest(const RunResult& result, const std::vector<Row>& rows) {
+  const Row* least = nullptr;
+  for (const Row& row : rows)
+    if (row.worst->record.worst_margin &&
+        (least == nullptr || *row.worst->record.worst_margin < *least->worst->record.worst_margin))
+      least = &row;
+  if (least == nullptr) return "";
+  const checks::Record& record = least->worst->record;
+  return fmt::format("; tightest {} {} at {}{}", least->rule->id, short_time(*record.worst_margin),
+                     moment_text(*record.at), at_slave(result, *least->worst));
 }
 
-std::string first_violation(const CheckResult& result) {
-  const checks::Violation& first = result.listed.front();
-  std::string text = fmt::format("  {} at {:.3f} us ({}): {}\n    {}\n    pins: {}\n", result.rule->id,
-                                 static_cast<double>(first.at) / static_cast<double>(bus::kTicksPerUs), result.slave,
-                                 first.text, result.rule->rule, checks::history_text(first));
-  if (result.record.violations > 1)
-    text += fmt::format("    ... and {} more, see --log and --result\n", result.record.violations - 1);
+std::string headline(const RunResult& result, const std::vector<Row>& rows) {
+  const auto kept = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.violations == 0; });
+  const bool all = static_cast<std::size_t>(kept) == rows.size();
+  return named_line("checks", fmt::format("{} of {} kept{}", kept, rows.size(), all ? tightest(result, rows) : ""));
+}
+
+std::string time_or_dash(std::optional<Tick> time, std::string (*text)(Tick)) { return time ? text(*time) : "-"; }
+
+/// Who was the worst is said where there are several.
+std::string table_of(const RunResult& result, const std::vector<Row>& rows) {
+  if (rows.empty()) return "";
+  const bool several = result.slaves.size() > 1;
+  std::vector<std::string> head = {"check", "count", "violated", "allowed", "margin", "measured", "when"};
+  if (several) head.emplace_back("slave");
+  TextTable table(head);
+  for (const Row& row : rows) {
+    const checks::Record& worst = row.worst->record;
+    const auto number = [](std::uint64_t count) { return fmt::format("{}", count); };
+    std::vector<std::string> cells = {row.rule->id,
+                                      number(row.count),
+                                      number(row.violations),
+                                      number(row.allowed),
+                                      time_or_dash(worst.worst_margin, short_time),
+                                      time_or_dash(worst.worst_value, short_time),
+                                      time_or_dash(worst.at, moment_text)};
+    if (several) cells.push_back(row.worst->slave);
+    table.add(cells);
+  }
+  return "\n" + table.text();
+}
+
+/// A line for each pin: its last levels, each with the time from the violation.
+std::string pins_of(const checks::Violation& violation) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  std::size_t columns = 0;
+  for (const checks::PinChange& change : violation.history) {
+    const std::string name = std::string("  ") + change.pin->name;
+    auto line = std::find_if(lines.begin(), lines.end(), [&name](const auto& each) { return each.first == name; });
+    if (line == lines.end()) line = lines.insert(line, {name, ""});
+    line->second += fmt::format("{}{} {}", line->second.empty() ? "" : ", ", level_text(*change.pin, change.level),
+                                short_time(change.at - violation.at));
+    columns = std::max(columns, name.size());
+  }
+  std::string text;
+  for (const auto& [name, levels] : lines) text += named_line(name, levels, columns);
+  return text;
+}
+
+std::string first_violation(const RunResult& result, const CheckResult& check) {
+  const checks::Violation& first = check.listed.front();
+  std::string text = "\n" + line_of(fmt::format("{} at {}{}: {}", check.rule->id, moment_text(first.at),
+                                                at_slave(result, check), first.text));
+  text += named_line("", check.rule->rule, 0) + pins_of(first);
+  if (check.record.violations > 1)
+    text += named_line("", fmt::format("... and {} more, see --log and --result", check.record.violations - 1), 0);
   return text;
 }
 
 }  // namespace
 
-std::string check_report(const RunResult& result) {
+std::string check_report(const RunResult& result, CheckRows wanted) {
   if (result.checks.empty()) return "";
-  TextTable table({"check", "count", "violations", "worst margin", "when"});
-  for (const CheckResult& first : result.checks) {
-    if (first.slave != result.checks.front().slave) break;  // every slave has the same checks
-    const Row row = row_of(result, first.rule);
-    if (row.count == 0) continue;
-    table.add({first.rule->id, fmt::format("{}", row.count), violations_text(row), worst_text(row.worst->record),
-               at_text(*row.worst)});
-  }
-  std::string text = "\n" + table.text();
+  std::vector<Row> rows = rows_of(result);
+  std::string text = headline(result, rows);
+  const auto is_left_out = [wanted](const Row& row) { return wanted == CheckRows::kViolated && row.violations == 0; };
+  rows.erase(std::remove_if(rows.begin(), rows.end(), is_left_out), rows.end());
+  text += table_of(result, rows);
   for (const CheckResult& each : result.checks)
-    if (!each.listed.empty()) text += first_violation(each);
+    if (!each.listed.empty()) text += first_violation(result, each);
   return text;
 }
 

@@ -6,8 +6,12 @@
 
 namespace dsdpv1::tb {
 
-/// A row a check that was evaluated, the worst slave's margin in it; below, the first violation of each check and slave
-/// with the history of its pins. Empty when nothing was checked.
-std::string check_report(const RunResult& result);
+/// Of which checks a table has a row.
+enum class CheckRows { kViolated, kAll };
+
+/// How many checks were kept and which the tightest is; a row for each check that was violated, or for all that were
+/// evaluated, with the worst slave's margin; below, the first violation of each check and slave with the history of its
+/// pins. Empty when nothing was checked.
+std::string check_report(const RunResult& result, CheckRows rows);
 
 }  // namespace dsdpv1::tb

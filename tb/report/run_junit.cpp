@@ -14,9 +14,8 @@ std::string when(Tick tick) {
 }
 
 JunitCase case_of_run(const RunResult& result) {
-  const TableWidth as_wide_as_they_need(TableWidth::kUnlimited);
   JunitCase made{result.file, fmt::format("run, engine {}, view {}", result.engine, result.view), result.wall_s,
-                 std::nullopt, summary(result)};
+                 std::nullopt, whole_summary(result)};
   if (result.interrupted) made.failure = "interrupted at " + when(result.simulated);
   if (verdict(result) == Verdict::kNothingJudged)
     made.failure = "nothing judged: no data exchange, and nothing was expected";

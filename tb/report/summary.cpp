@@ -14,10 +14,6 @@
 namespace dsdpv1::tb {
 namespace {
 
-std::string microseconds(Tick tick) {
-  return fmt::format("{:.3f}", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
-}
-
 /// The steps from power-on to data exchange.
 bool is_step(const Occurrence& each) {
   static constexpr std::array<const char*, 9> kSteps = {"READY_FLAG", "INITIALISED", "BAUD_SEARCH",
@@ -28,7 +24,7 @@ bool is_step(const Occurrence& each) {
 
 std::string steps(const RunResult& result) {
   constexpr std::size_t kMost = 40;
-  TextTable table({"time / us", "station", "what"});
+  TextTable table({"time", "station", "what"});
   std::size_t shown = 0, hidden = 0;
   for (const Occurrence& each : result.occurrences) {
     if (!is_step(each)) continue;
@@ -37,27 +33,56 @@ std::string steps(const RunResult& result) {
       continue;
     }
     ++shown;
-    table.add({fmt::format("{:>13}", microseconds(each.at)), each.station, each.text});
+    table.add({moment_text(each.at), each.station, each.text});
   }
   if (shown == 0) return "";
   return table.text() + (hidden != 0 ? fmt::format("  ... and {} more, see --log and --result\n", hidden) : "") + "\n";
 }
 
-/// A row for each station, code and place: nobody should need the log to find that out.
-std::string repeated(const char* head, const std::vector<Repeated>& all) {
-  constexpr std::size_t kMost = 40;
-  if (all.empty()) return "";
-  TextTable table({head, "reason", "times", "first / us", "last / us", "what, the first time"});
-  const std::size_t shown = std::min(all.size(), kMost);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const Repeated& each = all[i];
-    table.add({each.station, each.code + (each.place.empty() ? "" : " (" + each.place + ")"),
-               fmt::format("{}{}", each.count, each.allowed ? " allowed" : ""), microseconds(each.first),
-               microseconds(each.last), each.text});
+/// All of a station and code, at whatever places.
+struct Group {
+  const Repeated* first = nullptr;
+  std::size_t places = 0;
+  std::uint64_t count = 0, allowed = 0;
+  Tick last = 0;
+};
+
+/// By the first time.
+std::vector<Group> grouped(const std::vector<Repeated>& all) {
+  std::vector<Group> groups;
+  for (const Repeated& each : all) {
+    const auto is_same = [&each](const Group& group) {
+      return group.first->station == each.station && group.first->code == each.code;
+    };
+    auto group = std::find_if(groups.begin(), groups.end(), is_same);
+    if (group == groups.end()) group = groups.insert(group, Group{&each, 0, 0, 0, 0});
+    ++group->places;
+    group->count += each.count;
+    group->allowed += each.allowed ? each.count : 0;
+    group->last = std::max(group->last, each.last);
   }
-  const std::size_t hidden = all.size() - shown;
-  return table.text() + (hidden != 0 ? fmt::format("  ... and {} more, see --result\n", hidden) : "") +
-         "  dsdpv1-sim reasons REASON says what to do\n\n";
+  return groups;
+}
+
+std::string place_of(const Group& group) {
+  if (group.places > 1) return fmt::format(" ({} places)", group.places);
+  return group.first->place.empty() ? "" : " (" + group.first->place + ")";
+}
+
+std::string times_of(const Group& group) {
+  if (group.allowed == 0) return fmt::format("{}", group.count);
+  if (group.allowed == group.count) return fmt::format("{} allowed", group.count);
+  return fmt::format("{}, {} allowed", group.count, group.allowed);
+}
+
+/// A row for each station and code: nobody should need the log to find that out.
+std::string repeated(const char* head, const std::vector<Repeated>& all) {
+  if (all.empty()) return "";
+  TextTable table({head, "reason", "times", "first", "last", "what, the first time"});
+  for (const Group& group : grouped(all))
+    table.add({group.first->station, group.first->code + place_of(group), times_of(group),
+               moment_text(group.first->first), moment_text(group.last), group.first->text});
+  return table.text() + "  dsdpv1-sim reasons REASON says what to do\n\n";
 }
 
 std::string tsdr(const SlaveResult& slave) {
@@ -66,12 +91,12 @@ std::string tsdr(const SlaveResult& slave) {
 
 std::string slaves(const RunResult& result) {
   TextTable table({"slave", "address", "DP state", "baud", "exchanges", "overwritten", "TSDR / bit times",
-                   "chip waited / us", "user waited / us", "longest hold / us"});
+                   "chip waited", "user waited", "longest hold"});
   for (const SlaveResult& slave : result.slaves) {
     table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
                baud_text(slave.status.baud), fmt::format("{}", slave.status.data_exchanges),
-               fmt::format("{}", slave.status.outputs_missed), tsdr(slave), microseconds(slave.status.longest_wait),
-               microseconds(slave.user.port.longest_wait), microseconds(slave.user.port.longest_hold)});
+               fmt::format("{}", slave.status.outputs_missed), tsdr(slave), short_time(slave.status.longest_wait),
+               short_time(slave.user.port.longest_wait), short_time(slave.user.port.longest_hold)});
   }
   return table.text() + "\n";
 }
@@ -88,8 +113,8 @@ std::string masters(const RunResult& result) {
     const std::string interval = master.min_slave_interval_us == 0
                                      ? "as fast as the bus allows"
                                      : fmt::format("{}us or more each", master.min_slave_interval_us);
-    text += fmt::format("  master         {}: {} cycles, {} ({})\n", master.name, master.cycles, interval,
-                        interval_from(master));
+    text += named_line(
+        "master", fmt::format("{}: {} cycles, {} ({})", master.name, master.cycles, interval, interval_from(master)));
   }
   return text;
 }
@@ -104,18 +129,18 @@ std::string expectations(const RunResult& result) {
     } else if (each.left_out) {
       ++(each.implied ? kept_away : left_out);
     } else {
-      text += "  NOT MET  " +
-              bus::printable(fmt::format("{}:{}: {}; seen: {}", result.file, each.line, each.text, each.seen)) + "\n";
+      text +=
+          named_line("NOT MET", fmt::format("{}:{}: {}; seen: {}", result.file, each.line, each.text, each.seen), 0);
     }
   }
-  const std::string own = all == 0 ? ""
-                                   : fmt::format("  expectations   {} of {} met{}\n", met, all,
-                                                 left_out != 0 ? fmt::format(", {} left out", left_out) : "");
-  const std::string of_masters =
-      implied == 0 ? ""
-                   : fmt::format("  data exchange  {} of {} slaves of masters to the end{}\n", kept, implied,
-                                 kept_away != 0 ? fmt::format(", the script keeps {} away", kept_away) : "");
-  return of_masters + own + text;
+  const auto some = [](std::size_t count, const char* words) { return count != 0 ? fmt::format(words, count) : ""; };
+  std::string counts;
+  if (implied != 0)
+    counts += named_line("data exchange", fmt::format("{} of {} slaves of masters to the end", kept, implied) +
+                                              some(kept_away, ", the script keeps {} away"));
+  if (all != 0)
+    counts += named_line("expectations", fmt::format("{} of {} met", met, all) + some(left_out, ", {} left out"));
+  return counts + text;
 }
 
 /// By an expectation that is not met.
@@ -132,27 +157,26 @@ std::string waiting(const RunResult& result) {
   std::string text;
   for (const SlaveResult& slave : result.slaves) {
     if (slave.status.dp_state == profibus::DpState::kDataExch || is_said(result, slave)) continue;
-    text += fmt::format("  {} is in {}", slave.name, name(slave.status.dp_state));
-    if (!slave.master_reason.empty()) text += "; its master: " + bus::printable(slave.master_reason);
-    if (!slave.waits_for.empty()) text += "; " + bus::printable(slave.waits_for);
-    text += "\n";
+    std::string line = fmt::format("{} is in {}", slave.name, name(slave.status.dp_state));
+    if (!slave.master_reason.empty()) line += "; its master: " + slave.master_reason;
+    if (!slave.waits_for.empty()) line += "; " + slave.waits_for;
+    text += line_of(line);
   }
   return text.empty() ? "" : text + "\n";
 }
 
 std::string pacing(const HostLineStatistics& line, const PaceStatistics& pace) {
-  const auto ms = [](double us) { return us / 1000; };
-  std::string text = fmt::format(
-      "  host           {} telegrams, {} bytes from it, {} bytes to it; {} telegrams held back for T_SYN or the slot "
-      "time, {} at most\n",
-      line.telegrams, line.sent_bytes, line.heard_bytes, line.held_back,
-      fmt::format("{:.2f} ms",
-                  ms(static_cast<double>(line.longest_held_back) / static_cast<double>(bus::kTicksPerUs))));
-  text += fmt::format("  pacing         simulated behind real time by {:.2f} ms in the mean, {:.2f} ms at most\n",
-                      ms(pace.error_mean_us()), ms(pace.error_max_us));
+  std::string text = named_line(
+      "host",
+      fmt::format("{} telegrams, {} bytes from it, {} bytes to it; {} telegrams held back for T_SYN or the slot "
+                  "time, {} at most",
+                  line.telegrams, line.sent_bytes, line.heard_bytes, line.held_back,
+                  short_time(line.longest_held_back)));
+  text += named_line("pacing", fmt::format("simulated behind real time by {:.2f} ms in the mean, {:.2f} ms at most",
+                                           pace.error_mean_us() / 1000, pace.error_max_us / 1000));
   if (pace.losses != 0)
-    text += fmt::format("  too slow       {} times, simulated time lost {} in total\n", pace.losses,
-                        time_text(pace.lost / bus::kTicksPerMs * bus::kTicksPerMs));
+    text += named_line("too slow",
+                       fmt::format("{} times, simulated time lost {} in total", pace.losses, short_time(pace.lost)));
   return text;
 }
 
@@ -160,36 +184,54 @@ std::string boards(const RunResult& result) {
   std::string text;
   for (const SlaveResult& slave : result.slaves) {
     if (!slave.board) continue;
-    text += fmt::format("  ARM board      {}: {} instructions, {:.1f} million a second; HCLK {:g} MHz ({})\n",
-                        slave.name, slave.board->instructions,
-                        static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9),
-                        static_cast<double>(slave.board->hclk_hz) / 1e6, slave.board->hclk_source);
-    for (const std::string& note : slave.board->notes)
-      text += fmt::format("                 {}\n", bus::printable(note));
+    text += named_line("ARM board",
+                       fmt::format("{}: {} instructions, {:.1f} million a second; HCLK {:g} MHz ({})", slave.name,
+                                   slave.board->instructions,
+                                   static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9),
+                                   static_cast<double>(slave.board->hclk_hz) / 1e6, slave.board->hclk_source));
+    for (const std::string& note : slave.board->notes) text += named_line("", note);
   }
   return text + result.fault_registers;
 }
 
+/// ": 5.6 times slower than real time".
+std::string pace_text(double factor) {
+  if (factor <= 0) return "";
+  const double times = std::max(factor, 1 / factor);
+  return fmt::format(": {:.{}f} times {} than real time", times, times < 10 ? 1 : 0, factor < 1 ? "slower" : "faster");
+}
+
+std::string measured(const RunResult& result) {
+  std::string text =
+      masters(result) +
+      named_line("telegrams", fmt::format("{} ({} wrong)", result.telegrams, result.wrong_telegrams)) +
+      named_line("simulated",
+                 fmt::format("{} in {:.2f} s{} (engine {}, view {})", moment_text(result.simulated), result.wall_s,
+                             pace_text(result.real_time_factor()), result.engine, result.view));
+  if (result.pacing) text += pacing(result.pacing->line, result.pacing->pace);
+  return text + boards(result);
+}
+
+std::string violations(const RunResult& result) {
+  if (result.violations == 0) return "";
+  const char* judged = result.checks_mode == ChecksMode::kFail
+                           ? ""
+                           : ", reported by the chip and the bus monitor: judged whatever the mode of the checks";
+  return named_line("violations", fmt::format("{} that the scenario does not allow{}", result.violations, judged));
+}
+
 }  // namespace
 
-std::string summary(const RunResult& result) {
-  std::string text = fmt::format("\n{}\n\n", bus::printable(result.scenario)) + steps(result) +
-                     repeated("violated by", result.violated) + repeated("refused by", result.refused) +
-                     slaves(result) + waiting(result);
-  text += masters(result);
-  text += fmt::format("  telegrams      {} ({} wrong)\n", result.telegrams, result.wrong_telegrams);
-  text +=
-      fmt::format("  simulated      {} in {:.2f} s: {:.2f} times real time (engine {}, view {})\n",
-                  time_text(result.simulated), result.wall_s, result.real_time_factor(), result.engine, result.view);
-  if (result.pacing) text += pacing(result.pacing->line, result.pacing->pace);
-  text += boards(result);
-  if (result.violations != 0)
-    text += fmt::format("  violations     {} that the scenario does not allow{}\n", result.violations,
-                        result.checks_mode == ChecksMode::kFail
-                            ? ""
-                            : ", reported by the chip and the bus monitor: judged whatever the mode of the checks");
-  text += expectations(result) + check_report(result);
-  return text + fmt::format("\n{}\n", words(result));
+std::string summary(const RunResult& result, CheckRows checks) {
+  return fmt::format("\n{}\n\n", bus::printable(result.scenario)) + steps(result) +
+         repeated("violated by", result.violated) + repeated("refused by", result.refused) + slaves(result) +
+         waiting(result) + measured(result) + violations(result) + expectations(result) + check_report(result, checks) +
+         fmt::format("\n{}\n", words(result));
+}
+
+std::string whole_summary(const RunResult& result) {
+  const TableWidth as_wide_as_they_need(TableWidth::kUnlimited);
+  return summary(result, CheckRows::kAll);
 }
 
 }  // namespace dsdpv1::tb

@@ -22,8 +22,22 @@ class TableWidth {
   std::size_t before_;
 };
 
-/// Columns as wide as their widest cell, a rule under the head. Where that is too wide the widest columns are wrapped
-/// between words; where that is not enough, each row becomes a block of lines, a cell each.
+/// A line "  name  text", where it is too wide wrapped between words; `name` takes so many columns, or more.
+std::string named_line(const std::string& name, const std::string& text, std::size_t columns = 13);
+
+/// A line "  text", wrapped in the same way.
+std::string line_of(const std::string& text);
+
+/// The text at the line's begin, wrapped in the same way.
+std::string wrapped_text(const std::string& text);
+
+/// A command of a shell, behind two blanks: where it is too wide it goes on below, each line but the last with a
+/// backslash.
+std::string command_lines(const std::string& command);
+
+/// Columns as wide as their widest cell, a rule under the head; numbers, also those with a unit of time, stand to the
+/// right. Where that is too wide the widest columns are wrapped
+/// between words; where that is not enough, or takes more lines, each row becomes a block of lines, a cell each.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> head) { add(std::move(head)); }
@@ -33,6 +47,7 @@ class TextTable {
  private:
   using Widths = std::vector<std::size_t>;
 
+  std::vector<bool> columns_of_numbers() const;
   Widths widths_of(std::size_t (*width)(const std::string& cell)) const;
   std::string as_columns(const Widths& widths) const;
   std::string as_blocks(std::size_t columns) const;

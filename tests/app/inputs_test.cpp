@@ -50,6 +50,12 @@ class Inputs : public testing::Test {
   const app_test::Folder folder_;
 };
 
+TEST_F(Inputs, ScenarioIsAlsoFoundByItsNameWhereNoFileIsCalledSo) {
+  EXPECT_EQ(in_folder("run two_slaves -q --set end=1ms --set expect=none --no-progress").status, 3);
+  write("two_slaves", scenario_named("own"));
+  EXPECT_THAT(in_folder("run two_slaves --no-progress").out, HasSubstr("\nown\n"));
+}
+
 TEST_F(Inputs, NameOfAScenarioSteersNeitherTerminalNorLogNorWave) {
   write("s.yaml", scenario_named(kNasty));
   const Called called = in_folder("run s.yaml --no-progress --log l.txt --wave w.vcd --result r.json");

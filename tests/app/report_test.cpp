@@ -1,11 +1,13 @@
 // Times and texts of reports.
 #include <gtest/gtest.h>
 
+#include "io/input/units.hpp"
 #include "io/waves/wave_writer.hpp"
 #include "tb/bench/conditions.hpp"
 #include "tb/bench/run_log.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/summary.hpp"
+#include "tb/report/text_table.hpp"
 
 namespace dsdpv1 {
 namespace {
@@ -48,11 +50,9 @@ TEST(Summary, ListsWhatWasRefused) {
   result.refused.push_back(
       {"demo", "PRM_IDENT", "", "Prm_Fault: ident 1234", 2 * bus::kTicksPerUs, 5 * bus::kTicksPerUs, 3, false});
   const std::string text = tb::summary(result);
-  EXPECT_NE(text.find("  refused by  reason     times  first / us  last / us  what, the first time\n"),
-            std::string::npos)
+  EXPECT_NE(text.find("  refused by  reason     times     first      last  what, the first time\n"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("  demo        PRM_IDENT  3      2.000       5.000      Prm_Fault: ident 1234\n"),
-            std::string::npos)
+  EXPECT_NE(text.find("  demo        PRM_IDENT      3  2.000 us  5.000 us  Prm_Fault: ident 1234\n"), std::string::npos)
       << text;
 }
 
@@ -67,12 +67,97 @@ TEST(Summary, HasEqualViolationsInOneRow) {
   tb::RunResult result;
   result.violated = repetitions.list();
   const std::string text = tb::summary(result);
-  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (B31A)  6000   1.000       6000.000   B31A is accessed\n"),
+  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (2 places)   6001  1.000 us  6.000 ms  B31A is accessed\n"),
             std::string::npos)
       << text;
-  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (B31B)  1      7.000       7.000      B31B is accessed\n"),
-            std::string::npos)
+}
+
+TEST(Summary, SaysWhichOfEqualViolationsAreAllowed) {
+  tb::RunResult result;
+  result.violated = {{"demo", "HOST_TS", "B006", "too short", 12, 24, 3, true},
+                     {"demo", "HOST_TS", "B007", "too short", 36, 48, 2, false},
+                     {"other", "HOST_TS", "B006", "too short", 60, 60, 1, true}};
+  const std::string text = tb::summary(result);
+  EXPECT_NE(text.find("HOST_TS (2 places)  5, 3 allowed  1.000 ns  4.000 ns  too short\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("HOST_TS (B006)      1 allowed     5.000 ns  5.000 ns  too short\n"), std::string::npos) << text;
+}
+
+/// A run of one slave with two checks: one is kept with a margin, the other is violated so many times.
+struct CheckedRun {
+  explicit CheckedRun(std::uint64_t violations) {
+    result.slaves.resize(1);
+    result.slaves.front().name = "demo";
+    result.checks.resize(2);
+    for (tb::CheckResult& each : result.checks) each.slave = "demo";
+    result.checks[0].rule = &kept;
+    result.checks[1].rule = &violated;
+    result.checks[0].record.count = result.checks[1].record.count = 7;
+    result.checks[0].record.worst_margin = 17;
+    result.checks[0].record.at = 63280 * bus::kTicksPerNs;
+    result.checks[1].record.violations = violations;
+  }
+  checks::Rule kept{}, violated{};
+  tb::RunResult result;
+};
+
+TEST(Summary, HasOneLineWhenAllChecksAreKept) {
+  CheckedRun run(0);
+  run.kept.id = "HOLD";
+  run.violated.id = "SETUP";
+  const std::string text = tb::summary(run.result);
+  EXPECT_NE(text.find("  checks         2 of 2 kept; tightest HOLD 1.417 ns at 63.280 us\n"), std::string::npos)
       << text;
+  EXPECT_EQ(text.find("SETUP"), std::string::npos) << text;
+  EXPECT_NE(tb::summary(run.result, tb::CheckRows::kAll).find("  SETUP      7         0        0         -"),
+            std::string::npos);
+}
+
+TEST(Summary, HasARowForEachCheckThatIsViolated) {
+  CheckedRun run(3);
+  run.kept.id = "HOLD";
+  run.violated.id = "SETUP";
+  const std::string text = tb::summary(run.result);
+  EXPECT_NE(text.find("  checks         1 of 2 kept\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  SETUP      7         3        0  -"), std::string::npos) << text;
+  EXPECT_EQ(text.find("  HOLD  "), std::string::npos) << text;
+}
+
+TEST(Summary, SaysHowMuchSlowerOrFasterThanRealTimeItWas) {
+  tb::RunResult result;
+  result.simulated = bus::kTicksPerSecond;
+  result.wall_s = 20;
+  EXPECT_NE(tb::summary(result).find("1.000 s in 20.00 s: 20 times slower than real time"), std::string::npos);
+  result.wall_s = 0.4;
+  EXPECT_NE(tb::summary(result).find("1.000 s in 0.40 s: 2.5 times faster than real time"), std::string::npos);
+}
+
+TEST(Summary, WrapsItsSentencesToTheTerminal) {
+  tb::RunResult result;
+  result.engine = "skip";
+  result.view = "pins";
+  const tb::TableWidth narrow(50);
+  EXPECT_NE(tb::summary(result).find("0.000 ns in 0.00 s (engine skip,\n                 view pins)\n"),
+            std::string::npos)
+      << tb::summary(result);
+}
+
+TEST(ShortTime, HasTheUnitThatLeaves1To999) {
+  EXPECT_EQ(tb::short_time(0), "0.000 ns");
+  EXPECT_EQ(tb::short_time(17), "1.417 ns");
+  EXPECT_EQ(tb::short_time(-17), "-1.417 ns");
+  EXPECT_EQ(tb::short_time(bus::kTicksPerUs - 1), "999.917 ns");
+  EXPECT_EQ(tb::short_time(bus::kTicksPerUs), "1.000 us");
+  EXPECT_EQ(tb::short_time(bus::kTicksPerMs - 1), "1.000 ms") << "rounded to three digits it is one";
+  EXPECT_EQ(tb::short_time(119'476'893'996), "9.956 s");
+}
+
+TEST(MomentText, IsExactToTheNanosecond) {
+  EXPECT_EQ(tb::moment_text(0), "0.000 ns");
+  EXPECT_EQ(tb::moment_text(63280 * bus::kTicksPerNs), "63.280 us");
+  EXPECT_EQ(tb::moment_text(5'000'021 * bus::kTicksPerNs), "5.000021 ms");
+  EXPECT_EQ(tb::moment_text(120 * bus::kTicksPerMs), "120.000 ms");
+  EXPECT_EQ(tb::moment_text(7 * bus::kTicksPerSecond + bus::kTicksPerNs), "7.000000001 s");
+  EXPECT_EQ(tb::moment_text(bus::kTicksPerSecond - 1), "1.000 s");
 }
 
 }  // namespace

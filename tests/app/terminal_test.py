@@ -24,7 +24,6 @@ expect:
   - {slave: demo, dp_state: data_exch}
 """
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
-SENTENCES = ("  master ", "  simulated ", "  NOT MET ")
 GREEN, RED = "\x1b[1;32m", "\x1b[1;31m"
 
 
@@ -61,22 +60,20 @@ def through_pipe(folder, command, **more):
 
 def words(text):
     """Without colours, layout and what takes another time in each run."""
-    return sorted(re.sub(r"in [\d.]+ s: [\d.]+ times", "", COLOUR.sub("", text)).replace("-", " ").split())
+    return sorted(re.sub(r"in\s+[\d.]+ s: [\d.]+\s+times\s+\w+", "", COLOUR.sub("", text)).replace("-", " ").split())
 
 
-def widest_of_tables(text):
-    """The longest line that is no sentence."""
-    lines = (COLOUR.sub("", line) for line in text.splitlines())
-    return max((line for line in lines if not line.startswith(SENTENCES)), key=len)
+def widest(text):
+    return max((COLOUR.sub("", line) for line in text.splitlines()), key=len)
 
 
 def faults_of_widths(folder, run):
     whole = through_pipe(folder, run)
-    if len(widest_of_tables(whole)) < 130:
+    if len(widest(whole)) < 110:
         yield "the table is too narrow for this test"
     for columns in (72, 100, 200):
         text = on_terminal(folder, run, columns)
-        longest = widest_of_tables(text)
+        longest = widest(text)
         if len(longest) > columns:
             yield f"{columns} columns: a line has {len(longest)}: {longest}"
         if columns > 72 and words(text) != words(whole):  # in 72 columns a row is a block, with its head's words again
@@ -122,10 +119,28 @@ def faults_of_regress(folder, sim):
     table, piped = on_terminal(folder, command, 60), through_pipe(folder, command)
     if not piped.startswith("verdict\tscenario\t") or "\x1b" in piped:
         yield f"regress through a pipe: {piped!r}"
-    if GREEN + "  passed  " not in table or "\t" in table or len(widest_of_tables(table)) > 60:
+    if GREEN + "  passed  " not in table or "\t" in table or len(widest(table)) > 60:
         yield f"regress on a terminal: {table!r}"
     if GREEN + "  verdict   passed" not in (blocks := on_terminal(folder, command, 30)):
         yield f"regress on a narrow terminal: {blocks!r}"
+
+
+def faults_of_help(folder, sim):
+    """Each command has a help, in no line wider than the terminal, and is in a group of the program's own."""
+    help_text = on_terminal(folder, [sim, "--help"], 80)
+    commands = re.findall(r"^  ([a-z][a-z-]*)  ", help_text, re.M)
+    if len(commands) < 18 or help_text.find("Run scenarios:") > help_text.find("  run  "):
+        yield f"--help: {help_text}"
+    for command in [[], *([name] for name in commands), ["traces", "check"]]:
+        for columns in (60, 80, 100):
+            text = on_terminal(folder, [sim, *command, "--help"], columns)
+            if len(longest := widest(text)) > columns:
+                yield f"{command} --help at {columns} columns: {longest}"
+            if "Usage: dsdpv1-sim" not in text or "Needs:" in text or "TEXT" in text:
+                yield f"{command} --help: {text}"
+    alone = subprocess.run([sim], capture_output=True, text=True, check=False)
+    if alone.returncode != 2 or alone.stdout or alone.stderr != through_pipe(folder, [sim, "--help"]):
+        yield f"without a command: {alone}"
 
 
 def main():
@@ -135,7 +150,7 @@ def main():
         (folder / "short.yaml").write_text(SCENARIO, encoding="utf-8")
         run = [sim, "run", "short.yaml"]
         found = [*faults_of_widths(folder, run), *faults_of_colours(folder, run), *faults_of_others(folder, sim, run),
-                 *faults_of_regress(folder, sim)]
+                 *faults_of_regress(folder, sim), *faults_of_help(folder, sim)]
     print("\n".join(found) if found else "terminal: right")
     return 1 if found else 0
 

@@ -9,7 +9,7 @@ RIGHT = {
                  "See [the chip](docs/chip.md#its-rulings), `model/core.cpp`, `core.cpp` and [far](https://a.org).\n"
                  "```\n[no](link.md) in code\n```\n"
                  "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
-                 "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times real time\n```\n<!-- /demo -->\n"
+                 "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times faster than real time\n```\n<!-- /demo -->\n"
                  "| [docs/chip.md](docs/chip.md) | the chip |\n| [docs/install.md](docs/install.md) | packages |\n",
     "docs/install.md": "# Install\n<!-- packages: x -->\n| `./run` | groups |\n|---|---|\n| `demo`, `sim` | tools |\n"
                        "\n| group | packages | what they are |\n|---|---|---|\n| tools | cmake g++ | to build |\n<!-- /packages -->\n",
@@ -18,7 +18,7 @@ RIGHT = {
     "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
     "model/core.cpp": "",
     "examples/one.cpp": "// one\nint main() {}\n",
-    "sim": "#!/bin/sh\necho 'at 1.5 us'\necho 'in 0.7 s: 1.4 times real time'\n",
+    "sim": "#!/bin/sh\necho 'at 1.5 us'\necho 'in 0.7 s: 1.4 times slower than real time'\n",
 }
 
 

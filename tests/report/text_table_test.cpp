@@ -32,7 +32,7 @@ TEST(TextTable, IsAsWideAsItsCells) {
             "  check      count  worst margin\n"
             "  ---------  -----  ----------------------------\n"
             "  TIMING_TS  40743  56.917 ns measured, no limit\n"
-            "  HOLD       7      -\n");
+            "  HOLD           7  -\n");
 }
 
 TEST(TextTable, WhereThatIsTooWideTheWidestColumnIsWrappedBetweenWords) {
@@ -43,7 +43,7 @@ TEST(TextTable, WhereThatIsTooWideTheWidestColumnIsWrappedBetweenWords) {
             "  TIMING_TS  40743  56.917 ns\n"
             "                    measured, no\n"
             "                    limit\n"
-            "  HOLD       7      -\n");
+            "  HOLD           7  -\n");
 }
 
 TEST(TextTable, AsWideAsTheTerminalIsNotTooWide) {
@@ -58,14 +58,26 @@ TEST(TextTable, WhereWordsAreTooWideEachRowIsABlock) {
   EXPECT_EQ(checks().text(),
             "  check         TIMING_TS\n"
             "  count         40743\n"
-            "  worst margin  56.917\n"
-            "                ns\n"
+            "  worst margin  56.917 ns\n"
             "                measured,\n"
             "                no limit\n"
             "\n"
             "  check         HOLD\n"
             "  count         7\n"
             "  worst margin  -\n");
+}
+
+TEST(TextTable, WhereBlocksTakeFewerLinesThanWrappedColumnsTheyAreBlocks) {
+  TextTable table({"a long head", "what"});
+  table.add({"some-word", "a text of many words that goes on and on"});
+  const TableWidth width(24);
+  EXPECT_EQ(table.text(),
+            "  a long head  some-word\n"
+            "  what         a text of\n"
+            "               many\n"
+            "               words\n"
+            "               that goes\n"
+            "               on and on\n");
 }
 
 TEST(TextTable, TheLatestWidthCountsForAsLongAsItLives) {
@@ -84,13 +96,33 @@ TEST(TextTable, ALetterOfSeveralBytesIsOneColumnWide) {
   EXPECT_THAT(table.text(), testing::HasSubstr("  \xC3\xA4\xC3\xB6\xC3\xBC   1\n"));
 }
 
-TEST(TextTable, SpacesThatAlignANumberStay) {
-  TextTable table({"time / us", "what"});
-  table.add({"    105.875", "ready"});
-  table.add({"   1361.750", "a text that is much too long for a line"});
-  const TableWidth width(40);
-  EXPECT_THAT(table.text(), testing::HasSubstr("      105.875  ready\n"));
-  EXPECT_LE(widest_line(table.text()), 40U);
+TEST(TextTable, NumbersAndTimesStandToTheRight) {
+  TextTable table({"time", "n", "range", "what"});
+  table.add({"105.875 us", "-2", "0..15", "ready"});
+  table.add({"1.361750 ms", "10", "2", "7 times"});
+  table.add({"-", "", "3", "-"});
+  EXPECT_EQ(table.text(),
+            "         time   n  range  what\n"
+            "  -----------  --  -----  -------\n"
+            "   105.875 us  -2  0..15  ready\n"
+            "  1.361750 ms  10  2      7 times\n"
+            "            -      3      -\n");
+}
+
+TEST(TextTable, ANumberIsNotPartedFromItsUnit) {
+  TextTable table({"time", "what"});
+  table.add({"105.875 us", "a text that is too long"});
+  table.add({"1.000 us", "short"});
+  const TableWidth width(32);
+  EXPECT_THAT(table.text(), testing::HasSubstr("  105.875 us  a text that is too\n"));
+  EXPECT_EQ(tb::line_of("nothing for as long as it takes: 105.875 us"),
+            "  nothing for as long as it\n  takes: 105.875 us\n");
+}
+
+TEST(NamedLine, IsWrappedUnderItsText) {
+  EXPECT_EQ(tb::named_line("master", "a few words"), "  master         a few words\n");
+  const TableWidth width(24);
+  EXPECT_EQ(tb::named_line("master", "a few words"), "  master         a few\n                 words\n");
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ for command in demo test edit sim nightly rtl-random rtl-faults rtl-synth rtl-co
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
+wide=$(awk 'length($0) > 80' <<<"$help")
+[ -z "$wide" ] || fail "--help is wider than 80 columns: $wide"
 [ "$("$run")" = "$help" ] || fail "without arguments it does not print the help"
 
 for command in demo test nightly rtl-synth reproducible build conformance deps; do
@@ -49,10 +51,10 @@ refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again
 refuses "allowed is default fast debug coverage fuzz" build release
 refuses "allowed is --record" conformance now
-refuses "allowed is none" demo now
-refuses "allowed is none" rtl-formal quickly
-refuses "allowed is none" nightly quickly
-refuses "allowed is none" rtl-coverage again
+refuses "demo takes no arguments" demo now
+refuses "rtl-formal takes no arguments" rtl-formal quickly
+refuses "nightly takes no arguments" nightly quickly
+refuses "rtl-coverage takes no arguments" rtl-coverage again
 refuses "unknown row fast, allowed are core_2" bench --only fast
 refuses "0 is no number of rounds" bench --rounds 0
 refuses "unknown row core_2, allowed are arm" bench --instructions --only core_2

@@ -73,7 +73,7 @@ class Refusals:
         self.run("--restore", "a.run", "--save-at", "2ms", "a.run", line="would replace the saved run")
         self.run("s.yaml", "--restore", "a.run", line="excludes")
         self.run("--restore", "a.run", "--set", "end=2ms", line="excludes")
-        self.run(line="allowed is one of SCENARIO and --restore")
+        self.run(line="a scenario is missing (dsdpv1-sim run FILE.yaml, or --restore FILE)")
 
     def full_disk(self):
         self.run("s.yaml", "--save-at", "1ms", "d.run", "--log", "d.log", line="d.run: cannot be written", limit=4096)

@@ -33,7 +33,14 @@ TEST(Reasons, OneCodeIsPrintedAlone) {
   const app_test::Called printed = call("reasons PRM_IDENT", DSDPV1_SOURCE_DIR);
   EXPECT_EQ(printed.status, 0) << printed.err;
   EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 3);
-  EXPECT_EQ(printed.out.rfind("PRM_IDENT (refusal)\n", 0), 0U) << printed.out;
+  EXPECT_EQ(printed.out.rfind(
+                "PRM_IDENT (refusal)\n    such as: Prm_Fault: ident 0CC9, this slave is 1234\n    Use the GSD", 0),
+            0U)
+      << printed.out;
+}
+
+TEST(Reasons, NothingIsLeftToBeFilledIn) {
+  EXPECT_EQ(call("reasons", DSDPV1_SOURCE_DIR).out.find('{'), std::string::npos);
 }
 
 TEST(Reasons, TheCaseOfACodeDoesNotMatter) {

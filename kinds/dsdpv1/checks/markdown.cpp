@@ -25,6 +25,9 @@ own (`dsdpv1-sim cosim`) the same way, and find the same to the tick.
   many were not judged ([verdicts.md](verdicts.md)).
 - **off**: nothing is watched, which costs nothing; the verdict says so.
 
+The terminal has a line with the tightest margin when all checks are kept, else a row for each that was violated; with `--checks-table` (`run`, `serve`) a row
+for each check. The result file and the report always have all.
+
 The id of a check stands wherever a scenario names the code of an event, so `expect: [{slave: demo, event: TIMING_TS}]` asks for a violation
 (refused with `off`). Limits and single checks are set for all slaves of a scenario:
 

@@ -76,11 +76,25 @@ const char* advice_of(dsdpv1_error error) {  // NOLINT(readability-function-size
   return "";
 }
 
+/// The text with values that are possible: levels and words that are listed in the text, else numbers and addresses.
+std::string example_of(profibus::Reason reason) {
+  const std::string text = dsdpv1::text_template(reason);
+  const auto has = [&text](const char* words) { return text.find(words) != std::string::npos; };
+  const bool is_choice = (has("(0") || has("(1 ") || has(": 0 ") || has(" = ")) && !has("needed");
+  profibus::Event event{0, reason, 5, 12, 1};
+  if (is_choice) event = {0, reason, 1, 1, 0};
+  if (has("{a:4x}")) event.a = 0x0CC9;
+  if (has("{a:high}")) event.a = 0x015F;
+  if (has("{b:4x}")) event.b = 0x1234;
+  const std::string example = dsdpv1::describe(event);
+  return example == text ? "" : example;
+}
+
 std::vector<CodeText> chip_codes() {
   std::vector<CodeText> list;
   for (const profibus::Reason reason : dsdpv1::reasons())
     list.push_back({profibus::code(reason), tb::name(profibus::severity(reason)), dsdpv1::text_template(reason),
-                    dsdpv1::advice(reason)});
+                    dsdpv1::advice(reason), example_of(reason)});
   return list;
 }
 

@@ -54,7 +54,7 @@ std::string filled(std::string_view page, const Pieces& pieces) {
 std::string page(const RunResult& result, const RunRecorder& recorder, const std::string& version) {
   return filled(kPageHtml, {{"TITLE", escaped(title_of(result, version))},
                             {"STYLE", std::string(kPageCss)},
-                            {"TEXT", escaped(summary(result))},
+                            {"TEXT", escaped(whole_summary(result))},
                             {"DATA", page_data(result, recorder, version)},
                             {"D3_LICENCE", std::string(kD3Licence)},
                             {"D3", std::string(kD3)},

@@ -50,7 +50,7 @@ TEST_F(BadWaves, AreRefusedInOneLine) {
 
 TEST_F(BadWaves, AndSoAreWrongOptions) {
   EXPECT_THAT(refusal("good.vcd none.vcd"), HasSubstr("none.vcd: no such file"));
-  EXPECT_THAT(refusal("good.vcd"), HasSubstr("B is required"));
+  EXPECT_THAT(refusal("good.vcd"), HasSubstr("B is missing (dsdpv1-sim compare A B)"));
   EXPECT_THAT(refusal("good.vcd good.vcd --tolerance 5"),
               HasSubstr("--tolerance is 5, allowed is a number with a unit"));
   EXPECT_THAT(refusal("good.vcd good.vcd --from -5ns"), HasSubstr("--from is -5ns"));

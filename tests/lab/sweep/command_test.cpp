@@ -37,7 +37,7 @@ TEST_F(SweepCommand, FindsWhereTheBusTimingOfAnFsmcBegins) {
   const Called called =
       sweep("--set user_cpu.fsmc.mode=A --param user_cpu.fsmc.datast=0..3 --param user_cpu.fsmc.addset=0,1 --out out");
   EXPECT_EQ(called.status, 0) << called.err;
-  EXPECT_THAT(called.out, HasSubstr("  0       2, 3                   0, 1"));
+  EXPECT_THAT(called.out, HasSubstr("       0  2, 3                   0, 1"));
   EXPECT_THAT(called.out, HasSubstr("the timing holds at 4 of 8 points\n"));
   EXPECT_THAT(file("out/results.csv"), HasSubstr("\n0,0,0,no,1,"));
   EXPECT_THAT(file("out/results.csv"), HasSubstr("\n7,3,1,yes,0,0,0,"));

@@ -83,7 +83,7 @@ TEST_F(TracesCommand, ANameMeansTheScenarioOfTheSourceTree) {
   EXPECT_EQ(call("traces check " + kName, folder_.path()).status, 0);
   const Called called = call("traces check bus_timings", folder_.path());
   EXPECT_EQ(called.status, 2);
-  EXPECT_THAT(called.err, HasSubstr("there is no scenario bus_timings (did you mean bus_timing?), allowed are "));
+  EXPECT_THAT(called.err, HasSubstr("there is no scenario bus_timings (did you mean bus_timing?), allowed are a path and the names "));
 }
 
 TEST_F(TracesCommand, AChangedScenarioIsRefused) {

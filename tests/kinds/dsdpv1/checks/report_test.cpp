@@ -48,7 +48,7 @@ TEST_F(ChecksOfTheProgram, ReportListsAndPasses) {
   EXPECT_EQ(called.status, 0) << called.out << called.err;
   EXPECT_THAT(called.out, HasSubstr("PASSED, 1 violation not judged"));
   EXPECT_THAT(called.out, HasSubstr("OWNERSHIP_SYNC_WINDOW"));
-  EXPECT_THAT(called.out, HasSubstr("pins: "));
+  EXPECT_THAT(called.out, HasSubstr("\n    R_STA  "));
   EXPECT_THAT(read(folder_.file("s.log")), HasSubstr("demo         check     OWNERSHIP_SYNC_WINDOW at "));
 }
 
