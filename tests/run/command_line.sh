@@ -47,7 +47,7 @@ refuses "--tsv is for --list" deps --tsv
 refuses "no file of the project" edit nowhere.cpp
 refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again
-refuses "allowed is default fast debug coverage fuzz" build release
+refuses "allowed is default fast library debug coverage fuzz" build release
 refuses "allowed is --record" conformance now
 refuses "allowed is none" demo now
 refuses "allowed is none" rtl-formal quickly
