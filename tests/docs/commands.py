@@ -77,6 +77,15 @@ def project(home, build):
     return tree
 
 
+def without_network(build):
+    """Variables with which pip in a fresh venv finds what it needs in .venv, and the wheel takes the library of BUILD."""
+    packages = next((ROOT / ".venv/lib").glob("python3*/site-packages"), None)
+    if packages is None:
+        return {}
+    return {"PYTHONPATH": str(packages), "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "false", "PIP_DISABLE_PIP_VERSION_CHECK": "1",
+            "SKBUILD_CMAKE_DEFINE": f"DSDPV1_BUILD={build}"}
+
+
 def session(page, build):
     """Of each block its words, status and output, up to the first that is wrong."""
     text = page.read_text(encoding="utf-8")
@@ -85,7 +94,7 @@ def session(page, build):
         home = pathlib.Path(name)
         tree, work, results = project(home, build), home / "work", home / "results"
         work.mkdir(), results.mkdir()
-        environment = {**os.environ, "HOME": name, "PATH": f"{home}/tools:/usr/bin:/bin:{os.environ['PATH']}", "NO_COLOR": "1"}
+        environment = {**os.environ, "HOME": name, "PATH": f"{home}/tools:/usr/bin:/bin:{os.environ['PATH']}", "NO_COLOR": "1", **without_network(build)}
         environment.setdefault("CCACHE_DIR", os.path.expanduser("~/.cache/ccache"))
         subprocess.run(["bash", "-c", script(all_blocks, results)], cwd=work if page.parent.name == "tutorials" else tree, env=environment,
                        stdin=subprocess.DEVNULL, check=False, timeout=DEADLINE)
