@@ -2,6 +2,7 @@
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -45,6 +46,15 @@ class Commands(unittest.TestCase):
         left = pathlib.Path(tempfile.gettempdir(), "dsdpv1_page_sleep")
         self.assertNotEqual(subprocess.run(["kill", "-0", left.read_text(encoding="utf-8").strip()], capture_output=True, check=False).returncode, 0)
         left.unlink()
+
+
+class Examples(unittest.TestCase):
+    def test_a_module_that_is_missing_is_one_line(self):
+        for name, page in (("python/pin_by_pin.py", "docs/python.md"), ("cocotb/run.py", "docs/cocotb.md")):
+            with self.subTest(name):  # -S: without site-packages
+                done = subprocess.run([sys.executable, "-I", "-S", commands.ROOT / "examples" / name], capture_output=True, text=True, check=False)
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+                self.assertRegex(done.stderr, rf" has no .*numpy, dsdpv1.*, allowed is a Python with .*{page}")
 
 
 class Tutorials(unittest.TestCase):
