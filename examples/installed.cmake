@@ -29,7 +29,7 @@ if(there)
         user_cpu.elf=${CMAKE_CURRENT_BINARY_DIR}/firmware/device_O2.elf PRINTS "PASSED")
 endif()
 
-# RTL of one's own against the model: two things are wrong in it, this is the first that shows (docs/cosim.md).
+# RTL of one's own against the model: two things are wrong in it, this is the first that shows (docs/tutorials/rtl_cosim.md).
 find_program(verilator verilator)
 needs(there own_rtl verilator)
 if(there)

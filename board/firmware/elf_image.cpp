@@ -251,11 +251,19 @@ class Reader {
   ElfImage image_{};
 };
 
+/// Scenarios name the example firmware, which need not be built.
+std::string_view where_from(const std::string& path) {
+  if (path.find("/examples/firmware/") == std::string::npos) return "";
+  return "; `./run sim run SCENARIO` builds the example firmware, and so does the target dsdpv1_firmware";
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> read_elf_file(const std::string& path) {
-  const std::string bytes = tb::read_file(path, tb::kFirmwareFile);
-  return {bytes.begin(), bytes.end()};
+  const tb::ReadFile file = tb::try_read_file(path, tb::kFirmwareFile.most_mb);
+  if (!file.wrong.empty())
+    throw tb::InputError(path, 0, fmt::format("{}, {}{}", file.wrong, allowed_file(), where_from(path)));
+  return {file.text.begin(), file.text.end()};
 }
 
 ElfImage load_elf(const std::string& path, const FirmwareMemory& memory) {

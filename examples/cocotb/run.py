@@ -13,9 +13,14 @@ Examples:
 Exit code 0: all have passed; 1: one has failed; 2: wrong arguments.
 """
 import argparse
+import importlib.util
 import os
 import pathlib
 import sys
+
+if missing := [name for name in ("cocotb", "numpy", "dsdpv1", "cocotbext") if importlib.util.find_spec(name) is None]:
+    print(f"run.py: {sys.executable} has no {', '.join(missing)}, allowed is a Python with dsdpv1[cocotb] (docs/cocotb.md)", file=sys.stderr)
+    sys.exit(2)
 
 from cocotb.runner import get_results, get_runner
 

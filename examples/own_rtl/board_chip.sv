@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
 // A chip as a user of the co-simulation might bring it: the pins have names and polarities of their own, INTR0 is made by an own pulse
-// generator. Two things are wrong in it; docs/cosim.md shows how they are found.
+// generator. Two things are wrong in it; docs/tutorials/rtl_cosim.md shows how they are found.
 module board_chip #(
   parameter integer SEARCH_WINDOW_MS = 50,
   parameter integer PULSE = 60,           // wrong: the low time is 64 cycles (P7)

@@ -4,7 +4,12 @@
 
     python3 examples/python/pin_by_pin.py [GSD]
 """
+import importlib.util
 import sys
+
+if missing := [name for name in ("numpy", "dsdpv1") if importlib.util.find_spec(name) is None]:
+    print(f"pin_by_pin.py: {sys.executable} has no {', '.join(missing)}, allowed is a Python with dsdpv1 (docs/python.md)", file=sys.stderr)
+    sys.exit(2)
 
 import dsdpv1
 from dsdpv1 import CYCLE, MS, US

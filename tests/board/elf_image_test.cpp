@@ -100,6 +100,23 @@ TEST(ElfImage, OtherFilesAreRefused) {
   EXPECT_THAT(answer([](SmallElf& elf) { elf.header.e_ident[EI_DATA] = 9; }), refuses("data encoding 9", "little"));
 }
 
+TEST(ElfImage, WhereTheExampleComesFromIsSaid) {
+  const auto answer_of = [](const std::string& path) -> std::string {
+    try {
+      read_elf_file(path);
+      return "read";
+    } catch (const tb::InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(answer_of("build/none/examples/firmware/device_O2.elf"),
+            "build/none/examples/firmware/device_O2.elf: no such file, allowed is an executable for ARM (32 bit, "
+            "little endian) such as "
+            "arm-none-eabi-gcc links; `./run sim run SCENARIO` builds the example firmware, and so does the target "
+            "dsdpv1_firmware");
+  EXPECT_THAT(answer_of("none/my.elf"), testing::EndsWith("arm-none-eabi-gcc links"));
+}
+
 TEST(ElfImage, OtherMachinesAreRefusedByName) {
   EXPECT_THAT(answer([](SmallElf& elf) {
                 elf.header.e_ident[EI_CLASS] = ELFCLASS64;

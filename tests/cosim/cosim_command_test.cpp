@@ -1,4 +1,4 @@
-// RTL of a user's own: the worked example of docs/cosim.md, and what is said when it cannot be built.
+// RTL of a user's own: the example of docs/tutorials/rtl_cosim.md, and what is said when it cannot be built.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -9,8 +9,14 @@ RIGHT = {
                  "See [the chip](docs/chip.md#its-rulings), `model/core.cpp`, `core.cpp` and [far](https://a.org).\n"
                  "```\n[no](link.md) in code\n```\n"
                  "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
-                 "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times faster than real time\n```\n<!-- /demo -->\n"
-                 "| [docs/chip.md](docs/chip.md) | the chip |\n| [docs/install.md](docs/install.md) | packages |\n",
+                 "It installs 2 packages.\n<!-- trust: x -->\n<!-- /trust -->\n",
+    "docs/README.md": "# Documents\n| [chip.md](chip.md) | the chip |\n| [install.md](install.md) | packages |\n| [tutorials/one.md](tutorials/one.md) | first |\n"
+                      "".join(f"| [{name}.md]({name}.md) | figures |\n" for name in ("conformance", "trust", "performance", "calibrate")),
+    "docs/tutorials/one.md": "# One\n",
+    "docs/conformance.md": "| The DSDPV1 datasheet V1.1 | 404 | 387 | 17 |\n| The user software manual | 115 | 108 | 7 |\n| Rulings | 136 | 136 | 0 |\n3096 of all 3097 tests passed\n",
+    "docs/calibrate.md": "# A real chip\n",
+    "docs/trust.md": "Of the model: 97 of 97 found.\nOf the driver: 28 of 29 found.\n2026-11-25: 1 010 cycles, 101.0 % of the goal. No difference.\n",
+    "docs/performance.md": "| `demo` | 4.93 | at least 3 x |\n| `core_vs_rtl` | 769 | at least 200 |\n22 of 28 goals are met.\n",
     "docs/install.md": "# Install\n<!-- packages: x -->\n| `./run` | groups |\n|---|---|\n| `demo`, `sim` | tools |\n"
                        "\n| group | packages | what they are |\n|---|---|---|\n| tools | cmake g++ | to build |\n<!-- /packages -->\n",
     "packages.txt": "# all\n\n# to build\n[tools]\ncmake\ng++\n",
@@ -18,7 +24,6 @@ RIGHT = {
     "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
     "model/core.cpp": "",
     "examples/one.cpp": "// one\nint main() {}\n",
-    "sim": "#!/bin/sh\necho 'at 1.5 us'\necho 'in 0.7 s: 1.4 times slower than real time'\n",
 }
 
 
@@ -27,14 +32,15 @@ class Project(small_project.SmallProject):
 
     def setUp(self):
         super().setUp()
-        for name in ("sim", "run"):
-            (self.root / name).chmod(0o755)
+        (self.root / "run").chmod(0o755)
+        check_docs.update_trust(self.root)
 
     def faults(self):
         found = []
-        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_table, check_docs.check_snippets, check_docs.check_packages):
+        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_table, check_docs.check_trust, check_docs.check_snippets,
+                      check_docs.check_packages):
             found += check(self.root)
-        return found + list(check_docs.check_readme(self.root, str(self.root / "sim")))
+        return found
 
     def expect(self, fault):
         faults = self.faults()
@@ -61,7 +67,7 @@ class Project(small_project.SmallProject):
         self.expect("there is no heart.cpp")
 
     def test_a_group_with_another_package(self):
-        self.change("packages.txt", "g++\n", "g++\nninja\n")
+        self.change("packages.txt", "g++\n", "ninja\n")
         self.expect("docs/install.md:2: packages.txt and ./run deps --commands say otherwise")
 
     def test_a_command_with_another_group(self):
@@ -70,20 +76,32 @@ class Project(small_project.SmallProject):
 
     def test_a_document_that_the_table_does_not_name(self):
         self.write("docs/new.md", "# New\n")
-        self.expect("README.md:1: the table of documents has no row for docs/new.md")
+        self.expect("docs/README.md:1: the tables of documents have no row for docs/new.md")
+
+    def test_a_tutorial_that_the_table_does_not_name(self):
+        self.write("docs/tutorials/new.md", "# New\n")
+        self.expect("have no row for docs/tutorials/new.md")
 
     def test_a_snippet_that_the_example_has_no_more(self):
         self.change("examples/one.cpp", "int main() {}", "int main() { return 0; }")
         self.expect("README.md:6: this is not in examples/one.cpp")
 
-    def test_a_stale_figure(self):
-        self.change("sim", "1.5 us", "1.6 us")
-        (self.root / "sim").chmod(0o755)
-        self.expect("the demo's line 1 is now: at 1.6 us")
+    def test_figures_of_docs_that_have_changed(self):
+        for page, old, new in (("conformance", "387", "386"), ("conformance", "3096", "3095"), ("trust", "28 of", "27 of"), ("trust", "1 010", "1 011"),
+                               ("performance", "769", "7")):
+            with self.subTest(page + old):
+                self.change(f"docs/{page}.md", old, new)
+                self.expect("README.md:11: the figures of docs/ are others")
+                self.change(f"docs/{page}.md", new, old)
 
-    def test_a_line_too_many(self):
-        self.change("README.md", "at 1.5 us\n", "at 1.5 us\nand more\n")
-        self.expect("the demo's line 2 is now")
+    def test_a_figure_that_a_page_has_no_more(self):
+        self.change("docs/performance.md", "`demo`", "`other`")
+        with self.assertRaisesRegex(SystemExit, "docs/performance.md:1: .* is there 0 times"):
+            self.faults()
+
+    def test_another_number_of_packages(self):
+        self.change("README.md", "installs 2", "installs 3")
+        self.expect("README.md:1: ./run demo installs 2 packages")
 
 
 if __name__ == "__main__":

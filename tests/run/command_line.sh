@@ -49,7 +49,7 @@ refuses "--tsv is for --list" deps --tsv
 refuses "no file of the project" edit nowhere.cpp
 refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again
-refuses "allowed is default fast debug coverage fuzz" build release
+refuses "allowed is default fast library debug coverage fuzz" build release
 refuses "allowed is --record" conformance now
 refuses "demo takes no arguments" demo now
 refuses "rtl-formal takes no arguments" rtl-formal quickly

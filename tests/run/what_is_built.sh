@@ -83,5 +83,17 @@ configures "debug --fresh -DBUILD_TESTING=ON" build debug
 configures "fast --fresh -DBUILD_TESTING=OFF" build fast
 configures "fuzz --fresh -DBUILD_TESTING=OFF" build fuzz
 
+: >"$folder/asked"
+told=$(cd "$folder" && PATH=$folder/tools:$PATH ./run build library)
+[ "$told" = "$folder/build/default/capi" ] || fail "build library: told $told"
+grep -q -- "--target dsdpv1_capi --" "$folder/asked" || fail "build library: $(cat "$folder/asked")"
+
+# the first time takes long
+message=$(cd "$folder" && PATH=$folder/tools:$PATH ./run sim run mine.yaml 2>&1)
+[[ $message != *compiling* ]] || fail "a second time: $message"
+rm "$folder/build/default/apps/dsdpv1-sim"
+message=$(cd "$folder" && PATH=$folder/tools:$PATH ./run sim run mine.yaml 2>&1) || true
+[[ $message == *"compiling dsdpv1-sim for the first time: about 4 minutes"* ]] || fail "the first time: $message"
+
 echo "$failures failures"
 [ "$failures" -eq 0 ]
