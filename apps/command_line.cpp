@@ -17,18 +17,23 @@
 namespace dsdpv1::app {
 namespace {
 
-struct Group {
-  const char* name;
-  std::vector<std::unique_ptr<Command> (*)()> commands;
+constexpr const char* kRun = "Run scenarios";
+constexpr const char* kLook = "Look into runs, captures and files";
+constexpr const char* kRtl = "Model and RTL";
+constexpr const char* kBeside = "Beside them";
+
+struct Entry {
+  const char* group;
+  std::unique_ptr<Command> (*make)();
 };
 
 /// In the order of --help.
-const Group kGroups[] = {
-    {"Run scenarios", {make_run, make_serve, make_sweep, make_regress}},
-    {"Look into runs, captures and files",
-     {make_decode, make_compare, make_replay, make_calibrate, make_recover, make_gsd, make_reasons}},
-    {"Model and RTL", {make_cosim, make_rtl_random, make_rtl_faults, make_traces}},
-    {"Beside them", {make_schema, make_manual, make_completion}}};
+constexpr Entry kCommands[] = {{kRun, make_run},        {kRun, make_serve},      {kRun, make_sweep},
+                               {kRun, make_regress},    {kLook, make_decode},    {kLook, make_compare},
+                               {kLook, make_replay},    {kLook, make_calibrate}, {kLook, make_recover},
+                               {kLook, make_gsd},       {kLook, make_reasons},   {kRtl, make_cosim},
+                               {kRtl, make_rtl_random}, {kRtl, make_rtl_faults}, {kRtl, make_traces},
+                               {kBeside, make_schema},  {kBeside, make_manual},  {kBeside, make_completion}};
 
 std::vector<CLI::App*> subcommands(CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
@@ -36,12 +41,11 @@ std::vector<CLI::App*> subcommands(CLI::App& app) {
 
 std::vector<std::unique_ptr<Command>> add_commands(CLI::App& app) {
   std::vector<std::unique_ptr<Command>> commands;
-  for (const Group& group : kGroups)
-    for (const auto make : group.commands) {
-      commands.push_back(make());
-      Command& command = *commands.back();
-      command.options(*app.add_subcommand(command.name(), command.line())->group(group.name));
-    }
+  for (const Entry& entry : kCommands) {
+    commands.push_back(entry.make());
+    Command& command = *commands.back();
+    command.options(*app.add_subcommand(command.name(), command.line())->group(entry.group));
+  }
   return commands;
 }
 
@@ -105,7 +109,7 @@ std::string without_command(const CLI::App& app, const std::string& first) {
 
 /// "FILE is missing", "--log needs FILE"; else as CLI11 says it.
 std::string what_is_wrong(CLI::App& app, const CLI::App& called, const CLI::ParseError& error) {
-  const std::string text = error.what();
+  std::string text = error.what();
   const std::vector<std::string> more = app.remaining(true);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !more.empty()) return unexpected(called, more);
   if (const std::size_t at = text.find(" is required"); error.get_name() == "RequiredError" && at != std::string::npos)

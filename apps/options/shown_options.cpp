@@ -73,10 +73,10 @@ constexpr Word kWords[] = {{"as", "ADDRESS"},
 
 std::string value_word(const CLI::Option& option) {
   const std::string type = option.get_type_name();  // with what its checks say
-  const std::string word = type.substr(0, type.find(':'));
+  std::string word = type.substr(0, type.find(':'));
   const bool is_text = word.rfind("TEXT", 0) == 0, is_number = word == "INT" || word == "UINT" || word == "FLOAT";
   if (!is_text && !is_number) return word;
-  const std::vector<std::string> names = option.get_lnames();
+  const std::vector<std::string>& names = option.get_lnames();
   const auto known = std::find_if(std::begin(kWords), std::end(kWords), [&names](const Word& each) {
     return !names.empty() && names.front() == each.option;
   });

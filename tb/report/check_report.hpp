@@ -12,6 +12,6 @@ enum class CheckRows { kViolated, kAll };
 /// How many checks were kept and which the tightest is; a row for each check that was violated, or for all that were
 /// evaluated, with the worst slave's margin; below, the first violation of each check and slave with the history of its
 /// pins. Empty when nothing was checked.
-std::string check_report(const RunResult& result, CheckRows rows);
+std::string check_report(const RunResult& result, CheckRows wanted);
 
 }  // namespace dsdpv1::tb

@@ -131,15 +131,11 @@ std::string wrapped_text(const std::string& text) {
 
 std::string command_lines(const std::string& command) {
   constexpr std::size_t kTaken = 3 * kGap + 2;  // by blanks and the backslash
-  const std::string own(kGap, ' ');
   if (width_of(command) <= limit) return without_end(command);
-  std::string lines, indent = own;
-  std::vector<std::string> parts = wrapped(command, limit > kTaken ? limit - kTaken : 1);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    lines += without_end(indent + parts[i] + (i + 1 < parts.size() ? " \\" : ""));
-    indent = own + own + own;
-  }
-  return lines;
+  std::string lines;
+  for (const std::string& part : wrapped(command, limit > kTaken ? limit - kTaken : 1))
+    lines += (lines.empty() ? std::string(kGap, ' ') : " \\\n" + std::string(3 * kGap, ' ')) + part;
+  return lines + "\n";
 }
 
 void TextTable::add(std::vector<std::string> row) {

@@ -125,5 +125,11 @@ TEST(NamedLine, IsWrappedUnderItsText) {
   EXPECT_EQ(tb::named_line("master", "a few words"), "  master         a few\n                 words\n");
 }
 
+TEST(CommandLines, GoOnAfterABackslash) {
+  EXPECT_EQ(tb::command_lines("  run my.yaml --wave my.fst"), "  run my.yaml --wave my.fst\n");
+  const TableWidth width(22);
+  EXPECT_EQ(tb::command_lines("  run my.yaml --wave my.fst"), "  run my.yaml \\\n      --wave my.fst\n");
+}
+
 }  // namespace
 }  // namespace dsdpv1
