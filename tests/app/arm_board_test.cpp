@@ -216,7 +216,7 @@ TEST(ArmBoard, PlantedEarlyRStaIsCaughtWithTimeAndHistory) {
                " --log " + folder.file("log"),
            DSDPV1_SOURCE_DIR);
   EXPECT_EQ(called.status, 1);
-  EXPECT_THAT(called.out, HasSubstr("OWNERSHIP_SYNC_WINDOW"));
+  EXPECT_THAT(called.out, HasSubstr("OWNERSHIP_BOTH_OWN"));
   const std::string log = read(folder.file("log"));
   EXPECT_THAT(log, testing::ContainsRegex("ns  board        violation OWNERSHIP_BOTH_OWN"));
   EXPECT_THAT(log, testing::ContainsRegex("R_REQ.*R_STA"));

@@ -112,7 +112,7 @@ TEST(Polls, InterruptsComeAsIfNobodySaidThatALookStays) {
 }
 
 TEST(Polls, LeaveEverythingAsItIsWhenInstructionsLastTheSame) {
-  for (const std::uint32_t millicycles : {1000, 1500, 1333})
+  for (const std::uint32_t millicycles : {1000U, 1500U, 1333U})
     for (std::uint32_t way = 0; way < kWays; ++way)
       for (std::uint64_t rises = 900; rises < 920; ++rises) compare({way, rises, 700, millicycles});
 }
