@@ -37,7 +37,7 @@ State random_state(Random& random, std::uint32_t pc) {
   };
   State state;
   for (unsigned n = 0; n <= 14; ++n) state.registers.at(n) = word();
-  for (const unsigned base : {6, 7, 8, 10, 11}) state.registers.at(base) = in_ram(4);
+  for (const unsigned base : {6U, 7U, 8U, 10U, 11U}) state.registers.at(base) = in_ram(4);
   if (random() % 16 == 0) state.registers.at(10) = word() & ~(kBus | kRam);  // mostly where nothing is
   if (random() % 8 == 0) state.registers.at(8) = in_ram(1);
   state.registers.at(kBusRegister) = kBus + 0x8000 + (static_cast<std::uint32_t>(random()) & 0x7FFC);
