@@ -167,21 +167,19 @@ void CortexM3::catch_up_systick() {
 void CortexM3::catch_up() {
   catch_up_systick();
   if (is_due()) polling_.restart();
-  const std::uint64_t next = system_.keep_up();
-  keep_up_at_ = next == kNever ? kNever : next * kMillis;
+  keep_up_at_ = millis(system_.keep_up());
 }
 
 void CortexM3::stays(std::uint64_t until) {
   if (is_due()) polling_.restart();
-  keep_up_at_ = until == kNever ? kNever : until * kMillis;
+  keep_up_at_ = millis(until);
   stays_ = true;
 }
 
 // An exception that waits for the end of an IT block is looked for again at once.
 void CortexM3::schedule(bool in_it) {
-  const std::uint64_t tick = systick_.next();
   const bool at_once = in_it || (debugger_ != nullptr && debugger_->wanted());
-  const std::uint64_t due = std::min(keep_up_at_, tick == kNever ? kNever : tick * kMillis);
+  const std::uint64_t due = std::min(keep_up_at_, millis(systick_.next()));
   engine_.attend_at(at_once ? 0 : debugger_ != nullptr ? std::min(due, poll_at_) : due);
 }
 

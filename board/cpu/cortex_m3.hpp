@@ -127,6 +127,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
 
  private:
   static constexpr std::uint64_t kMillis = 1000;
+  static constexpr std::uint64_t millis(std::uint64_t cycle) { return cycle == kNever ? kNever : cycle * kMillis; }
 
   // cortex_m3.cpp: memory, time, the run
   void map_memory();

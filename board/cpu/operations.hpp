@@ -311,8 +311,7 @@ struct Operations {
     e.done(i);
   }
   static void clz(Engine& e, const Instruction& i) {
-    const U32 value = e.r_[i.rm];
-    e.r_[i.rd] = value == 0 ? 32 : static_cast<U32>(__builtin_clz(value));
+    e.r_[i.rd] = static_cast<U32>(zeros_before(e.r_[i.rm]));
     e.done(i);
   }
 
