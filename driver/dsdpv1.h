@@ -5,9 +5,10 @@
 /*
  * Driver for the PROFIBUS-DP slave chip DSDPV1, user side of the DPRAM.
  *
- * C99, no allocation, no operating system, no floating point. The device maker supplies the port: `dsdpv1_port` for the
- * parallel one (two functions for a DPRAM byte, four for the handshake pins), `dsdpv1_spi` (dsdpv1_spi.h: one function)
- * or `dsdpv1_uart` (dsdpv1_uart.h: two). See docs/programmers_guide.md for the bring-up and a port for an MCU.
+ * C99, no allocation, no operating system, no floating point. The device maker supplies the port: `dsdpv1_port` for
+ * the parallel one (two functions for a DPRAM byte, four for the handshake pins), `dsdpv1_spi` (dsdpv1_spi.h: one
+ * function) or `dsdpv1_uart` (dsdpv1_uart.h: two). docs/programmers_guide.md describes the bring-up and a port for
+ * an MCU.
  *
  *   dsdpv1_device chip;
  *   dsdpv1_open(&chip, &port, &judge);
@@ -19,11 +20,11 @@
  *   }
  *
  * Every call that touches the DPRAM takes it (a "hold": R_REQ, R_STA; B014 over SPI), does its accesses and releases
- * it. Over the UART there is no ownership: a hold is a series of telegrams. CRCs of blocks are computed outside of the
- * holds. The calls block for bounded times only; the bounds are in `dsdpv1_tuning`.
+ * it. The UART has no ownership: there a hold is a series of telegrams. CRCs of blocks are computed outside holds.
+ * Calls block for bounded times only; the bounds are in `dsdpv1_tuning`.
  *
- * Contexts: one thread and one interrupt handler may use a device. A call from the handler that finds a hold of the
- * interrupted program open returns DSDPV1_ERR_NESTED and touches nothing.
+ * Contexts: one thread and one interrupt handler may use a device. A call from the handler that interrupts an open
+ * hold returns DSDPV1_ERR_NESTED and touches nothing.
  */
 /* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using): C, also when included by C++ */
 #include <stdbool.h>
@@ -41,8 +42,8 @@ extern "C" {
 #define DSDPV1_MAX_CFG 200u
 #define DSDPV1_MAX_ADDRESS 126u
 
-/* Ruling H2: for 2 cycles of 48 MHz after R_REQ rose the chip may still start an access, 3 are the window; 62.5 ns,
- * rounded up. */
+/* Ruling H2: the chip may still start an access up to 2 cycles of 48 MHz after R_REQ rose, so the window is 3
+ * cycles: 62.5 ns, rounded up. */
 #define DSDPV1_SYNC_WINDOW_NS 63u
 
 /* ----------------------------------------------------------------------------------------------------------- errors */
@@ -113,8 +114,8 @@ const char* dsdpv1_error_text(dsdpv1_error error);
 /* ------------------------------------------------------------------------------------------------------------- port */
 
 /*
- * How the driver reaches the chip over its parallel port. `ctx` is handed to every function. All are mandatory except
- * `pause`. Pins: true is high. Addresses 0x000..0x7FF.
+ * The application's access to the chip over its parallel port. `ctx` is passed to every function. All are mandatory
+ * except `pause`. Pins: true is high. Addresses 0x000..0x7FF.
  */
 typedef struct dsdpv1_port {
   void* ctx;
@@ -125,8 +126,9 @@ typedef struct dsdpv1_port {
   bool (*get_l_req)(void* ctx);
   bool (*get_l_sta)(void* ctx);
   /*
-   * Lets at least `ns` nanoseconds pass. May be null when from set_r_req(true) to the third of four pin samples at
-   * least DSDPV1_SYNC_WINDOW_NS pass anyway (an MCU below some 150 MHz), and polling without a pause is welcome.
+   * Waits at least `ns` nanoseconds. May be null if polling without a pause is acceptable and at least
+   * DSDPV1_SYNC_WINDOW_NS pass anyway from set_r_req(true) to the third of four pin samples (an MCU below some 150
+   * MHz).
    */
   void (*pause)(void* ctx, uint32_t ns);
 } dsdpv1_port;
@@ -139,57 +141,57 @@ typedef enum dsdpv1_verdict {
   DSDPV1_LATER /* no verdict now; the application calls dsdpv1_send_verdict afterwards */
 } dsdpv1_verdict;
 
-/* A configuration that the master has sent (table 2: B500..; ruling D6). */
+/* A configuration sent by the master (table 2: B500..; ruling D6). */
 typedef struct dsdpv1_cfg_block {
   const uint8_t* bytes;
   uint8_t length;        /* 0..200 */
-  uint8_t input_length;  /* bytes slave to master, computed by the chip: what every input block must have (D10) */
+  uint8_t input_length;  /* bytes slave to master, computed by the chip: the length of every input block (D10) */
   uint8_t output_length; /* bytes master to slave, computed by the chip */
 } dsdpv1_cfg_block;
 
 /*
- * The application's judgement. Called from dsdpv1_service, outside of holds, for every block in every judging mode (P7,
- * D15); the return value counts only when the mode of that block is 2. A null function accepts. The blocks are the
- * driver's own copies, valid until the next dsdpv1_service.
+ * The application's judgement. Called from dsdpv1_service, outside holds, for every block in every judging mode (P7,
+ * D15); the return value counts only in mode 2. A null function accepts. The blocks are the driver's copies, valid
+ * until the next dsdpv1_service.
  */
 typedef struct dsdpv1_judge {
   void* ctx;
-  /* `bytes`: everything behind the first 7 bytes of Set_Prm, the DPV1 byte first where the master sends one. */
+  /* `bytes`: everything after the first 7 bytes of Set_Prm, starting with the DPV1 byte if the master sends one. */
   dsdpv1_verdict (*prm)(void* ctx, const uint8_t* bytes, uint8_t length);
   dsdpv1_verdict (*cfg)(void* ctx, const dsdpv1_cfg_block* cfg);
 } dsdpv1_judge;
 
 /* ----------------------------------------------------------------------------------------------------------- device */
 
-/* Bounds of waiting. dsdpv1_open sets the defaults given here; the application may change them afterwards. */
+/* Limits of waiting. dsdpv1_open sets the defaults given here; the application may change them afterwards. */
 typedef struct dsdpv1_tuning {
-  uint32_t acquire_polls;   /* 10000: looks at L_REQ and L_STA, or claims over SPI, for one hold; must span 45 us, the
+  uint32_t acquire_polls;   /* 10000: samples of L_REQ and L_STA, or claims over SPI, for one hold; must span 45 us, the
                                chip's start-up (H6) */
-  uint32_t ready_polls;     /* 1000: holds in which B004 is looked at */
+  uint32_t ready_polls;     /* 1000: holds in which B004 is checked */
   uint32_t init_polls;      /* 1000: holds after an initialisation or diagnosis until the chip has taken it */
   uint32_t poll_pause_ns;   /* 10000: pause between two such holds, when the port has `pause` */
   uint8_t crc_retries;      /* 2: how often a block with a wrong CRC is read again */
-  uint8_t silent_holds;     /* 8: holds without an access of the chip between them that are still believed (B006);
+  uint8_t silent_holds;     /* 8: holds without an access of the chip between them before it counts as silent (B006);
                                parallel port */
-  uint8_t telegram_retries; /* 2: how often a telegram (SPI, UART) without a right reply is sent again */
+  uint8_t telegram_retries; /* 2: how often a telegram (SPI, UART) without a valid reply is repeated */
 } dsdpv1_tuning;
 
-/* What the initialisation tells the chip (table 2 B020.., tables 12 to 14). */
+/* Initialisation data for the chip (table 2 B020.., tables 12 to 14). */
 typedef struct dsdpv1_config {
   uint8_t address;                              /* 0..126 */
   uint16_t ident;                               /* Ident_Number of the GSD */
   bool address_change, freeze, sync, fail_safe; /* table 12 */
   bool dpv1;                                    /* B005 = 0x1D */
   uint8_t max_input, max_output;                /* 0..244 bytes, slave to master and master to slave */
-  uint8_t max_diag;                             /* 0..238 bytes behind the six standard ones */
-  uint8_t max_prm;                              /* 0..237 bytes behind the seven standard ones */
+  uint8_t max_diag;                             /* 0..238 bytes after the six standard bytes */
+  uint8_t max_prm;                              /* 0..237 bytes after the seven standard bytes */
   uint8_t max_cfg;                              /* 1..200 bytes */
   uint8_t prm_mode, cfg_mode;                   /* 0, 1: the chip judges; 2: the user (tables 13, 14) */
   const uint8_t* cfg;                           /* initial configuration, only read during dsdpv1_initialise */
   uint8_t cfg_length;                           /* 1..max_cfg bytes */
 } dsdpv1_config;
 
-/* Flags taken from the DPRAM for an initialisation that the chip has not judged yet; set back if it refuses (D11). */
+/* Flags taken from the DPRAM for an initialisation that the chip has not judged yet; restored if it refuses (D11). */
 typedef struct dsdpv1_aside {
   uint8_t chip_command_1, chip_command_2, user_command_1; /* B00E, B00F, B010 */
 } dsdpv1_aside;
@@ -201,25 +203,25 @@ typedef union dsdpv1_any_port {
   struct dsdpv1_uart* uart;
 } dsdpv1_any_port;
 
-/* State of one chip. The members are the driver's own, except `tuning`. */
+/* State of one chip. The members are private to the driver, except `tuning`. */
 typedef struct dsdpv1_device {
   const struct dsdpv1_link* link; /* what the port can do */
   dsdpv1_any_port port;
   dsdpv1_judge judge;
   dsdpv1_tuning tuning;
-  bool block_crc;              /* the chip looks at the CRCs of the user's blocks */
-  dsdpv1_error fault;          /* of a telegram in the hold that is open; then nothing more is moved in it */
+  bool block_crc;              /* the chip checks the CRCs of the user's blocks */
+  dsdpv1_error fault;          /* of a telegram in the open hold, which then transfers nothing more */
   volatile bool held;          /* a hold is open or being asked for */
-  volatile bool servicing;     /* dsdpv1_service is at work: its block copies are in use */
+  volatile bool servicing;     /* dsdpv1_service is running: its block copies are in use */
   volatile bool intr0_pending; /* INTR0 fell, dsdpv1_service has not run since */
   bool initialised;
   uint8_t max_input, max_output, max_diag, prm_mode, cfg_mode; /* of the last successful initialisation */
   uint8_t user_status_2;                                       /* B00D as it is in the DPRAM */
-  uint8_t last_count, absent_holds; /* B006 as left by the last hold; holds since the chip was seen */
+  uint8_t last_count, absent_holds; /* B006 as left by the last hold; holds since the chip's last access */
   dsdpv1_aside aside;
   uint8_t generation;   /* counts successful initialisations, modulo 256 */
   uint8_t verdicts_due; /* DSDPV1_VERDICT_ bits of blocks that wait for a verdict */
-  uint8_t unread;       /* the same of blocks whose reading found no hold */
+  uint8_t unread;       /* the same bits, of blocks that could not be read because a hold failed */
   uint8_t prm_length, prm[DSDPV1_MAX_PRM];
   uint8_t cfg_length, cfg_input_length, cfg_output_length, cfg[DSDPV1_MAX_CFG];
 } dsdpv1_device;
@@ -228,23 +230,23 @@ typedef struct dsdpv1_device {
  * Prepares `device` on the parallel port (SPI: dsdpv1_open_spi, UART: dsdpv1_open_uart); touches no pin. `port` and
  * `judge` are copied; `judge` may be null (accept everything). Errors: ARGUMENT.
  *
- * Over SPI and UART every call that touches the DPRAM can also return NO_REPLY, REPLY and TELEGRAM; what it had begun
- * is then left as it is, and the call may be repeated.
+ * Over SPI and UART every call that touches the DPRAM can also return NO_REPLY, REPLY and TELEGRAM; its work is then
+ * left unfinished, and the call may be repeated.
  */
 dsdpv1_error dsdpv1_open(dsdpv1_device* device, const dsdpv1_port* port, const dsdpv1_judge* judge);
 
 /*
- * Waits until the chip has begun to work: B004 = 0xC5, 85 us after the release of RESET (ruling D1). To be called after
- * that release, with R_REQ and R_STA low: a line that is high when the chip leaves its reset keeps it from starting
- * (H6). Errors: DPRAM_BUSY, CHIP_NOT_READY, NESTED.
+ * Waits until the chip works: B004 = 0xC5, 85 us after the release of RESET (ruling D1). Call it after that release,
+ * with R_REQ and R_STA low: a line that is high when the chip leaves its reset keeps it from starting (H6). Errors:
+ * DPRAM_BUSY, CHIP_NOT_READY, NESTED.
  */
 dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device);
 
 /*
  * Initialises the chip (chapter 8): checks `config` against table 2, writes B005 and B020.., sets B010.2, waits for
- * the chip and clears B00A.0. In operation the chip goes through OFFLINE with the new values, and what waits in the
- * DPRAM or for an answer is dropped. After an error the chip keeps what it had, blocks that wait and verdicts due
- * included (D11). Errors: 20..28 before anything is written; 30..33; NESTED, DPRAM_BUSY, CHIP_NOT_READY (B004),
+ * the chip and clears B00A.0. In operation the chip goes through OFFLINE with the new values, and data waiting in
+ * the DPRAM or for an answer are dropped. After an error the chip keeps its old values, waiting blocks and due
+ * verdicts (D11). Errors: 20..28 before anything is written; 30..33; NESTED, DPRAM_BUSY, CHIP_NOT_READY (B004),
  * CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* config);
@@ -253,23 +255,23 @@ dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* confi
 
 typedef enum dsdpv1_input_policy {
   DSDPV1_INPUT_NEWEST,       /* inputs that the chip has not taken yet are overwritten */
-  DSDPV1_INPUT_WHEN_CONSUMED /* they stay; the new ones are not written (`inputs_written` = false) */
+  DSDPV1_INPUT_WHEN_CONSUMED /* such inputs stay; the new ones are not written (`inputs_written` = false) */
 } dsdpv1_input_policy;
 
-/* What an exchange did. The caller sets `outputs` and `capacity`. */
+/* Result of an exchange. The caller sets `outputs` and `capacity`. */
 typedef struct dsdpv1_exchange_result {
-  uint8_t* outputs;    /* the caller's buffer; may be null when outputs are not wanted */
+  uint8_t* outputs;    /* the caller's buffer; may be null if outputs are not wanted */
   uint8_t capacity;    /* its size in bytes */
   uint8_t length;      /* bytes received, valid when `outputs_new` */
-  bool outputs_new;    /* the chip had new outputs (B00E.0), and their CRC is right */
+  bool outputs_new;    /* the chip had new outputs (B00E.0) with a right CRC */
   bool inputs_written; /* the inputs are in the DPRAM and announced (B010.0) */
-  bool intr0_missed;   /* B00E.1 or .2 is set: call dsdpv1_service, also when INTR0 was not seen */
+  bool intr0_missed;   /* B00E.1 or .2 is set: call dsdpv1_service, even if INTR0 was not seen */
 } dsdpv1_exchange_result;
 
 /*
- * Inputs to the chip and outputs from it in one hold. The length of the inputs must be the configured input length, or
- * the chip refuses them (D10); `inputs` null: only outputs. Outputs with a wrong CRC are read again in a hold of their
- * own. When an error is returned the other direction has still been served.
+ * Transfers inputs to the chip and outputs from it in one hold. The inputs must have the configured input length, or
+ * the chip refuses them (D10); `inputs` null: only outputs. Outputs with a wrong CRC are read again in a separate
+ * hold. If an error is returned, the other direction has still been served.
  * Errors: NOT_INITIALISED, INPUT_LENGTH (nothing done), INPUT_CRC, OUTPUT_LENGTH, OUTPUT_CRC; NESTED, DPRAM_BUSY,
  * CHIP_SILENT.
  */
@@ -277,16 +279,16 @@ dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, 
                              uint8_t input_length, dsdpv1_exchange_result* result);
 
 /*
- * What the chip's opinion of the inputs' CRC (B00B.2, INPUT_CRC above) is about (B011.6, ruling D16). `keep` false, as
- * after RESET: the block that it took last. True: any block since dsdpv1_clear_input_error; right ones do not take the
- * error away. Counts from the chip's next access on; an error that stands stays. In one hold. Errors: ARGUMENT; NESTED,
- * DPRAM_BUSY, CHIP_SILENT.
+ * Chooses the blocks that the chip's verdict on the inputs' CRC covers (B00B.2, INPUT_CRC above; B011.6, ruling
+ * D16). `keep` false, as after RESET: only the last block taken. True: all blocks since dsdpv1_clear_input_error;
+ * later right ones do not clear the error. Applies from the chip's next access on; an existing error stays. In one
+ * hold. Errors: ARGUMENT; NESTED, DPRAM_BUSY, CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_keep_input_errors(dsdpv1_device* device, bool keep);
 
 /*
- * Asks the chip to clear the error once (B011.7), which it does in its next access, before it looks at new inputs. When
- * errors are not kept nothing is cleared. In one hold.
+ * Asks the chip to clear the error once (B011.7), which it does in its next access, before it checks new inputs.
+ * Does nothing if errors are not kept. In one hold.
  * Errors: ARGUMENT; NESTED, DPRAM_BUSY, CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_clear_input_error(dsdpv1_device* device);
@@ -303,9 +305,9 @@ typedef enum dsdpv1_diag_type {
 } dsdpv1_diag_type;
 
 /*
- * Hands user diagnosis to the chip (B227.., B010.1) and waits until it has been taken. `data`: what follows the six
- * standard bytes in Slave_Diag, with the block headers of EN 50170. A wrong CRC is written again up to `crc_retries`
- * times.
+ * Passes user diagnosis to the chip (B227.., B010.1) and waits until it has been taken. `data`: the bytes after the
+ * six standard bytes of Slave_Diag, with the block headers of EN 50170. After a wrong CRC it is written again up to
+ * `crc_retries` times.
  * Errors: NOT_INITIALISED, DIAG_TYPE, DIAG_LENGTH, DIAG_TIMEOUT, DIAG_CRC; NESTED, DPRAM_BUSY, CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_set_diagnosis(dsdpv1_device* device, dsdpv1_diag_type type, const uint8_t* data, uint8_t length);
@@ -313,8 +315,8 @@ dsdpv1_error dsdpv1_set_diagnosis(dsdpv1_device* device, dsdpv1_diag_type type, 
 /* ------------------------------------------------------------------------------ parameters and configuration, INTR0 */
 
 /*
- * Notes that INTR0 fell. For the INTR0 handler of firmware that calls dsdpv1_service from its main loop. Touches no
- * pin.
+ * Records that INTR0 fell, for the INTR0 handler of firmware that calls dsdpv1_service from its main loop. Touches
+ * no pin.
  */
 void dsdpv1_on_intr0(dsdpv1_device* device);
 
@@ -322,12 +324,12 @@ void dsdpv1_on_intr0(dsdpv1_device* device);
 bool dsdpv1_intr0_pending(const dsdpv1_device* device);
 
 /*
- * Fetches new parameters and configuration (B00E.1, B00E.2), lets the application judge them and hands the verdicts of
- * mode 2 to the chip, both in one hold. Also callable straight from the INTR0 handler; on NESTED the flag of
- * dsdpv1_on_intr0 stays set for the main loop. A block that the master replaces meanwhile is judged anew, its stale
- * verdict is not sent (H7).
- * Errors: NOT_INITIALISED, PRM_LENGTH, PRM_CRC, CFG_LENGTH, CFG_CRC (that block gets no verdict); NESTED, DPRAM_BUSY,
- * CHIP_SILENT.
+ * Fetches new parameters and configuration (B00E.1, B00E.2), lets the application judge them and writes the verdicts
+ * of mode 2 to the chip, both in one hold. May be called directly from the INTR0 handler; after NESTED the flag of
+ * dsdpv1_on_intr0 stays set for the main loop. A block that the master replaces meanwhile is judged again, and its
+ * stale verdict is not sent (H7).
+ * Errors: NOT_INITIALISED, PRM_LENGTH, PRM_CRC, CFG_LENGTH, CFG_CRC (that block gets no verdict); NESTED,
+ * DPRAM_BUSY, CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_service(dsdpv1_device* device);
 
@@ -335,8 +337,8 @@ dsdpv1_error dsdpv1_service(dsdpv1_device* device);
 #define DSDPV1_VERDICT_CFG 0x02u
 
 /*
- * The verdicts that a judge function put off with DSDPV1_LATER. `which` says for what (DSDPV1_VERDICT_ bits), `wrong`
- * which of them are refused.
+ * Sends verdicts that a judge function deferred with DSDPV1_LATER. `which` selects the blocks (DSDPV1_VERDICT_
+ * bits), `wrong` those that are refused.
  * Errors: ARGUMENT, NO_VERDICT_DUE, VERDICT_STALE (nothing sent); NESTED, DPRAM_BUSY, CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_send_verdict(dsdpv1_device* device, uint8_t which, uint8_t wrong);

@@ -5,8 +5,8 @@
 /*
  * DPV1 for the driver: acyclic requests of masters of class 1 (MSAC_C1) and class 2 (MSAC_C2), I&M0 (chapter 7).
  *
- * The application describes its data in a table of slots and indexes; the driver fetches requests, checks them against
- * the table, serves plain data itself, calls back for the rest, and writes the answers.
+ * The application describes its data in a table of slots and indexes. The driver fetches requests, checks them
+ * against the table, serves plain data itself, calls handlers for the rest, and writes the answers.
  *
  *   static dsdpv1_acyclic acyclic;
  *   dsdpv1_acyclic_open(&acyclic, &chip, &table);     after dsdpv1_open; config.dpv1 = true
@@ -15,11 +15,11 @@
  *     dsdpv1_acyclic_poll(&acyclic, NULL);            requests have no interrupt (P7): poll
  *   }
  *
- * Class 1 and class 2 have a DPRAM area each and do not wait for each other. The two channels of class 2 share theirs:
- * the chip hands over one request after the other (V4) and does not tell of which channel.
+ * Class 1 and class 2 have separate DPRAM areas and do not wait for each other. The two channels of class 2 share
+ * one: the chip hands over one request after another (V4) and does not report the channel.
  *
  * Contexts: dsdpv1_acyclic_poll belongs to the thread. dsdpv1_acyclic_answer and _refuse may also be called from the
- * interrupt handler; when they interrupt a hold or the poll they return DSDPV1_ERR_NESTED and do nothing.
+ * interrupt handler; if they interrupt a hold or the poll they return DSDPV1_ERR_NESTED and do nothing.
  */
 /* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using): C, also when included by C++ */
 #include "dsdpv1.h"
@@ -45,14 +45,14 @@ typedef enum dsdpv1_function {
 
 #define DSDPV1_ERROR_DECODE 0x80u /* table 28: the only value, "codes as in DPV1" */
 
-/* Error_Code_1, table 29: class in the high nibble, code in the low. Error_Code_2 is the application's own. */
+/* Error_Code_1, table 29: class in the high nibble, code in the low one. The application chooses Error_Code_2. */
 typedef enum dsdpv1_error_code_1 {
   DSDPV1_EC_READ_ERROR = 0xA0,
   DSDPV1_EC_WRITE_ERROR = 0xA1,
   DSDPV1_EC_MODULE_FAILURE = 0xA2,
   DSDPV1_EC_VERSION_CONFLICT = 0xA8,
   DSDPV1_EC_FEATURE_NOT_SUPPORTED = 0xA9,
-  DSDPV1_EC_APPLICATION_USER = 0xAA, /* ..0xAF: the application's own */
+  DSDPV1_EC_APPLICATION_USER = 0xAA, /* ..0xAF: defined by the application */
   DSDPV1_EC_INVALID_INDEX = 0xB0,
   DSDPV1_EC_WRITE_LENGTH = 0xB1,
   DSDPV1_EC_INVALID_SLOT = 0xB2,
@@ -80,7 +80,7 @@ typedef enum dsdpv1_error_code_1 {
 #define DSDPV1_CLASS_2 0x02u
 #define DSDPV1_CLASS_BOTH 0x03u
 
-/* What a master may do with an object, as bits. */
+/* Services that a master may use on an object, as bits. */
 #define DSDPV1_MAY_READ 0x01u
 #define DSDPV1_MAY_WRITE 0x02u
 #define DSDPV1_MAY_TRANSPORT 0x04u /* class 2 only */
@@ -95,7 +95,7 @@ typedef struct dsdpv1_request {
   const uint8_t* data; /* write, transport; valid until the request is answered or dropped */
 } dsdpv1_request;
 
-/* What a callback answers with. */
+/* A callback's answer. */
 typedef struct dsdpv1_reply {
   uint8_t* data;                      /* read, transport: room for 240 bytes; the same memory as the request's `data` */
   uint8_t length;                     /* bytes put there, preset to 0; a read is cut to what the master asks for */
@@ -108,11 +108,11 @@ typedef enum dsdpv1_outcome {
   DSDPV1_DEFERRED /* no answer now; dsdpv1_acyclic_answer or _refuse follows. Class 2: within Send_Timeout (V3, V13) */
 } dsdpv1_outcome;
 
-/* Called from dsdpv1_acyclic_poll, outside of holds, with a request that the table admits. `ctx`: the object's. */
+/* Called from dsdpv1_acyclic_poll, outside holds, with a request that the table admits. `ctx`: the object's. */
 typedef dsdpv1_outcome (*dsdpv1_handler)(void* ctx, const dsdpv1_request* request, dsdpv1_reply* reply);
 
 /*
- * One line of the table. A service is carried out by its handler, or, when that is null, on `data`: a read gives the
+ * One line of the table. A service is executed by its handler or, if that is null, on `data`: a read returns the
  * first `max_length` bytes, a write replaces the first bytes. Transport needs a handler.
  */
 typedef struct dsdpv1_object {
@@ -133,7 +133,7 @@ typedef struct dsdpv1_object {
  * A master writes the call header 08 00 FD E8 (subindex 65000) to slot 0, index 255 and reads 68 bytes from there.
  */
 typedef struct dsdpv1_im0 {
-  uint8_t header[10];        /* the manufacturer's own */
+  uint8_t header[10];        /* manufacturer specific */
   uint16_t manufacturer_id;  /* given by the PROFIBUS organisation */
   const char* order_id;      /* at most 20 characters, filled with blanks */
   const char* serial_number; /* at most 16 characters, filled with blanks */
@@ -150,45 +150,45 @@ typedef struct dsdpv1_im0 {
 /* ----------------------------------------------------------------------------------------------------------- polling
  */
 
-/* The table of an application. It and all it points to must live as long as the device is used. */
+/* The table of an application. It and everything it points to must live as long as the device is used. */
 typedef struct dsdpv1_table {
   const dsdpv1_object* objects;
   size_t count;
-  const dsdpv1_im0* im0; /* null: no I&M; then slot 0, index 255 may stand in the table */
+  const dsdpv1_im0* im0; /* null: no I&M; then slot 0, index 255 may be in the table */
 } dsdpv1_table;
 
-/* What a poll did, as DSDPV1_CLASS_ bits. */
+/* Result of a poll, as DSDPV1_CLASS_ bits. */
 typedef struct dsdpv1_acyclic_result {
   uint8_t received; /* a request with the right CRC was fetched */
   uint8_t answered; /* an answer was handed to the chip */
-  uint8_t refused;  /* it was a negative one */
-  uint8_t dropped;  /* an answer or an open request came to nothing: newer request (V13), or new initialisation */
-  uint8_t repeated; /* the chip had found an answer's CRC wrong (B00B.4, .5); it was written again */
+  uint8_t refused;  /* the answer was a negative one */
+  uint8_t dropped;  /* an answer or open request was abandoned: newer request (V13), or new initialisation */
+  uint8_t repeated; /* the chip found an answer's CRC wrong (B00B.4, .5); it was written again */
   uint8_t open;     /* a request waits for dsdpv1_acyclic_answer or _refuse */
 } dsdpv1_acyclic_result;
 
-/* One of the two areas of the DPRAM. The driver's own. */
+/* One of the two areas of the DPRAM. Private to the driver. */
 typedef enum dsdpv1_channel_state {
   DSDPV1_CHANNEL_IDLE,
   DSDPV1_CHANNEL_OPEN,  /* deferred by the application */
   DSDPV1_CHANNEL_READY, /* the answer waits for a hold */
-  DSDPV1_CHANNEL_SENT   /* written; kept until the chip has found its CRC right */
+  DSDPV1_CHANNEL_SENT   /* written; kept until the chip has accepted its CRC */
 } dsdpv1_channel_state;
 
 typedef struct dsdpv1_channel {
   dsdpv1_channel_state state;
-  bool unread;           /* a request is in the DPRAM that could not be read rightly */
+  bool unread;           /* the DPRAM holds a request that could not be read correctly */
   bool im0_called;       /* the call header has been written, the read may follow */
   uint16_t ticket;       /* of the last request; bit 0 is the number of the channel */
   uint8_t request[4];    /* Function_Num, slot, index, length */
   uint8_t answer[4];     /* the same of the answer, or the error codes */
-  uint8_t answer_length; /* bytes of `data` behind it */
+  uint8_t answer_length; /* bytes of `data` after it */
   uint16_t answer_crc;
-  const dsdpv1_object* object; /* that the open request is for */
+  const dsdpv1_object* object; /* addressed by the open request */
   uint8_t data[DSDPV1_MAX_ACYCLIC];
 } dsdpv1_channel;
 
-/* State of DPV1 of one chip, about half a kilobyte. The members are the driver's own. */
+/* State of DPV1 of one chip, about half a kilobyte. The members are private to the driver. */
 typedef struct dsdpv1_acyclic {
   dsdpv1_device* device;
   dsdpv1_table table;
@@ -198,18 +198,18 @@ typedef struct dsdpv1_acyclic {
 } dsdpv1_acyclic;
 
 /*
- * Prepares `acyclic` for an opened `device` and checks the table; touches no pin. The lists that `table` points to are
- * not copied.
- * Errors: ARGUMENT; TABLE (an object's bits, lengths, a missing handler or data, the same slot and index twice, slot 0
- * index 255 beside I&M0); IM0 (a text is missing or too long).
+ * Prepares `acyclic` for an opened `device` and checks the table; touches no pin. The lists that `table` points to
+ * are not copied.
+ * Errors: ARGUMENT; TABLE (an object's bits, lengths, a missing handler or data, the same slot and index twice, slot
+ * 0 index 255 beside I&M0); IM0 (a text is missing or too long).
  */
 dsdpv1_error dsdpv1_acyclic_open(dsdpv1_acyclic* acyclic, dsdpv1_device* device, const dsdpv1_table* table);
 
 /*
  * Fetches requests (B00F.0, B00F.1), checks their CRC, lets the table and the handlers answer and writes the answers
- * (B011.0, B011.1), each after a look at B00F in the same hold: when a newer request is there, the old answer is
- * dropped (V13) and the new request served. Looks after earlier answers: one whose CRC the chip found wrong is written
- * again. `result` may be null. When an error is returned the other class has still been served.
+ * (B011.0, B011.1). Before each answer it checks B00F in the same hold: if a newer request is there, the old answer
+ * is dropped (V13) and the new request served. An earlier answer whose CRC the chip found wrong is written again.
+ * `result` may be null. If an error is returned, the other class has still been served.
  *
  * Negative answers of the driver, Error_Code_2 = 0, the first that applies: INVALID_SLOT (no object with that slot),
  * INVALID_INDEX, ACCESS_DENIED (class), FEATURE_NOT_SUPPORTED (transport) or ACCESS_DENIED (read, write) for a service
@@ -223,14 +223,14 @@ dsdpv1_error dsdpv1_acyclic_open(dsdpv1_acyclic* acyclic, dsdpv1_device* device,
 dsdpv1_error dsdpv1_acyclic_poll(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* result);
 
 /*
- * The positive answer to a request that its handler deferred. `length` bytes of `data` (0..240) answer a read, which is
- * cut to what the master asked for, or a transport; a write takes none, `data` may be null.
- * Errors: ARGUMENT, ANSWER_LENGTH, NO_REQUEST_OPEN (answered already), ANSWER_STALE (the request is gone, nothing was
- * sent), NESTED; DPRAM_BUSY, CHIP_SILENT (the answer goes with the next poll).
+ * Gives the positive answer to a request that its handler deferred. `length` bytes of `data` (0..240) answer a read,
+ * which is cut to the length requested, or a transport; a write takes none, and `data` may be null.
+ * Errors: ARGUMENT, ANSWER_LENGTH, NO_REQUEST_OPEN (answered already), ANSWER_STALE (the request is gone, nothing
+ * was sent), NESTED; DPRAM_BUSY, CHIP_SILENT (the answer goes with the next poll).
  */
 dsdpv1_error dsdpv1_acyclic_answer(dsdpv1_acyclic* acyclic, uint16_t ticket, const uint8_t* data, uint8_t length);
 
-/* The negative answer. Errors: as dsdpv1_acyclic_answer. */
+/* Gives the negative answer. Errors: as dsdpv1_acyclic_answer. */
 dsdpv1_error dsdpv1_acyclic_refuse(dsdpv1_acyclic* acyclic, uint16_t ticket, uint8_t error_code_1,
                                    uint8_t error_code_2);
 

@@ -3,7 +3,7 @@
 /* DPV1: finished answers and their way into the DPRAM (7.2, 7.3; rulings V5, V6, V13, V14). */
 #include "dsdpv1_acyclic_internal.h"
 
-/* Where an answer goes, and B00B's bit for its CRC. */
+/* Destination of an answer, and its CRC bit in B00B. */
 typedef struct answer_area {
   uint16_t address, crc;
   uint8_t error_bit;
@@ -53,7 +53,7 @@ static bool any_in(const dsdpv1_acyclic* acyclic, dsdpv1_channel_state state) {
   return acyclic->channels[0].state == state || acyclic->channels[1].state == state;
 }
 
-/* Inside a hold. An answer that a disturbed hold did not bring to the chip stays ready. */
+/* Inside a hold. An answer that did not reach the chip in a disturbed hold stays ready. */
 static void write_answer(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_acyclic_result* result) {
   dsdpv1_device* device = acyclic->device;
   dsdpv1_channel* channel = &acyclic->channels[i];
@@ -72,7 +72,7 @@ static void write_answer(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_acyclic_res
   if ((channel->answer[0] & kErrorBit) != 0u) note(&result->refused, i);
 }
 
-/* Inside a hold. Writes what is ready and returns the bits for B011. */
+/* Inside a hold. Writes ready answers and returns the bits for B011. */
 static unsigned write_answers(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* result) {
   const unsigned newer = dsdpv1_get(acyclic->device, DSDPV1_REG_CHIP_COMMAND_2);
   unsigned written = 0;
@@ -90,7 +90,7 @@ static unsigned write_answers(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* re
   return written;
 }
 
-/* What a disturbed hold may not have announced is written again. */
+/* A disturbed hold may not have announced these answers: write them again. */
 static void take_back(dsdpv1_acyclic* acyclic, unsigned written, dsdpv1_acyclic_result* result) {
   for (unsigned i = 0; i < kChannels; ++i)
     if ((written & dsdpv1_class_of(i)) != 0u) acyclic->channels[i].state = DSDPV1_CHANNEL_READY;

@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
-/* Reading what the chip has written, with its CRC (4.2, table 7). */
+/* Reads the chip's blocks with their CRC (4.2, table 7). */
 #include "dsdpv1_internal.h"
 
 uint8_t dsdpv1_copy_length(const dsdpv1_area* area, const dsdpv1_copy* copy) {
@@ -26,13 +26,13 @@ void dsdpv1_fetch(dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* c
 
 static bool is_right(const dsdpv1_area* area, const dsdpv1_copy* copy) { return crc_of(area, copy) == copy->crc; }
 
-/* B00D tells the chip what the user found; inside a hold. */
+/* Inside a hold: reports in B00D how the user found the chip's blocks. */
 static void put_user_status(dsdpv1_device* device, uint8_t value) {
   device->user_status_2 = value;
   dsdpv1_put(device, DSDPV1_REG_USER_STATUS_2, value);
 }
 
-/* Costs a hold only after an earlier error. */
+/* Takes a hold only after an earlier error. */
 static dsdpv1_error clear_error(dsdpv1_device* device, const dsdpv1_area* area) {
   if ((device->user_status_2 & area->error_bit) == 0u) return DSDPV1_OK;
   const dsdpv1_error error = dsdpv1_hold(device);

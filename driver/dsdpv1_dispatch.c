@@ -5,7 +5,7 @@
 
 #include "dsdpv1_acyclic_internal.h"
 
-/* Error_Code_1 of nothing wrong; table 29 has no class 0. */
+/* Error_Code_1 for an admitted request; table 29 has no class 0. */
 enum { kAdmitted = 0 };
 
 /* ---------------------------------------------------------------------------------------------------------- checking
@@ -48,7 +48,7 @@ dsdpv1_error dsdpv1_check_table(const dsdpv1_table* table) {
 /* --------------------------------------------------------------------------------------------------------- admitting
  */
 
-/* Null when there is none; `code` says then what is unknown. */
+/* Null if there is none; `code` then says what is unknown. */
 static const dsdpv1_object* find(const dsdpv1_table* table, uint8_t slot, uint8_t index, uint8_t* code) {
   bool slot_known = table->im0 != NULL && slot == kIm0Slot;
   for (size_t i = 0; i < table->count; ++i) {
@@ -79,7 +79,7 @@ static uint8_t admit(const dsdpv1_object* object, uint8_t master_class, uint8_t 
   }
 }
 
-/* One handler at a time: it has not finished yet with what the other class asked for. */
+/* A handler serves one request at a time: it is busy until it has answered the other class. */
 static bool is_busy(const dsdpv1_channel* other, const dsdpv1_object* object) {
   return other->state == DSDPV1_CHANNEL_OPEN && other->object == object;
 }
@@ -149,7 +149,7 @@ dsdpv1_error dsdpv1_dispatch(dsdpv1_acyclic* acyclic, unsigned number) {
   dsdpv1_channel* channel = &acyclic->channels[number];
   const uint8_t* header = channel->request;
   const dsdpv1_table* table = &acyclic->table;
-  if (header[0] == DSDPV1_DS_READ && header[3] > DSDPV1_MAX_ACYCLIC) { /* V9: the chip hands it on */
+  if (header[0] == DSDPV1_DS_READ && header[3] > DSDPV1_MAX_ACYCLIC) { /* V9: the chip passes it on */
     dsdpv1_answer_negative(channel, DSDPV1_EC_INVALID_RANGE, 0);
     return DSDPV1_OK;
   }

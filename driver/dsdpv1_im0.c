@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /*
- * I&M0, the nameplate: a call (write) to slot 0, index 255 chooses the subindex, the read that follows fetches it
+ * I&M0, the nameplate: a call (write) to slot 0, index 255 selects the subindex, and the next read fetches it
  * (software manual chapter 1; Profile Guidelines part 1, IEC 61158-6 CALL).
  */
 #include <string.h>
@@ -65,13 +65,13 @@ static uint8_t build_answer(uint8_t* data, const dsdpv1_im0* im0) {
 
 /* ---------------------------------------------------------------------------------------------------- call and read */
 
-/* Error_Code_1, 0 when the call is right. */
+/* Returns Error_Code_1, 0 if the call is right. */
 static uint8_t judge_call(const uint8_t* data, uint8_t length) {
   if (length < kCallHeader) return DSDPV1_EC_WRITE_LENGTH;
   if (data[0] != kCall) return DSDPV1_EC_FEATURE_NOT_SUPPORTED;
   if (data[1] != 0u) return DSDPV1_EC_INVALID_PARAMETER;
   if (((unsigned)data[2] << 8 | data[3]) != kIm0SubIndex) return DSDPV1_EC_INVALID_INDEX;
-  return length > kCallHeader ? DSDPV1_EC_ACCESS_DENIED : 0u; /* data behind the header: I&M0 is read-only */
+  return length > kCallHeader ? DSDPV1_EC_ACCESS_DENIED : 0u; /* data after the header: I&M0 is read-only */
 }
 
 static void serve_call(dsdpv1_channel* channel) {
@@ -88,7 +88,7 @@ static void serve_read(const dsdpv1_im0* im0, dsdpv1_channel* channel) {
     dsdpv1_answer_negative(channel, DSDPV1_EC_STATE_CONFLICT, 0);
     return;
   }
-  channel->im0_called = false; /* each read needs its call */
+  channel->im0_called = false; /* each read needs a call before it */
   dsdpv1_answer_positive(channel, build_answer(channel->data, im0));
 }
 

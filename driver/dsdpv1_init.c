@@ -10,7 +10,7 @@ enum { kHeadLength = DSDPV1_REG_INIT_CFG - DSDPV1_REG_INIT }; /* B020..B02E, bef
 dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device) {
   if (device == NULL) return DSDPV1_ERR_ARGUMENT;
   dsdpv1_error error = DSDPV1_OK;
-  dsdpv1_sync_pause(device); /* H6: a request that the chip meets as it leaves its reset keeps it from its start-up */
+  dsdpv1_sync_pause(device); /* H6: a request that is high as the chip leaves its reset prevents its start-up */
   for (uint32_t polls = device->tuning.ready_polls; polls != 0u; --polls) {
     error = dsdpv1_hold_unjudged(device);
     uint8_t flag = 0;
@@ -18,9 +18,9 @@ dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device) {
       flag = dsdpv1_get(device, DSDPV1_REG_VALID_FLAG);
       error = dsdpv1_release(device);
     }
-    if (error != DSDPV1_OK && error != DSDPV1_ERR_NO_REPLY) return error; /* in its reset the chip hears nothing */
+    if (error != DSDPV1_OK && error != DSDPV1_ERR_NO_REPLY) return error; /* a chip in reset receives nothing */
     if (error == DSDPV1_OK && flag == DSDPV1_REG_VALID_FLAG_VALID) {
-      device->absent_holds = 0; /* those before the chip began do not count */
+      device->absent_holds = 0; /* holds before the chip's start do not count */
       return DSDPV1_OK;
     }
     dsdpv1_poll_pause(device);
@@ -76,7 +76,7 @@ static void build_head(uint8_t head[kHeadLength], const dsdpv1_config* config) {
   for (size_t i = 0; i < kHeadLength; ++i) head[i] = values[i];
 }
 
-/* The flags at `address` go to `aside` and are 0 afterwards; inside a hold. */
+/* Inside a hold: moves the flags at `address` to `aside` and clears them. */
 static void set_aside(dsdpv1_device* device, uint16_t address, uint8_t* aside) {
   *aside = (uint8_t)(*aside | dsdpv1_get(device, address));
   dsdpv1_put(device, address, 0);
@@ -87,9 +87,10 @@ static void set_back(dsdpv1_device* device, uint16_t address, uint8_t aside) {
 }
 
 /*
- * Inside a hold. Flags of the earlier operation are set aside on both sides: their data belong to the old configuration
- * if the chip accepts the new one, and still count if it refuses it (D11). Verdicts stay, since the chip itself
- * discards those that nobody awaits (H7). A B00A.0 left standing would pass for the success of this initialisation.
+ * Inside a hold. Flags of the earlier operation are set aside on both sides: if the chip accepts the new
+ * configuration, their data belong to the old one; if it refuses, they still count (D11). Verdicts stay, because the
+ * chip discards those that it does not await (H7). An old B00A.0 must fall, or it would be taken for the success of
+ * this initialisation.
  */
 static void write_init(dsdpv1_device* device, const dsdpv1_config* config, const uint8_t head[kHeadLength],
                        uint16_t crc) {
@@ -121,7 +122,7 @@ static dsdpv1_error hand_over(dsdpv1_device* device, const dsdpv1_config* config
   return error != DSDPV1_OK || ready ? error : DSDPV1_ERR_CHIP_NOT_READY;
 }
 
-/* Inside a hold: why B00A.0 is or is not set. The CRC is looked at first (D11). */
+/* Inside a hold: why B00A.0 is or is not set. The CRC is checked first (D11). */
 static dsdpv1_error read_answer(dsdpv1_device* device) {
   if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_1) & DSDPV1_REG_CHIP_STATUS_1_INITIALISED) != 0u) {
     dsdpv1_put(device, DSDPV1_REG_CHIP_STATUS_1, 0);
@@ -134,14 +135,14 @@ static dsdpv1_error read_answer(dsdpv1_device* device) {
   return DSDPV1_ERR_INIT_REFUSED;
 }
 
-/* Inside the hold that found the initialisation refused: the chip goes on with what it had (D11), so do the flags. */
+/* Inside the hold in which the initialisation was refused: the chip keeps its old values (D11), and so do the flags. */
 static void resume(dsdpv1_device* device) {
   set_back(device, DSDPV1_REG_CHIP_COMMAND_1, device->aside.chip_command_1);
   set_back(device, DSDPV1_REG_CHIP_COMMAND_2, device->aside.chip_command_2);
   set_back(device, DSDPV1_REG_USER_COMMAND_1, device->aside.user_command_1);
 }
 
-/* Inside the hold that found it accepted, so that an INTR0 handler sees the new modes: a fresh start. */
+/* Inside the hold in which it was accepted, so that an INTR0 handler sees the new modes. */
 static void remember(dsdpv1_device* device, const dsdpv1_config* config) {
   device->user_status_2 = 0;
   dsdpv1_put(device, DSDPV1_REG_USER_STATUS_2, 0);

@@ -15,8 +15,8 @@ static void write_inputs(dsdpv1_device* device, const dsdpv1_block* inputs, uint
 }
 
 /*
- * Inside a hold. Sets result->inputs_written; `fetched` when the port has brought new outputs with the same telegram.
- * Returns the chip's opinion of the previous inputs (B00B.2).
+ * Inside a hold. Sets result->inputs_written; `fetched` if the port got new outputs with the same telegram. Returns
+ * the chip's verdict on the previous inputs (B00B.2).
  */
 static dsdpv1_error give_inputs(dsdpv1_device* device, dsdpv1_input_policy policy, const dsdpv1_block* inputs,
                                 dsdpv1_exchange_result* result, dsdpv1_copy* outputs, bool* fetched) {
@@ -32,7 +32,7 @@ static dsdpv1_error give_inputs(dsdpv1_device* device, dsdpv1_input_policy polic
   return (status & DSDPV1_REG_CHIP_STATUS_2_INPUT_CRC) != 0u ? DSDPV1_ERR_INPUT_CRC : DSDPV1_OK;
 }
 
-/* Inside a hold. True when there were new outputs. */
+/* Inside a hold. Returns true if there were new outputs. */
 static bool take_outputs(dsdpv1_device* device, dsdpv1_exchange_result* result, dsdpv1_copy* copy) {
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1);
   result->intr0_missed = (command & (DSDPV1_REG_CHIP_COMMAND_1_PRM | DSDPV1_REG_CHIP_COMMAND_1_CFG)) != 0u;
@@ -91,7 +91,7 @@ dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, 
 
 /* ----------------------------------------------------------------------------------------------------- input errors */
 
-/* In a hold of its own; C1 and C2 answers that wait in B011 stay. */
+/* In a separate hold; C1 and C2 answers waiting in B011 stay. */
 static dsdpv1_error change_user_command_2(dsdpv1_device* device, unsigned clear, unsigned set) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) return error;

@@ -20,8 +20,7 @@ static const dsdpv1_area kCfg = {DSDPV1_REG_CFG,
                                  DSDPV1_REG_CHIP_COMMAND_1,
                                  DSDPV1_REG_CHIP_COMMAND_1_CFG};
 
-/* A master that changes its mind faster than this many rounds is left to the next call, so that a call stays bounded.
- */
+/* Limits the rounds per call, so that a call stays bounded when the master keeps sending new blocks. */
 enum { kRounds = 3 };
 
 /* Verdicts reached in one round, as DSDPV1_VERDICT_ bits. */
@@ -60,7 +59,7 @@ static uint8_t flags_of(unsigned kinds) {
   return (uint8_t)flags;
 }
 
-/* Inside a hold. What a disturbed hold leaves unread has to be read the next time: its flag may be gone. */
+/* Inside a hold. A block left unread by a disturbed hold must be read next time: its flag may be gone. */
 static void copy_blocks(dsdpv1_device* device, uint8_t command, unsigned fresh, dsdpv1_copy* prm, dsdpv1_copy* cfg) {
   dsdpv1_before_fetch(device, DSDPV1_REG_CHIP_COMMAND_1, flags_of(fresh));
   if ((fresh & DSDPV1_VERDICT_PRM) != 0u) dsdpv1_fetch(device, &kPrm, prm);
@@ -71,7 +70,7 @@ static void copy_blocks(dsdpv1_device* device, uint8_t command, unsigned fresh, 
   if (device->fault == DSDPV1_OK) device->verdicts_due = (uint8_t)(device->verdicts_due & ~fresh);
 }
 
-/* One hold: copies what is new and clears its flags, so that a flag set afterwards means a newer block. */
+/* One hold: copies new blocks and clears their flags, so that a flag set later means a newer block. */
 static dsdpv1_error take_blocks(dsdpv1_device* device, unsigned* fresh, dsdpv1_copy* prm, dsdpv1_copy* cfg) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) return error;
@@ -91,7 +90,7 @@ static void note(dsdpv1_device* device, verdicts* reached, unsigned kind, dsdpv1
   reached->wrong |= verdict == DSDPV1_REFUSE ? kind : 0u;
 }
 
-/* A block whose repeated reading found no hold stays due: its flag is gone already. */
+/* If no hold was available to read a block again, it stays due: its flag is gone already. */
 static dsdpv1_error confirm(dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy, unsigned kind) {
   const dsdpv1_error error = dsdpv1_confirm(device, area, copy);
   if (error != DSDPV1_OK && error != area->length_error && error != area->crc_error)
@@ -135,7 +134,8 @@ static void write_verdicts(dsdpv1_device* device, const verdicts* reached) {
   dsdpv1_announce(device, DSDPV1_REG_USER_COMMAND_1, command, 0, (uint8_t)given);
 }
 
-/* One hold. Verdicts on blocks that the master has replaced meanwhile are kept back (H7); `fresh` tells which. */
+/* One hold. Does not send verdicts on blocks that the master has replaced meanwhile (H7); `fresh` reports those
+ * blocks. */
 static dsdpv1_error hand_over(dsdpv1_device* device, const verdicts* reached, unsigned* fresh) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) return error;
@@ -143,14 +143,14 @@ static dsdpv1_error hand_over(dsdpv1_device* device, const verdicts* reached, un
   const verdicts current = {reached->given & ~*fresh, reached->wrong & ~*fresh};
   if (current.given != 0u) {
     write_verdicts(device, &current);
-    /* one that a disturbed hold did not bring to the chip stays due */
+    /* a verdict that did not reach the chip in a disturbed hold stays due */
     device->verdicts_due = (uint8_t)(device->fault == DSDPV1_OK ? device->verdicts_due & ~current.given
                                                                 : device->verdicts_due | current.given);
   }
   return dsdpv1_release(device);
 }
 
-/* One round: take, judge, answer. `fresh` is not 0 when the master has sent something newer meanwhile. */
+/* One round: take, judge, answer. `fresh` is not 0 if the master has sent something newer meanwhile. */
 static dsdpv1_error service_round(dsdpv1_device* device, unsigned* fresh) {
   dsdpv1_copy prm = prm_copy(device);
   dsdpv1_copy cfg = cfg_copy(device);
@@ -176,11 +176,11 @@ dsdpv1_error dsdpv1_service(dsdpv1_device* device) {
   if (device == NULL) return DSDPV1_ERR_ARGUMENT;
   if (!device->initialised) return DSDPV1_ERR_NOT_INITIALISED;
   if (device->held || device->servicing) {
-    device->intr0_pending = true; /* the interrupted program has to do it */
+    device->intr0_pending = true; /* left to the interrupted program */
     return DSDPV1_ERR_NESTED;
   }
   device->servicing = true;
-  device->intr0_pending = false; /* before looking: an INTR0 from now on counts anew */
+  device->intr0_pending = false; /* cleared before reading: a later INTR0 counts again */
   unsigned fresh = 1;
   dsdpv1_error error = DSDPV1_OK;
   for (int round = 0; round < kRounds && fresh != 0u && error == DSDPV1_OK; ++round)

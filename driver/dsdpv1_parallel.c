@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
-/* The parallel port: a byte an access, ownership by the handshake pins (5.1). */
+/* The parallel port: one byte per access, ownership by the handshake pins (5.1). */
 #include "dsdpv1_internal.h"
 
 static const dsdpv1_port* port_of(const dsdpv1_device* device) { return &device->port.parallel; }
@@ -17,9 +17,8 @@ static bool chip_is_away(const dsdpv1_port* port) {
 }
 
 /*
- * Releases both lines. Released is R_REQ = 0 and R_STA = 0 (5.1), the order does not matter (H1). The pause lets the
- * chip, whose synchronisers need as long, see the gap before the next hold.
- */
+ * Releases the DPRAM: R_REQ = 0 and R_STA = 0 (5.1), in any order (H1). The pause lets the chip's synchronisers see
+ * the gap before the next hold. */
 static dsdpv1_error lower_lines(dsdpv1_device* device) {
   const dsdpv1_port* port = port_of(device);
   port->set_r_sta(port->ctx, false);
@@ -29,8 +28,8 @@ static dsdpv1_error lower_lines(dsdpv1_device* device) {
 }
 
 /*
- * H2: the chip may start an access until 3 cycles after R_REQ rose (R_STA has been low since the last release), so one
- * look at its lines proves nothing: the second look, or the pause before the first, is later than that.
+ * H2: the chip may start an access until 3 cycles after R_REQ rose (R_STA has been low since the last release), so
+ * one sample of its lines proves nothing. The second sample, or the pause before the first, is later than that.
  */
 static bool acquire(dsdpv1_device* device) {
   const dsdpv1_port* port = port_of(device);
@@ -48,8 +47,8 @@ static bool acquire(dsdpv1_device* device) {
 }
 
 /*
- * Note 1 under table 2: the chip sets B006 to 1 at each access, the user adds 1 at each of theirs. A 1 that is our own
- * (the count wrapped round) does not speak for the chip.
+ * Note 1 under table 2: the chip sets B006 to 1 at each access, the user adds 1 at each of theirs. A 1 that came
+ * from our own count wrapping round is not a sign of the chip.
  */
 static void count_access(dsdpv1_device* device) {
   const dsdpv1_port* port = port_of(device);

@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
-/* DPV1: fetching requests and the calls of the application (7.2, 7.3). */
+/* DPV1: fetching requests, and the application's calls (7.2, 7.3). */
 #include "dsdpv1_acyclic.h"
 
 #include <string.h>
@@ -13,8 +13,7 @@ static const dsdpv1_area kAreas[kChannels] = {
     {DSDPV1_REG_C2, kAcyclicHeader, DSDPV1_REG_C2_CRC, DSDPV1_REG_USER_STATUS_2_C2_CRC, DSDPV1_ERR_C2_LENGTH,
      DSDPV1_ERR_C2_CRC, DSDPV1_REG_CHIP_COMMAND_2, DSDPV1_REG_CHIP_COMMAND_2_C2}};
 
-/* Masters that withdraw and ask faster than this many rounds are left to the next call, so that a call stays bounded.
- */
+/* Limits the rounds per call, so that a call stays bounded when masters keep withdrawing and asking. */
 enum { kRounds = 3 };
 
 dsdpv1_error dsdpv1_acyclic_open(dsdpv1_acyclic* acyclic, dsdpv1_device* device, const dsdpv1_table* table) {
@@ -39,7 +38,7 @@ static unsigned unread_requests(const dsdpv1_acyclic* acyclic) {
   return unread;
 }
 
-/* A newer request ends the earlier one, whatever its answer's state (V13). */
+/* A newer request ends the earlier one, in whatever state its answer is (V13). */
 static void begin_request(dsdpv1_channel* channel, uint8_t bit, dsdpv1_acyclic_result* result) {
   if (channel->state == DSDPV1_CHANNEL_OPEN || channel->state == DSDPV1_CHANNEL_READY)
     result->dropped = (uint8_t)(result->dropped | bit);
@@ -67,13 +66,13 @@ static void copy_requests(dsdpv1_acyclic* acyclic, dsdpv1_copy copies[kChannels]
     dsdpv1_after_fetch(device, DSDPV1_REG_CHIP_COMMAND_2, (uint8_t)flags, DSDPV1_CLASS_BOTH);
 }
 
-/* What a disturbed hold left unread has to be read the next time: its flag may be gone. */
+/* Requests left unread by a disturbed hold must be read next time: their flags may be gone. */
 static void keep_unread(dsdpv1_acyclic* acyclic, unsigned fresh) {
   for (unsigned i = 0; i < kChannels; ++i)
     if ((fresh & dsdpv1_class_of(i)) != 0u) acyclic->channels[i].unread = true;
 }
 
-/* One hold: copies new requests and clears their flags, so that a flag set afterwards means a newer one. */
+/* One hold: copies new requests and clears their flags, so that a flag set later means a newer one. */
 static dsdpv1_error take_requests(dsdpv1_acyclic* acyclic, dsdpv1_copy copies[kChannels], unsigned* fresh,
                                   dsdpv1_acyclic_result* result) {
   dsdpv1_device* device = acyclic->device;
@@ -88,7 +87,7 @@ static dsdpv1_error take_requests(dsdpv1_acyclic* acyclic, dsdpv1_copy copies[kC
   return fault;
 }
 
-/* Outside of holds. A request that cannot be read rightly stays open at the chip, so it is tried again. */
+/* Called outside a hold. A request that fails its CRC remains pending in the chip and is read again. */
 static dsdpv1_error serve(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_copy* copy, dsdpv1_acyclic_result* result) {
   dsdpv1_channel* channel = &acyclic->channels[i];
   const dsdpv1_error error = dsdpv1_confirm(acyclic->device, &kAreas[i], copy);
@@ -99,7 +98,7 @@ static dsdpv1_error serve(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_copy* copy
   return dsdpv1_dispatch(acyclic, i);
 }
 
-/* One round: take, dispatch, answer. `fresh` is not 0 when there may be more to do. */
+/* One round: take, dispatch, answer. `fresh` is not 0 if there may be more to do. */
 static dsdpv1_error poll_round(dsdpv1_acyclic* acyclic, unsigned* fresh, dsdpv1_acyclic_result* result) {
   dsdpv1_copy copies[kChannels];
   unsigned taken = 0;
@@ -147,7 +146,7 @@ dsdpv1_error dsdpv1_acyclic_poll(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result*
 /* ------------------------------------------------------------------------------------------------------ late answers
  */
 
-/* Whether `ticket` names a request that waits for the application. */
+/* Checks that `ticket` names a request that waits for the application. */
 static dsdpv1_error check_ticket(dsdpv1_acyclic* acyclic, uint16_t ticket) {
   if (acyclic->device->held || acyclic->polling) return DSDPV1_ERR_NESTED;
   dsdpv1_acyclic_result ignored = {0, 0, 0, 0, 0, 0};

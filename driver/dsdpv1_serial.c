@@ -49,7 +49,7 @@ static dsdpv1_error judge_refusal(const dsdpv1_wire* wire, const dsdpv1_response
   return reply.bytes[1] == 0u ? DSDPV1_ERR_DPRAM_BUSY : DSDPV1_ERR_TELEGRAM;
 }
 
-/* Data bytes that the reply has: a read gives what it was asked for, read and write what its first one counts. */
+/* Data bytes in the reply: for a read the number requested, for read and write the count in its first byte. */
 static uint16_t data_length(const dsdpv1_order* order, const dsdpv1_response* reply) {
   if (order->start == kStartBoth) return reply->length > 2u ? (uint16_t)(reply->bytes[2] + 1u) : 1u;
   return order->start == kStartRead ? order->length : 0u;

@@ -45,8 +45,8 @@ static dsdpv1_error write_ownership(dsdpv1_device* device, uint8_t value) {
 static dsdpv1_error release(dsdpv1_device* device) { return write_ownership(device, 0); }
 
 /*
- * SP12, SP13. A look at B014 before the claim would be a telegram more and prove nothing, since the chip may begin
- * after it: the claim's own reply tells. One whose reply is destroyed may stand all the same.
+ * SP12, SP13. Reading B014 before the claim would cost a telegram and prove nothing, since the chip may start after
+ * it; the reply to the claim tells. If that reply is destroyed, the claim may still stand.
  */
 static dsdpv1_error hold(dsdpv1_device* device) {
   dsdpv1_error error = DSDPV1_ERR_DPRAM_BUSY;
@@ -67,8 +67,8 @@ static dsdpv1_error put(dsdpv1_device* device, uint16_t address, dsdpv1_span hea
   return dsdpv1_write_cells(device, &wire, address, head, data);
 }
 
-/* SP16: sets B010.0, clears B00E.0. Its outputs are new when B00E.0 was 1, as nobody but us can be at it in the hold.
- */
+/* SP16: sets B010.0, clears B00E.0. The outputs are new if B00E.0 was 1, because no other agent can access it in the
+ * hold. */
 static dsdpv1_error read_and_write(dsdpv1_device* device, const dsdpv1_block* inputs, dsdpv1_copy* outputs) {
   const dsdpv1_wire wire = wire_of(device);
   const dsdpv1_order order = {kStartBoth, 0, inputs->head, inputs->data, 0, (uint8_t)(device->max_output + 1u)};

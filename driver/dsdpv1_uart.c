@@ -16,14 +16,14 @@ static void pass_time(const dsdpv1_device* device, uint32_t ns) {
   if (port->pause != NULL) port->pause(port->ctx, ns);
 }
 
-/* From the request's end as `send` sees it (12 bit times early at most) to the end of the reply's first character, and
- * an access of the chip (UA4, UA6; its start-up takes 43 us). */
+/* From the request's end as `send` reports it (at most 12 bit times early) to the end of the reply's first
+ * character, plus an access of the chip (UA4, UA6; its start-up takes 43 us). */
 static uint32_t reply_timeout_us(const dsdpv1_uart* port) {
   const uint32_t tsdr = port->tsdr != 0u ? port->tsdr : (uint32_t)kTsdr;
   return us_of(port, tsdr + 12u + 2u * kCharacterBits) + 100u;
 }
 
-/* A silence that ends what the chip may still be receiving (UA3), after what may still be coming from it. */
+/* Waits out a possible reply, then for the silence that ends the chip's reception (UA3). */
 static void recover(const dsdpv1_device* device) {
   dsdpv1_uart* port = device->port.uart;
   const uint32_t halves = port->interval != 0u ? port->interval : (uint32_t)kInterval;
@@ -32,7 +32,7 @@ static void recover(const dsdpv1_device* device) {
     if (port->receive(port->ctx, port->bytes, DSDPV1_UART_TELEGRAM, silence) == 0u) return;
 }
 
-/* `receive` has seen the middle of a reply's last stop bit; the chip hears again after its end (UA16). */
+/* `receive` returns in the middle of a reply's last stop bit; the chip receives again only after its end (UA16). */
 static bool send_telegram(dsdpv1_device* device, uint16_t n) {
   dsdpv1_uart* port = device->port.uart;
   pass_time(device, 1000000000u / port->baud + 1u);
@@ -58,7 +58,7 @@ static dsdpv1_wire wire_of(dsdpv1_device* device) {
 
 enum { kExchangeHead = 5, kFunctionDiagnosis = 0x02, kFunctionDataExchange = 0x01, kFunctionError = 0x80 };
 
-/* 7.1.6 note 3: what a reply carries, and the chip's flag for it, which has fallen with it. */
+/* 7.1.6 note 3: the content of a reply, and the chip's flag for it, which the reply has cleared. */
 typedef struct news {
   uint8_t function;
   uint16_t command;
@@ -86,8 +86,8 @@ static const news* news_of(const answer* reply) {
 
 static uint8_t* noted(dsdpv1_uart* port, uint16_t command) { return &port->news[command - DSDPV1_REG_CHIP_COMMAND_1]; }
 
-/* Target, function, address and length before `n` bytes of data that stand in the port's memory already; the CRC
- * behind. */
+/* Puts target, function, address and length before `n` bytes of data already in the port's memory, and the CRC after
+ * them. */
 static uint16_t wrap(dsdpv1_uart* port, uint16_t address, uint8_t n) {
   const uint8_t head[kExchangeHead] = {(uint8_t)(kStartBoth | port->address),
                                        address == DSDPV1_REG_DIAG ? kFunctionDiagnosis : 0u, (uint8_t)(address >> 8),
@@ -103,7 +103,7 @@ static dsdpv1_error judge_refusal(dsdpv1_uart* port) {
   return DSDPV1_ERR_TELEGRAM;
 }
 
-/* The length of the data in the reply: the CRC tells whether the byte for it is to be believed (UA12). */
+/* The length of the data in the reply. The CRC tells whether the length byte is valid (UA12). */
 static dsdpv1_error receive_answer(dsdpv1_uart* port, answer* reply) {
   uint8_t* bytes = port->bytes;
   const uint16_t head = port->receive(port->ctx, bytes, kExchangeHead, reply_timeout_us(port));
@@ -122,8 +122,8 @@ static dsdpv1_error receive_answer(dsdpv1_uart* port, answer* reply) {
 }
 
 /*
- * When the reply to inputs is destroyed, the chip has cleared the flag of what it carried (UA11). A flag that stood
- * before and does not at the next look is that one.
+ * If the reply to inputs is destroyed, the chip has still cleared the flag of its content (UA11). That flag is one
+ * that was set before and is not set at the next read.
  */
 static void note_destroyed(dsdpv1_uart* port) {
   for (unsigned i = 0; i < 2u; ++i)
@@ -145,13 +145,13 @@ static dsdpv1_error know(dsdpv1_device* device) {
   return DSDPV1_OK;
 }
 
-/* What is exchanged. */
+/* The data to exchange. */
 typedef struct source {
   uint16_t address;
-  const dsdpv1_block* block; /* null: the inputs that the DPRAM has */
+  const dsdpv1_block* block; /* null: the inputs in the DPRAM */
 } source;
 
-/* The inputs stand in the port's memory, behind the head; their length. */
+/* Copies the inputs into the port's memory, after the head; returns their length. */
 static dsdpv1_error present_inputs(dsdpv1_device* device, uint8_t* n) {
   const dsdpv1_wire wire = wire_of(device);
   dsdpv1_span data = {NULL, 0};
@@ -201,8 +201,8 @@ static void keep_outputs(const answer* reply, dsdpv1_copy* outputs, uint16_t crc
 }
 
 /*
- * Outputs in a reply clear B00E.0 without telling whether they were new. They are when the flag stood before, or when
- * they differ from the last ones: they came between.
+ * A reply with outputs clears B00E.0 but does not tell whether they were new. They are if the flag was set before or
+ * if they differ from the last ones: then they arrived in between.
  */
 static bool take_outputs(dsdpv1_device* device, const answer* reply, dsdpv1_copy* outputs) {
   dsdpv1_uart* port = device->port.uart;
@@ -220,11 +220,11 @@ static bool take_outputs(dsdpv1_device* device, const answer* reply, dsdpv1_copy
   if (outputs != NULL)
     keep_outputs(reply, outputs, crc);
   else
-    *note |= DSDPV1_REG_CHIP_COMMAND_1_OUTPUT; /* they stand in the DPRAM and nobody has had them */
+    *note |= DSDPV1_REG_CHIP_COMMAND_1_OUTPUT; /* they are in the DPRAM and have not been fetched */
   return true;
 }
 
-/* Exchanges inputs until a reply says no news but what `until` names, or brings outputs. Notes the news of each. */
+/* Exchanges inputs until a reply has no news except `until`, or has outputs. Notes the news of each reply. */
 static dsdpv1_error swap_inputs(dsdpv1_device* device, const source* from, const news* until, dsdpv1_copy* outputs,
                                 bool* fetched) {
   dsdpv1_uart* port = device->port.uart;
@@ -277,8 +277,8 @@ static bool stands(dsdpv1_uart* port, const news* kind, uint16_t command, uint8_
 }
 
 /*
- * Flags of B00E and B00F fall by replies only: a write telegram could wipe out one that the chip has just set. So the
- * inputs that the DPRAM has are exchanged once more.
+ * Flags of B00E and B00F are cleared only by replies: a write telegram could clear one that the chip has just set.
+ * So the inputs in the DPRAM are exchanged once more.
  */
 static dsdpv1_error take_flags(dsdpv1_device* device, uint16_t command, uint8_t flags) {
   dsdpv1_uart* port = device->port.uart;
@@ -295,8 +295,8 @@ static dsdpv1_error take_flags(dsdpv1_device* device, uint16_t command, uint8_t 
 }
 
 /*
- * Flags of B010 and B011 are set by the user and cleared by the chip, within an access, before the next telegram. One
- * that still stood when it was read could be set a second time, so it is let fall first; B011.6 stays the user's.
+ * The user sets flags of B010 and B011, and the chip clears them in an access, before the next telegram. A flag that
+ * was still set when read could be set a second time, so wait for its fall first; B011.6 belongs to the user.
  */
 static dsdpv1_error announce(dsdpv1_device* device, uint16_t command, uint8_t clear, uint8_t set) {
   const dsdpv1_wire wire = wire_of(device);
@@ -315,8 +315,7 @@ static dsdpv1_error announce(dsdpv1_device* device, uint16_t command, uint8_t cl
   return put(device, command, head, none);
 }
 
-/* Diagnosis and acyclic answers: the chip sets the flag with the block (UA9). The reply has outputs, which count
- * nothing. */
+/* Diagnosis and acyclic answers: the chip sets the flag with the block (UA9). Outputs in the reply are ignored. */
 static dsdpv1_error post(dsdpv1_device* device, const dsdpv1_block* block) {
   const source from = {block->address, block};
   answer reply = {0, {NULL, 0}};
@@ -359,7 +358,7 @@ dsdpv1_error dsdpv1_open_uart(dsdpv1_device* device, dsdpv1_uart* port, const ds
   (void)memset(port->news, 0, sizeof port->news);
   (void)memset(port->at_risk, 0, sizeof port->at_risk);
   port->serial.bytes = port->bytes;
-  port->outputs_crc = dsdpv1_crc_byte(DSDPV1_CRC_START, 0); /* of no outputs */
+  port->outputs_crc = dsdpv1_crc_byte(DSDPV1_CRC_START, 0); /* of empty outputs */
   device->port.uart = port;
   device->block_crc = port->block_crc;
   return DSDPV1_OK;

@@ -8,14 +8,15 @@
  *   static dsdpv1_uart uart = {.send = send, .receive = receive, .address = 1, .baud = 1843200};
  *   dsdpv1_open_uart(&chip, &uart, &judge);
  *
- * Then everything is as on the parallel port. There is no ownership (UA6): what the driver calls a hold is a series of
- * telegrams, between which the chip works on. Inputs, diagnosis and acyclic answers go as exchange telegrams, which set
- * the chip's flag with the block. Blocks of the chip are announced in the reply to an exchange with inputs (UA10),
- * which clears their flag; the driver notes them, and where it has to clear a flag without new inputs it sends those
- * that the DPRAM has once more. What the chip writes in several telegrams' time is checked with the CRC in the DPRAM.
+ * All other calls are as on the parallel port. There is no ownership (UA6): a hold of the driver is a series of
+ * telegrams, between which the chip keeps working. Inputs, diagnosis and acyclic answers are sent as exchange
+ * telegrams, which set the chip's flag with the block. Blocks of the chip are announced in the reply to an exchange
+ * with inputs (UA10), which clears their flag; the driver notes them. To clear a flag without new inputs, it sends
+ * the inputs in the DPRAM once more. Blocks that the chip may change between telegrams are checked with the CRC in
+ * the DPRAM.
  *
- * Telegrams without a right reply are sent again (tuning.telegram_retries) after a silence. When the reply to an
- * exchange is destroyed, the chip has cleared a flag all the same (UA11): the driver compares B00E and B00F before and
+ * Telegrams without a valid reply are repeated (tuning.telegram_retries) after a silence. If the reply to an
+ * exchange is destroyed, the chip has still cleared a flag (UA11): the driver compares B00E and B00F before and
  * after. A block that came within that very exchange cannot be seen; its master repeats it.
  */
 /* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using): C, also when included by C++ */
@@ -28,23 +29,23 @@ extern "C" {
 #define DSDPV1_UART_TELEGRAM 257u /* the longest telegram */
 
 /*
- * The port, static or as long-lived as the device: the driver keeps its telegrams in it. What stands above the line is
- * set before dsdpv1_open_uart.
+ * The port, static or as long-lived as the device: the driver keeps its telegrams in it. Set the members above the
+ * line before dsdpv1_open_uart.
  */
 typedef struct dsdpv1_uart {
-  void* ctx; /* handed to the functions */
+  void* ctx; /* passed to the functions */
   /*
-   * Sends `n` characters (1..DSDPV1_UART_TELEGRAM) without a pause: 8 data bits, even parity, 1 stop bit. Returns when
-   * the last one is sent, not before 12 bit times before its end. False when that could not be done; it is tried again.
+   * Sends `n` characters (1..DSDPV1_UART_TELEGRAM) without a pause: 8 data bits, even parity, 1 stop bit. Return
+   * after the last one, at most 12 bit times before its end. Return false if that was not possible; it is repeated.
    */
   bool (*send)(void* ctx, const uint8_t* bytes, uint16_t n);
   /*
-   * Receives up to `n` characters: returns when they are there, or when `timeout_us` have passed without one. Their
-   * number. What comes between two calls is kept (a FIFO, a buffer); characters with an error are left out.
+   * Receives up to `n` characters: return their number once they have arrived, or after `timeout_us` without one.
+   * Characters that arrive between two calls are kept (a FIFO, a buffer); those with an error are dropped.
    */
   uint16_t (*receive)(void* ctx, uint8_t* bytes, uint16_t n, uint32_t timeout_us);
   /*
-   * Lets at least `ns` pass. May be null when polling without a pause is welcome, and a bit time passes anyway between
+   * Waits at least `ns`. May be null if polling without a pause is acceptable, and a bit time passes anyway between
    * the return of `receive` and the start bit of the next telegram.
    */
   void (*pause)(void* ctx, uint32_t ns);
@@ -52,12 +53,12 @@ typedef struct dsdpv1_uart {
   uint8_t address;   /* of the chip: 1 or 2 (pins ADR) */
   uint16_t interval; /* half characters of silence that end a telegram (UA3); 0: 7 */
   uint16_t tsdr;     /* bit times until a reply (UA4), as B01A; 0: 11 */
-  bool block_crc;    /* the chip judges the CRCs of blocks in the DPRAM, too (SP15) */
+  bool block_crc;    /* the chip also checks the CRCs of blocks in the DPRAM (SP15) */
   /* ---------------------------------------------------------------------------------------------- the driver's own */
   dsdpv1_serial serial;
-  uint8_t at_risk[2];   /* flags of B00E, B00F that stood when the reply to an exchange was destroyed */
-  uint8_t news[2];      /* flags of B00E, B00F that replies have carried and nobody has asked for yet */
-  uint16_t outputs_crc; /* of the outputs given to the application last, or the start value */
+  uint8_t at_risk[2];   /* flags of B00E, B00F that were set when the reply to an exchange was destroyed */
+  uint8_t news[2];      /* flags of B00E, B00F that replies have reported and that are not processed yet */
+  uint16_t outputs_crc; /* of the outputs last given to the application, or the start value */
   uint8_t bytes[DSDPV1_UART_TELEGRAM];
 } dsdpv1_uart;
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
-// A user CPU at the parallel port, for SystemC platforms: a thread that runs a program with the portable C driver. The
-// driver's port is this module's socket and pins.
+// A user CPU on the parallel port, for SystemC platforms: a thread that runs a program with the portable C driver. This
+// module's socket and pins are the driver's port.
 //
 //   dsdpv1::systemc::DriverCpu cpu("cpu", [](dsdpv1::systemc::DriverCpu& cpu) {
 //     cpu.set_reset(true);
@@ -36,12 +36,12 @@ class DriverCpu : public ProgramCpu {
   sc_core::sc_out<bool> R_REQ{"R_REQ"}, R_STA{"R_STA"};
   sc_core::sc_in<bool> L_REQ{"L_REQ"}, L_STA{"L_STA"};
 
-  /// `program` begins at time 0, with all pins low; when it returns, the CPU does nothing any more.
+  /// `program` starts at time 0 with all pins low; after it returns, the CPU does nothing.
   DriverCpu(const sc_core::sc_module_name& name, Program program, DriverCpuOptions options = {});
 
   const dsdpv1_port& port() const { return port_; }
   std::uint64_t accesses() const { return accesses_; }
-  /// Of these those that were over before simulation time was there (temporal decoupling).
+  /// The accesses that ended ahead of simulation time (temporal decoupling).
   std::uint64_t accesses_ahead() const { return accesses_ahead_; }
 
  private:

@@ -21,7 +21,7 @@ void ProgramCpu::run() {
 }
 
 void ProgramCpu::intr0_changed() {
-  if (INTR0.size() == 0 || !INTR0->negedge()) return;  // the first call is that of the initialisation
+  if (INTR0.size() == 0 || !INTR0->negedge()) return;  // the first call comes from the initialisation
   dsdpv1_on_intr0(&device_);
   intr0_fell_ = true;
   intr0_event_.notify();

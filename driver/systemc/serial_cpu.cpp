@@ -24,7 +24,7 @@ void aim(tlm::tlm_generic_payload& payload, tlm::tlm_command command, std::uint8
   payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
 }
 
-/// The target waits for the local time, and until all is sent.
+/// The target waits for the local time, and until everything is sent.
 template <class Socket>
 bool transport(Socket& socket, tlm::tlm_generic_payload& payload, tlm_utils::tlm_quantumkeeper& keeper) {
   sc_core::sc_time local = keeper.get_local_time();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
-// User CPUs at the SPI and the UART port of a DSDPV1-RSU, for SystemC platforms: as DriverCpu, with the driver's port
-// on a socket of streams of bytes. All other calls of the driver are the same.
+// User CPUs on the SPI and UART ports of a DSDPV1-RSU, for SystemC platforms: as DriverCpu, but the driver's port uses
+// a socket of byte streams. All other calls of the driver are the same.
 //
 //   dsdpv1::systemc::SpiDriverCpu cpu("cpu", [](dsdpv1::systemc::SpiDriverCpu& cpu) {
 //     cpu.set_reset(true);
@@ -54,7 +54,7 @@ class UartDriverCpu : public ProgramCpu, private tlm::tlm_analysis_if<std::uint8
 
   /// Each transaction is a write of a whole telegram (RsuTlmModule::uart_socket).
   tlm_utils::simple_initiator_socket<UartDriverCpu> socket{"socket"};
-  /// Bytes from the chip, which are kept until the driver asks for them (RsuTlmModule::uart_out).
+  /// Bytes from the chip, kept until the driver asks for them (RsuTlmModule::uart_out).
   sc_core::sc_export<tlm::tlm_analysis_if<std::uint8_t>> uart_in{"uart_in"};
 
   /// As DriverCpu's. `address` is the chip's: 1 or 2; `baud` that of the UART, in bit/s.

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A PROFIBUS segment: chips, masters of class 1 and class 2, stations outside of the library, and a monitor that hears
- * all.
+ * A PROFIBUS segment: chips, masters of class 1 and class 2, external stations, and a monitor that receives all
+ * telegrams.
  *
  *   dpsim_bus* bus;       dpsim_bus_create(NULL, &bus);                 // 12 Mbit/s
  *   dpsim_chip* chip;     dpsim_bus_add_chip(bus, NULL, &chip);
@@ -11,11 +11,12 @@
  *   dpsim_master_start(master);
  *   dpsim_bus_run(bus, 12000000);                                       // one millisecond
  *
- * Everybody on the bus is a station, numbered from 0 in the order of being added. At one tick chips act before the
- * monitor, the monitor before masters; so a chip's output of cycle n is seen by all who look at the tick of cycle n.
+ * Every participant is a station, numbered from 0 in the order in which it was added. At one tick chips act before
+ * the monitor and the monitor before masters. So a chip's output of cycle n is visible to every station at the tick
+ * of cycle n.
  *
- * A station outside (dpsim_bus_add_station) is whatever the caller simulates: RTL in a bench, another model. The caller
- * drives the line for it, and hears the line by dpsim_bus_watch:
+ * An external station (dpsim_bus_add_station) is simulated by the caller, such as RTL in a bench or another model.
+ * The caller drives the line for it and receives the line through dpsim_bus_watch:
  *
  *   for (;;) {                                  // each time step of the simulator, at `now`
  *     dpsim_bus_run(bus, now);
@@ -43,55 +44,56 @@ typedef struct dpsim_bus_options {
   dpsim_baud baud; /**< of the masters, which may change it later; the monitor follows them */
 } dpsim_bus_options;
 
-/** `options` NULL: 12 Mbit/s. DPSIM_ERR_ARGUMENT: a rate that there is not. */
+/** `options` NULL: 12 Mbit/s. DPSIM_ERR_ARGUMENT: unknown rate. */
 DPSIM_API dpsim_status dpsim_bus_create(const dpsim_bus_options* options, dpsim_bus** bus);
-/** With all that is on it; handles of its chips and masters are no good any more. */
+/** Destroys the bus and all its stations; handles of its chips and masters become invalid. */
 DPSIM_API void dpsim_bus_destroy(dpsim_bus* bus);
 
-/** Runs everybody up to and including `tick`. DPSIM_ERR_TIME. */
+/** Runs all stations up to and including `tick`. DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_bus_run(dpsim_bus* bus, uint64_t tick);
-/** The tick at which the next one of the stations acts by itself, the present one at the earliest; DPSIM_NEVER when
- * nobody has anything to do. */
+/** The tick of the next station activity that needs no call, the present one at the earliest; DPSIM_NEVER if none is
+ * due. */
 DPSIM_API dpsim_status dpsim_bus_next(dpsim_bus* bus, uint64_t* tick);
 /** The present tick. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_bus_now(const dpsim_bus* bus, uint64_t* tick);
 
-/** A chip on the line: PBRTS enables its RS-485 driver, PBTXD is what that drives, PBRXD hears the line. All functions
- * of chip.h serve it, and it counts as a station with its pins. Chips are added before anybody else and before the bus
- * runs (DPSIM_ERR_STATE). Errors as of dpsim_chip_create. */
+/** Adds a chip: PBRTS enables its RS-485 driver, PBTXD is the driver's input, PBRXD receives the line. All functions
+ * of chip.h apply to it, and it counts as a station with its pins. Chips are added before all other stations and
+ * before the bus runs (DPSIM_ERR_STATE). Errors as of dpsim_chip_create. */
 DPSIM_API dpsim_status dpsim_bus_add_chip(dpsim_bus* bus, const dpsim_chip_options* options, dpsim_chip** chip);
-/** A station that the caller simulates, its driver off. `name` NULL: "station" and its number. */
+/** Adds a station that the caller simulates, with its driver off. `name` NULL: "station" and its number. */
 DPSIM_API dpsim_status dpsim_bus_add_station(dpsim_bus* bus, const char* name, uint16_t* station);
-/** Runs up to `tick`, then an outside station's driver is `enabled` and drives `level` (0 or 1) while it is. Two
- * drivers enabled at once are a collision, which the monitor flags; low wins. DPSIM_ERR_NOT_FOUND: no station from
- * dpsim_bus_add_station; DPSIM_ERR_TIME. */
+/** Runs up to `tick`, then switches the driver of an external station on or off (`enabled`); while on, it drives
+ * `level` (0 or 1). Two drivers enabled at once are a collision, which the monitor flags; low wins.
+ * DPSIM_ERR_NOT_FOUND: not a station of dpsim_bus_add_station; DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_bus_drive(dpsim_bus* bus, uint64_t tick, uint16_t station, int32_t enabled, int32_t level);
 /** The present level of the line. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_bus_line(const dpsim_bus* bus, dpsim_level* level);
-/** Faults of the wire: runs up to `tick`, then the line is forced to `level` (0 or 1), or with DPSIM_Z let go. */
+/** Wire fault: runs up to `tick`, then forces the line to `level` (0 or 1), or releases it with DPSIM_Z. */
 DPSIM_API dpsim_status dpsim_bus_force(dpsim_bus* bus, uint64_t tick, dpsim_level level);
-/** ... or a station is unplugged (`plugged` 0): it hears an idle line, its driver does not reach the wire. */
+/** Wire fault: unplugs a station (`plugged` 0), which then receives an idle line and does not drive the wire. */
 DPSIM_API dpsim_status dpsim_bus_plug(dpsim_bus* bus, uint64_t tick, uint16_t station, int32_t plugged);
-/** The number of a chip's station. DPSIM_ERR_STATE: it is on no bus. Also in callbacks. */
+/** The number of a chip's station. DPSIM_ERR_STATE: the chip is not on a bus. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_chip_station(const dpsim_chip* chip, uint16_t* station);
 
-/* Pins of masters and of outside stations in dpsim_change: what their driver does. Those of chips: dpsim_pin_get. */
+/* Pins of masters and external stations in dpsim_change: the state of their driver. For pins of chips see
+ * dpsim_pin_get. */
 enum { DPSIM_STATION_TXD = 0, DPSIM_STATION_RTS = 1 };
 
 enum {
   DPSIM_WATCH_LINE = 1,   /**< the line: station DPSIM_LINE, pin 0 */
   DPSIM_WATCH_DRIVERS = 2 /**< drivers of masters and outside stations: DPSIM_STATION_TXD, DPSIM_STATION_RTS */
 };
-/** From now on changes of `what`, a set of DPSIM_WATCH_..., are told: to `fn`, or, with `fn` NULL, they are kept for
- *  dpsim_bus_read_changes. In order of time. A second call replaces the first, `what` 0 ends it. Costs time: telegrams
- *  are then made bit by bit. */
+/** Reports changes of `what`, a set of DPSIM_WATCH_..., from now on, in order of time: to `fn`, or, with `fn` NULL,
+ * by keeping them for dpsim_bus_read_changes. A second call replaces the first; `what` 0 stops it. Costs time,
+ * because telegrams are then made bit by bit. */
 DPSIM_API dpsim_status dpsim_bus_watch(dpsim_bus* bus, uint32_t what, dpsim_change_fn fn, void* user);
 /** As dpsim_chip_read_changes. */
 DPSIM_API dpsim_status dpsim_bus_read_changes(dpsim_bus* bus, dpsim_change* changes, size_t capacity, size_t* count);
 
 /* ---- the monitor ---- */
 
-/** Each telegram at its end, right or wrong. `fn` NULL: nobody listens. */
+/** Called at the end of each telegram, valid or not. `fn` NULL: no callback. */
 DPSIM_API dpsim_status dpsim_bus_on_telegram(dpsim_bus* bus, dpsim_telegram_fn fn, void* user);
 
 typedef int32_t dpsim_flag;
@@ -104,7 +106,7 @@ enum {
   DPSIM_FLAG_CHARACTER_ERROR = 5,   /**< wrong parity or stop bit */
   DPSIM_FLAG_TELEGRAM_ERROR = 6,    /**< see dpsim_decode_error */
   DPSIM_FLAG_UNANSWERED = 7,        /**< no answer within the slot time */
-  DPSIM_FLAG_UNEXPECTED_ANSWER = 8, /**< that nobody asked for, or by the wrong station */
+  DPSIM_FLAG_UNEXPECTED_ANSWER = 8, /**< not requested, or from the wrong station */
   DPSIM_FLAG_GLITCH = 9,            /**< a low level shorter than half a bit */
   DPSIM_FLAG_TWO_MASTERS = 10,      /**< a master sends while another has the token */
   DPSIM_FLAG_COUNT = 11
@@ -115,9 +117,9 @@ DPSIM_API const char* dpsim_flag_name(dpsim_flag flag);
 typedef struct dpsim_bus_statistics {
   uint32_t size;
   uint32_t reserved;
-  uint64_t telegrams; /**< right ones */
+  uint64_t telegrams; /**< valid ones */
   uint64_t wrong;
-  uint64_t by_kind[5];              /**< right ones by dpsim_telegram_kind */
+  uint64_t by_kind[5];              /**< valid ones by dpsim_telegram_kind */
   uint64_t flags[DPSIM_FLAG_COUNT]; /**< by dpsim_flag */
 } dpsim_bus_statistics;
 /** Also in callbacks. */
@@ -127,14 +129,14 @@ typedef struct dpsim_tsdr_statistics {
   uint32_t size;
   uint32_t reserved;
   uint64_t requests; /**< to this address, repetitions included */
-  uint64_t answers;  /**< right ones */
+  uint64_t answers;  /**< valid ones */
   uint64_t unanswered;
   uint64_t tsdr_min, tsdr_max, tsdr_mean; /**< ticks; 0 without answers */
 } dpsim_tsdr_statistics;
-/** Of one address, 0 to 126; zeros when nobody has asked it. Also in callbacks. */
+/** Statistics of one address, 0 to 126; zeros if it was never asked. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_bus_get_tsdr(const dpsim_bus* bus, uint8_t address, dpsim_tsdr_statistics* statistics);
 
-/* ---- what masters and monitor tell ---- */
+/* ---- events of masters and monitor ---- */
 
 typedef int32_t dpsim_event_type;
 enum {
@@ -150,7 +152,7 @@ enum {
   DPSIM_EVENT_RING_STATE = 8        /**< from, to (dpsim_ring_state), text: why */
 };
 
-/** One struct for all of them; members that a type does not name are 0, NULL, and `address` 255. */
+/** One struct for all event types; members not named for a type are 0, NULL, or 255 for `address`. */
 typedef struct dpsim_event {
   uint64_t tick;
   dpsim_event_type type;
@@ -159,15 +161,15 @@ typedef struct dpsim_event {
   uint16_t address; /**< of the slave */
   int32_t from, to;
   int32_t outcome;
-  uint32_t codes; /**< Error_Decode * 65536 + Error_Code_1 * 256 + Error_Code_2 (tables 28, 29); of an abort subnet,
-                       instance and reason, detail likewise */
+  uint32_t codes; /**< Error_Decode * 65536 + Error_Code_1 * 256 + Error_Code_2 (tables 28, 29); for an abort subnet,
+                     instance and reason, and detail in the same bytes */
   uint32_t data_size;
   const uint8_t* data;
   const char* text; /**< never NULL */
 } dpsim_event;
 
 typedef void (*dpsim_event_fn)(void* user, const dpsim_event* event);
-/** `fn` NULL: nobody listens. Commands to masters may be given in the callback. */
+/** `fn` NULL: no callback. Commands to masters may be given in the callback. */
 DPSIM_API dpsim_status dpsim_bus_on_event(dpsim_bus* bus, dpsim_event_fn fn, void* user);
 
 #ifdef __cplusplus

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The rules of a chip's user side (handshake, host port, cells, service: docs/checks.md), judged from any pins: those
- * of a model, of RTL, of a recording.
+ * The rules of a chip's user side (handshake, host port, cells, service: docs/checks.md), applied to pins from any
+ * source: a model, RTL or a recording.
  *
  *   dpsim_checker* checker;
  *   dpsim_checker_create(NULL, &checker);
@@ -25,7 +25,7 @@ typedef int32_t dpsim_bound;
 enum {
   DPSIM_BOUND_MIN = 0, /**< the least allowed value: margin = value - limit */
   DPSIM_BOUND_MAX = 1, /**< the greatest: margin = limit - value */
-  DPSIM_BOUND_RULE = 2 /**< no value: kept or not */
+  DPSIM_BOUND_RULE = 2 /**< no value: kept or violated */
 };
 
 #define DPSIM_NO_LIMIT INT64_MAX /**< only measured, never violated */
@@ -40,7 +40,7 @@ typedef struct dpsim_rule_info {
   int64_t limit;      /**< default, ticks; DPSIM_NO_LIMIT; 0 of DPSIM_BOUND_RULE */
 } dpsim_rule_info;
 
-/** Rules of a kind, numbered from 0; 0 for a kind that there is not. Any thread, also in callbacks. */
+/** Number of rules of a kind, numbered from 0; 0 for an unknown kind. Any thread, also in callbacks. */
 DPSIM_API size_t dpsim_rule_count(const char* kind);
 /** DPSIM_ERR_NOT_FOUND: no such kind, number or name. Any thread, also in callbacks. */
 DPSIM_API dpsim_status dpsim_rule_get(const char* kind, size_t rule, dpsim_rule_info* info);
@@ -51,7 +51,7 @@ typedef struct dpsim_checker dpsim_checker;
 /** Another limit for one rule. */
 typedef struct dpsim_limit {
   const char* rule; /**< its name */
-  int64_t value;    /**< ticks; of DPSIM_BOUND_RULE not looked at */
+  int64_t value;    /**< ticks; ignored for DPSIM_BOUND_RULE */
   int32_t off;      /**< 1: not checked at all */
   int32_t reserved;
 } dpsim_limit;
@@ -60,35 +60,35 @@ typedef struct dpsim_checker_options {
   uint32_t size;
   uint32_t limit_count;
   const char* kind;          /**< NULL: the first one */
-  const dpsim_limit* limits; /**< those that are not to have their defaults */
+  const dpsim_limit* limits; /**< rules with other limits than the default */
 } dpsim_checker_options;
 
 /** `options` NULL: all rules of the first kind with their defaults. DPSIM_ERR_NOT_FOUND: no such kind or rule. */
 DPSIM_API dpsim_status dpsim_checker_create(const dpsim_checker_options* options, dpsim_checker** checker);
 DPSIM_API void dpsim_checker_destroy(dpsim_checker* checker);
 
-/** The pins that it needs, as a set of DPSIM_PIN; others may be fed, too. */
+/** The pins that the checker needs, as a set of DPSIM_PIN; other pins may be fed as well. */
 DPSIM_API dpsim_status dpsim_checker_wants(const dpsim_checker* checker, uint64_t* pins);
 
-/** A change of a pin. It begins with the reset levels of dpsim_pin_get; what has another level at the start of a
- * recording is a change there. Ticks never go back (DPSIM_ERR_TIME); what changes at one tick may come in any order.
- *  DPSIM_ERR_NOT_FOUND: no such pin; DPSIM_ERR_ARGUMENT: no level of it. */
+/** Feeds a change of a pin. Pins start with the reset levels of dpsim_pin_get; if a recording starts with another
+ * level, feed a change there. Ticks never decrease (DPSIM_ERR_TIME); changes at one tick may come in any order.
+ * DPSIM_ERR_NOT_FOUND: no such pin; DPSIM_ERR_ARGUMENT: not a level of this pin. */
 DPSIM_API dpsim_status dpsim_checker_pin(dpsim_checker* checker, uint64_t tick, uint16_t pin, dpsim_level level);
-/** The same for many, those of any station. On an error those before it are carried out; `done`, if not NULL, is their
- *  number. */
+/** Feeds many changes; their stations are ignored. On an error the changes before it have been fed; `done`, if not
+ * NULL, receives their number. */
 DPSIM_API dpsim_status dpsim_checker_pins(dpsim_checker* checker, const dpsim_change* changes, size_t count,
                                           size_t* done);
-/** The user begins a read now and samples D at `sample`: told before the read's first edge. Left out, the time is taken
- *  from the pins: at the pins nobody sees a sample (P5). */
+/** Announces, before the first edge of a read that starts now, that the user samples D at `sample`. Without this
+ * call the time is derived from the pins, where a sample cannot be observed (P5). */
 DPSIM_API dpsim_status dpsim_checker_sample(dpsim_checker* checker, uint64_t sample);
-/** A telegram on the chip's line, at its end, of any station: rules about cells and service need them. */
+/** Feeds a telegram of any station on the chip's line, at its end: rules about cells and service need them. */
 DPSIM_API dpsim_status dpsim_checker_telegram(dpsim_checker* checker, const dpsim_heard* heard);
-/** Once, at the end; afterwards only results are asked (DPSIM_ERR_STATE). */
+/** Called once, at the end; after it only results may be read (DPSIM_ERR_STATE). */
 DPSIM_API dpsim_status dpsim_checker_finish(dpsim_checker* checker, uint64_t tick);
 
 typedef struct dpsim_violation {
-  uint64_t tick;  /**< where the rule was broken */
-  uint64_t found; /**< when that could be seen, not before `tick` */
+  uint64_t tick;  /**< when the rule was broken */
+  uint64_t found; /**< when the violation became visible, not before `tick` */
   int64_t margin; /**< ticks, below 0; 0 when has_margin is 0 */
   uint32_t rule;  /**< number, see dpsim_rule_get */
   int32_t has_margin;
@@ -98,21 +98,22 @@ typedef struct dpsim_violation {
 } dpsim_violation;
 
 typedef void (*dpsim_violation_fn)(void* user, const dpsim_violation* violation);
-/** Told as soon as it can be seen, inside of the call that feeds. `fn` NULL: nobody listens; they are counted. */
+/** Called as soon as a violation is visible, during the call that feeds the pins. `fn` NULL: violations are only
+ * counted. */
 DPSIM_API dpsim_status dpsim_checker_on_violation(dpsim_checker* checker, dpsim_violation_fn fn, void* user);
 
 typedef struct dpsim_check_result {
   uint32_t size;
-  int32_t has_margin; /**< 1: worst_margin and at are good */
-  int32_t has_value;  /**< 1: worst_value is good */
+  int32_t has_margin; /**< 1: worst_margin and at are valid */
+  int32_t has_value;  /**< 1: worst_value is valid */
   uint32_t reserved;
   uint64_t count;       /**< how often the rule was applied */
-  uint64_t violations;  /**< how often in vain */
+  uint64_t violations;  /**< how often it was broken */
   int64_t worst_margin; /**< ticks, the least one, positive = kept */
   int64_t worst_value;  /**< ticks, measured then; without a limit the greatest one */
   uint64_t at;          /**< when that was; of DPSIM_BOUND_RULE the first violation; DPSIM_NEVER: not yet */
 } dpsim_check_result;
-/** So far. DPSIM_ERR_NOT_FOUND: no such rule. Also in callbacks. */
+/** Result so far. DPSIM_ERR_NOT_FOUND: no such rule. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_checker_get_result(const dpsim_checker* checker, size_t rule, dpsim_check_result* result);
 
 #ifdef __cplusplus

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Chips: kinds with their pins and parameters, one chip driven pin by pin, and the model beside somebody's chip.
+ * Chips: kinds with their pins and parameters, one chip driven pin by pin, and the model compared with a device
+ * under test (DUT).
  *
  *   dpsim_chip* chip;
  *   dpsim_chip_create(NULL, &chip);                                  // a DSDPV1, RESET is low
@@ -26,26 +27,26 @@
 extern "C" {
 #endif
 
-/* ---- kinds of chips: what there is, by number ---- */
+/* ---- kinds of chips, by number ---- */
 
-/* A kind is named by its text ("dsdpv1"); NULL and "" stand for the first one. These functions need no object and may
-   be called from any thread, also in callbacks. */
+/* A kind is named by its text ("dsdpv1"); NULL and "" mean the first one. These functions need no object and may be
+ * called from any thread, also in callbacks. */
 
-/** Number of kinds that the library has, and their names, 0 .. count - 1; NULL beyond. */
+/** Number of kinds in the library, and their names, 0 .. count - 1; NULL beyond. */
 DPSIM_API size_t dpsim_kind_count(void);
 DPSIM_API const char* dpsim_kind_name(size_t index);
 
 typedef struct dpsim_pin_info {
   uint32_t size;
-  uint16_t number;  /**< as dpsim_chip_set and dpsim_change have it */
-  uint8_t width;    /**< number of wires, 1 to 15 */
-  uint8_t input;    /**< 1: of the chip, 0: an output */
-  const char* name; /**< the datasheet's: "L_REQ" */
-  const char* bus;  /**< of two pins that are the directions of one bus, its name: "D" of D_IN and D_OUT; else NULL */
-  dpsim_level reset_level; /**< that it has before the first call */
+  uint16_t number;         /**< number for dpsim_chip_set and dpsim_change */
+  uint8_t width;           /**< number of wires, 1 to 15 */
+  uint8_t input;           /**< 1: input of the chip, 0: output */
+  const char* name;        /**< from the datasheet: "L_REQ" */
+  const char* bus;         /**< the bus of which this pin is one direction: "D" for D_IN and D_OUT; else NULL */
+  dpsim_level reset_level; /**< level before the first call */
 } dpsim_pin_info;
 
-/** Pins of a kind are numbered from 0, at most 64 of them. 0 for a kind that there is not. */
+/** Pins of a kind are numbered from 0, at most 64 of them. 0 for an unknown kind. */
 DPSIM_API size_t dpsim_pin_count(const char* kind);
 /** DPSIM_ERR_NOT_FOUND: no such kind or number. */
 DPSIM_API dpsim_status dpsim_pin_get(const char* kind, size_t number, dpsim_pin_info* info);
@@ -56,7 +57,7 @@ DPSIM_API dpsim_status dpsim_pin_find(const char* kind, const char* name, uint16
 #define DPSIM_PIN(number) ((uint64_t)1 << (number))
 #define DPSIM_ALL_PINS UINT64_MAX
 
-/* The pins of the DSDPV1 (table 1) by number, as dpsim_pin_get tells them. */
+/* The pins of the DSDPV1 (table 1), by the numbers of dpsim_pin_get. */
 enum {
   DPSIM_DSDPV1_RESET = 0, /**< low-active */
   DPSIM_DSDPV1_R_REQ = 1,
@@ -78,20 +79,20 @@ enum {
   DPSIM_DSDPV1_READY = 17
 };
 
-/** A parameter of the chip that the rulings mark (p): of the DSDPV1 access_interval (H1), ready_cycles (D1), rts_lead
- * and rts_trail (P2), intr_low and intr_gap (P7), search_window_ms, search_window_bits and baud_control_ms (S1). The
- * DSDPV1-RSU has those of docs/chip_rsu.md besides; of a list each number is one: "uart_gaps[0]" to "uart_gaps[7]".
- * What scenarios say of its straps (mode, address, uart_rate, interval) is none: straps are pins, MODE, ADR, UBR and
- * UIV. */
+/** A parameter of the chip that the rulings mark (p). The DSDPV1 has access_interval (H1), ready_cycles (D1),
+ * rts_lead and rts_trail (P2), intr_low and intr_gap (P7), search_window_ms, search_window_bits and baud_control_ms
+ * (S1). The DSDPV1-RSU adds those of docs/chip_rsu.md; each number of a list is one parameter: "uart_gaps[0]" to
+ * "uart_gaps[7]". Its straps are not parameters but the pins MODE, ADR, UBR and UIV, although scenarios have keys
+ * for them (mode, address, uart_rate, interval). */
 typedef struct dpsim_parameter_info {
   uint32_t size;
-  const char* name;        /**< as scenarios have it under `chip` */
+  const char* name;        /**< the key in a scenario's `chip` */
   const char* unit;        /**< "cycles", "ms", "bit times" */
   const char* description; /**< one sentence, with the ruling */
   int64_t minimum, maximum, default_value;
 } dpsim_parameter_info;
 
-/** 0 for a kind that there is not. */
+/** 0 for an unknown kind. */
 DPSIM_API size_t dpsim_parameter_count(const char* kind);
 /** DPSIM_ERR_NOT_FOUND: no such kind or index. */
 DPSIM_API dpsim_status dpsim_parameter_get(const char* kind, size_t index, dpsim_parameter_info* info);
@@ -108,57 +109,57 @@ typedef struct dpsim_parameter {
 typedef int32_t dpsim_engine;
 enum {
   DPSIM_ENGINE_SKIP = 0, /**< from event to event */
-  DPSIM_ENGINE_STEP = 1  /**< each cycle of each block is evaluated: slow, with the same changes of pins */
+  DPSIM_ENGINE_STEP = 1  /**< evaluates each cycle of each block: slow, with the same pin changes */
 };
 
 typedef struct dpsim_chip_options {
   uint32_t size;
   dpsim_engine engine;
-  const char* kind; /**< NULL: the first kind */
-  const char* name; /**< on a bus, in messages and collisions; NULL: "chip" and its station's number */
-  const dpsim_parameter*
-      parameters; /**< those that are not to have their defaults; names as dpsim_parameter_get has them */
+  const char* kind;                  /**< NULL: the first kind */
+  const char* name;                  /**< on a bus, in messages and collisions; NULL: "chip" and its station's number */
+  const dpsim_parameter* parameters; /**< only those that differ from the default; names as in dpsim_parameter_get */
   size_t parameter_count;
 } dpsim_chip_options;
 
-/** A chip alone, fresh from power-on at tick 0: inputs have the reset levels of dpsim_pin_get, so that RESET is low.
- *  `options` NULL: all defaults. DPSIM_ERR_NOT_FOUND: no such kind or parameter; DPSIM_ERR_ARGUMENT: a value out of
- * range. */
+/** Creates a chip without a bus, at power-on and tick 0: inputs have the reset levels of dpsim_pin_get, so RESET is
+ * low. `options` NULL: all defaults. DPSIM_ERR_NOT_FOUND: no such kind or parameter; DPSIM_ERR_ARGUMENT: a value out
+ * of range. */
 DPSIM_API dpsim_status dpsim_chip_create(const dpsim_chip_options* options, dpsim_chip** chip);
-/** Of a chip on a bus it does nothing: the bus owns it. */
+/** Does nothing for a chip on a bus, which the bus owns. */
 DPSIM_API void dpsim_chip_destroy(dpsim_chip* chip);
 
-/** Runs up to `tick`, then gives an input pin a level: 0 or 1, of several wires their value, of one that may be
- * released (D_IN) also DPSIM_Z. The level that it has already changes nothing. On a bus not PBRXD (DPSIM_ERR_STATE).
- *  DPSIM_ERR_NOT_FOUND: no such pin; DPSIM_ERR_ARGUMENT: an output, or no level of this pin; DPSIM_ERR_TIME. */
+/** Runs up to `tick`, then sets an input pin to a level: 0 or 1, the value of a pin with several wires, or DPSIM_Z
+ * for a pin that can be released (D_IN). Setting the present level changes nothing. PBRXD of a chip on a bus cannot
+ * be set (DPSIM_ERR_STATE). DPSIM_ERR_NOT_FOUND: no such pin; DPSIM_ERR_ARGUMENT: an output, or not a level of this
+ * pin; DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_set(dpsim_chip* chip, uint64_t tick, uint16_t pin, dpsim_level level);
-/** The same for `count` changes in their order, one call for many (their stations are not looked at). On an error those
- *  before it are carried out; `done`, if not NULL, is their number. */
+/** As dpsim_chip_set, for `count` changes in order; their stations are ignored. On an error the changes before it
+ * are applied; `done`, if not NULL, receives their number. */
 DPSIM_API dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change* changes, size_t count, size_t* done);
-/** Characters on PBRXD of a chip alone: `count` bytes with even parity, one after the other, each bit `bit` ticks long,
- * the first start bit falling at `tick`. The chip is at the end of the last stop bit then, which `end`, if not NULL,
- * gets; at other pins nothing is done meanwhile. DPSIM_ERR_ARGUMENT: `bit` beyond 1 to 12 000 000. DPSIM_ERR_STATE: it
- * is on a bus. DPSIM_ERR_TIME. */
+/** Sends characters to PBRXD of a chip without a bus: `count` bytes with even parity, back to back, each bit `bit`
+ * ticks long; the first start bit falls at `tick`. Returns at the end of the last stop bit, which `end`, if not
+ * NULL, receives; other pins do not change meanwhile. DPSIM_ERR_ARGUMENT: `bit` beyond 1 to 12 000 000.
+ * DPSIM_ERR_STATE: the chip is on a bus. DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_receive(dpsim_chip* chip, uint64_t tick, uint32_t bit, const uint8_t* bytes,
                                           size_t count, uint64_t* end);
-/** Runs everything up to and including `tick`. On a bus the same as dpsim_bus_run. DPSIM_ERR_TIME. */
+/** Runs up to and including `tick`. On a bus the same as dpsim_bus_run. DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_advance(dpsim_chip* chip, uint64_t tick);
-/** The tick of the next thing that the chip (on a bus: anybody on it) does by itself: until then no output changes
- * unless an input does. Never before the present tick; DPSIM_NEVER: nothing is due. */
+/** The tick of the next activity of the chip (on a bus: of any station) that needs no call: until then no output
+ * changes unless an input does. Never before the present tick; DPSIM_NEVER: nothing is due. */
 DPSIM_API dpsim_status dpsim_chip_next(dpsim_chip* chip, uint64_t* tick);
 /** The present tick: that of the last set or advance. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_chip_now(const dpsim_chip* chip, uint64_t* tick);
 /** The present level of a pin, input or output. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_chip_level(const dpsim_chip* chip, uint16_t pin, dpsim_level* level);
-/** The user samples D at `tick`: runs up to it and gives the level that D has then. Unlike dpsim_chip_level the chip
- * hears of it: earlier than Tw after RD and CSR fell it is DPSIM_X, and a violation is reported (P5).
- *  DPSIM_ERR_UNSUPPORTED: a kind without a parallel host bus. */
+/** Runs up to `tick`, where the user samples D, and returns its level. Unlike dpsim_chip_level this counts as a
+ * sample: earlier than Tw after RD and CSR fell, the level is DPSIM_X and a violation is reported (P5).
+ * DPSIM_ERR_UNSUPPORTED: a kind without a parallel host bus. */
 DPSIM_API dpsim_status dpsim_chip_sample(dpsim_chip* chip, uint64_t tick, dpsim_level* level);
 
-/* ---- an access of the host bus as a whole ---- */
+/* ---- complete accesses of the host bus ---- */
 
-/** When the pins move during an access, in ticks (table 15, P5, P11). The strobe is RD or WR. Negative setups: after
- * it. */
+/** When the pins change during an access, in ticks (table 15, P5, P11). The strobe is RD or WR. A negative setup is
+ * a time after the strobe. */
 typedef struct dpsim_access_timing {
   uint32_t size;
   uint32_t reserved;
@@ -168,21 +169,21 @@ typedef struct dpsim_access_timing {
   int64_t rd_sample;     /**< D sampled after RD fell (Tw >= 375) */
   int64_t wr_low;        /**< WR low, > 0 (Ts >= 150) */
   int64_t data_setup;    /**< D before WR rises (Td >= 150) */
-  int64_t data_hold;     /**< D after it (Td >= 150) */
-  int64_t address_hold;  /**< A after the strobe rose (writes: Td >= 150) */
+  int64_t data_hold;     /**< D after WR rises (Td >= 150) */
+  int64_t address_hold;  /**< A after the strobe rises (writes: Td >= 150) */
   int64_t cs_trail;      /**< CSR rises after the strobe */
   int64_t recovery;      /**< from the last edge to the end of the access */
 } dpsim_access_timing;
 
-/** Fills it with the times of a CPU at 72 MHz, which keep all limits. Of this struct 0 is no default: set its size,
- * call this, then change members. */
+/** Fills `timing` with the times of a CPU at 72 MHz, which keep all limits. 0 is not a default in this struct: set
+ * its size, call this, then change members. */
 DPSIM_API dpsim_status dpsim_access_timing_default(dpsim_access_timing* timing);
 
-/** Reads or writes one cell through the pins, all edges of the access in their order, its first edge at `tick`. The
- * chip is at `end` then, where the next access may begin. Whether the user owns the DPRAM is their business (H2):
- * R_REQ, R_STA are pins. `timing` NULL: the default. A value that is read is DPSIM_X when the chip says so.
- *  DPSIM_ERR_UNSUPPORTED: a kind without a parallel host bus. DPSIM_ERR_ARGUMENT: `address` > 0x7FF; rd_low or wr_low
- *  < 1, another time beyond +-100 us. DPSIM_ERR_TIME. */
+/** Reads or writes one cell through the pins with all edges of the access, the first at `tick`. Returns at `end`,
+ * where the next access may begin. The caller must own the DPRAM (H2): set R_REQ and R_STA as pins. `timing` NULL:
+ * the default. A value read is DPSIM_X if the chip does not define it. DPSIM_ERR_UNSUPPORTED: a kind without a
+ * parallel host bus. DPSIM_ERR_ARGUMENT: `address` > 0x7FF; rd_low or wr_low < 1, another time beyond +-100 us.
+ * DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_read(dpsim_chip* chip, uint64_t tick, uint16_t address,
                                        const dpsim_access_timing* timing, dpsim_level* value, uint64_t* end);
 DPSIM_API dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t value,
@@ -190,18 +191,18 @@ DPSIM_API dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_
 
 /* ---- changes of pins ---- */
 
-/** From now on changes of these pins are told, inputs too: to `fn`, or, with `fn` NULL, they are kept for
- *  dpsim_chip_read_changes. In order of time; at one tick in no certain order. A second call replaces the first, `pins`
- * 0 ends it; what is kept stays. Bits beyond the chip's pins do not matter (DPSIM_ALL_PINS). Costs time: a chip is
- *  fastest when the fewest pins are watched; on a bus, telegrams are told as wholes to chips whose PBRXD and PBTXD are
- * not. */
+/** Reports changes of these pins, also inputs, from now on, in order of time: to `fn`, or, with `fn` NULL, by
+ * keeping them for dpsim_chip_read_changes. The order within one tick is undefined. A second call replaces the
+ * first, `pins` 0 stops it; changes already kept stay. Bits beyond the chip's pins are ignored (DPSIM_ALL_PINS).
+ * Costs time: watch as few pins as possible. On a bus a chip whose PBRXD and PBTXD are not watched receives
+ * telegrams as a whole. */
 DPSIM_API dpsim_status dpsim_chip_watch(dpsim_chip* chip, uint64_t pins, dpsim_change_fn fn, void* user);
-/** Takes the oldest of the changes kept: at most `capacity` of them into `changes`, their number into `count`. Less
- * than `capacity`: nothing more is kept. Memory for what is kept grows until it is taken: call this after each advance
- *  (1 ms of a saturated bus with all pins is some 20 000 changes). Also in callbacks of other objects. */
+/** Takes the oldest kept changes: at most `capacity` of them into `changes`, their number into `count`. A number
+ * below `capacity` means that none are left. Memory grows until changes are taken, so call this after each advance
+ * (1 ms of a saturated bus with all pins has some 20 000 changes). Also in callbacks of other objects. */
 DPSIM_API dpsim_status dpsim_chip_read_changes(dpsim_chip* chip, dpsim_change* changes, size_t capacity, size_t* count);
 
-/* ---- what the chip says of itself ---- */
+/* ---- events of the chip ---- */
 
 typedef int32_t dpsim_severity;
 enum {
@@ -210,22 +211,22 @@ enum {
   DPSIM_SEVERITY_VIOLATION = 2 /**< the user's side broke a rule of the host port or the handshake */
 };
 
-/** Something that happened, as a reason and numbers (docs/reasons.md). */
+/** An event, as a reason and numbers (docs/reasons.md). */
 typedef struct dpsim_chip_event {
   uint64_t tick;
-  uint16_t station; /**< as dpsim_change has it */
-  uint16_t reason; /**< its number in this version of the library; dpsim_reason_get has its code, which never changes */
-  uint16_t a, b, c; /**< what the text's {a}, {b}, {c} stand for */
+  uint16_t station; /**< as in dpsim_change */
+  uint16_t reason;  /**< number in this version of the library; dpsim_reason_get gives its code, which never changes */
+  uint16_t a, b, c; /**< values for {a}, {b}, {c} in the text */
   uint16_t reserved[3];
 } dpsim_chip_event;
 
-/** Told of each event; the words are dpsim_chip_event_text's, in the callback or later. */
+/** Called for each event; dpsim_chip_event_text gives its text, in the callback or later. */
 typedef void (*dpsim_chip_event_fn)(void* user, const dpsim_chip_event* event);
 
-/** `fn` NULL: nobody listens any more. */
+/** `fn` NULL: no callback. */
 DPSIM_API dpsim_status dpsim_chip_on_event(dpsim_chip* chip, dpsim_chip_event_fn fn, void* user);
-/** The event in words, one line, without its tick, into `text` with a final 0. DPSIM_ERR_SPACE: cut at `capacity`,
- * which must be at least 1; 256 is always enough. Also in callbacks. */
+/** Writes the event as one line of text without its tick, with a final 0. DPSIM_ERR_SPACE: cut at `capacity`, which
+ * must be at least 1; 256 is always enough. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_chip_event_text(const char* kind, const dpsim_chip_event* event, char* text,
                                              size_t capacity);
 
@@ -235,7 +236,7 @@ typedef struct dpsim_reason_info {
   const char* code; /**< stable: "PRM_IDENT" */
 } dpsim_reason_info;
 
-/** The reasons of a kind, numbered from 0; 0 for a kind that there is not. Also in callbacks. */
+/** Number of reasons of a kind, numbered from 0; 0 for an unknown kind. Also in callbacks. */
 DPSIM_API size_t dpsim_reason_count(const char* kind);
 /** DPSIM_ERR_NOT_FOUND: no such kind or number. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_reason_get(const char* kind, size_t reason, dpsim_reason_info* info);
@@ -247,7 +248,7 @@ enum { DPSIM_DP_OFFLINE = 0, DPSIM_DP_WAIT_PRM = 1, DPSIM_DP_WAIT_CFG = 2, DPSIM
  *  8 = 19.2k, 9 = 9.6k. */
 typedef int32_t dpsim_baud;
 #define DPSIM_BAUD_COUNT 10
-#define DPSIM_BAUD_NONE ((dpsim_baud)-1) /**< it is being searched */
+#define DPSIM_BAUD_NONE ((dpsim_baud)-1) /**< the search is running */
 
 typedef struct dpsim_chip_status {
   uint32_t size;
@@ -259,29 +260,29 @@ typedef struct dpsim_chip_status {
   uint64_t telegrams_received; /**< error-free telegrams of all stations */
   uint64_t telegrams_answered; /**< answers sent */
   uint64_t data_exchanges;     /**< executed, repetitions not counted */
-  uint64_t outputs_missed;     /**< H5: blocks that newer ones replaced before the user had fetched them */
-  uint64_t accesses;           /**< of the chip to the memory that it shares with the user */
-  uint64_t longest_wait;       /**< H1: ticks that a due access waited for the user at most */
-  uint8_t c2_master[2];        /**< table 30: who has the C2 channels 0x30 and 0x2F, 0 = nobody */
+  uint64_t outputs_missed;     /**< H5: blocks that newer ones replaced before the user fetched them */
+  uint64_t accesses;           /**< of the chip to the memory shared with the user */
+  uint64_t longest_wait;       /**< H1: the most ticks that a due access waited for the user */
+  uint8_t c2_master[2];        /**< table 30: the masters that hold the C2 channels 0x30 and 0x2F, 0 = none */
   uint8_t c2_state[2];         /**< bit 0 in use, 1 connected, 2 a request is open */
 } dpsim_chip_status;
 
 /** States and counters; changes nothing. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_chip_get_status(const dpsim_chip* chip, dpsim_chip_status* status);
 
-/** One cell of the memory that chip and user share, without pins, time or side effects: for debuggers and checks.
- *  DPSIM_ERR_ARGUMENT: `address` beyond it (of the DSDPV1 0x7FF). Also in callbacks. */
+/** Reads one cell of the memory shared by chip and user, without pins, time or side effects: for debuggers and
+ * checks. DPSIM_ERR_ARGUMENT: `address` beyond it (DSDPV1: 0x7FF). Also in callbacks. */
 DPSIM_API dpsim_status dpsim_chip_peek(const dpsim_chip* chip, uint16_t address, uint8_t* value);
-/** Writes it; what the chip acts upon (a flag for it) it finds at its next access. */
+/** Writes one cell; the chip finds it (a flag, for example) at its next access. */
 DPSIM_API dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value);
 
-/* ---- saved and restored ---- */
+/* ---- save and restore ---- */
 
 #define DPSIM_MAX_CHIP_STATE 32768
 
-/** All that a chip alone is at its present tick, as bytes that dpsim_chip_restore takes, in this process or another:
- * registers, memory, levels of its pins, what is on its way, the tick. Not who watches and listens, and not changes
- * that are kept. `bytes` has room for `capacity`, `size` is their number; DPSIM_MAX_CHIP_STATE is always enough.
+/** Saves the complete state of a chip without a bus as bytes for dpsim_chip_restore, in this process or another:
+ * registers, memory, levels of its pins, activity in progress, the tick. Callbacks, watched pins and kept changes are
+ * not saved. `bytes` has room for `capacity`, `size` receives their number; DPSIM_MAX_CHIP_STATE is always enough.
  *
  *    uint8_t state[DPSIM_MAX_CHIP_STATE];
  *    size_t size;
@@ -289,34 +290,34 @@ DPSIM_API dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8
  *    ...
  *    dpsim_chip_restore(again, state, size);
  *
- *  DPSIM_ERR_SPACE: `size` is what is needed. DPSIM_ERR_STATE: it is on a bus, whose line, masters and time are
- * no part of a chip. */
+ * DPSIM_ERR_SPACE: `size` is what is needed. DPSIM_ERR_STATE: the chip is on a bus, whose line, masters and time are
+ * not part of a chip. */
 DPSIM_API dpsim_status dpsim_chip_save(const dpsim_chip* chip, uint8_t* bytes, size_t capacity, size_t* size);
-/** The chip goes on as the one that was saved, from its tick on, which may be before the present one: pins, events and
- * status are to the tick what they would have been. Kind and parameters must be the same, the engine need not.
- * Callbacks and the set of watched pins stay; that pins have other levels now is told to nobody, and changes that are
- * kept are forgotten. DPSIM_ERR_INPUT: the bytes are no state, cut or damaged, of another version of the format, kind
- * or parameter; then the chip is what it was. DPSIM_ERR_STATE: it is on a bus. */
+/** Resumes the saved chip at its tick, which may be before the present one: pins, events and status are the same at
+ * each tick as without the save. Kind and parameters must be the same, the engine need not. Callbacks and the set of
+ * watched pins stay; the jump of pin levels is not reported, and kept changes are discarded. DPSIM_ERR_INPUT: not a
+ * state, cut or damaged, or of another format version, kind or parameter; the chip is then unchanged.
+ * DPSIM_ERR_STATE: the chip is on a bus. */
 DPSIM_API dpsim_status dpsim_chip_restore(dpsim_chip* chip, const uint8_t* bytes, size_t size);
 
-/* ---- the model beside somebody's chip ---- */
+/* ---- scoreboard: the model compared with a DUT ---- */
 
-/* The model gets the inputs of a DUT (RTL, a recording), whose outputs have to be the model's at every tick. Compared
-   are the levels that a tick ends with. What the model calls DPSIM_X matches everything (P5); DPSIM_X and DPSIM_Z of
-   the DUT match only themselves. MISO of a DSDPV1-RSU in RTL is the pin's register: its pin is taken to follow
-   spi_miso_delay later, as in lockstep (docs/microarchitecture_rsu.md, 5.1). */
+/* The model receives the inputs of a DUT (RTL, a recording), whose outputs must equal the model's at every tick. The
+ * levels at the end of a tick are compared. DPSIM_X of the model matches everything (P5); DPSIM_X and DPSIM_Z of the
+ * DUT match only themselves. MISO of a DSDPV1-RSU in RTL is the pin's register: its pin is taken to follow
+ * spi_miso_delay later, as in lockstep (docs/microarchitecture_rsu.md, 5.1). */
 typedef struct dpsim_scoreboard dpsim_scoreboard;
 
 typedef struct dpsim_scoreboard_options {
   uint32_t size;
   uint32_t reserved;
-  int64_t tolerance; /**< ticks; a difference that lasts no longer is none; 0: exactly */
-  int64_t warm_up;   /**< ticks with RESET low before it compares, in which RTL leaves X; 0: it does from tick 0 on */
+  int64_t tolerance; /**< ticks; a difference that lasts at most this long is ignored; 0: exact */
+  int64_t warm_up;   /**< ticks with RESET low before comparison starts, during which RTL may have X; 0: from tick 0 */
 } dpsim_scoreboard_options;
 
-/** `model`: kind and parameters, those of the DUT. Both sides begin with the levels of dpsim_pin_get: what the DUT has
- *  otherwise at the start is a change there. `model`, `options` NULL: all defaults.
- *  DPSIM_ERR_NOT_FOUND: no such kind or parameter; DPSIM_ERR_ARGUMENT: a value out of range. */
+/** `model`: kind and parameters, those of the DUT. Both sides begin with the levels of dpsim_pin_get; feed a change
+ * if the DUT starts with another level. `model`, `options` NULL: all defaults. DPSIM_ERR_NOT_FOUND: no such kind or
+ * parameter; DPSIM_ERR_ARGUMENT: a value out of range. */
 DPSIM_API dpsim_status dpsim_scoreboard_create(const dpsim_chip_options* model, const dpsim_scoreboard_options* options,
                                                dpsim_scoreboard** scoreboard);
 DPSIM_API void dpsim_scoreboard_destroy(dpsim_scoreboard* scoreboard);
@@ -325,22 +326,24 @@ DPSIM_API void dpsim_scoreboard_destroy(dpsim_scoreboard* scoreboard);
 
 typedef struct dpsim_scoreboard_result {
   uint32_t size;
-  uint16_t pin;           /**< that is different first; of several at one tick the one with the least number */
+  uint16_t pin;           /**< the first that differs; of several at one tick the one with the lowest number */
   dpsim_level model, dut; /**< its levels */
-  uint16_t input;         /**< that changed last, and its level */
+  uint16_t input;         /**< the input that changed last, and its level */
   dpsim_level input_level;
   uint16_t event_count; /**< 0 to DPSIM_LAST_EVENTS */
-  uint64_t tick;        /**< since when they differ; DPSIM_NEVER: nowhere so far */
-  uint64_t input_tick;  /**< of the input's change; DPSIM_NEVER: none has changed */
-  uint64_t matched;     /**< changes of the model's outputs that the DUT has made as well, or that were to DPSIM_X */
-  uint64_t next;        /**< when something happens or is judged without a change of the DUT; DPSIM_NEVER: never */
+  uint64_t tick;        /**< start of the difference; DPSIM_NEVER: none so far */
+  uint64_t input_tick;  /**< of the input's change; DPSIM_NEVER: no input has changed */
+  uint64_t matched;     /**< changes of the model's outputs that the DUT made as well, or that were to DPSIM_X */
+  uint64_t
+      next; /**< when the model acts or a difference is judged without a change of the DUT; DPSIM_NEVER: nothing due */
   dpsim_chip_event events[DPSIM_LAST_EVENTS]; /**< the model's, the latest first (dpsim_chip_event_text) */
 } dpsim_scoreboard_result;
 
-/** The DUT has made these changes of inputs and outputs, in order of time (their stations are not looked at), and no
- *  others up to `until`. All ticks before `until` are judged then, and `result`, if not NULL, says what is known; after
- *  the first difference nothing more is compared. On an error the changes before the wrong one are carried out.
- *  DPSIM_ERR_NOT_FOUND: no such pin; DPSIM_ERR_ARGUMENT: no level of it, of an input also DPSIM_X; DPSIM_ERR_TIME. */
+/** Feeds the DUT's changes of inputs and outputs, in order of time (their stations are ignored); the DUT makes no
+ * others up to `until`. All ticks before `until` are then judged, and `result`, if not NULL, receives the state;
+ * after the first difference comparison stops. On an error the changes before the wrong one are applied.
+ * DPSIM_ERR_NOT_FOUND: no such pin; DPSIM_ERR_ARGUMENT: not a level of this pin, or DPSIM_X for an input;
+ * DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_scoreboard_compare(dpsim_scoreboard* scoreboard, const dpsim_change* changes, size_t count,
                                                 uint64_t until, dpsim_scoreboard_result* result);
 

@@ -3,14 +3,14 @@
 /*
  * The C API of the DSDPV1 model: libdsdpv1.so. C99, and C++.
  *
- * Everything is in these parts, each with its own header; the rules for errors, threads, callbacks and structs, which
- * are the same for all, stand in types.h. docs/c_api.md is the guide, examples/c_api.c a program that uses it.
+ * Each part has its own header; types.h has the common rules for errors, threads, callbacks and structs.
+ * docs/c_api.md is the guide, examples/c_api.c a complete program.
  */
 #ifndef DPSIM_DSDPV1_H
 #define DPSIM_DSDPV1_H
 
 #include "dsdpv1/bus.h"      /* the segment with chips and monitor */
-#include "dsdpv1/checks.h"   /* rules of the user's side, from any pins */
+#include "dsdpv1/checks.h"   /* rules of the user's side, from pins of any source */
 #include "dsdpv1/chip.h"     /* kinds, pins, parameters; one chip pin by pin */
 #include "dsdpv1/gsd.h"      /* GSD files */
 #include "dsdpv1/master.h"   /* masters of class 1 and 2 */

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * GSD files (docs/gsd.md), and what a master has to know of a slave.
+ * GSD files (docs/gsd.md), and what a master has to know about a slave.
  */
 #ifndef DPSIM_GSD_H
 #define DPSIM_GSD_H
@@ -20,14 +20,14 @@ extern "C" {
 /* Bits of dpsim_slave.flags. */
 enum {
   DPSIM_PRM_SYNC = 1,      /**< Set_Prm asks for Sync */
-  DPSIM_PRM_FREEZE = 2,    /**< ... for Freeze */
+  DPSIM_PRM_FREEZE = 2,    /**< ... and for Freeze */
   DPSIM_PRM_FAIL_SAFE = 4, /**< Fail_Safe: empty outputs instead of zeros in Clear */
   DPSIM_PRM_DPV1 = 8,      /**< DPV1_Enable: acyclic services of class 1; user_prm is filled up to three bytes */
   DPSIM_PRM_WD_1MS = 16,   /**< WD_Base 1 ms instead of 10 ms */
   DPSIM_PRM_NO_LOCK = 32   /**< without Lock_Req */
 };
 
-/** One slave, as a class-1 master has to know it (table 19). */
+/** One slave, with the data that a class-1 master needs (table 19). */
 typedef struct dpsim_slave {
   uint32_t size;
   uint16_t ident;      /**< Ident_Number */
@@ -50,13 +50,13 @@ typedef struct dpsim_slave {
 
 typedef struct dpsim_gsd dpsim_gsd;
 
-/** Reads a file. DPSIM_ERR_INPUT: the message has all errors, "file:line: ...", a line each. */
+/** Reads a file. DPSIM_ERR_INPUT: the message has all errors as "file:line: ...", one per line. */
 DPSIM_API dpsim_status dpsim_gsd_load(const char* path, dpsim_gsd** gsd);
-/** The same from text; `name` stands for the file in messages. */
+/** As dpsim_gsd_load, from text; `name` replaces the file name in messages. */
 DPSIM_API dpsim_status dpsim_gsd_parse(const char* text, size_t length, const char* name, dpsim_gsd** gsd);
 DPSIM_API void dpsim_gsd_destroy(dpsim_gsd* gsd);
 
-/** Warnings of a file that could be used, a line each, in the order of its lines; empty when there is none. */
+/** Warnings about a usable file, one per line, in the order of its lines; empty if there are none. */
 DPSIM_API dpsim_status dpsim_gsd_warnings(dpsim_gsd* gsd, const char** text);
 
 typedef struct dpsim_gsd_info {
@@ -65,7 +65,7 @@ typedef struct dpsim_gsd_info {
   uint8_t revision; /**< GSD_Revision */
   uint8_t dpv1;     /**< 1: DPV1_Slave */
   uint32_t bauds;   /**< bit n: the rate with index n (dpsim_baud) is supported */
-  uint32_t modules; /**< how many the file has */
+  uint32_t modules; /**< number of modules in the file */
   const char* vendor;
   const char* model;
 } dpsim_gsd_info;
@@ -74,13 +74,13 @@ DPSIM_API dpsim_status dpsim_gsd_get_info(dpsim_gsd* gsd, dpsim_gsd_info* info);
 /** The name of a module, 0 .. modules - 1. DPSIM_ERR_NOT_FOUND. */
 DPSIM_API dpsim_status dpsim_gsd_module(dpsim_gsd* gsd, size_t index, const char** name);
 
-/** What a master makes of the file and a choice of modules, names or numbers in the order of their slots; none (0):
- * those that the file presets. `slave` gets ident, user_prm, cfg, lengths, c1_response_timeout, min_slave_interval_us,
- * and its other members as zeros; `flags` with DPSIM_PRM_DPV1 asks for DPV1 and adds what the file wants for that.
- *  DPSIM_ERR_INPUT: no such module, a limit of the file exceeded, no DPV1. */
+/** Derives a master's data from the file and a choice of modules, names or numbers in the order of their slots; none
+ * (0): those that the file presets. Sets ident, user_prm, cfg, lengths, c1_response_timeout and
+ * min_slave_interval_us of `slave`, and zeroes its other members; `flags` with DPSIM_PRM_DPV1 requests DPV1 and adds
+ * what the file requires for it. DPSIM_ERR_INPUT: no such module, a limit of the file exceeded, no DPV1. */
 DPSIM_API dpsim_status dpsim_gsd_slave(dpsim_gsd* gsd, const char* const* modules, size_t module_count, uint32_t flags,
                                        dpsim_slave* slave);
-/** The whole report of `dsdpv1-sim gsd` for a choice of modules: text, or with `json` not 0 one JSON object. */
+/** The report of `dsdpv1-sim gsd` for a choice of modules: text, or one JSON object if `json` is not 0. */
 DPSIM_API dpsim_status dpsim_gsd_report(dpsim_gsd* gsd, const char* const* modules, size_t module_count, int32_t json,
                                         const char** text);
 

@@ -3,8 +3,8 @@
 /*
  * Masters of class 1 and class 2 on a bus. A master belongs to its bus and ends with it.
  *
- * All functions here but dpsim_bus_add_... are also allowed in callbacks. Commands take effect between two requests,
- * at the present tick at the earliest; what comes of them is told by dpsim_bus_on_event.
+ * All functions here except dpsim_bus_add_... are also allowed in callbacks. Commands take effect between two
+ * requests, at the present tick at the earliest; dpsim_bus_on_event reports their outcome.
  */
 #ifndef DPSIM_MASTER_H
 #define DPSIM_MASTER_H
@@ -38,29 +38,29 @@ typedef struct dpsim_master_options {
   uint8_t highest_address;       /**< HSA, 0: 126 */
   uint8_t ring;                  /**< 1: shares the token with other masters; class 2 always does */
   uint8_t no_token;              /**< 1: a single master that does not pass the token to itself after each cycle */
-  /* In bit times, 0: as EN 50170 has it for the rate. */
+  /* In bit times, 0: the value of EN 50170 for the rate. */
   int32_t slot_bits;             /**< T_SL */
   int32_t set_bits;              /**< T_SET */
   int32_t quiet_bits;            /**< T_QUI */
   int32_t target_rotation_bits;  /**< T_TR, of a ring; 0: 50 000 */
-  int32_t max_retries;           /**< of an unanswered request; 0: 1, at 3/6/12 Mbit/s 2/3/4; -1: none */
-  int32_t gap_factor;            /**< FDL status of one address every so many cycles (in a ring G); 0: 10; -1: none */
-  int32_t min_slave_interval_us; /**< least time of a cycle; 0: the greatest of the slaves'; -1: none */
+  int32_t max_retries;           /**< for an unanswered request; 0: 1, at 3/6/12 Mbit/s 2/3/4; -1: none */
+  int32_t gap_factor;            /**< one FDL status every so many cycles (in a ring G); 0: 10; -1: none */
+  int32_t min_slave_interval_us; /**< minimum cycle time; 0: the greatest of the slaves'; -1: none */
   int32_t clock_ppm;             /**< error of its clock in millionths, positive: slow */
 } dpsim_master_options;
 
-/** A master, silent until dpsim_master_start. `options` NULL: class 1, address 0, all defaults. */
+/** Adds a master, silent until dpsim_master_start. `options` NULL: class 1, address 0, all defaults. */
 DPSIM_API dpsim_status dpsim_bus_add_master(dpsim_bus* bus, const dpsim_master_options* options, dpsim_master** master);
 
 /** The number of its station. */
 DPSIM_API dpsim_status dpsim_master_station(const dpsim_master* master, uint16_t* station);
 
-/** Class 1: listens for T_TO, claims the token (in a ring that runs it waits to be let in) and brings all slaves up.
- * Class 2: takes part in the ring. */
+/** Class 1: listens for T_TO, claims the token (in a running ring it waits to be admitted) and brings all slaves up.
+ * Class 2: joins the ring. */
 DPSIM_API dpsim_status dpsim_master_start(dpsim_master* master);
-/** Silent at once, also inside of a telegram: a dead master. */
+/** Stops the master at once, even inside a telegram, as if it had died. */
 DPSIM_API dpsim_status dpsim_master_stop(dpsim_master* master);
-/** All later telegrams at another rate; slaves keep their states. */
+/** Sends all later telegrams at another rate; slaves keep their states. */
 DPSIM_API dpsim_status dpsim_master_set_baud(dpsim_master* master, dpsim_baud baud);
 
 typedef int32_t dpsim_ring_state;
@@ -79,15 +79,15 @@ typedef struct dpsim_ring_status {
   uint32_t size;
   dpsim_ring_state state;
   uint8_t stations[16]; /**< LAS, the list of active stations: bit a % 8 of byte a / 8 for address a */
-  uint64_t rotations;   /**< T_RR, from receipt of the token to receipt: how often measured, */
-  uint64_t rotation_min, rotation_max, rotation_mean; /**< ... in ticks, 0 when never */
-  uint64_t token_retries;                             /**< tokens repeated because nobody was heard */
-  uint64_t stations_dropped;                          /**< taken out of the LAS as they did not take the token */
+  uint64_t rotations;   /**< T_RR, from one receipt of the token to the next: number of measurements */
+  uint64_t rotation_min, rotation_max, rotation_mean; /**< ... in ticks, 0 without measurement */
+  uint64_t token_retries;                             /**< tokens repeated because no station was heard */
+  uint64_t stations_dropped;                          /**< taken out of the LAS because they did not take the token */
   uint64_t stations_found;                            /**< by the GAP poll */
   uint64_t claims;                                    /**< tokens claimed after T_TO */
   uint64_t tokens_given_up;                           /**< another master was heard while this one had the token */
 } dpsim_ring_status;
-/** DPSIM_ERR_STATE: a master that is alone (without `ring`). */
+/** DPSIM_ERR_STATE: a single master (without `ring`). */
 DPSIM_API dpsim_status dpsim_master_get_ring(const dpsim_master* master, dpsim_ring_status* status);
 
 /* ---- masters of a scenario (docs/scenarios.md) ---- */
@@ -95,47 +95,48 @@ DPSIM_API dpsim_status dpsim_master_get_ring(const dpsim_master* master, dpsim_r
 typedef struct dpsim_scenario_options {
   uint32_t size;
   uint32_t setting_count;
-  const char* path; /**< of the scenario's file; or, with `text`, what stands for it in messages and is the base of
-                       relative paths */
-  const char* text; /**< the scenario itself; NULL: `path` is read */
-  const char* const* settings; /**< "PATH=VALUE" as `--set` has them: "baud=1.5M" */
+  const char*
+      path; /**< path of the scenario's file; with `text`, its name in messages and the base of relative paths */
+  const char* text;            /**< the scenario itself; NULL: `path` is read */
+  const char* const* settings; /**< "PATH=VALUE" as in `--set`: "baud=1.5M" */
 } dpsim_scenario_options;
 
-/** All masters of a scenario, those of class 1 first, each class in the order of the file, with their slaves,
- * connections and the baud rate of the scenario. They start at their times by themselves, counted from tick 0 of the
- * bus, and carry out what the script asks of masters; the end of each of its requests is told with `id` 0. `masters`
- * has room for `capacity`; `count` is how many there are.
+/** Adds all masters of a scenario with their slaves, connections and the scenario's baud rate: those of class 1
+ * first, each class in the order of the file. They start automatically at their times, counted from tick 0 of the
+ * bus, and execute the script's actions for masters; the end of each of its requests is reported with `id` 0.
+ * `masters` has room for `capacity`; `count` receives the number of masters.
  *
- * The slaves are elsewhere: on this bus or outside. What the scenario says of them (slaves, chip, user_cpu; what the
- * script asks of user CPUs, of a plug or of the line; checks, expect, allow, end) is left out, and `left_out`, if not
- * NULL, says so in one line that stands as long as the bus. A `when` of a master's action may be about what a master
+ * The slaves are elsewhere, on this bus or outside. The scenario's parts about them (slaves, chip, user_cpu; script
+ * actions on user CPUs, a plug or the line; checks, expect, allow, end) are ignored; `left_out`, if not NULL, lists
+ * these parts in one line that is valid as long as the bus. A `when` of a master's action may use what a master
  * knows: dp_state data_exch, data_exchanges, inputs of its slaves, connection_state, reply_of.
  *
- * DPSIM_ERR_INPUT, "file:line: ...": the scenario is wrong, it has no masters, or a `when` is about something else.
- * DPSIM_ERR_SPACE: `count` is what is needed. In both cases nothing is on the bus. */
+ * DPSIM_ERR_INPUT, "file:line: ...": the scenario is wrong, it has no masters, or a `when` uses something else.
+ * DPSIM_ERR_SPACE: `count` is the number needed. In both cases nothing is added to the bus. */
 DPSIM_API dpsim_status dpsim_bus_add_scenario(dpsim_bus* bus, const dpsim_scenario_options* options,
                                               dpsim_master** masters, size_t capacity, size_t* count,
                                               const char** left_out);
 
 /* ---- class 1 (DPSIM_ERR_STATE for a master of class 2) ---- */
 
-/** Before the start or in operation. DPSIM_ERR_ARGUMENT: a value out of range, or an address that it has already. */
+/** Before the start or in operation. DPSIM_ERR_ARGUMENT: a value out of range, or an address already in use. */
 DPSIM_API dpsim_status dpsim_master_add_slave(dpsim_master* master, const dpsim_slave* slave);
-/** Clear (`clear` not 0): zeros, or empty outputs for fail-safe slaves; else Operate, which it begins with. */
+/** Clear (`clear` not 0): sends zeros, or empty outputs to fail-safe slaves; else Operate, the initial mode. */
 DPSIM_API dpsim_status dpsim_master_set_clear(dpsim_master* master, int32_t clear);
 
-/* Of one slave: DPSIM_ERR_NOT_FOUND when the master has none with this address. */
+/* For one slave: DPSIM_ERR_NOT_FOUND if the master has none with this address. */
 
-/** As many bytes as its output_length (DPSIM_ERR_ARGUMENT); sent from the next exchange on. */
+/** Exactly output_length bytes (DPSIM_ERR_ARGUMENT); sent from the next exchange on. */
 DPSIM_API dpsim_status dpsim_master_set_outputs(dpsim_master* master, uint8_t address, const uint8_t* data,
                                                 size_t count);
-/** Set_Prm with Unlock, then it is left alone until dpsim_master_activate, which brings it up from the start. */
+/** Sends Set_Prm with Unlock and then ignores the slave until dpsim_master_activate, which brings it up from the
+ * start. */
 DPSIM_API dpsim_status dpsim_master_release(dpsim_master* master, uint8_t address);
 DPSIM_API dpsim_status dpsim_master_activate(dpsim_master* master, uint8_t address);
 
 typedef int32_t dpsim_slave_state;
 enum {
-  DPSIM_SLAVE_OFFLINE = 0,  /**< does not answer; tried once a cycle at most */
+  DPSIM_SLAVE_OFFLINE = 0,  /**< does not answer; tried at most once per cycle */
   DPSIM_SLAVE_DIAGNOSE = 1, /**< Slave_Diag before the parameters */
   DPSIM_SLAVE_CLEAR = 2,    /**< Global_Control Clear before the parameters (DPSIM_PERSONALITY_CLASSIC) */
   DPSIM_SLAVE_SET_PRM = 3,
@@ -149,8 +150,8 @@ enum {
 typedef struct dpsim_slave_status {
   uint32_t size;
   dpsim_slave_state state;
-  const char* reason;    /**< why the last bring-up failed or data exchange ended; empty when all is well */
-  const uint8_t* inputs; /**< of the last data exchange; good until the bus runs, as the others */
+  const char* reason;    /**< why the last bring-up failed or data exchange ended; else empty */
+  const uint8_t* inputs; /**< of the last data exchange; valid until the bus runs, as are the other pointers */
   const uint8_t* outputs;
   const uint8_t* diagnosis; /**< data of the last Slave_Diag answer */
   uint32_t input_count, output_count, diagnosis_count;
@@ -172,23 +173,23 @@ typedef struct dpsim_master_status {
 } dpsim_master_status;
 DPSIM_API dpsim_status dpsim_master_get_status(const dpsim_master* master, dpsim_master_status* status);
 
-/* Requests out of the cycle, carried out in the order of the calls. Each gets an `id`, from 1, which its
-   DPSIM_EVENT_REQUEST_DONE or DPSIM_EVENT_ACYCLIC_DONE names; `id` may be NULL. Those of a scenario have 0. */
+/* Acyclic requests, executed in the order of the calls. Each gets an `id`, from 1, which its
+ * DPSIM_EVENT_REQUEST_DONE or DPSIM_EVENT_ACYCLIC_DONE names; `id` may be NULL. Requests of a scenario have id 0. */
 
 typedef int32_t dpsim_outcome;
 enum {
   DPSIM_OUTCOME_SENT = 0,       /**< a telegram without answer has been sent */
-  DPSIM_OUTCOME_ANSWERED = 1,   /**< by a right telegram; it may be a refusal (UE, RR, RS) */
-  DPSIM_OUTCOME_NO_ANSWER = 2,  /**< nothing within the slot time, also not to the repetitions */
-  DPSIM_OUTCOME_BAD_ANSWER = 3, /**< the last attempt was answered by something wrong */
-  DPSIM_OUTCOME_ABORTED = 4     /**< the master was stopped, or has lost the token before it was done */
+  DPSIM_OUTCOME_ANSWERED = 1,   /**< by a valid telegram; it may be a refusal (UE, RR, RS) */
+  DPSIM_OUTCOME_NO_ANSWER = 2,  /**< nothing within the slot time, not even to the repetitions */
+  DPSIM_OUTCOME_BAD_ANSWER = 3, /**< the answer to the last attempt was wrong */
+  DPSIM_OUTCOME_ABORTED = 4     /**< the master was stopped or lost the token before the end */
 };
 
 /* Services without data. */
 typedef int32_t dpsim_service;
 enum {
   DPSIM_SERVICE_FDL_STATUS = 0,
-  DPSIM_SERVICE_READ_INPUTS = 56, /**< these by their SAP */
+  DPSIM_SERVICE_READ_INPUTS = 56, /**< this one and the next by their SAP */
   DPSIM_SERVICE_READ_OUTPUTS = 57,
   DPSIM_SERVICE_GET_CFG = 59,
   DPSIM_SERVICE_SLAVE_DIAG = 60
@@ -206,17 +207,17 @@ enum {
 /** To `address` (DPSIM_BROADCAST: all) and the groups whose bits are set in `group` (0: all). */
 DPSIM_API dpsim_status dpsim_master_global_control(dpsim_master* master, uint8_t command, uint8_t group,
                                                    uint8_t address, uint32_t* id);
-/** Set_Slave_Add; `lock`: no later change. */
+/** Set_Slave_Add; `lock`: forbids later changes. */
 DPSIM_API dpsim_status dpsim_master_set_slave_address(dpsim_master* master, uint8_t address, uint8_t new_address,
                                                       uint16_t ident, int32_t lock, uint32_t* id);
-/** Any request; FC holds bit 6 and the function, FCB and FCV are added. `sa` is not looked at: it is the master's own
- * address, for another one there is dpsim_master_send_raw. DPSIM_ERR_ARGUMENT: it cannot be encoded. */
+/** Any request; FC holds bit 6 and the function, FCB and FCV are added. `sa` is ignored: the master uses its own
+ * address; for another one see dpsim_master_send_raw. DPSIM_ERR_ARGUMENT: it cannot be encoded. */
 DPSIM_API dpsim_status dpsim_master_request(dpsim_master* master, const dpsim_telegram* telegram, uint32_t* id);
 
-/** What is broken in raw bytes on the wire. Positions count bytes from 0; what lies after the end has no effect. */
+/** Faults to inject into raw bytes on the wire. Positions count bytes from 0; those after the end have no effect. */
 typedef struct dpsim_wire_faults {
   uint32_t size;
-  uint32_t which; /**< DPSIM_FAULT_... of those that are wanted */
+  uint32_t which; /**< DPSIM_FAULT_... of the faults to inject */
   uint16_t wrong_parity_at;
   uint16_t missing_stop_at;
   uint16_t gap_before;     /**< idle for `gap_millibits` before this byte */
@@ -234,8 +235,8 @@ enum {
   DPSIM_FAULT_TRUNCATE = 8,
   DPSIM_FAULT_GLITCH = 16
 };
-/** Any bytes, once, without repetition; `faults` may be NULL. `wants_answer` not 0: waits for one as after a request.
- */
+/** Sends any bytes once, without repetition; `faults` may be NULL. `wants_answer` not 0: waits for one as after a
+ * request. */
 DPSIM_API dpsim_status dpsim_master_send_raw(dpsim_master* master, const uint8_t* bytes, size_t count,
                                              const dpsim_wire_faults* faults, int32_t wants_answer, uint32_t* id);
 
@@ -254,8 +255,9 @@ enum {
 
 #define DPSIM_MAX_ACYCLIC 240 /**< bytes of data of one request or answer */
 
-/* Class 1 (MSAC_C1): `peer` is the address of a slave that the master has, DPSIM_ERR_NOT_FOUND else. Class 2 (MSAC_C2):
-   it is the number of a connection; a closed one gives DPSIM_ERR_STATE. One after the other for each. */
+/* Class 1 (MSAC_C1): `peer` is the address of one of the master's slaves, else DPSIM_ERR_NOT_FOUND. Class 2
+ * (MSAC_C2): it is the number of a connection; a closed one gives DPSIM_ERR_STATE. Requests of one peer are executed
+ * one after another. */
 
 /** DS_Read of up to `count` bytes, 0 to 255: a slave refuses more than 240. */
 DPSIM_API dpsim_status dpsim_master_read(dpsim_master* master, uint32_t peer, uint8_t slot, uint8_t index,
@@ -279,15 +281,15 @@ typedef struct dpsim_connection_options {
   uint8_t slave;             /**< address, 0 to 126 */
   uint8_t add_addr_size;     /**< bytes used of add_addr; 0: the short form 00 00 */
   uint32_t poll_interval_us; /**< least time between two polls; 0: at every token */
-  uint8_t add_addr[232];     /**< Add_Addr (V10), as it is */
+  uint8_t add_addr[232];     /**< Add_Addr (V10), sent unchanged */
 } dpsim_connection_options;
 
-/** Makes a connection known, numbered from 0; it is closed. */
+/** Adds a connection, numbered from 0, in the closed state. */
 DPSIM_API dpsim_status dpsim_master_add_connection(dpsim_master* master, const dpsim_connection_options* options,
                                                    uint32_t* connection);
-/** Initiate; nothing happens unless it is closed. DPSIM_ERR_NOT_FOUND: no such connection, here and below. */
+/** Initiate; does nothing unless the connection is closed. DPSIM_ERR_NOT_FOUND: no such connection, here and below. */
 DPSIM_API dpsim_status dpsim_master_connect(dpsim_master* master, uint32_t connection);
-/** An abort by this side with `reason`, 0 to 15, of the user's instance; 0: an ordinary end. */
+/** Aborts the connection with `reason`, 0 to 15, of instance user; 0: an ordinary end. */
 DPSIM_API dpsim_status dpsim_master_abort(dpsim_master* master, uint32_t connection, uint8_t reason);
 
 typedef int32_t dpsim_connection_state;
@@ -302,7 +304,7 @@ enum {
 typedef int32_t dpsim_connection_end;
 enum {
   DPSIM_END_SLAVE_ABORT = 0,
-  DPSIM_END_MASTER = 1,     /**< by this side: asked for, a wrong answer, or time */
+  DPSIM_END_MASTER = 1,     /**< by this side: requested, a wrong answer, or a timeout */
   DPSIM_END_REFUSED = 2,    /**< Initiate refused */
   DPSIM_END_NO_CHANNEL = 3, /**< the slave does not know the channel any more */
   DPSIM_END_NO_ANSWER = 4,
@@ -312,7 +314,7 @@ enum {
 typedef struct dpsim_connection_status {
   uint32_t size;
   dpsim_connection_state state;
-  int16_t sap;           /**< of the channel, 0 to 48; -1: not known */
+  int16_t sap;           /**< of the channel, 0 to 48; -1: unknown */
   uint16_t send_timeout; /**< granted, unit 10 ms */
   uint8_t max_length;    /**< Max_Len_Data_Unit */
   uint8_t reserved[3];

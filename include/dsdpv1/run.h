@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A scenario (docs/scenarios.md) loaded, run, and what came of it.
+ * Load a scenario (docs/scenarios.md), run it and read its results.
  *
  *   dpsim_run_options options = {0};
  *   options.size = sizeof options;
@@ -27,7 +27,7 @@ typedef struct dpsim_run dpsim_run;
 
 typedef int32_t dpsim_checks_mode;
 enum {
-  DPSIM_CHECKS_AS_SCENARIO = 0, /**< as the scenario says, else DPSIM_CHECKS_FAIL */
+  DPSIM_CHECKS_AS_SCENARIO = 0, /**< as in the scenario, else DPSIM_CHECKS_FAIL */
   DPSIM_CHECKS_FAIL = 1,        /**< violations that the scenario does not allow fail the run */
   DPSIM_CHECKS_OFF = 2,
   DPSIM_CHECKS_REPORT = 3 /**< violations are listed in the result; the verdict says how many were not judged */
@@ -38,23 +38,23 @@ typedef struct dpsim_run_options {
   dpsim_engine engine;
   dpsim_checks_mode checks;
   uint32_t setting_count;
-  const char* path; /**< of the scenario's file; or, with `text`, what stands for it in messages and is the base of
-                       relative paths */
-  const char* text; /**< the scenario itself; NULL: `path` is read */
-  const char* const* settings; /**< "PATH=VALUE" as `--set` has them: "user_cpu.cycle=40us" */
-  /* Files that are written, NULL: none. They are complete once dpsim_run_execute has returned, or absent. */
+  const char*
+      path; /**< path of the scenario's file; with `text`, its name in messages and the base of relative paths */
+  const char* text;            /**< the scenario itself; NULL: `path` is read */
+  const char* const* settings; /**< "PATH=VALUE" as in `--set`: "user_cpu.cycle=40us" */
+  /* Output files, NULL: none. They are complete once dpsim_run_execute has returned, or absent. */
   const char* log;     /**< .log or .jsonl */
   const char* wave;    /**< .vcd or .fst */
   const char* capture; /**< .pcapng */
 } dpsim_run_options;
 
-/** Reads the scenario and the files that it names, and builds all of it. DPSIM_ERR_INPUT: "file:line: what is wrong,
+/** Reads the scenario and the files it names, and builds everything. DPSIM_ERR_INPUT: "file:line: what is wrong,
  * what is allowed". DPSIM_ERR_UNSUPPORTED: a slave whose user CPU is an ARM board, which this library does not have:
  * run it with dsdpv1-sim. */
 DPSIM_API dpsim_status dpsim_run_create(const dpsim_run_options* options, dpsim_run** run);
 DPSIM_API void dpsim_run_destroy(dpsim_run* run);
 
-/** The scenario's name, its end, and its slaves, numbered from 0 in its order. */
+/** The scenario's name, its end, and its slaves, numbered from 0 in the order of the file. */
 typedef struct dpsim_run_info {
   uint32_t size;
   uint32_t slaves;
@@ -66,32 +66,32 @@ DPSIM_API dpsim_status dpsim_run_get_info(const dpsim_run* run, dpsim_run_info* 
 /** DPSIM_ERR_NOT_FOUND: no such slave. */
 DPSIM_API dpsim_status dpsim_run_slave(const dpsim_run* run, size_t slave, const char** name);
 
-/* Before dpsim_run_execute (DPSIM_ERR_STATE later): what is told while it runs, or kept for later. All pins of all
-   slaves, inputs too, and the line, each beginning with its level of power-on at tick 0: what a golden trace holds
-   (docs/traces.md). To watch pins costs time. */
+/* To be called before dpsim_run_execute (DPSIM_ERR_STATE later): selects what is reported during the run or kept for
+ * later. Changes cover the line and all pins of all slaves, also inputs, each beginning with its power-on level at
+ * tick 0, as in a golden trace (docs/traces.md). Watching pins costs time. */
 
-/** Changes of all pins and of the line. Here and below `fn` NULL: not told. */
+/** Changes of all pins and of the line. Here and below `fn` NULL: no callback. */
 DPSIM_API dpsim_status dpsim_run_on_change(dpsim_run* run, dpsim_change_fn fn, void* user);
-/** Telegrams, as the monitor hears them. */
+/** Telegrams, as the monitor receives them. */
 DPSIM_API dpsim_status dpsim_run_on_telegram(dpsim_run* run, dpsim_telegram_fn fn, void* user);
 /** Events of the chips; `station` is the slave. */
 DPSIM_API dpsim_status dpsim_run_on_event(dpsim_run* run, dpsim_chip_event_fn fn, void* user);
-/** What the programs of user CPUs print, line by line. Firmware on an ARM board does, which dsdpv1-sim runs; a native
- * user CPU, the only one that this library has, prints nothing. */
+/** Lines printed by the programs of user CPUs. Only firmware on an ARM board prints, which needs dsdpv1-sim; the
+ * native user CPU, the only one in this library, prints nothing. */
 typedef void (*dpsim_text_fn)(void* user, uint16_t slave, const char* line);
 DPSIM_API dpsim_status dpsim_run_on_text(dpsim_run* run, dpsim_text_fn fn, void* user);
 
 enum { DPSIM_KEEP_CHANGES = 1, DPSIM_KEEP_TELEGRAMS = 2 };
-/** What is kept, a set of DPSIM_KEEP_...; 0: nothing. 16 bytes a change. */
+/** Selects what is kept, a set of DPSIM_KEEP_...; 0: nothing. 16 bytes a change. */
 DPSIM_API dpsim_status dpsim_run_keep(dpsim_run* run, uint32_t what);
 
-/** Asked every 100 us of simulated time whether the run is to go on: not 0 is yes. */
+/** Called every 100 us of simulated time: return 0 to stop the run. */
 typedef int32_t (*dpsim_poll_fn)(void* user, uint64_t now);
-/** Runs it to its end, or until `poll` (NULL: nobody is asked) says no; once (DPSIM_ERR_STATE). DPSIM_ERR_INPUT: a file
- *  cannot be written. DPSIM_OK also when the scenario's expectations are not met: see dpsim_run_verdict. */
+/** Runs the scenario to its end, or until `poll` (NULL: none) returns 0; once (DPSIM_ERR_STATE). DPSIM_ERR_INPUT: a
+ * file cannot be written. DPSIM_OK also if the scenario's expectations are not met: see dpsim_run_verdict. */
 DPSIM_API dpsim_status dpsim_run_execute(dpsim_run* run, dpsim_poll_fn poll, void* user);
 
-/* After dpsim_run_execute (DPSIM_ERR_STATE before). */
+/* Only after dpsim_run_execute (DPSIM_ERR_STATE before). */
 
 typedef struct dpsim_run_summary {
   uint32_t size;
@@ -105,18 +105,17 @@ typedef struct dpsim_run_summary {
   double wall_seconds;
 } dpsim_run_summary;
 DPSIM_API dpsim_status dpsim_run_get_summary(const dpsim_run* run, dpsim_run_summary* summary);
-/** What the run comes to, the same word and number as of `dsdpv1-sim run`. `exit_code`: 0 passed; 1 an expectation was
- *  not met, or something was violated that is not allowed; 3 nothing was judged; 130 stopped by `poll`. `text`: in
- *  words, with what was not judged, "PASSED, 140 violations not judged"; stands as long as the run. */
+/** The run's verdict, with the text and exit code of `dsdpv1-sim run`. `exit_code`: 0 passed; 1 an expectation was
+ * not met, or there was a violation that is not allowed; 3 nothing was judged; 130 stopped by `poll`. `text` also
+ * says what was not judged, "PASSED, 140 violations not judged"; valid as long as the run. */
 DPSIM_API dpsim_status dpsim_run_verdict(dpsim_run* run, int32_t* exit_code, const char** text);
-/** The whole result, as `dsdpv1-sim run --result` writes it: one JSON object (docs/result.md). Stands as long as the
- * run. */
+/** The result as `dsdpv1-sim run --result` writes it: one JSON object (docs/result.md). Valid as long as the run. */
 DPSIM_API dpsim_status dpsim_run_result(dpsim_run* run, const char** json);
-/** The tables that `dsdpv1-sim run` prints. Stands as long as the run. */
+/** The tables that `dsdpv1-sim run` prints. Valid as long as the run. */
 DPSIM_API dpsim_status dpsim_run_report(dpsim_run* run, const char** text);
-/** As dpsim_chip_read_changes, in order of time, of all slaves and the line. */
+/** As dpsim_chip_read_changes, in order of time, for all slaves and the line. */
 DPSIM_API dpsim_status dpsim_run_read_changes(dpsim_run* run, dpsim_change* changes, size_t capacity, size_t* count);
-/** All telegrams kept, in order of time: an array of `count` that stands as long as the run, as do their bytes. */
+/** All kept telegrams in order of time: an array of `count` elements, valid with their bytes as long as the run. */
 DPSIM_API dpsim_status dpsim_run_telegrams(const dpsim_run* run, const dpsim_heard** heard, size_t* count);
 
 #ifdef __cplusplus

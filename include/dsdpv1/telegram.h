@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Telegrams of the data link layer (EN 50170 / IEC 61158-4 type 3): as fields, as bytes, in words. No objects, no
- * state; all of it may be called from any thread, also in callbacks.
+ * Telegrams of the data link layer (EN 50170 / IEC 61158-4 type 3) as fields, bytes and text. No objects, no state;
+ * all functions may be called from any thread, also in callbacks.
  */
 #ifndef DPSIM_TELEGRAM_H
 #define DPSIM_TELEGRAM_H
@@ -34,7 +34,7 @@ typedef struct dpsim_telegram {
   uint8_t da, sa; /**< 0 to 127, without the extension bit; 0 in SC */
   uint8_t fc;     /**< frame control; 0 in SD4 and SC */
   uint8_t reserved;
-  int16_t dsap, ssap; /**< the extension bytes, DPSIM_NO_SAP when there is none (0 is a SAP: set both) */
+  int16_t dsap, ssap; /**< the extension bytes, DPSIM_NO_SAP if there are none (0 is a SAP: set both) */
   uint16_t data_size; /**< bytes in `data`, SAP bytes not counted */
   uint8_t data[DPSIM_MAX_DATA];
 } dpsim_telegram;
@@ -42,25 +42,25 @@ typedef struct dpsim_telegram {
 typedef int32_t dpsim_decode_error;
 enum {
   DPSIM_DECODE_OK = 0,
-  DPSIM_DECODE_START_DELIMITER = 1,        /**< the first byte is none of 10, 68, A2, DC, E5 */
+  DPSIM_DECODE_START_DELIMITER = 1,        /**< the first byte is not 10, 68, A2, DC or E5 */
   DPSIM_DECODE_LENGTH_RANGE = 2,           /**< LE below 4 or above 249 */
   DPSIM_DECODE_LENGTH_MISMATCH = 3,        /**< LE and LEr differ */
   DPSIM_DECODE_SECOND_START_DELIMITER = 4, /**< the fourth byte of SD2 is not 68 */
   DPSIM_DECODE_FCS = 5,
   DPSIM_DECODE_END_DELIMITER = 6,
-  DPSIM_DECODE_MISSING_SAP = 7, /**< bit 7 of DA or SA promises an extension byte that is not there */
-  DPSIM_DECODE_TRUNCATED = 8    /**< the bytes end inside of the telegram */
+  DPSIM_DECODE_MISSING_SAP = 7, /**< bit 7 of DA or SA announces an extension byte that is missing */
+  DPSIM_DECODE_TRUNCATED = 8    /**< the bytes end inside the telegram */
 };
 
-/** The bytes on the wire, with FCS. `bytes` has room for `capacity`; DPSIM_MAX_TELEGRAM is always enough.
- *  DPSIM_ERR_ARGUMENT: a field out of range, or data that do not fit the kind; DPSIM_ERR_SPACE: `count` is what is
- * needed. */
+/** Encodes a telegram as the bytes on the wire, with FCS. `bytes` has room for `capacity`; DPSIM_MAX_TELEGRAM is
+ * always enough. DPSIM_ERR_ARGUMENT: a field out of range, or data that do not fit the kind; DPSIM_ERR_SPACE:
+ * `count` is the number needed. */
 DPSIM_API dpsim_status dpsim_telegram_encode(const dpsim_telegram* telegram, uint8_t* bytes, size_t capacity,
                                              size_t* count);
 
-/** The first telegram of `bytes`. DPSIM_OK also for a wrong one: `error` says what is wrong with it; `telegram` is
- * filled when it is right or when only FCS or end delimiter are wrong. `used`, if not NULL: how many bytes it took, of
- * a wrong one up to where that was seen. */
+/** Decodes the first telegram of `bytes`. DPSIM_OK also for an invalid one: `error` says what is wrong; `telegram`
+ * is filled if it is valid or only FCS or end delimiter are wrong. `used`, if not NULL, receives the number of bytes
+ * taken, for an invalid telegram up to the place of the error. */
 DPSIM_API dpsim_status dpsim_telegram_decode(const uint8_t* bytes, size_t count, dpsim_telegram* telegram,
                                              dpsim_decode_error* error, size_t* used);
 /** "wrong FCS"; "" for DPSIM_DECODE_OK and other numbers. */
@@ -73,26 +73,26 @@ enum {
   DPSIM_EXPLAIN_BYTES = 2    /**< a line for each byte: offset, value, meaning, as `dsdpv1-sim decode` prints them */
 };
 
-/** The first telegram of `bytes` in words. Of a wrong one as far as it was understood, then what is wrong. `dpv1` says
- *  whether the slave is parameterised for DPV1, which decides how a device related diagnosis is read: 1, 0, or -1 for
- *  unknown (both ways are shown). */
+/** Describes the first telegram of `bytes`; an invalid one as far as it was understood, then the error. `dpv1` says
+ * whether the slave is parameterised for DPV1, which decides how a device related diagnosis is read: 1, 0, or -1 for
+ * unknown (both ways are shown). */
 DPSIM_API dpsim_status dpsim_telegram_explain(const uint8_t* bytes, size_t count, dpsim_explain_style style,
                                               int32_t dpv1, const char** text);
 
-/** A telegram as the monitor of a bus or of a run has heard it. */
+/** A telegram as received by the monitor of a bus or run. */
 typedef struct dpsim_heard {
   uint64_t start; /**< tick of the falling edge of its first start bit */
   uint64_t end;   /**< end of its last stop bit */
-  uint64_t tsdr;  /**< of an answer: ticks from the end of the request; else DPSIM_NEVER */
+  uint64_t tsdr;  /**< for an answer: ticks from the end of the request; else DPSIM_NEVER */
   const uint8_t* bytes;
   uint16_t count;           /**< of `bytes` */
-  uint8_t station;          /**< who answered; of SC the station that was asked; 255: not an answer */
+  uint8_t station;          /**< the answering station; for SC the station that was asked; 255: not an answer */
   uint8_t character_errors; /**< 1: a parity bit or stop bit was wrong */
   dpsim_decode_error error;
   int32_t baud; /**< index of the rate, see dpsim_baud */
 } dpsim_heard;
 
-/** Told of a telegram at its end, right or wrong. */
+/** Called at the end of each telegram, valid or not. */
 typedef void (*dpsim_telegram_fn)(void* user, const dpsim_heard* heard);
 
 #ifdef __cplusplus
