@@ -1,4 +1,4 @@
-// How an access of the chip begins (ruling H3): it sets the access count B006, then reads what the user has asked for.
+// The beginning of an access of the chip (ruling H3): it sets the access count B006, then reads the user's commands.
 #include "model/dpram/sequencer.hpp"
 
 namespace dsdpv1::dpram {
@@ -26,7 +26,7 @@ void Sequencer::read_header(int index) {
   }
 }
 
-// Nobody has looked meanwhile, so nothing is noted.
+// Nothing is noted, because no observer looks meanwhile.
 void Sequencer::header_at_once() {
   for (int index = 0; index < kHeaderMoves; ++index) read_header(index);
   op_ += kHeaderMoves;

@@ -1,4 +1,4 @@
-// What an access finds to do, and in which order (ruling H4).
+// The work that an access finds, and its order (ruling H4).
 #include "model/dpram/sequencer.hpp"
 
 namespace dsdpv1::dpram {
@@ -10,10 +10,10 @@ void Sequencer::choose(Cycle now) {
   start(item_, now);
 }
 
-// What an access that chooses at `now` finds to do, as far as it has read the user's commands.
+// Work for an access that chooses at `now`, as far as it has read the user's commands.
 unsigned Sequencer::due_items(Cycle now) const { return due_commands() | due_mail(now) | due_status(); }
 
-// Most accesses find none of them.
+// Most accesses find no command.
 unsigned Sequencer::due_commands() const {
   if ((user_command1_ & kUserCommands1) == 0 && (user_command2_ & kUserCommands2) == 0) return 0;
   const auto command1 = [this](Item item, unsigned flag) { return when(item, (user_command1_ & flag) != 0); };

@@ -1,5 +1,5 @@
-// Blocks on their way between the DPRAM and the slave, byte by byte (rulings D3, D6, D12, V14): where each area lies,
-// how long its block is, and its CRC.
+// Moves blocks between the DPRAM and the slave, byte by byte (rulings D3, D6, D12, V14): the place of each area, the
+// length of its block, and its CRC.
 #include <algorithm>
 
 #include "model/dpram/crc16.hpp"
@@ -8,7 +8,7 @@
 namespace dsdpv1::dpram {
 namespace {
 
-// An acyclic answer is as long as its length byte says only when it carries data (V14).
+// An acyclic answer has the length in its length byte only if it carries data (V14).
 bool carries_data(std::uint8_t function) {
   return function == profibus::dpv1::kRead || function == profibus::dpv1::kTransport;
 }

@@ -1,4 +1,4 @@
-// What the user's blocks do when an access of the chip has read them (rulings D5, D7, D10 to D14, D16, D17, H7).
+// The effect of the user's blocks once an access of the chip has read them (rulings D5, D7, D10 to D14, D16, D17, H7).
 #include "model/dpram/crc16.hpp"
 #include "model/dpram/init_data.hpp"
 #include "model/dpram/reasons.hpp"
@@ -40,7 +40,7 @@ bool Sequencer::crc_right(Cycle now, profibus::Reason reason, std::uint8_t error
 
 bool Sequencer::input_history() const { return (user_command2_ & regs::kUserCommand2InputHistory) != 0; }
 
-// The user asks for it with B011.7; without history there is nothing to clear.
+// Requested by the user with B011.7; without history there is nothing to clear.
 void Sequencer::clear_input_error(Cycle now) {
   user_command2_ = static_cast<std::uint8_t>(user_command2_ & ~regs::kUserCommand2InputClear);
   put(regs::kUserCommand2, user_command2_);

@@ -19,7 +19,7 @@ inline constexpr std::array<std::uint16_t, 256> kCrc16Table = make_crc16_table()
 }  // namespace detail
 
 constexpr std::uint16_t kCrc16Start = 0xFFFF;
-/// The CRC of what `crc` is of, and `byte` behind it.
+/// `crc` extended by `byte`.
 constexpr std::uint16_t crc16_with(std::uint16_t crc, std::uint8_t byte) {
   return static_cast<std::uint16_t>((crc >> 8) ^ detail::kCrc16Table[(crc ^ byte) & 0xFF]);
 }

@@ -1,4 +1,4 @@
-// Accesses that find nothing to do, made up where nobody sees them.
+// Simulates accesses without work afterwards, where they are not observed.
 #include <algorithm>
 
 #include "model/dpram/sequencer.hpp"
@@ -11,7 +11,7 @@ bool Sequencer::may_doze() const {
          (ram_.read(regs::kUserCommand2) & kUserCommands2) == 0;
 }
 
-// The last one, of which `until` may see only a part, is carried out byte by byte.
+// The last access, of which only a part may lie before `until`, is executed byte by byte.
 void Sequencer::make_up_accesses(Cycle until) {
   const Cycle period = std::max(interval_, kQuietAccess + 1);
   const Cycle whole = (until - due_) / period;

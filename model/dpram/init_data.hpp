@@ -5,8 +5,8 @@
 
 namespace dsdpv1::dpram {
 
-/// Reads the block that starts with B020 (`size` bytes with its length byte, CRC already right) into `config`. False,
-/// with an event that names the byte, when a length, the address or a mode is out of its limits.
+/// Reads the block that starts with B020 (`size` bytes with its length byte, CRC already right) into `config`. If a
+/// length, the address or a mode is out of range, reports an event that names the byte and returns false.
 bool parse_init(const std::uint8_t* block, int size, profibus::Cycle now, profibus::EventLog& log,
                 profibus::SlaveConfig& config);
 

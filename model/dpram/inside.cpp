@@ -1,4 +1,4 @@
-// What waves show of an access, in the words of ruling H4.
+// The state of an access for waves, in the words of ruling H4.
 #include "model/dpram/inside.hpp"
 
 #include <iterator>
@@ -27,12 +27,12 @@ const char* Sequencer::name(Phase phase, Item item) {
   }
 }
 
-// Not inline: where nobody asks, a move costs one test more.
+// Not inline, so that a move costs only one test more when notes are off.
 void Sequencer::note(regs::Address address, std::uint8_t byte, bool writes) {
   moved_ = {op_ - 1, address, byte, writes, phase_, item_};
 }
 
-/// A status byte is written in the cycle of the choice; the move, not the phase behind it, says what it was.
+/// A status byte is written in the cycle of the choice, so the move tells what it was, not the phase after it.
 Inside Sequencer::inside(Cycle now) const {
   Inside seen;
   seen.moves = moved_.at == now;

@@ -1,5 +1,5 @@
 #pragma once
-// What an observer sees of the sequencer that no pin shows: for waves and debuggers, never for the chip itself.
+// Internal state of the sequencer that no pin shows: for waves and debuggers, never for the chip itself.
 #include <cstdint>
 
 #include "model/profibus/time.hpp"
@@ -7,7 +7,7 @@
 namespace dsdpv1::dpram {
 
 struct Inside {
-  const char* item = "-";  ///< what the access under way works on (ruling H4); "-": no access
+  const char* item = "-";  ///< the item of the present access (ruling H4); "-": no access
   bool moves = false;      ///< in the cycle last evaluated a byte moved:
   std::uint16_t address = 0;
   std::uint8_t byte = 0;

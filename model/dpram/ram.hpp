@@ -1,6 +1,6 @@
 #pragma once
-// The 2 KB dual-port RAM of the family. A cell that the user wrote with violated timing keeps what was captured and is
-// marked unknown until somebody writes it properly (ruling P11).
+// The 2 KB dual-port RAM of the family. A cell that the user wrote with violated timing keeps the captured value and is
+// marked unknown until the next correct write (ruling P11).
 #include <array>
 #include <bitset>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The reasons of the DPRAM, and its words for the places that the reasons of every DP slave speak of.
+// The reasons of the DPRAM, and its words for the places named in the reasons of every DP slave.
 #include "model/profibus/reason.hpp"
 #include "model/profibus/words.hpp"
 
@@ -15,7 +15,7 @@ enum class ReasonIndex : std::size_t {
 extern const profibus::ReasonRow kReasonRows[static_cast<std::size_t>(ReasonIndex::kCount)];
 }  // namespace detail
 
-/// What only a chip with this DPRAM has to say: `dpram::Reason::kInitCrc`.
+/// Reasons that only a chip with this DPRAM has: `dpram::Reason::kInitCrc`.
 struct Reason {
 #define X(id, ...) \
   static constexpr profibus::Reason id{detail::kReasonRows[static_cast<std::size_t>(detail::ReasonIndex::id)]};

@@ -1,11 +1,11 @@
 #pragma once
 // The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D17): one access a microsecond, one byte a
-// cycle, in the order that docs/microarchitecture.md defines. It carries blocks between the DPRAM and
-// profibus::UserSide. How the user comes to the DPRAM, by strobes or by telegrams, it does not know.
+// cycle, in the order that docs/microarchitecture.md defines. It moves blocks between the DPRAM and profibus::UserSide,
+// independent of how the user accesses the DPRAM (strobes or telegrams).
 //
-// Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up
-// for then (or earlier, by catch_up, when somebody looks at the DPRAM). Where nobody sees owns(), whole accesses that
-// find nothing to do are made up, too: the sequencer dozes.
+// Bytes move lazily: `next()` is the next cycle with an effect visible to others, and the moves before it are simulated
+// then (or earlier, by catch_up, when the DPRAM is read). While owns() is not observed, whole accesses that find no
+// work are simulated afterwards as well: the sequencer dozes.
 #include <array>
 
 #include "model/dpram/inside.hpp"
@@ -17,7 +17,7 @@ namespace dsdpv1::dpram {
 
 using profibus::Cycle;
 
-/// What the areas of the DPRAM hold.
+/// Sizes of the DPRAM areas.
 constexpr profibus::Capacities kCapacities = {regs::kPrmDataSize, regs::kCfgDataSize, regs::kInputDataSize,
                                               regs::kC1DataSize};
 
@@ -29,51 +29,51 @@ class Sequencer {
   void reset();
   /// The logic leaves reset at `now` (cycle R): the start-up access is due (H6).
   void start_up(Cycle now);
-  /// Whether the user holds the DPRAM, or asks for it, as the logic sees it from the coming eval() on (H1). No access
-  /// begins meanwhile; one that has begun goes on to its end.
+  /// Whether the user holds or requests the DPRAM, as the logic sees it from the coming eval() on (H1). No access
+  /// begins meanwhile; a running one continues to its end.
   void user_holds(bool holds) { user_holds_ = holds; }
-  /// Whether the CRCs of the user's blocks are judged; else they count as right, whatever they are.
+  /// Whether the CRCs of the user's blocks are judged; if not, all count as right.
   void judge_crc(bool judged) { judges_crc_ = judged; }
 
-  /// The rising edge of `now`. True when the station or the user has something from it.
+  /// The rising edge of `now`. Returns true if it has a result for the station or the user.
   bool eval(Cycle now);
-  /// Makes up for the byte moves, and the accesses while dozing, up to and including `until`.
+  /// Simulates pending byte moves, and accesses while dozing, up to and including `until`.
   void catch_up(Cycle until);
   Cycle next() const;
 
-  /// Between two accesses, with nothing for the next ones to do: only the user or the station changes that.
+  /// Between two accesses, with no work for the next ones until the user or the station acts.
   bool may_doze() const;
   /// Neither the station's mail nor a status byte waits for an access.
   bool nothing_due() const { return due_items(profibus::kNever) == 0; }
-  /// No access is an event until wake(). The caller sees to it that nobody looks at owns() and that catch_up() goes
-  /// before every act of the user or the station; only when may_doze().
+  /// No access is an event until wake(). Only if may_doze(). The caller ensures that owns() is not read and that
+  /// catch_up() precedes every act of the user or the station.
   void doze() { dozing_ = true; }
   bool dozing() const { return dozing_; }
-  /// Everything up to and including `now` is made up, and accesses are events again.
+  /// Simulates everything up to and including `now`; accesses are events again.
   void wake(Cycle now);
-  /// The next access begins, at next(), and ends after kQuietAccess cycles: for a caller who knows from may_doze() that
-  /// it finds nothing to do, as nobody acts meanwhile.
+  /// Begins the next access at next(); it ends after kQuietAccess cycles. For a caller who knows from may_doze() that
+  /// the access finds no work, because neither user nor station acts meanwhile.
   void begin_quietly() { begin(due_); }
   void end_quietly();
 
   static constexpr int kHeaderMoves = 6;
-  /// Cycles from the start of an access that finds nothing to do to its end.
+  /// Cycles from the start of an access without work to its end.
   static constexpr Cycle kQuietAccess = kHeaderMoves + 1;
 
   bool owns() const { return phase_ > Phase::kIdle; }       ///< an access of the chip is under way
   bool started_up() const { return phase_ > Phase::kDue; }  ///< the start-up access of this reset has begun
-  /// It has not ended.
+  /// true while the start-up access is due or running
   bool starts_up() const { return phase_ <= Phase::kDue || phase_ == Phase::kStartUp; }
   bool initialised() const { return initialised_; }  ///< an initialisation has succeeded
   /// The cycle at which new parameters or a new configuration were last flagged for the user (P7); kNever: not since
-  /// reset. Whoever calls the user's attention asks after eval().
+  /// reset. Read it after eval() to trigger INTR0.
   Cycle told_user() const { return told_user_; }
   std::uint64_t accesses() const { return accesses_; }
   Cycle longest_wait() const { return longest_wait_; }
   std::uint64_t outputs_overwritten() const { return outputs_overwritten_; }  ///< in the DPRAM, B00E.0 still set
-  /// From now on each byte move is noted for inside().
+  /// Notes each byte move from now on for inside().
   void note_moves() { notes_moves_ = true; }
-  /// As of the edge of `now`, the last that was evaluated; right where every edge is.
+  /// State at the edge of `now`, the last one evaluated. Valid only if every edge is evaluated.
   Inside inside(Cycle now) const;
 
   template <class Archive>
@@ -96,11 +96,12 @@ class Sequencer {
     archive(accesses, outputs_overwritten, moved, crc_right);
     archive.lengths(longest_wait);
   }
-  /// What was read can be so after the edge of `now`: what is in work ends before its bytes do, and soon.
+  /// Whether a restored state is possible after the edge of `now`: the item in progress ends before its bytes, and
+  /// soon.
   bool is_possible(Cycle now) const;
 
  private:
-  // What one access may have to do, in the order of ruling H4, then the changed status bytes by address.
+  // The work of one access, in the order of ruling H4; then the changed status bytes by address.
   enum class Item : std::uint8_t {
     kInit,
     kPrmVerdict,
@@ -127,13 +128,13 @@ class Sequencer {
   enum class Phase : std::uint8_t {
     kOff,       // reset
     kDue,       // the start-up access waits for the user
-    kIdle,      // the DPRAM is nobody's or the user's
+    kIdle,      // no access: the DPRAM is free or the user's
     kStartUp,   // clearing the RAM
     kHeader,    // B006 := 1, reading B010, B011, B00E, B00F, B005
     kChoose,    // the next item begins, or the access ends
     kRead,      // a block of the user: first bytes up to the length
-    kDecode,    // the length is looked at
-    kReadRest,  // the bytes that the length says, and the CRC
+    kDecode,    // the length is evaluated
+    kReadRest,  // the remaining bytes by the length, and the CRC
     kCheck,     // the last byte has arrived
     kCommit,    // the flag is cleared, the block takes effect
     kWrite,     // a block for the user
@@ -171,7 +172,7 @@ class Sequencer {
   static constexpr int kStartUpMoves = regs::kDpramSize + kVersionBytes + 1;  // the RAM, the version, B006
   static constexpr int kMostBlock = 254;                                      // with its CRC 256 bytes
   static constexpr std::uint8_t kChipWasHere = 1;                             // B006
-  // All that the user may ask for with B010 and B011.
+  // All commands of the user in B010 and B011.
   static constexpr std::uint8_t kUserCommands1 = regs::kUserCommand1Init | regs::kUserCommand1PrmVerdict |
                                                  regs::kUserCommand1CfgVerdict | regs::kUserCommand1Input |
                                                  regs::kUserCommand1Diag;
@@ -204,7 +205,7 @@ class Sequencer {
   static constexpr unsigned when(Item item, bool due) { return due ? mask(item) : 0U; }
   void start(Item item, Cycle now);
   void next_item() { item_ = static_cast<Item>(static_cast<int>(item_) + 1); }
-  // moving bytes; the next move's cycle has been counted on when one is made
+  // moving bytes; each move advances the cycle of the next one
   void note(regs::Address address, std::uint8_t byte, bool writes);
   std::uint8_t get(regs::Address address) {
     const std::uint8_t byte = ram_.read(address);
@@ -254,20 +255,20 @@ class Sequencer {
   Cycle told_user_ = profibus::kNever;
 
   Phase phase_ = Phase::kOff;
-  Item item_ = Item::kNone;  // in work, or the last one done in this access
+  Item item_ = Item::kNone;  // in progress, or the last one done in this access
   Cycle origin_ = 0;         // cycle R
   Cycle start_ = 0, due_ = 0;
   Cycle op_ = 0;  // the cycle of the next byte move
   Cycle visible_ = profibus::kNever;
   Cycle effect_ = profibus::kNever;  // the last cycle at which a block took effect or was flagged
   int index_ = 0;
-  std::array<std::uint8_t, 256> image_{};  // the block in work, from its first byte
+  std::array<std::uint8_t, 256> image_{};  // the block in progress, from its first byte
   int image_size_ = 0;                     // without the CRC
   std::uint16_t image_crc_ = 0;
 
   // B010, B011, B00E, B00F and B005 as this access found them
   std::uint8_t user_command1_ = 0, user_command2_ = 0, chip_command1_ = 0, chip_command2_ = 0, dpv1_ = 0;
-  // status bytes as last written, and what is to be written
+  // status bytes as last written, and those to be written
   bool valid_written_ = false;
   std::uint16_t offline_written_ = 0;
   std::uint8_t status3_written_ = 0;

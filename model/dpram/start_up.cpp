@@ -1,4 +1,4 @@
-// The start-up access (rulings H6, D1): the RAM is cleared, then come the version and the access count.
+// The start-up access (rulings H6, D1): clears the RAM, then writes the version and the access count.
 #include "model/dpram/sequencer.hpp"
 
 namespace dsdpv1::dpram {

@@ -17,7 +17,7 @@ constexpr std::array<bool, regs::kDpramSize> make_chips_cells() {
 inline constexpr std::array<bool, regs::kDpramSize> kChipsCells = make_chips_cells();
 }  // namespace detail
 
-/// The user's write to it has no meaning (P6).
+/// A write by the user has no meaning (P6).
 inline bool chips_own(regs::Address address) { return detail::kChipsCells[address % regs::kDpramSize]; }
 
 }  // namespace dsdpv1

@@ -21,7 +21,7 @@ using profibus::kTicksPerCycle;
 
 constexpr Cycle kResetSynchroniser = 2;  // P9, P10
 
-// The outputs that are registers of the rising edge; D_OUT and MISO are the host ports' own.
+// The outputs registered on the rising edge; the host ports drive D_OUT and MISO.
 constexpr std::uint32_t kEdgeOutputs = kRsuOutputPins & ~mask(Pin::kDOut) & ~mask(Pin::kMiso);
 
 constexpr std::uint32_t kResetLevels =
@@ -45,9 +45,9 @@ constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
 }  // namespace
 
 struct Chip::Impl {
-  // When each block does something next, kept by whoever calls it: asked far more often than changed. A block that is
-  // called where it says that nothing happens does nothing, so Engine::kSkip calls those that are due, and
-  // Engine::kStep, which trusts none of these, all of them.
+  // The next event of each block, updated by its caller because it is read far more often than changed. Calling a block
+  // without an event does nothing: Engine::kSkip calls only those that are due, and Engine::kStep, which trusts no
+  // plan, calls all.
   struct Plan {
     Cycle release = kNever;  // cycle R; host: the live port
     Cycle host = kNever, handshake = kNever, sequencer = kNever, station = kNever, interrupt = kNever;
@@ -71,7 +71,7 @@ struct Chip::Impl {
         serial(log, ram, given),
         config(given) {
     interrupt.reset();
-    if (engine == Engine::kStep) sequencer.note_moves();  // where inside() is asked for
+    if (engine == Engine::kStep) sequencer.note_moves();  // its inside() is only used then
   }
 
   void set(Tick at, Pin pin, Level value);
@@ -84,7 +84,7 @@ struct Chip::Impl {
   Tick next_seen() const;
   Tick next_edge() const { return engine == Engine::kStep ? next_cycle() : planned_edge; }
   Tick next_cycle() const { return first_edge_after(now) * kTicksPerCycle; }
-  Cycle done() const { return now / kTicksPerCycle; }  // the last rising edge that is over
+  Cycle done() const { return now / kTicksPerCycle; }  // the last rising edge that has passed
   bool due(Cycle next, Cycle cycle) const { return next <= cycle || engine == Engine::kStep; }
   Tick edge_of(Cycle cycle) const {
     if (cycle == kNever) return kNever;
@@ -105,7 +105,7 @@ struct Chip::Impl {
   void send_bits(Cycle cycle, Tick to);
   bool only_settles(Cycle cycle) const;
   void settle_writes(Cycle cycle);
-  // Not inline: it would make the edges of every chip slower.
+  // Not inline: inlining would slow the edges of every chip.
   [[gnu::noinline]] void choose_port(Cycle cycle);
   [[gnu::noinline]] void eval_serial(Cycle cycle);
   [[gnu::noinline]] bool set_serial(Tick at, Pin pin, Level value);
@@ -115,9 +115,10 @@ struct Chip::Impl {
   bool only_accesses(Cycle cycle) const;
   void access_edges(Cycle cycle, Tick to);
   bool unasked() const;
-  // Inline: asked at the begin and the end of each access, it would be a call since there are two kinds of ports.
+  // Inline: it runs at the begin and the end of each access, and with two kinds of ports the compiler would make it a
+  // call.
   [[gnu::always_inline]] inline Cycle last_quiet(Tick to) const;
-  // The first edge that is behind `to`, or not before the host's next drive.
+  // The first edge after `to` or not before the host's next drive.
   Cycle unheard_until(Tick to) const { return first_edge_after(std::min(to, drive_at() - 1)); }
   void quiet_access();
   void access_edge(Cycle cycle);
@@ -127,7 +128,7 @@ struct Chip::Impl {
   void wake();
   void catch_up();
   void update_access_pins();
-  // L_REQ and L_STA are low where there is no parallel port (R14).
+  // L_REQ and L_STA stay low without a parallel port (R14).
   std::uint32_t owned_pins() const { return live ? 0 : kAccessPins; }
   std::uint32_t access_pins() const { return sequencer.owns() ? owned_pins() : 0; }
   void enter_reset(Tick at);
@@ -157,12 +158,12 @@ struct Chip::Impl {
   Tick now = 0;
   Tick planned_edge = kNever;
   Plan plans;
-  Cycle other_plans = kNever;  // but the station's, as plan() found them
+  Cycle other_plans = kNever;  // without the station's, as plan() found them
   bool reset_pin = false, running = false, r_req = false, r_sta = false, rxd = true;
   std::uint32_t outputs = kResetLevels;
-  bool live = false;  // the live host port is a serial one
+  bool live = false;  // the live host port is serial
   Level d_out = kLevelZ, miso = kLevelZ;
-  SerialPorts serial;  // behind what every chip uses at each edge
+  SerialPorts serial;  // after the members that every chip uses at each edge
   const Config config;
 };
 
@@ -173,7 +174,7 @@ void Chip::Impl::set(Tick at, Pin pin, Level value) {
   if (apply(at, pin, value)) plan();
 }
 
-// False: no block has another plan now.
+// Returns false if no block has a new plan.
 bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
   const bool high = value != 0;
   switch (pin) {
@@ -186,7 +187,7 @@ bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
   if (pin > Pin::kReady) return set_serial(at, pin, value);
   if (value == host.level(pin)) return false;
   host.set(at, pin, value);
-  if (!live) plans.host = host.next();  // else it does not listen
+  if (!live) plans.host = host.next();  // else the port ignores its pins
   publish_data(at);
   return true;
 }
@@ -211,7 +212,7 @@ bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled)
   return true;
 }
 
-// The chip takes no access while the user holds the DPRAM, and nothing that the station does makes it.
+// The chip starts no access while the user holds the DPRAM, whatever the station does.
 bool Chip::Impl::is_private(Tick begin, const HostAccess& access) {
   if (engine != Engine::kSkip || (watched & mask(Pin::kDOut)) != 0) return false;
   advance(begin);
@@ -271,8 +272,8 @@ void Chip::Impl::plan() {
   plan_edge(std::min(other_plans, plans.station));
 }
 
-// Nobody hears when the writes of a user who owns the DPRAM settle: they read them or give the DPRAM back, and either
-// is a call.
+// The settling of writes by the DPRAM's owner is not observable: the owner reads them or releases the DPRAM, and both
+// are calls.
 Tick Chip::Impl::next_seen() const {
   if (engine == Engine::kStep || sequencer.owns() || live || host.next_seen() == plans.host) return next_event();
   return std::min(edge_of(std::min(plans.but_the_hosts(), host.next_seen())), host.drive_at());
@@ -291,7 +292,7 @@ void Chip::Impl::advance_in_run(Tick to) {
   now = std::max(now, to);
 }
 
-// What is due at the tick `event`, and as much until `to` as is alike.
+// Evaluates the events at tick `event`, and similar ones up to `to`.
 void Chip::Impl::evaluate(Tick event, Tick to) {
   const bool drives = event < next_edge();  // MISO may change at the tick of an edge: after it
   now = event;
@@ -319,7 +320,7 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   const bool released = cycle == plans.release;
   if (released) choose_port(cycle);
   if (due(plans.host, cycle)) {
-    sequencer.wake(cycle - 1);  // what the user writes may be a command
+    sequencer.wake(cycle - 1);  // the user's write may be a command
     if (live) {
       eval_serial(cycle);
     } else {
@@ -352,12 +353,12 @@ void Chip::Impl::end_edge(Cycle cycle) {
   if (running) publish_edge(cycle, edge_outputs());
 }
 
-// Most edges of a chip that answers move PBTXD and nothing else.
+// Most edges of an answering chip change PBTXD only.
 bool Chip::Impl::only_sends(Cycle cycle) const {
   return engine == Engine::kSkip && cycle < std::min(other_plans, station.only_sends_until());
 }
 
-// One after the other, as long as nothing else is due.
+// Evaluates them in sequence, as long as nothing else is due.
 void Chip::Impl::send_bits(Cycle cycle, Tick to) {
   const Cycle act = std::min({other_plans, station.only_sends_until(), unheard_until(to)});
   do {
@@ -369,7 +370,7 @@ void Chip::Impl::send_bits(Cycle cycle, Tick to) {
   plan_edge(std::min(other_plans, cycle));
 }
 
-// Most edges while the user owns the DPRAM settle a write and nothing else.
+// Most edges while the user owns the DPRAM only settle a write.
 bool Chip::Impl::only_settles(Cycle cycle) const {
   return engine == Engine::kSkip && !live && plans.host <= cycle && host.next_seen() > cycle && !sequencer.owns() &&
          !sequencer.dozing() && cycle < plans.but_the_hosts();
@@ -380,20 +381,20 @@ void Chip::Impl::settle_writes(Cycle cycle) {
   plans.host = host.next();
 }
 
-// As long as nobody asks for anything, what happens is that accesses of the chip begin and end.
+// Without requests only accesses of the chip begin and end.
 bool Chip::Impl::only_accesses(Cycle cycle) const {
   return engine == Engine::kSkip && running && station.unseen() >= cycle &&
          cycle < std::min({plans.release, plans.host, plans.handshake, plans.station, plans.interrupt});
 }
 
-// The last cycle at which an access may begin and be over before anybody acts.
+// The last cycle at which an access may begin and still end before anything else acts.
 Cycle Chip::Impl::last_quiet(Tick to) const {
   const Cycle act = std::min({plans.release, plans.host, plans.handshake, plans.station, plans.interrupt,
                               station.unseen(), unheard_until(to)});
   return act - dpram::Sequencer::kQuietAccess - 1;
 }
 
-// One after the other, as long as they find nothing to do and nothing else is due.
+// Evaluates accesses in sequence, as long as they find no work and nothing else is due.
 void Chip::Impl::access_edges(Cycle cycle, Tick to) {
   const Cycle last = last_quiet(to);
   if (cycle > last || !unasked()) return access_edge(cycle);
@@ -410,7 +411,7 @@ void Chip::Impl::quiet_access() {
   publish_edge_outputs(now, outputs & ~kAccessPins);
 }
 
-// Nobody asks for the DPRAM, or for anything in it.
+// Neither the DPRAM nor any work in it is requested.
 bool Chip::Impl::unasked() const { return !r_req && !r_sta && handshake.next() == kNever && sequencer.may_doze(); }
 
 void Chip::Impl::access_edge(Cycle cycle) {
@@ -420,7 +421,7 @@ void Chip::Impl::access_edge(Cycle cycle) {
     publish_edge(cycle, (outputs & ~kAccessPins) | access_pins());
 }
 
-// By the straps; a serial port begins at this edge.
+// Chosen by the straps; a serial port starts at this edge.
 void Chip::Impl::choose_port(Cycle cycle) {
   serial.release(cycle);
   live = serial.live();
@@ -437,7 +438,7 @@ void Chip::Impl::release(Cycle cycle) {
   plans.sequencer = cycle;
 }
 
-// Whether something has come of it that others are told.
+// Returns true if the edge had an effect that must be reported.
 bool Chip::Impl::eval_sequencer(Cycle cycle) {
   if (due(plans.handshake, cycle)) {
     handshake.eval(cycle);
@@ -455,7 +456,7 @@ bool Chip::Impl::eval_sequencer(Cycle cycle) {
   return has_effect;
 }
 
-// What telegrams for others have come to.
+// Applies the effects of telegrams for other stations.
 void Chip::Impl::catch_up_line(Cycle upto) {
   if (station.pass_unseen(upto)) return;
   for (Cycle cycle = station.unseen(); cycle <= upto; cycle = station.unseen()) {
@@ -464,7 +465,8 @@ void Chip::Impl::catch_up_line(Cycle upto) {
   }
 }
 
-// The sequencer acts before the station: what it dozes through up to this edge has not seen what the station does now.
+// The sequencer acts before the station: accesses that it dozes through up to this edge are independent of the
+// station's actions now.
 void Chip::Impl::eval_station(Cycle cycle) {
   const bool changes_mail = station.may_act(cycle);
   if (sequencer.dozing() && changes_mail) sequencer.catch_up(cycle);
@@ -475,7 +477,7 @@ void Chip::Impl::eval_station(Cycle cycle) {
   plans.sequencer = sequencer.next();
 }
 
-// An access that finds nothing to do is seen on L_REQ and L_STA only, and by who asks for the DPRAM.
+// An access without work is visible only on L_REQ and L_STA, and to a user who requests the DPRAM.
 void Chip::Impl::doze_if_unseen() {
   if (engine == Engine::kSkip && (watched & kAccessPins) == 0 && unasked()) sequencer.doze();
 }
@@ -492,7 +494,7 @@ void Chip::Impl::catch_up() {
   if (sequencer.dozing()) update_access_pins();
 }
 
-// Only these: in the middle of an edge, when an event's listener asks for something, the others are yet to be told.
+// Only these pins: in the middle of an edge, when an event's listener reads pins, the others are not reported yet.
 void Chip::Impl::update_access_pins() { outputs = (outputs & ~kAccessPins) | access_pins(); }
 
 // --- outputs ---------------------------------------------------------------------------------------------------------
@@ -572,7 +574,7 @@ void Chip::Impl::store(Archive& archive) {
   archive.check(is_possible());
 }
 
-// What is planned comes, and not too late.
+// All plans lie in the future and not too far.
 bool Chip::Impl::is_possible() const {
   const Cycle over = done();
   const auto right = [over](Cycle plan, Cycle next) { return plan > over && plan <= next; };
@@ -582,7 +584,7 @@ bool Chip::Impl::is_possible() const {
          right(plans.interrupt, interrupt.next()) && sequencer.is_possible(over);
 }
 
-// Who observes goes on; what they see, or step wants to show, is not dozed through.
+// Observers stay attached; what they watch, or step shows, is not dozed through.
 void Chip::Impl::take_over(const Impl& observed) {
   log = observed.log;
   sink = observed.sink;

@@ -31,7 +31,7 @@
 namespace dsdpv1 {
 
 using profibus::BaudIndex;  ///< coding of B012, table 5
-using profibus::DpState;    ///< likewise
+using profibus::DpState;    ///< coding of B012, table 5
 
 /// Counters and states for benches and results; reading it changes nothing.
 struct Status {
@@ -44,18 +44,18 @@ struct Status {
   std::uint64_t data_exchanges = 0;      ///< executed data exchanges, repetitions not counted
   std::uint64_t outputs_missed = 0;      ///< H5: blocks that newer ones replaced before the user had fetched them
   std::uint64_t accesses = 0;            ///< DPRAM accesses of the chip
-  profibus::RmRegistry c2 = {};          ///< table 30: who has the C2 channels 0x30 and 0x2F
+  profibus::RmRegistry c2 = {};          ///< table 30: the masters that hold the C2 channels 0x30 and 0x2F
   std::uint64_t longest_wait = 0;        ///< H1: most cycles that a due access waited for R_REQ and R_STA
 };
 
-/// What no pin shows, for waves and debuggers.
+/// Internal state, for waves and debuggers.
 struct Inside {
   dpram::Inside access;
-  BaudIndex tried;  ///< while searching: the rate that is listened at
+  BaudIndex tried;  ///< while searching: the rate being tried
   profibus::Watchdog::State watchdog = profibus::Watchdog::State::kBaudSearch;
 };
 
-/// Why bytes are not what a chip may be restored from: one line.
+/// Why bytes are not a valid state for restore(): one line.
 class StateError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -68,86 +68,84 @@ class Chip {
   Chip(const Chip&) = delete;
   Chip& operator=(const Chip&) = delete;
 
-  /// Changes an input pin at tick `at` (>= every earlier call's). Setting a pin to the level it has does nothing.
+  /// Changes an input pin at tick `at` (>= every earlier call's). Setting a pin to its present level does nothing.
   /// Before the first call RESET is low, R_REQ, R_STA and A are 0, CSR, RD, WR and PBRXD are 1, D is released; XSS and
-  /// RXD are 1, SCK, MOSI and the straps 0. Pins that the part does not have are not looked at.
+  /// RXD are 1, SCK, MOSI and the straps 0. Pins that the part does not have are ignored.
   void set(Tick at, Pin pin, Level level);
-  /// Evaluates everything up to and including tick `to`; pin changes and events leave through the sinks on the way.
+  /// Evaluates everything up to and including tick `to`; reports pin changes and events to the sinks on the way.
   void advance(Tick to);
-  /// A whole access of the host, its first edge at tick `begin`, in the place of set() and sample() for each of its
-  /// edges; of a read, what was `sampled`. The chip is at the last edge then. False: to be done edge by edge, as
-  /// something else happens before the last, it reports something or somebody watches D; the chip may have advanced to
-  /// `begin`.
+  /// Executes a whole access of the host with its first edge at tick `begin`, replacing set() and sample() for each
+  /// edge; a read returns `sampled`. The chip is then at the last edge. Returns false if the access must be made edge
+  /// by edge, because something else happens before its last edge, it would report something, or D is watched; the chip
+  /// may then have advanced to `begin`.
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
-  /// Whatever happens on the line until the access is over, nobody but the host hears of it, and it does what it does
-  /// by itself: it keeps all limits, the host has the DPRAM, nobody watches D. Its edges may be set later than others
-  /// act, as long as they are set in their order, and before `advance` goes beyond them. The chip has advanced to
-  /// `begin`.
+  /// True if only the host can observe the access, whatever happens on the line meanwhile: it keeps all limits, the
+  /// host holds the DPRAM, and D is not watched. Its edges may then be set later than other events, but in their order
+  /// and before `advance` goes beyond them. The chip has advanced to `begin`.
   bool is_private(Tick begin, const HostAccess& access);
-  /// The tick of the next thing that the chip does by itself (a rising CLK edge, or the falling edge at which D is
+  /// The tick of the chip's next event that needs no call (a rising CLK edge, or the falling edge at which D is
   /// driven); never before `now()`. With Engine::kStep the next rising edge.
   Tick next_event() const;
-  /// The same without what nobody sees who looks at pins and events only: writes of the DPRAM's owner settle. peek()
-  /// wants the chip to be advanced then.
+  /// As next_event(), without events that pins and events do not show: settling writes of the DPRAM's owner. Advance
+  /// the chip before peek() then.
   Tick next_seen() const;
   Tick now() const;
-  /// Changes of PBRXD at a tick from `from` on and before `until` need not be set at once: hear() in their order,
-  /// before the chip is advanced to its next_event() or another pin is set, is early enough. For benches with many
-  /// chips on a line.
+  /// Changes of PBRXD at ticks from `from` on and before `until` may be set late: call hear() in their order before the
+  /// chip is advanced to its next_event() or another pin is set. For benches with many chips on a line.
   profibus::Unheard unheard() const;
   void hear(Tick at, bool level);
-  /// In the place of the changes of PBRXD that `run` comes to: called at tick `at`, at the run's start or in the idle
-  /// time before it. False: the chip wants the changes. True: PBRXD is not set until the end of the run, unless it is
-  /// left before. By leave_run(): changes up to `at` have happened, those behind it are set as ever. By the chip, which
-  /// searches a baud rate from this tick on or is in RESET: left_run() says so until leave_run() is called, at that
-  /// tick. Engine::kSkip only.
+  /// Replaces the changes of PBRXD that `run` causes: called at tick `at`, at the run's start or in the idle time
+  /// before it. False: the chip needs the changes. True: do not set PBRXD until the end of the run, unless the run is
+  /// left. leave_run() leaves it: changes up to `at` have happened, later ones are set as usual. The chip leaves it
+  /// when it starts a baud rate search at this tick or is in RESET: left_run() is then true until leave_run() is
+  /// called, at that tick. Engine::kSkip only.
   bool hear(Tick at, const profibus::CharacterRun& run);
-  /// As advance(), but it stops at the tick at which the chip leaves the run that it hears.
+  /// As advance(), but stops at the tick at which the chip leaves the present run.
   void advance_in_run(Tick to);
-  /// Runs that the chip need not hear: of those that come one after the other the last one, before anything else
-  /// happens to the chip or advance() goes beyond its start, is enough, late as it is; the chip takes it. pass() counts
-  /// those of the others that were for stations. Holds until something happens to the chip. Engine::kSkip only.
+  /// Runs that the chip may skip: of several in sequence it is enough to pass the last one, even late, before anything
+  /// else happens to the chip or advance() goes beyond its start. pass() counts the skipped runs that were for
+  /// stations. Valid until something happens to the chip. Engine::kSkip only.
   profibus::Unconcerned unconcerned() const;
   void pass(std::uint64_t count);
   void leave_run(Tick at);
   bool left_run() const;
-  /// At now() the first start bit of an answer falls. Then, hide_txd() gives its characters in the place of the changes
-  /// of PBTXD, which stays where it is until PBRTS falls, unless show_txd() is called before, within the characters: at
-  /// tick `at` it has, without a report, the level of then, and goes on as ever.
+  /// True if the first start bit of an answer falls at now(). hide_txd() then returns its characters instead of changes
+  /// of PBTXD, which keeps its level until PBRTS falls. show_txd(), called within the characters, ends this: at tick
+  /// `at` PBTXD takes its real level without a report, and changes are reported again.
   bool begins_to_send() const;
   profibus::CharacterRun hide_txd();
   void show_txd(Tick at);
   /// The station's present address, 0 before the initialisation.
   std::uint8_t address() const;
-  /// The host port that the straps chose at the end of the last reset; in reset, and of other parts, the parallel one.
+  /// The host port chosen by the straps at the end of the last reset; in reset, and for other parts, the parallel one.
   HostMode mode() const;
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
-  /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell
-  /// it is X and the violation is reported, whatever D is already by the phase of CLK (P5). `level` cannot know who
-  /// looks, and when.
+  /// The level of D that a user gets who samples at tick `at` (>= every earlier call's). Earlier than Tw after RD and
+  /// CSR fell it is X and the violation is reported, even if D is already driven by the phase of CLK (P5). `level` does
+  /// not count as a sample.
   Level sample(Tick at);
 
   /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it.
   void watch(const PinSink& sink, std::uint32_t pins);
   void on_event(const profibus::EventSink& sink);
 
-  /// DPRAM without pins, time or side effects: for debuggers and checks. `address` 0..0x7FF (others wrap). In SPI mode
-  /// B014 is the register of the ownership, which poke() leaves alone.
+  /// Access to the DPRAM without pins, time or side effects: for debuggers and checks. `address` 0..0x7FF (others
+  /// wrap). In SPI mode B014 is the ownership register, which poke() does not change.
   std::uint8_t peek(std::uint16_t address) const;
   void poke(std::uint16_t address, std::uint8_t value);
 
   Status status() const;
-  /// As of the last rising edge; Engine::kStep only, as others leave edges out.
+  /// Value at the last rising edge. Only valid with Engine::kStep; the other engines skip edges.
   Inside inside() const;
 
-  /// All that the chip is at now(), as bytes for restore(), in this process or another; as many for every chip of this
-  /// version. Who watches and listens is no part of it. Not from a sink. On the heap.
+  /// The complete state of the chip at now() as bytes for restore(), in this process or another; the same number for
+  /// every chip of this version. Sinks and watched pins are not part of it. Not from a sink. Allocates.
   std::vector<std::uint8_t> save() const;
-  /// The chip is the one that was saved, at its tick, and goes on as that one did: pin changes, events and what is
-  /// saved again are the same. Sinks and watched pins stay; that pins have other levels than a moment ago is told to
-  /// nobody. Throws StateError, and the chip is as before, when the bytes are not what save() gave, cut or damaged, of
-  /// another version, part or parameters. Config::engine may be another one. Not from a sink.
+  /// Resumes the saved chip at its tick: pin changes, events and later saved states are the same as without the save.
+  /// Sinks and watched pins stay; the jump of pin levels is not reported. Throws StateError and leaves the chip
+  /// unchanged if the bytes are not from save(), cut or damaged, or of another version, part or parameters.
+  /// Config::engine may differ. Not from a sink.
   void restore(const std::uint8_t* bytes, std::size_t size);
 
  private:

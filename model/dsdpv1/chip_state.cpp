@@ -13,8 +13,9 @@ namespace {
 using profibus::StateReader;
 using profibus::StateWriter;
 
-constexpr std::uint64_t kMagic = 0x5453'3156'5044'5344;               // "DSDPV1ST"
-constexpr std::size_t kSizeAt = 12, kChecksumAt = 16, kChecked = 20;  // behind magic and version; what is checked
+constexpr std::uint64_t kMagic = 0x5453'3156'5044'5344;  // "DSDPV1ST"
+constexpr std::size_t kSizeAt = 12, kChecksumAt = 16,
+                      kChecked = 20;  // after magic and version; start of the checked bytes
 
 // CRC-32 of IEEE 802.3.
 constexpr std::array<std::uint32_t, 256> make_crc32_table() {
@@ -38,7 +39,7 @@ void put(std::uint32_t value, std::uint8_t* to) {
   for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-/// `tell(name, value)` of each parameter, by the names that scenarios have for them.
+/// Calls `tell(name, value)` for each parameter, with its name in scenarios.
 template <class Tell>
 void each_parameter(Config& config, const Tell& tell) {
 #define DSDPV1_PARAMETER(name, ...) tell(#name, config.name);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
-// What stands round a chip's state in its bytes: what it is, of which version, part and parameters, and a checksum.
+// The frame of a chip's state: magic, version, part, parameters, and a checksum.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,17 +11,17 @@
 
 namespace dsdpv1 {
 
-/// Counts up whenever what a block stores changes, or what it means.
+/// Increment when the content or meaning of a block's stored state changes.
 constexpr std::uint32_t kStateVersion = 1;
 
-/// The head of a state, to be followed by what the blocks store.
+/// Writes the head of a state; the blocks store after it.
 void begin_state(profibus::StateWriter& writer, const Config& config);
-/// With size and checksum.
+/// Adds size and checksum.
 std::vector<std::uint8_t> end_state(std::vector<std::uint8_t> bytes);
 
-/// What the blocks have stored, of bytes that are whole and of a chip with this part and these parameters; else throws.
+/// Returns the blocks' part of a complete state of this part and these parameters; throws otherwise.
 profibus::StateReader open_state(const std::uint8_t* bytes, std::size_t size, const Config& config);
-/// Throws when not all of it was right.
+/// Throws if any value was wrong.
 void check_state(const profibus::StateReader& reader);
 
 }  // namespace dsdpv1

@@ -1,5 +1,5 @@
 #pragma once
-// What a chip is told when it is made: which one it is, and the parameters of the rulings marked (p).
+// A chip's configuration at construction: the part, and the parameters of the rulings marked (p).
 #include <array>
 #include <cstdint>
 
@@ -9,16 +9,16 @@ namespace dsdpv1 {
 
 enum class Engine : std::uint8_t {
   kStep,  ///< every cycle of every block is evaluated
-  kSkip,  ///< sleeps until the next cycle at which a block does something; the same pin trace
+  kSkip,  ///< jumps to the next cycle with an event; the same pin trace
 };
 
-/// The host port that is live, as MODE codes it (R11).
+/// The live host port, in the coding of MODE (R11).
 enum class HostMode : std::uint8_t { kParallel, kSpi, kUart };
 
-/// UA1: cycles of a bit of the UART, by the strap UBR.
+/// UA1: cycles per bit of the UART, by the strap UBR.
 constexpr std::array<int, 8> kUbrCycles = {5000, 2500, 1250, 833, 417, 208, 104, 26};
 
-/// The parameters of the rulings marked (p), with their defaults; parameters.inc says what each is, its unit and range.
+/// The parameters of the rulings marked (p), with their defaults; parameters.inc has meaning, unit and range.
 struct Config {
   Engine engine = Engine::kSkip;
   Part part = Part::kDsdpv1;

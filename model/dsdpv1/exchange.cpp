@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kReads = 3;  // flag byte, B00E, B00F
 
-// The byte and bit by which the user announces an area.
+// The byte and bit with which the user announces an area.
 regs::Address flag_byte(std::uint16_t to) {
   return to == regs::kInput || to == regs::kDiag ? regs::kUserCommand1 : regs::kUserCommand2;
 }
@@ -25,7 +25,7 @@ std::uint8_t flag_bit(std::uint16_t to) {
 
 }  // namespace
 
-// News in the order in which they are looked for (UA10), then the outputs.
+// News in the order in which they are checked (UA10), then the outputs.
 const Exchange::Area Exchange::kAreas[kAreaCount] = {
     {regs::kPrm, 1, regs::kPrmDataSize, 0x10, regs::kChipCommand1Prm, false},
     {regs::kCfg, 3, regs::kCfgDataSize, 0x20, regs::kChipCommand1Cfg, false},
@@ -67,7 +67,7 @@ bool Exchange::move_reply(int index, bool data_exch) {
     take_length();
     return rest_ == 0 && !clears();
   }
-  const int place = index - 1;  // the look at the length is a cycle without a move
+  const int place = index - 1;  // evaluating the length takes a cycle without a move
   if (place == header_ + rest_) {
     clear();
     return true;

@@ -1,6 +1,6 @@
 #pragma once
-// UART's exchange (UA7 to UA14; docs/microarchitecture_rsu.md 6.4): a block of the host goes to its area, and one area
-// of the chip goes back.
+// UART's exchange (UA7 to UA14; docs/microarchitecture_rsu.md 6.4): writes a block of the host to its area and returns
+// one area of the chip.
 #include <array>
 
 #include "model/dpram/ram.hpp"
@@ -13,18 +13,18 @@ class Exchange {
   Exchange(dpram::Ram& ram, bool cfg_length) : ram_(ram), cfg_length_(cfg_length) {}
 
   void start(const Request& request, const std::uint8_t* data);
-  /// Move `index` of it, from 0; `data_exch` as before the cycle. True with the last one.
+  /// Makes move `index`, from 0; `data_exch` as before the cycle. Returns true with the last one.
   bool move(int index, bool data_exch);
 
-  // The reply, when the last move is made.
+  // The reply, after the last move.
   std::uint8_t function() const { return function_; }
   std::uint16_t address() const { return area_->address; }
   const std::uint8_t* data() const { return data_.data(); }
   int size() const { return header_ + rest_; }
-  /// What the reply's length byte says (UA12).
+  /// The reply's length byte (UA12).
   std::uint8_t length_byte() const;
 
-  /// `block`: what start() got.
+  /// `block`: the block passed to start().
   template <class Archive>
   void store(Archive& archive, const std::uint8_t* block) {
     auto& [ram, cfg_length, to, sent, from, flags, chip_command1, chip_command2, area, function, header, rest, data] =
@@ -37,11 +37,11 @@ class Exchange {
     archive.place(area, kAreas, kAreaCount - 1);
     if constexpr (Archive::kReads) from = block;
   }
-  /// Move `index` is one that start() and the moves before it lead to.
+  /// Move `index` can follow from start() and the moves before it.
   bool is_possible(int index) const;
 
  private:
-  /// An area that a reply may carry.
+  /// An area that a reply may return.
   struct Area {
     std::uint16_t address;
     int header;             ///< bytes up to and including the length
@@ -61,8 +61,8 @@ class Exchange {
 
   dpram::Ram& ram_;
   const bool cfg_length_;
-  std::uint16_t to_ = 0;  // where the host's block goes
-  int sent_ = 0;          // bytes of it
+  std::uint16_t to_ = 0;  // destination of the host's block
+  int sent_ = 0;          // its bytes
   const std::uint8_t* block_ = nullptr;
   std::uint8_t flags_ = 0, chip_command1_ = 0, chip_command2_ = 0;
   const Area* area_ = nullptr;

@@ -15,7 +15,7 @@ class Handshake {
   void set_r_req(Tick at, bool level) { r_req_.set(at, level); }
   void set_r_sta(Tick at, bool level) { r_sta_.set(at, level); }
 
-  /// The rising edge of `now`; in reset too.
+  /// The rising edge of `now`; also in reset.
   void eval(Cycle now) {
     r_req_.eval(now);
     r_sta_.eval(now);

@@ -6,8 +6,7 @@
 namespace dsdpv1 {
 namespace {
 
-/// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it; D is sampled in
-/// between.
+/// Order of edges at one tick: preparation of a strobe, strobe, sample of D, end of an access.
 int rank(const HostAccess::Edge& edge) {
   switch (edge.pin) {
     case Pin::kA: return edge.level == HostAccess::kIdleAddress ? 8 : 0;
@@ -31,7 +30,7 @@ bool operator==(const AccessTiming& a, const AccessTiming& b) {
 HostAccess HostAccess::read(std::uint16_t address, const AccessTiming& timing) {
   HostAccess access;
   access.frame(Pin::kRd, timing.rd_low, timing);
-  // Before RD and CSR are low there is nothing to sample.
+  // D cannot be sampled before RD and CSR are low.
   access.add(std::max({timing.rd_sample, Tick{0}, -timing.cs_lead}), Pin::kDOut, 0);
   access.order(timing.recovery);
   access.aim(address, 0);
@@ -58,7 +57,7 @@ const HostAccess& HostAccessMaker::make(bool write, std::uint16_t address, std::
   return shape.access;
 }
 
-/// What reads and writes have in common, counted from the fall of the strobe.
+/// The edges common to reads and writes, counted from the fall of the strobe.
 void HostAccess::frame(Pin strobe, Tick low, const AccessTiming& timing) {
   add(-timing.address_setup, Pin::kA, 0);
   add(-timing.cs_lead, Pin::kCsr, 0);
@@ -75,7 +74,7 @@ void HostAccess::aim(std::uint16_t address, std::uint8_t value) {
 
 Tick HostAccess::sample() const { return edges_[edge_of(Pin::kDOut, 0)].at; }
 
-/// Its place among the edges, behind the last when there is none.
+/// Its index among the edges; the number of edges if there is none.
 std::size_t HostAccess::edge_of(Pin pin, Level level) const {
   const auto searched = [pin, level](const Edge& edge) { return edge.pin == pin && edge.level == level; };
   return static_cast<std::size_t>(std::find_if(begin(), end(), searched) - begin());

@@ -1,6 +1,6 @@
 #pragma once
-// One access of the user CPU to the host port as edges of the pins: for user CPUs of the bench and for whoever turns
-// transactions into pins.
+// One access of the user CPU to the host port as edges of the pins: for user CPUs of the bench and for adapters that
+// turn transactions into pins.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,11 +23,11 @@ constexpr Tick kTw = 375;  ///< 31.25 ns, RD's fall to certain data
 ///   D out  ---------<==========>--     write: data_setup before WR rises, data_hold after it
 ///
 /// Values may be negative where that makes sense, so that each limit can be kept exactly, kept with margin, or
-/// violated. The defaults are a CPU at 72 MHz (HCLK 13.9 ns) in the manner of an STM32F103. Writes are those of its
-/// FSMC with ADDSET = 1, DATAST = 5: 2 HCLK of address phase, WR low for 5 HCLK, 1 HCLK of hold. Reads have the same
-/// frame, RD low for 6 HCLK and sampled 1 HCLK before its rise, which no setting of the FSMC gives. Between accesses A
-/// is 0x7FF and D released, so that an address taken away too early is never masked by a bus that happens to hold it.
-/// From the rise of WR to the next fall of RD 750 ticks must pass before a byte just written may be read (P8).
+/// violated. The defaults model a CPU at 72 MHz (HCLK 13.9 ns) such as an STM32F103. Writes are those of its FSMC with
+/// ADDSET = 1, DATAST = 5: 2 HCLK of address phase, WR low for 5 HCLK, 1 HCLK of hold. Reads have the same frame, RD
+/// low for 6 HCLK and sampled 1 HCLK before its rise, which no setting of the FSMC gives. Between accesses A is 0x7FF
+/// and D released, so that a bus which holds its value cannot mask an address removed too early. A byte just written
+/// may be read after 750 ticks from the rise of WR to the next fall of RD (P8).
 struct AccessTiming {
   Tick address_setup = 333;  ///< Tc: >= 0; negative: A arrives after the strobe fell
   Tick cs_lead = 333;        ///< CSR falls before the strobe
@@ -57,7 +57,7 @@ class HostAccess {
   static HostAccess read(std::uint16_t address, const AccessTiming& timing);
   static HostAccess write(std::uint16_t address, std::uint8_t value, const AccessTiming& timing);
 
-  /// The same access to another cell; `value` counts in a write only.
+  /// Changes the cell; `value` is used in a write only.
   void aim(std::uint16_t address, std::uint8_t value);
 
   std::size_t size() const { return size_; }
@@ -68,10 +68,10 @@ class HostAccess {
   Tick last() const { return edges_[size_ - 1].at; }
   /// From the first edge to the end of the recovery time.
   Tick duration() const { return duration_; }
-  /// From the first edge to the sampling of D; of a read.
+  /// From the first edge to the sample of D; for a read.
   Tick sample() const;
 
-  /// When, from the first edge on, each pin is moved and moved back. D of a read: when it is sampled.
+  /// When, from the first edge on, each pin is set and released. D of a read: when it is sampled.
   struct Times {
     Tick address, address_end, select, select_end, strobe, strobe_end, data, data_end;
   };
@@ -79,7 +79,7 @@ class HostAccess {
   bool is_write() const { return write_; }
   std::uint16_t address() const { return static_cast<std::uint16_t>(edges_[address_].level); }
   std::uint8_t value() const { return static_cast<std::uint8_t>(edges_[value_].level); }
-  /// It keeps table 15, and A, D and CSR stand as long as they are needed: by itself it violates nothing.
+  /// The access keeps table 15, and A, D and CSR are stable as long as needed: alone it violates nothing.
   bool is_right() const { return right_; }
 
  private:
@@ -92,14 +92,14 @@ class HostAccess {
 
   std::array<Edge, 8> edges_{};
   std::size_t size_ = 0;
-  std::size_t address_ = 0, value_ = 0;  ///< the edges that bring them; a read has no second one: size_
+  std::size_t address_ = 0, value_ = 0;  ///< the edges that set them; a read has no second one: size_
   Tick duration_ = 0;
   Times times_ = {};
   bool write_ = false, right_ = false;
 };
 
-/// Makes one access after the other. Those of one timing differ in address and value only, so that their edges are put
-/// in order once.
+/// Makes accesses one after another. Accesses with the same timing differ in address and value only, so their edges are
+/// sorted once.
 class HostAccessMaker {
  public:
   /// Valid until the next call. `value` of a write.

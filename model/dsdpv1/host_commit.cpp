@@ -44,7 +44,7 @@ bool HostCommit::eval(Cycle now, bool owns, bool data_exch) {
   return true;
 }
 
-// True: it was the last one.
+// Returns true after the last move.
 bool HostCommit::move(int index, Cycle now, bool data_exch) {
   switch (kind_) {
     case Kind::kWrite: move_write(index, now); return index == length_ - 1;
@@ -86,7 +86,7 @@ bool HostCommit::is_of(const Request& request) const {
   return kind == kind_ && request.length == length_;
 }
 
-// The next move is one of those to come.
+// The next move is one of the possible ones.
 bool HostCommit::is_possible() const {
   constexpr int kFlagMoves = 4;
   switch (kind_) {

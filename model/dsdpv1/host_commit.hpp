@@ -1,5 +1,5 @@
 #pragma once
-// What a telegram of the host does in the DPRAM (docs/microarchitecture_rsu.md 4.2): one byte a cycle, while no access
+// Executes a telegram of the host in the DPRAM (docs/microarchitecture_rsu.md 4.2): one byte a cycle, while no access
 // of the chip runs. The sequencer begins none as long as busy().
 #include "model/dpram/ram.hpp"
 #include "model/dsdpv1/exchange.hpp"
@@ -16,26 +16,26 @@ class HostCommit {
   static constexpr int kNobody = -1, kMostMoves = 1024;
 
   void reset() { state_ = State::kIdle; }
-  /// Judged at `now`; `data` stays until the commit is done. Of `write`: `owner` is the cell that is left alone (B014
-  /// of SPI), or none.
+  /// Call when the telegram is judged, at `now`; `data` must stay until the commit is done. For `write`, `owner` is the
+  /// cell that is not changed (B014 of SPI), or none.
   void write(Cycle now, const Request& request, const std::uint8_t* data, int owner);
   void read(Cycle now, const Request& request);
   void read_and_write(Cycle now, const Request& request, const std::uint8_t* data);
   void exchange(Cycle now, const Request& request, const std::uint8_t* data);
 
-  /// The edge of `now`; `owns`, `data_exch` as before it. True with the last move.
+  /// The edge of `now`; `owns`, `data_exch` as before it. Returns true with the last move.
   bool eval(Cycle now, bool owns, bool data_exch);
   Cycle next() const { return state_ == State::kIdle ? profibus::kNever : next_; }
 
   bool busy() const { return state_ != State::kIdle; }
   bool waits() const { return state_ == State::kWaits; }  ///< for an access of the chip to end
-  /// Of the last read, its data; of the last exchange, its answer.
+  /// The data of the last read, the answer of the last exchange.
   const std::uint8_t* data() const { return read_.data(); }
   const Exchange& answer() const { return exchange_; }
-  /// What it is busy with is `request`.
+  /// The present work belongs to `request`.
   bool is_of(const Request& request) const;
 
-  /// `data`: of the telegram that it carries out.
+  /// `data`: of the telegram being executed.
   template <class Archive>
   void store(Archive& archive, const std::uint8_t* data) {
     auto& [log, ram, exchange, state, kind, next, index, base, length, owner, from, user_command, chip_command, read] =

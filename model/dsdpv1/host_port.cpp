@@ -86,7 +86,7 @@ void HostPort::begin_read(Tick at) {
   tw_reported_ = false;
   read_began_ = at;
   sample_at_ = profibus::first_edge_after(at);
-  d_out_ = kLevelX;  // P5: until D is driven nobody knows it
+  d_out_ = kLevelX;  // P5: unknown until D is driven
 }
 
 void HostPort::end_read(Tick at) {
@@ -168,7 +168,7 @@ void HostPort::lines_changed(Tick at) {
   if (hold_reported_ || at - captured_ >= kTd) return;
   hold_reported_ = true;
   log_.at_tick(at, Reason::kWriteHold, captured_address_, static_cast<unsigned>(at - captured_));
-  if (write_count_ > 0) write_at(write_count_ - 1).good = false;  // settles 3 edges later, so it is still in flight
+  if (write_count_ > 0) write_at(write_count_ - 1).good = false;  // it settles 3 edges later, so it is still in flight
 }
 
 void HostPort::settle(const Write& write) {

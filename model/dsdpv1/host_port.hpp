@@ -1,6 +1,6 @@
 #pragma once
-// The asynchronous 8-bit user port (5.2, figure 6, table 15; rulings P5, P6, P8, P11, P12): CSR, RD, WR, A and D by the
-// tick, the DPRAM by the cycle.
+// The asynchronous 8-bit user port (5.2, figure 6, table 15; rulings P5, P6, P8, P11, P12): CSR, RD, WR, A and D with
+// tick resolution, the DPRAM with cycle resolution.
 #include <array>
 
 #include "model/dpram/ram.hpp"
@@ -16,7 +16,7 @@ class HostPort {
  public:
   HostPort(profibus::EventLog& log, Ram& ram) : log_(log), ram_(ram) {}
 
-  /// In reset the port neither reads nor writes; `release` ends that.
+  /// In reset the port neither reads nor writes; `release` ends the reset.
   void reset();
   void release() { enabled_ = true; }
   /// A change of CSR, RD, WR, A or D_IN at `at`.
@@ -26,18 +26,18 @@ class HostPort {
     r_sta_ = r_sta;
   }
   Level level(Pin pin) const;
-  /// An access whose first edge is at `begin` is certain to report nothing, and nothing of an earlier one reaches into
-  /// it, as long as the user keeps R_REQ and R_STA.
+  /// An access with its first edge at `begin` is certain to report nothing and is not affected by an earlier one, as
+  /// long as the user keeps R_REQ and R_STA.
   bool is_plain(Tick begin, const HostAccess& access) const;
-  /// A whole access that is plain, in the place of its edges; of a read, what it has `sampled`. False: it is not plain,
-  /// and nothing has happened.
+  /// Executes a whole plain access, replacing its edges; a read returns `sampled`. Returns false, without any effect,
+  /// if the access is not plain.
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
 
-  /// The rising edge of `now`: writes that have settled, the address of a read. `unreadable`, as it was before the
-  /// edge: L_STA is high, or the start-up has not begun (P12, H6).
+  /// The rising edge of `now`: writes that settle, the address of a read. `unreadable`, as before the edge: L_STA is
+  /// high, or the start-up has not begun (P12, H6).
   void eval(Cycle now, bool unreadable);
   Cycle next() const;
-  /// The same without writes that settle while the user owns the DPRAM.
+  /// As next(), without writes that settle while the user owns the DPRAM.
   Cycle next_seen() const { return r_req_ && r_sta_ ? sample_at_ : next(); }
   /// The falling edge at which D is driven.
   Tick drive_at() const { return drive_at_; }
@@ -45,7 +45,7 @@ class HostPort {
 
   /// D as the chip drives it now.
   Level d_out() const { return d_out_; }
-  /// D as a user who samples it at `at` may take it: X before Tw (P5).
+  /// The level of D that a user gets who samples at `at`: X before Tw (P5).
   Level user_samples(Tick at);
 
   template <class Archive>
@@ -104,13 +104,13 @@ class HostPort {
   regs::Address a_ = 0;
   Level d_in_ = kLevelZ;
   Tick wr_fell_ = 0, lines_changed_ = -kTd, captured_ = -kTd;
-  bool hold_reported_ = true;  // or nothing was captured yet
+  bool hold_reported_ = true;  // or nothing has been captured yet
 
   std::array<Write, kWritesInFlight> writes_{};
   unsigned first_write_ = 0, write_count_ = 0;
 
   bool reading_ = false, read_spoilt_ = false;
-  bool tw_reported_ = false;  ///< of the running read: once is enough
+  bool tw_reported_ = false;  ///< for the running read, to report it only once
   Tick read_began_ = 0;
   Cycle sample_at_ = profibus::kNever;
   Tick drive_at_ = profibus::kNever;

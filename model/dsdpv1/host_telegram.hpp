@@ -1,6 +1,5 @@
 #pragma once
-// A telegram of the host, by SPI or UART (SP4, SP10, SP11, UA5, UA7): its bytes as they come, and what is wrong with
-// it.
+// A telegram of the host, by SPI or UART (SP4, SP10, SP11, UA5, UA7): collects its bytes and judges it.
 #include <array>
 #include <cstdint>
 
@@ -10,13 +9,13 @@
 
 namespace dsdpv1 {
 
-/// Bits 7..5 of the first byte. An exchange goes both ways: SPI's read and write, UART's exchange (010).
+/// Bits 7..5 of the first byte. An exchange transfers both ways: SPI's read and write, UART's exchange (010).
 enum class Command : std::uint8_t { kRead, kWrite, kExchange };
 
 /// How the two ports differ.
 struct TelegramRules {
-  bool names_area;    ///< an exchange is of an area (UART); else of the inputs, with its length byte as data (SPI)
-  int most;           ///< bytes of the longest telegram (error bit 3) ...
+  bool names_area;  ///< an exchange names an area (UART); else it is of the inputs, with the length byte as data (SPI)
+  int most;         ///< bytes of the longest telegram (error bit 3) ...
   int most_exchange;  ///< ... and of the longest exchange
   int most_write;     ///< data bytes of a write
 };
@@ -33,22 +32,22 @@ inline constexpr std::array<ExchangeArea, 4> kExchangeAreas = {
     {{regs::kInput, 245}, {regs::kDiag, 240}, {regs::kC1, 244}, {regs::kC2, 244}}};
 constexpr std::uint8_t kWithDiagnosis = 0x02;  ///< function bit 1 of an exchange: B227 is meant
 
-/// Error code of a reply (SP10).
+/// Error codes of a reply (SP10).
 constexpr std::uint8_t kCrcWrong = 0x01, kAddressWrong = 0x02, kDataWrong = 0x04, kLengthWrong = 0x08;
 
-/// A telegram that is complete.
+/// A complete telegram.
 struct Request {
   Command command = Command::kRead;
-  std::uint8_t function = 0;  ///< of an exchange
-  std::uint16_t address = 0;  ///< as it came, 16 bits; 0x130 of a read and write
+  std::uint8_t function = 0;  ///< for an exchange
+  std::uint16_t address = 0;  ///< as received, 16 bits; 0x130 for a read and write
   int length = 0;             ///< its length byte
-  int bytes = 0;              ///< altogether, the CRC included
+  int bytes = 0;              ///< in total, including the CRC
   std::uint16_t crc = 0, computed = 0;
 
   template <class Archive>
   void store(Archive& archive) {
     auto& [kind, what, cell, data, all, sent, made] = *this;
-    archive.within(0, 3, kind);  // 3 is none: no telegram
+    archive.within(0, 3, kind);  // 3: no telegram
     archive(what, cell, sent, made);
     archive.within(0, 0xFF, data);
     archive.within(0, kMostBytes, all);
@@ -69,10 +68,10 @@ class HostTelegram {
     count_ = 0;
     crc_ = 0xFFFF;
   }
-  /// True with the last byte; all of it is request() then.
+  /// Returns true with the last byte; request() is then complete.
   bool add(std::uint8_t byte);
 
-  /// Bytes so far; of the whole telegram, 0: not known yet.
+  /// Bytes so far, and bytes of the whole telegram, 0: not known yet.
   int count() const { return count_; }
   int bytes() const { return bytes_; }
   std::uint8_t start() const { return start_; }
@@ -83,7 +82,7 @@ class HostTelegram {
   /// Data of the last write or exchange, up to kMostData; of SPI's read and write its length byte first.
   const std::uint8_t* data() const { return data_.data(); }
 
-  /// The error code of a right CRC's telegram; each wrong thing is reported at `now`.
+  /// The error code for a telegram with a right CRC; each fault is reported at `now`.
   std::uint8_t judge(const Request& request, profibus::Cycle now, profibus::EventLog& log) const;
 
   static constexpr int kMostData = 250;

@@ -57,7 +57,7 @@ void HostUart::eval(Cycle now, const ChipSide& side) {
   if (now == judge_at_ && telegram_.is_for(address_)) {
     judged_ = now;
     fall_reported_ = false;
-    report_falls(now);  // what it receives at this edge is without effect
+    report_falls(now);  // characters received at this edge have no effect
     return judge(now, side);
   }
   if (now == judge_at_) judge_at_ = kNever;
@@ -104,7 +104,7 @@ void HostUart::take_interval(int code) {
   gap_ = half_characters * kBitsPerCharacter * bit_ / 2;
 }
 
-// When the line has been silent too long, as far as its changes are noted.
+// The cycle at which the line has been silent too long, according to the changes noted so far.
 Cycle HostUart::silence_at() const {
   const Cycle idle = rx_.idle_since();
   if (idle == kNever || state_ == State::kWait) return kNever;
@@ -119,7 +119,7 @@ void HostUart::silence(Cycle now) {
   state_ = State::kWait;
 }
 
-// While nothing is heard.
+// While the receiver is deaf.
 void HostUart::report_falls(Cycle now) {
   while (rx_.next_change() <= now) {
     const Cycle at = rx_.next_change();

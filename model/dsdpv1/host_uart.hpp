@@ -1,6 +1,6 @@
 #pragma once
-// The UART port (000 chapter 7; rulings UA1 to UA16; docs/microarchitecture_rsu.md 6): characters to telegrams,
-// judgement, exchange, replies.
+// The UART port (000 chapter 7; rulings UA1 to UA16; docs/microarchitecture_rsu.md 6): assembles telegrams from
+// characters, judges them, executes exchanges and replies.
 #include "model/dsdpv1/chip_side.hpp"
 #include "model/dsdpv1/config.hpp"
 #include "model/dsdpv1/host_commit.hpp"
@@ -15,7 +15,8 @@ class HostUart {
       : log_(log), ram_(ram), config_(config), commit_(log, ram, config.uart_cfg_length != 0) {}
 
   void reset();
-  /// The straps have chosen it; the first edge that is evaluated is this one. `rate`, `interval`: UBR, UIV.
+  /// Called when the straps have chosen this port; this edge is the first to be evaluated. `rate`, `interval`: UBR,
+  /// UIV.
   void start(Cycle now, int address, int rate, int interval);
   /// RXD changes at `at`.
   void set_rxd(Tick at, bool level);
@@ -25,7 +26,7 @@ class HostUart {
   /// The edge of `now`.
   void eval(Cycle now, const ChipSide& side);
   Cycle next() const;
-  /// No access of the chip begins: after eval().
+  /// The chip must not begin an access; valid after eval().
   bool holds() const { return commit_.busy(); }
 
   template <class Archive>
@@ -49,10 +50,10 @@ class HostUart {
  private:
   enum class State : std::uint8_t {
     kOff,
-    kWait,   // for a first character
-    kIn,     // a telegram
+    kWait,   // for the first character
+    kIn,     // receiving a telegram
     kDeaf,   // until silence
-    kReply,  // judged and not yet replied: RXD is not heard
+    kReply,  // judged, not replied yet: RXD is ignored
   };
   void receive(Cycle now);
   void hand_over(Cycle now);

@@ -1,5 +1,5 @@
 #pragma once
-// INTR0 (5.2, table 16, ruling P7): low pulses of fixed length with a least time between them.
+// INTR0 (5.2, table 16, ruling P7): low pulses of fixed length with a minimum gap.
 #include <algorithm>
 
 #include "model/profibus/time.hpp"
@@ -16,7 +16,7 @@ class Interrupt {
     fall_ = rise_ = profibus::kNever;
     ready_ = 0;
   }
-  /// New parameter or configuration data are in the DPRAM: their flag was written at `now`.
+  /// New parameter or configuration data in the DPRAM: their flag was written at `now`.
   void trigger(Cycle now) {
     if (fall_ == profibus::kNever) fall_ = std::max(now + 1, ready_);
   }
@@ -40,7 +40,7 @@ class Interrupt {
  private:
   Cycle low_, gap_;
   Cycle fall_ = profibus::kNever, rise_ = profibus::kNever;
-  Cycle ready_ = 0;  // no earlier than this may INTR0 fall again
+  Cycle ready_ = 0;  // the earliest next fall of INTR0
 };
 
 }  // namespace dsdpv1

@@ -1,5 +1,5 @@
 #pragma once
-// The parts that the model can be: a row for each.
+// The parts that can be modelled, a row for each.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace dsdpv1 {
 
-/// Which chip it is. DSDPV1-R is the DSDPV1 under another name; DSDPV1-RSU has SPI and UART beside the parallel port.
+/// DSDPV1-R is the DSDPV1 under another name; DSDPV1-RSU has SPI and UART beside the parallel port.
 enum class Part : std::uint8_t { kDsdpv1, kR, kRsu };
 
-/// What a part is called, and what it has beside table 1.
+/// Names of a part, and what it has beside table 1.
 struct PartRow {
   const char* name;       ///< in scenarios and on command lines
-  const char* title;      ///< for people
+  const char* title;      ///< for display
   bool has_serial_ports;  ///< SPI and UART, their pins and parameters (R1, R2)
-  const char* rtl;        ///< top of its reference RTL; folders of that, of its lists and of its stimuli are called so
+  const char* rtl;        ///< top of its reference RTL, and name of the folders of that RTL, its lists and its stimuli
 };
 
 /// In the order of Part.
@@ -30,12 +30,12 @@ constexpr unsigned serial_parts() {
   for (std::size_t i = 0; i < kParts.size(); ++i) parts |= kParts[i].has_serial_ports ? 1U << i : 0;
   return parts;
 }
-/// Asked at each change of a serial pin: no table is read.
+/// Called at each change of a serial pin, so it avoids the table.
 constexpr bool has_serial_ports(Part part) {
   constexpr unsigned kSerialParts = serial_parts();
   return (kSerialParts >> static_cast<unsigned>(part) & 1U) != 0;
 }
-/// By its name in scenarios; nullopt: none is called so.
+/// Finds a part by its name in scenarios; nullopt: unknown.
 constexpr std::optional<Part> part_called(std::string_view name) {
   for (std::size_t i = 0; i < kParts.size(); ++i)
     if (kParts[i].name == name) return static_cast<Part>(i);

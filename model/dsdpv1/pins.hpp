@@ -1,6 +1,6 @@
 #pragma once
-// The pins of table 1 and those that the DSDPV1-RSU has besides (R2), a row of pins.inc each, and how a change of one
-// leaves or enters the core.
+// The pins of table 1 and the additional ones of the DSDPV1-RSU (R2), a row of pins.inc each, and how pin changes leave
+// and enter the core.
 #include <cstdint>
 
 #include "model/dsdpv1/part.hpp"
@@ -24,7 +24,7 @@ constexpr Level kHighestLevel = 0x7FF;  ///< of A
 
 enum class Direction : std::uint8_t { kInput, kOutput };
 
-/// What pins.inc says of a pin.
+/// A row of pins.inc.
 struct PinRow {
   const char* name;
   int width;
@@ -41,10 +41,10 @@ constexpr PinRow kPinRows[] = {
 
 constexpr int kRsuPinCount = sizeof kPinRows / sizeof(PinRow);  ///< of the DSDPV1-RSU: all
 
-/// Its place in tables of pins.
+/// Index in tables of pins.
 constexpr std::uint8_t number(Pin pin) { return static_cast<std::uint8_t>(pin); }
 constexpr std::uint32_t mask(Pin pin) { return std::uint32_t{1} << static_cast<unsigned>(pin); }
-/// Those whose rows are `wanted`.
+/// Mask of the pins whose rows are `wanted`.
 template <class Wanted>
 constexpr std::uint32_t pins_where(const Wanted& wanted) {
   std::uint32_t pins = 0;
@@ -52,7 +52,7 @@ constexpr std::uint32_t pins_where(const Wanted& wanted) {
   return pins;
 }
 
-/// Those of all parts; those that only the DSDPV1-RSU has.
+/// The pins of all parts; those of the DSDPV1-RSU only.
 constexpr std::uint32_t kCommonPins = pins_where([](const PinRow& row) { return row.of_all_parts; });
 constexpr std::uint32_t kSerialPins = pins_where([](const PinRow& row) { return !row.of_all_parts; });
 constexpr int kPinCount = __builtin_popcount(kCommonPins);  ///< of the DSDPV1 and the DSDPV1-R: the first ones

@@ -1,5 +1,5 @@
 #pragma once
-// The reasons of the DSDPV1: those of its host port and handshake, and all that the chip has, in its own words.
+// The reasons of the DSDPV1: those of its host port and handshake, and the list of all, with the chip's words.
 #include <string>
 #include <vector>
 
@@ -18,7 +18,7 @@ enum class ReasonIndex : std::size_t {
 extern const profibus::ReasonRow kReasonRows[static_cast<std::size_t>(ReasonIndex::kCount)];
 }  // namespace detail
 
-/// What only the host port has to say: `dsdpv1::Reason::kWriteSetup`.
+/// Reasons that only the host port has: `dsdpv1::Reason::kWriteSetup`.
 struct Reason {
 #define X(id, ...) \
   static constexpr profibus::Reason id{detail::kReasonRows[static_cast<std::size_t>(detail::ReasonIndex::id)]};
@@ -26,11 +26,11 @@ struct Reason {
 #undef X
 };
 
-/// All reasons of the chip: host port, DPRAM, DP slave. In this order docs/reasons.md has them.
+/// All reasons of the chip, in the order of docs/reasons.md: host port, DPRAM, DP slave.
 std::vector<profibus::Reason> reasons();
-/// The event in words, one line, without the time.
+/// The event as text, one line, without the time.
 std::string describe(const profibus::Event& event);
-/// The text of a reason with its placeholders, and what to do about it: for documentation.
+/// The text of a reason with its placeholders, and its advice: for documentation.
 std::string text_template(profibus::Reason reason);
 std::string advice(profibus::Reason reason);
 

@@ -9,7 +9,7 @@ namespace dsdpv1 {
 
 // ----------------------------------------------------------------------------------------------------------------- SPI
 
-// XSS's fall and the first bit; four edges a bit: MISO is sampled, SCK rises, SCK falls, MOSI's next bit; XSS's rise.
+// XSS falls with the first bit; four edges per bit: MISO sampled, SCK rises, SCK falls, next bit of MOSI; XSS rises.
 SpiFrame::SpiFrame(std::vector<std::uint8_t> out, const SpiTiming& timing, std::optional<std::size_t> bits)
     : timing_(timing),
       out_(std::move(out)),

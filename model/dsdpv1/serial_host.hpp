@@ -1,6 +1,6 @@
 #pragma once
-// What a host sends at the serial ports of a DSDPV1-RSU as edges of the pins: a frame of SPI, a telegram of the UART.
-// For user CPUs of the bench and for whoever turns transactions into pins.
+// Frames of SPI and telegrams of the UART, sent by a host at the serial ports of a DSDPV1-RSU, as edges of the pins.
+// For user CPUs of the bench and for adapters that turn transactions into pins.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,40 +10,40 @@
 
 namespace dsdpv1 {
 
-/// A serial pin is moved. Ticks count from the begin of the frame or telegram.
+/// A change of a serial pin. Ticks count from the begin of the frame or telegram.
 struct SerialEdge {
   Tick at = 0;
-  Pin pin = Pin::kXss;  ///< kMiso: MISO is sampled, as it stands strictly before this tick
+  Pin pin = Pin::kXss;  ///< kMiso: MISO is sampled, at its level strictly before this tick
   bool level = true;
 };
 
 // ----------------------------------------------------------------------------------------------------------------- SPI
 
-/// In ticks of 1/12 ns. The defaults are 9 MHz (000 1.2), and an XSS that software moves.
+/// In ticks of 1/12 ns. The defaults are 9 MHz (000 1.2), and an XSS moved by software.
 struct SpiTiming {
   Tick high = 667, low = 666;  ///< of SCK
   Tick lead = 2400;            ///< XSS falls, SCK rises: 200 ns
   Tick lag = 2400;             ///< SCK falls, XSS rises
-  Tick gap = 6000;             ///< XSS is high at least so long between two frames: 500 ns
-  Tick byte_gap = 0;           ///< SCK stays low so much longer between two bytes
-  Tick mosi_delay = 0;         ///< from SCK's fall, of the first bit XSS's, to MOSI's change; no longer than low
+  Tick gap = 6000;             ///< minimum high time of XSS between two frames: 500 ns
+  Tick byte_gap = 0;           ///< additional low time of SCK between two bytes
+  Tick mosi_delay = 0;         ///< from SCK's fall (first bit: XSS's) to MOSI's change; at most `low`
 };
 
-/// One frame of XSS: mode 0, MSB first (SP1). MOSI changes `mosi_delay` after SCK's fall, the first bit after XSS's,
-/// but not after SCK's first rise nor XSS's.
+/// One frame of XSS: mode 0, MSB first (SP1). MOSI changes `mosi_delay` after SCK's fall, for the first bit after XSS's
+/// fall, but not after SCK's first rise or XSS's rise.
 class SpiFrame {
  public:
   SpiFrame() = default;  ///< no edges
-  /// `bits`: after so many XSS rises, within the bytes; else after all.
+  /// `bits`: XSS rises after so many bits, within the bytes; else after all.
   SpiFrame(std::vector<std::uint8_t> out, const SpiTiming& timing, std::optional<std::size_t> bits = {});
 
   std::size_t size() const { return size_; }
   SerialEdge operator[](std::size_t number) const;
   /// From XSS's fall to its rise.
   Tick duration() const { return size_ == 0 ? 0 : (*this)[size_ - 1].at; }
-  /// The frame's next edge that samples has found this level.
+  /// Reports the level found at the frame's next sampling edge.
   void sampled(bool miso);
-  /// One for each byte that goes out; those that XSS cuts off, and bits that were not sampled, are 1.
+  /// One for each byte sent; bytes cut off by XSS, and bits not sampled, are 1.
   const std::vector<std::uint8_t>& received() const { return in_; }
 
  private:
@@ -63,11 +63,11 @@ struct UartTiming {
   Tick gap = 0;                   ///< idle between two characters of a telegram
 };
 
-/// What is wrong with a telegram on RXD. Numbers count characters from 0.
+/// Faults to inject into a telegram on RXD. Numbers count characters from 0.
 struct UartFaults {
   std::optional<std::size_t> wrong_parity;
-  std::optional<std::size_t> break_at;      ///< RXD is low for the whole time of this one
-  std::optional<std::size_t> pause_before;  ///< from here on all comes `pause` ticks later
+  std::optional<std::size_t> break_at;      ///< RXD is low for the whole of this character
+  std::optional<std::size_t> pause_before;  ///< everything from this character on is `pause` ticks later
   Tick pause = 0;
 };
 
@@ -81,7 +81,7 @@ class UartTelegram {
   UartTelegram(std::vector<std::uint8_t> bytes, const UartTiming& timing, const UartFaults& faults = {})
       : timing_(timing), bytes_(std::move(bytes)), faults_(faults) {}
 
-  /// One for each bit, also where RXD stays, and one for the end of the last.
+  /// One for each bit, even if RXD does not change, and one for the end of the last.
   std::size_t size() const { return bytes_.empty() ? 0 : kBits * bytes_.size() + 1; }
   SerialEdge operator[](std::size_t number) const { return {tick_of(number), Pin::kRxd, level_of(number)}; }
   /// To the end of the last stop bit.

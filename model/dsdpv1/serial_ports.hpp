@@ -1,6 +1,6 @@
 #pragma once
-// The host ports that only the DSDPV1-RSU has, SPI and UART, and the straps that choose one (R1, R11). Only the live
-// one is asked; in parallel mode, in reset and of other parts none is.
+// The additional host ports of the DSDPV1-RSU, SPI and UART, and the straps that choose one (R1, R11). Only the live
+// one is evaluated; in parallel mode, in reset and in other parts none is.
 #include <array>
 
 #include "model/dsdpv1/host_uart.hpp"
@@ -14,9 +14,9 @@ class SerialPorts {
       : log_(log), config_(config), spi_(log, ram, config_), uart_(log, ram, config_) {}
 
   void reset();
-  /// The end of a reset (cycle R): the straps are sampled, and the port that they choose begins.
+  /// The end of a reset (cycle R): samples the straps and starts the port that they choose.
   void release(Cycle now);
-  /// A change of one of the pins that only the DSDPV1-RSU has; nothing in other parts.
+  /// A change of a pin that only the DSDPV1-RSU has; ignored in other parts.
   void set(Tick at, Pin pin, Level level);
   Level level(Pin pin) const;
 
@@ -25,11 +25,11 @@ class SerialPorts {
   /// The edge of `now`, of the live port.
   void eval(Cycle now, const ChipSide& side);
   Cycle next() const;
-  /// No access of the chip begins: after eval().
+  /// The chip must not begin an access; valid after eval().
   bool holds() const { return mode_ == HostMode::kSpi ? spi_.holds() : uart_.holds(); }
   /// The block CRCs in the DPRAM are judged (SP15).
   bool judges_crc() const { return !live() || config_.serial_block_crc != 0; }
-  /// Whether cell `address` is a register of SPI's: its value then is ownership().
+  /// Whether cell `address` is a register of SPI, whose value is then ownership().
   bool is_register(std::uint16_t address) const { return mode_ == HostMode::kSpi && address == regs::kOwnership; }
   std::uint8_t ownership(bool owns) const { return spi_.ownership(owns); }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The SPI port (000 chapter 6; rulings SP1 to SP18; docs/microarchitecture_rsu.md 5): frames of XSS to telegrams,
-// judgement, ownership by B014, U_Timer, replies.
+// The SPI port (000 chapter 6; rulings SP1 to SP18; docs/microarchitecture_rsu.md 5): assembles telegrams from frames
+// of XSS, judges them and replies; ownership by B014, U_Timer.
 #include "model/dsdpv1/chip_side.hpp"
 #include "model/dsdpv1/host_commit.hpp"
 #include "model/dsdpv1/spi_reply.hpp"
@@ -14,7 +14,7 @@ class SpiPort {
       : log_(log), ram_(ram), config_(config), shift_(log, config), commit_(log, ram, false) {}
 
   void reset();
-  /// The straps have chosen it; the first edge that is evaluated is that of now.
+  /// Called when the straps have chosen this port; this edge is the first to be evaluated.
   void start(int address) { address_ = address; }
   SpiShift& shift() { return shift_; }
   const SpiShift& shift() const { return shift_; }
@@ -22,7 +22,7 @@ class SpiPort {
   /// The edge of `now`.
   void eval(Cycle now, const ChipSide& side);
   Cycle next() const;
-  /// No access of the chip begins: after eval().
+  /// The chip must not begin an access; valid after eval().
   bool holds() const { return claimed_ || commit_.busy() || frame_holds_; }
   /// B014, `owns` as before the edge.
   std::uint8_t ownership(bool owns) const {
@@ -47,9 +47,9 @@ class SpiPort {
  private:
   enum class Frame : std::uint8_t {
     kNone,      // XSS is high
-    kDeaf,      // nothing more is looked at until it rises
+    kDeaf,      // everything is ignored until XSS rises
     kRequest,   // bytes of the request
-    kComplete,  // those after it
+    kComplete,  // bytes after the request
   };
   void frame_begins(Cycle now);
   void begins_with_wait(Cycle now);

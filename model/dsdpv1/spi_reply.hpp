@@ -1,5 +1,5 @@
 #pragma once
-// The reply to a telegram of SPI, byte by byte as it is sent (SP4 to SP8; docs/microarchitecture_rsu.md 5.4).
+// The reply to a telegram of SPI, built byte by byte as it is sent (SP4 to SP8; docs/microarchitecture_rsu.md 5.4).
 #include <cstdint>
 
 #include "model/dpram/crc16.hpp"
@@ -9,7 +9,7 @@ namespace dsdpv1 {
 
 class SpiReply {
  public:
-  /// `start` and error code, then `data` bytes, `gap` bytes of FF before all of it. kOutputs: as many as B319 says.
+  /// `gap` bytes of FF, then `start`, error code and `data` bytes. kOutputs: as many as B319 says.
   static constexpr int kOutputs = -1;
   void begin(std::uint8_t start, std::uint8_t code, int data, int gap) {
     *this = {};
@@ -19,12 +19,12 @@ class SpiReply {
     next_ = -gap;
   }
 
-  /// Whether the next byte comes from the DPRAM: which of the data bytes; else -1.
+  /// The index of the data byte that the next byte takes from the DPRAM; -1: none.
   int wants() const {
     const int index = next_ - kHead;
     return index >= 0 && (data_ == kOutputs || index < data_) ? index : -1;
   }
-  /// The next byte; `data` is what wants() has asked for.
+  /// The next byte; `data` is the byte requested by wants().
   std::uint8_t take(std::uint8_t data) {
     const int index = next_++;
     if (index < 0) return 0xFF;
@@ -36,7 +36,7 @@ class SpiReply {
     return index == kHead + data_ + 1 ? static_cast<std::uint8_t>(crc_ & 0xFF) : std::uint8_t{0xFF};
   }
 
-  /// Bytes of the whole; 0 as long as the number of outputs is not read.
+  /// Size of the whole reply; 0 until the number of outputs has been read.
   int size() const { return data_ == kOutputs ? 0 : kHead + data_ + 2; }
 
   template <class Archive>

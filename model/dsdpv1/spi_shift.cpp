@@ -41,7 +41,7 @@ Level SpiShift::level(Pin pin) const {
 
 void SpiShift::set_xss(Tick at, bool level) {
   if (level == xss_.level()) return;
-  if (!listening_) xss_seen_.eval(at / profibus::kTicksPerCycle);  // in reset nobody else does
+  if (!listening_) xss_seen_.eval(at / profibus::kTicksPerCycle);  // in reset it is not called elsewhere
   xss_.set(at, level);
   xss_seen_.set(at, level);
   if (!level) fell_at_ = at;
@@ -60,7 +60,7 @@ void SpiShift::begin_frame(Tick at) {
   miso_ = 1;
 }
 
-// An edge of SCK at the same tick counts, whichever is told first.
+// An edge of SCK at the same tick counts, whichever is reported first.
 void SpiShift::end_frame(Tick at) {
   const unsigned bits = bits_at_ == at ? bits_before_ : bits_;
   const Tick fall = sck_fall_ == at ? sck_fall_before_ : sck_fall_;

@@ -1,6 +1,6 @@
 #pragma once
-// The shift register of the SPI port (SP1, SP2, SP3; docs/microarchitecture_rsu.md 5.1, 5.7): clocked by SCK, by the
-// tick. What it hands to CLK is a byte and `flip`, which turns with each byte.
+// The shift register of the SPI port (SP1, SP2, SP3; docs/microarchitecture_rsu.md 5.1, 5.7): clocked by SCK, with tick
+// resolution. It passes a byte and `flip`, which toggles with each byte, to the CLK domain.
 #include <algorithm>
 #include <array>
 
@@ -16,9 +16,9 @@ class SpiShift {
   SpiShift(profibus::EventLog& log, const Config& config)
       : log_(log), strobe_(config.spi_strobe), data_(config.spi_data), delay_(config.spi_miso_delay) {}
 
-  /// In reset and in other modes the levels are followed, and nothing else happens.
+  /// In reset and in other modes the port only follows the levels.
   void reset();
-  /// In SPI mode: the edge of CLK at which the logic has seen XSS high. Nothing happens before.
+  /// In SPI mode: the edge of CLK at which the logic has seen XSS high. Until then the port does nothing.
   void listen(Cycle now);
   bool listening() const { return listening_; }
 
@@ -28,7 +28,7 @@ class SpiShift {
   void set_mosi(Tick at, bool level);
   Level level(Pin pin) const;
 
-  /// XSS and flip as the logic sees them at the edge of `now`.
+  /// XSS and flip as seen by the logic at the edge of `now`.
   void eval(Cycle now) {
     xss_seen_.eval(now);
     flip_seen_.eval(now);
@@ -37,7 +37,7 @@ class SpiShift {
   bool xss() const { return xss_seen_.level(); }
   bool flip() const { return flip_seen_.level(); }
 
-  /// As they stand strictly before the edge of CLK that is being evaluated.
+  /// Values strictly before the edge of CLK being evaluated.
   std::uint8_t byte() const { return byte_; }
   Tick byte_at() const { return byte_at_; }  ///< its eighth rise
   Tick fell_at() const { return fell_at_; }  ///< XSS's last fall
@@ -66,7 +66,7 @@ class SpiShift {
   }
 
  private:
-  static constexpr unsigned kPending = 8;  // changes of MISO on their way: a period of SCK is 250 ticks or more
+  static constexpr unsigned kPending = 8;  // pending changes of MISO: a period of SCK is 250 ticks or more
   struct Change {
     Tick at = 0;
     Level level = 0;
@@ -97,7 +97,7 @@ class SpiShift {
   bool listening_ = false;
   Tick listening_since_ = 0;
 
-  unsigned bits_ = 0, bits_before_ = 0;  // c, and as it stood strictly before bits_at_
+  unsigned bits_ = 0, bits_before_ = 0;  // c, and its value strictly before bits_at_
   Tick bits_at_ = Wire::kLongAgo;
   std::uint8_t shift_ = 0, byte_ = 0;
   bool flip_ = false;
@@ -108,10 +108,10 @@ class SpiShift {
   std::array<Change, kPending> pending_{};
   unsigned pending_count_ = 0;
 
-  // limits: ticks of what they are measured from
+  // limits: ticks from which they are measured
   Tick fell_at_ = Wire::kLongAgo, rose_at_ = Wire::kLongAgo;           // XSS
   Tick sck_rise_ = Wire::kLongAgo;                                     // that counted
-  Tick sck_fall_ = Wire::kLongAgo, sck_fall_before_ = Wire::kLongAgo;  // with c >= 1; of one strictly before
+  Tick sck_fall_ = Wire::kLongAgo, sck_fall_before_ = Wire::kLongAgo;  // with c >= 1; the previous one, strictly before
   unsigned rise_bit_ = 0;
   bool first_rise_ = false, hold_due_ = false;
 };

@@ -1,4 +1,4 @@
-// A telegram of SPI that has come whole (rulings SP8, SP9, SP13, SP16): judged, carried out, replied to.
+// A complete telegram of SPI (rulings SP8, SP9, SP13, SP16): judges, executes and answers it.
 #include <algorithm>
 
 #include "model/dsdpv1/reasons.hpp"

@@ -1,4 +1,4 @@
-// UART's reply (rulings UA4, UA7 to UA12): a telegram judged, and what goes back no earlier than the reply delay TSDR.
+// UART's reply (rulings UA4, UA7 to UA12): judges a telegram and replies after at least the delay TSDR.
 #include <algorithm>
 
 #include "model/dsdpv1/host_uart.hpp"
@@ -47,7 +47,7 @@ void HostUart::reply_error(Cycle now, std::uint8_t code, bool data_exch) {
   send(now);
 }
 
-// The last move is made.
+// After the last move.
 void HostUart::reply_done(Cycle now) {
   const auto address = static_cast<std::uint8_t>(address_);
   if (request_.command == Command::kExchange) {

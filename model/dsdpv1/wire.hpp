@@ -1,5 +1,5 @@
 #pragma once
-// An input that is used by the tick: whatever acts at a tick uses levels as they were strictly before it.
+// An input used with tick resolution: events at a tick use levels as they were strictly before it.
 #include "model/profibus/time.hpp"
 
 namespace dsdpv1 {
@@ -8,7 +8,7 @@ class Wire {
  public:
   explicit Wire(bool level) : level_(level), before_(level) {}
 
-  /// Not before an earlier call's tick. Several changes at one tick are one.
+  /// `at`: not before an earlier call's tick. Several changes at one tick count as one.
   void set(profibus::Tick at, bool level) {
     if (at != changed_) {
       before_ = level_;
@@ -18,7 +18,7 @@ class Wire {
     level_ = level;
   }
   bool level() const { return level_; }
-  /// Strictly before `at`, which is not before the last change: the level, and the tick of its last change.
+  /// The level strictly before `at`, which is not before the last change, and the tick of its last change.
   bool before(profibus::Tick at) const { return at == changed_ ? before_ : level_; }
   profibus::Tick changed_before(profibus::Tick at) const { return at == changed_ ? changed_before_ : changed_; }
   bool changes(profibus::Tick at) const { return at == changed_; }

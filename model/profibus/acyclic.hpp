@@ -1,6 +1,6 @@
 #pragma once
-// What C1 and C2 have in common: the PDU (tables 26 to 32), the chip's own judgement of a request (V9), what waits for
-// the user, and whether the user's answer fits what was asked (V6, V14).
+// Shared by C1 and C2: the PDU (tables 26 to 32), the chip's own judgement of a request (V9), the request waiting for
+// the user, and the check that the user's answer fits it (V6, V14).
 #include "model/profibus/dpv1_pdu.hpp"
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/request.hpp"
@@ -11,12 +11,12 @@ namespace dsdpv1::profibus {
 /// True when the request comes from the SSAP of its service (table 24, V8); else the reason is logged.
 bool ssap_right(Cycle now, EventLog& log, const Request& request, int expected);
 
-/// What a connection takes.
+/// Limits of a connection.
 struct AcyclicLimits {
   int data = kMaxAcyclic;  ///< bytes of a write or transport
   bool transport = false;
 };
-/// What is wrong with a request for the chip itself: an Error_Code_1, or 0. `size` is at least 1.
+/// The Error_Code_1 with which the chip refuses a request, or 0. `size` is at least 1.
 std::uint8_t request_fault(const std::uint8_t* pdu, int size, const AcyclicLimits& limits);
 
 /// `Function_Num, Error_Decode, Error_Code_1, Error_Code_2` for a request with this Function_Num.

@@ -1,5 +1,5 @@
 #pragma once
-// Who a telegram is for.
+// The addressee of a telegram.
 #include <cstddef>
 #include <cstdint>
 
@@ -9,8 +9,8 @@ namespace dsdpv1::profibus {
 
 constexpr int kNoTelegram = -1, kForNobody = 128;
 
-/// Of a right telegram in these bytes: the station (0 to 126), kBroadcast, or kForNobody (an acknowledgement, a token).
-/// kNoTelegram: it is none (S10).
+/// The station (0 to 126) of a valid telegram in these bytes, kBroadcast, or kForNobody (an acknowledgement, a token).
+/// kNoTelegram: the bytes are not a telegram (S10).
 int addressee(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace dsdpv1::profibus

@@ -1,5 +1,5 @@
 #pragma once
-// Automatic baud rate search (ruling S1, APC3 4.4.1): from 12 Mbit/s downwards, wrapping, one window for each rate.
+// Automatic baud rate search (ruling S1, APC3 4.4.1): from 12 Mbit/s downwards, wrapping, one window per rate.
 #include <algorithm>
 
 #include "model/profibus/baud.hpp"
@@ -8,7 +8,7 @@ namespace dsdpv1::profibus {
 
 class BaudSearch {
  public:
-  /// Least time at one rate: `window` cycles and `bits` bit times.
+  /// Minimum time at one rate: `window` cycles and `bits` bit times.
   BaudSearch(Cycle window, Cycle bits) : window_(window), bits_(bits) {}
 
   void start(Cycle now) {
@@ -20,7 +20,8 @@ class BaudSearch {
     searching_ = false;
     deadline_ = kNever;
   }
-  /// The edge of `now`. True when the window of the present rate has passed and the next rate is selected.
+  /// Processes the clock edge at `now`. Returns true if the window of the present rate has passed and the next rate is
+  /// selected.
   bool eval(Cycle now) {
     if (now < deadline_) return false;
     select(index_.next(), now);

@@ -1,5 +1,5 @@
 #pragma once
-// Characters told as a whole: what a bench may say in the place of eleven levels a character.
+// A series of characters as one object, which a bench may pass instead of eleven levels per character.
 #include <cstdint>
 
 #include "model/profibus/baud.hpp"
@@ -9,7 +9,7 @@ namespace dsdpv1::profibus {
 /// Characters with even parity that follow each other without a gap on a line that idles before them.
 struct CharacterRun {
   Tick start = 0;  ///< falling edge of the first start bit
-  Cycle bit = 0;   ///< cycles of a bit, exactly
+  Cycle bit = 0;   ///< cycles per bit, exactly
   const std::uint8_t* bytes = nullptr;
   int size = 0;
 };

@@ -4,7 +4,7 @@
 
 namespace dsdpv1::profibus {
 
-/// What the standard bytes show besides the diagnosis block's own flags.
+/// Inputs of the standard bytes besides the diagnosis block's own flags.
 struct DiagnosisView {
   bool ready = false;  ///< DATA_EXCH
   bool prm_req = false;
@@ -19,10 +19,10 @@ class Diagnosis {
   void reset() { *this = Diagnosis(); }
 
   static bool known_type(std::uint8_t type);
-  /// A right block of the user (type checked before). All but type 00 are high priority until read.
+  /// Sets a valid block of the user (type checked before). All types except 00 are high priority until read.
   void set_user(std::uint8_t type, const std::uint8_t* bytes, int size);
 
-  /// The 6 standard bytes and the user's, at most 244; valid until the next call.
+  /// The 6 standard bytes and the user's bytes, at most 244; valid until the next call.
   const std::uint8_t* bytes(const DiagnosisView& view);
   int size() const { return kStandard + user_.size; }
 

@@ -101,7 +101,7 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
     case sap::kSlaveDiag: return read_only(now, request);
     case sap::kSetPrm: return set_prm(now, request);
     case sap::kCheckCfg: return check_cfg(now, request);
-    case sap::kGlobalControl: return refuse_state(now, request, sap::kGlobalControl);  // an SRD: only SDN is served
+    case sap::kGlobalControl: return refuse_state(now, request, sap::kGlobalControl);  // an SRD: only SDN is supported
     case sap::kC1: return c1(now, request);
     case Msac2::kManagerSap: return c2_initiate(now, request);
     default:

@@ -1,6 +1,6 @@
 #pragma once
 // The DP slave state machine (chapter 6, rulings S4 to S33): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. Each service is in
-// the file that bears its name; dp_slave.cpp has the states and the way to the services.
+// the file of its name; dp_slave.cpp has the states and the dispatch to the services.
 #include "model/profibus/diagnosis.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event_log.hpp"
@@ -33,10 +33,10 @@ class DpSlave {
   // --- from the bus -------------------------------------------------------------------------------------------------
   /// Executes a request at `now`. The reply's data are valid until the next call.
   Reply handle(Cycle now, const Request& request);
-  /// The C2 timers at `now` (V12), and when one of them ends next.
+  /// Evaluates the C2 timers at `now` (V12); the next end of one of them.
   void eval_timers(Cycle now) { msac2_.eval(now); }
   Cycle next_timer() const { return msac2_.next(); }
-  /// The holding master's time is over (S1).
+  /// The watchdog of the holding master has expired (S1).
   void watchdog_expired(Cycle now);
 
   // --- from the user's side: see UserSide ----------------------------------------------------------------------------
@@ -50,7 +50,7 @@ class DpSlave {
   void c2_answer(Cycle now, const std::uint8_t* pdu, int size) { msac2_.answer(now, pdu, size); }
   const IoBlock& outputs() const { return outputs_.shown(); }
 
-  // --- what others need to know --------------------------------------------------------------------------------------
+  // --- for others ----------------------------------------------------------------------------------------------------
   DpState state() const { return state_; }
   std::uint8_t address() const { return address_; }
   std::uint8_t master() const { return master_; }

@@ -1,5 +1,5 @@
 #pragma once
-// What the bytes of a C1 or C2 request or answer mean (tables 26 to 32).
+// The bytes of a C1 or C2 request or answer (tables 26 to 32).
 #include <cstdint>
 
 namespace dsdpv1::profibus::dpv1 {

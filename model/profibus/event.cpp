@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kStates[] = {"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
 constexpr const char* kRates[] = {"12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k", "45.45k", "19.2k", "9.6k"};
 
-// A row of table 30: each bit of RmEntry::bits stands on the one before it.
+// A row of table 30: each bit of RmEntry::bits implies the one before it.
 constexpr const char* kRmStates[] = {"not in use", "in use", "in use, connected", "in use, connected, exchanging"};
 
 constexpr std::uint16_t kNone = 0xFFFF;  // kNoSap in 16 bits
@@ -50,7 +50,7 @@ constexpr NamedWord kWords[] = {
 #undef X
 };
 
-// "a", "b:4x": a number of the event; all others are names of words.
+// "a", "b:4x": a number of the event; all other fields are words.
 bool is_value(const std::string& field) { return field.size() == 1 || field[1] == ':'; }
 
 std::string word_text(const std::string& name, const Words& words) {
@@ -59,7 +59,7 @@ std::string word_text(const std::string& name, const Words& words) {
   return found == std::end(kWords) ? "{" + name + "}" : words.*found->word;
 }
 
-/// `pattern` with each {field} replaced by what `text_of` says of it.
+/// Replaces each {field} of `pattern` by `text_of` of it.
 template <class TextOf>
 std::string fill_in(const std::string& pattern, const TextOf& text_of) {
   std::string filled;

@@ -1,7 +1,6 @@
 #pragma once
-// What the chip has to say about itself: every refusal with its reason (ruling S8), every state change, every violated
-// rule of the user's bus. Events carry a reason and numbers only; words are made outside the core's per-character path,
-// by `describe`.
+// Events of the chip: every refusal with its reason (ruling S8), every state change, every violated rule of the user's
+// bus. Events carry only a reason and numbers; `describe` makes the text, outside the core's per-character path.
 #include <cstdint>
 #include <string>
 
@@ -14,7 +13,7 @@ namespace dsdpv1::profibus {
 struct Event {
   Tick at = 0;
   Reason reason{};
-  std::uint16_t a = 0, b = 0, c = 0;  ///< what the text's {a}, {b}, {c} stand for
+  std::uint16_t a = 0, b = 0, c = 0;  ///< values for {a}, {b}, {c} in the text
 };
 
 /// Receives events in order of time (host port violations carry the tick, all others the tick of a cycle's rising
@@ -24,9 +23,9 @@ struct EventSink {
   void* self = nullptr;
 };
 
-/// The event in words, one line, without the time.
+/// The event as text, one line, without the time.
 std::string describe(const Event& event, const Words& words);
-/// The text of a reason with the chip's words in it, {a}, {b} and {c} still to be filled in, and what to do about it.
+/// The text of a reason with the chip's words, {a}, {b} and {c} left as placeholders, and its advice.
 std::string text_template(Reason reason, const Words& words);
 std::string advice(Reason reason, const Words& words);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where the blocks leave their events: one sink for the whole chip, a test for null when nobody listens.
+// Receives the events of the blocks: one sink for the whole chip; without a listener one test for null.
 #include "model/profibus/event.hpp"
 
 namespace dsdpv1::profibus {

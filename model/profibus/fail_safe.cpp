@@ -1,4 +1,4 @@
-// Outputs cleared: by an empty Data_Exchange with Fail_Safe (table 21; ruling S19), by Clear_Data, by leaving DATA_EXCH
+// Clears outputs: on an empty Data_Exchange with Fail_Safe (table 21; ruling S19), on Clear_Data, on leaving DATA_EXCH
 // (S18).
 #include "model/profibus/dp_slave.hpp"
 

@@ -22,7 +22,7 @@ bool Fdl::addressed(Cycle now, const Telegram& telegram, std::uint8_t address, R
   if (!take_saps(now, telegram, request)) return false;
   if (request.da != kBroadcast || request.sdn()) return true;
   log_.at_cycle(now, Reason::kFunction, request.code, request.sa);
-  return false;  // only SDN goes to all
+  return false;  // only SDN may be a broadcast
 }
 
 bool Fdl::take_saps(Cycle now, const Telegram& telegram, Request& request) {

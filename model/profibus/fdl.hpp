@@ -1,6 +1,6 @@
 #pragma once
-// FDL: whom a telegram is for, SAP bytes, and the answer that a repetition gets again (EN 50170; rulings
-// S3, S20, S21, S26).
+// FDL: the addressee of a telegram, SAP bytes, and the answer repeated to a repetition (EN 50170; rulings S3, S20, S21,
+// S26).
 #include "model/profibus/dp_slave.hpp"
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/request.hpp"
@@ -12,13 +12,13 @@ class Fdl {
  public:
   explicit Fdl(EventLog& log) : log_(log) {}
 
-  /// Drops the memory of the last request and its answer.
+  /// Forgets the last request and its answer.
   void forget() { memory_.valid = false; }
-  /// True when `telegram` is a request for `address` or for all, well formed: then `request` is filled.
+  /// True if `telegram` is a well formed request for `address` or for all; fills `request`.
   bool addressed(Cycle now, const Telegram& telegram, std::uint8_t address, Request& request);
-  /// Executes the request, or recognises a repetition. The frame to be sent, null for none.
+  /// Executes the request, or recognises a repetition. Returns the frame to be sent, null for none.
   const Frame* execute(Cycle now, const Telegram& telegram, const Request& request, DpSlave& slave);
-  /// The one that was executed last.
+  /// The answer to the request executed last.
   const Frame& answer() const { return answer_; }
 
   template <class Archive>
@@ -29,7 +29,7 @@ class Fdl {
   }
 
  private:
-  /// What makes a request the same again (S26).
+  /// The values that identify a repeated request (S26).
   struct Memory {
     bool valid = false;
     std::uint8_t sa = 0, fc = 0, fcs = 0;

@@ -9,9 +9,9 @@ class Msac1 {
   Msac1(EventLog& log, int capacity, AcyclicMail& mail) : log_(log), capacity_(capacity), mail_(mail) {}
 
   void reset() { state_ = State::kIdle; }
-  /// SAP 51: a request or a poll of the master that may. The reply's data are valid until the next call.
+  /// SAP 51: a request or a poll of the master entitled to it. The reply's data are valid until the next call.
   Reply handle(Cycle now, const Request& request);
-  /// Data exchange is left: an open request is withdrawn.
+  /// Data exchange was left: withdraws an open request.
   void close(Cycle now);
   /// The user's answer, CRC already found right. Refused with a reason when it does not fit (V14).
   void answer(Cycle now, const std::uint8_t* pdu, int size);

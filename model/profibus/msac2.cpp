@@ -44,7 +44,7 @@ bool Msac2::lent_to_sender(const Request& request) const {
   return channel.state != State::kFree && channel.master == request.sa && request.ssap == kSsap;
 }
 
-/// Why a channel is not the sender's.
+/// Why the sender may not use the channel.
 Reply Msac2::refuse(Cycle now, const Request& request) const {
   const Channel& channel = channel_at(channel_of(request));
   const auto sap = static_cast<unsigned>(request.dsap);
@@ -127,7 +127,7 @@ Reply Msac2::send_answer(Cycle now, int number) {
   return Reply::with_data(fc::kDl, channel.pdu.bytes.data(), channel.pdu.size);
 }
 
-/// A request that the chip cannot serve is acknowledged; the next telegram gets the abort (V9, V11).
+/// Acknowledges a request that the chip cannot serve; the next telegram is answered with the abort (V9, V11).
 Reply Msac2::abort_for_request(Cycle now, int number, std::uint8_t function, std::uint8_t reason) {
   log_.at_cycle(now, Reason::kC2WrongRequest, sap_of(number), function, reason);
   abort(now, number, reason);

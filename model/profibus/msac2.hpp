@@ -20,12 +20,12 @@ class Msac2 {
   Reply initiate(Cycle now, const Request& request);
   /// SAP 48 or 47: poll, request or abort.
   Reply handle(Cycle now, const Request& request);
-  /// SDN to SAP 48 or 47: true when it was the abort of the channel's master.
+  /// SDN to SAP 48 or 47. Returns true if it was the abort of the channel's master.
   bool abort_unanswered(Cycle now, const Request& request);
   /// The user's answer, CRC already found right. Refused with a reason when it does not fit (V14).
   void answer(Cycle now, const std::uint8_t* pdu, int size);
 
-  /// The timers at `now`, and when one of them ends next.
+  /// Evaluates the timers at `now`; the next end of one of them.
   void eval(Cycle now);
   Cycle next() const;
 
@@ -48,7 +48,7 @@ class Msac2 {
     std::uint8_t master = 0;
     std::uint8_t abort_reason = 0;
     Cycle timeout = 0;       ///< Send_Timeout in cycles
-    Cycle idle_timeout = 0;  ///< twice that, as far as 16 bits go
+    Cycle idle_timeout = 0;  ///< twice that, limited to 16 bits
     Cycle watch = kNever;    ///< F or I ends
     Cycle user = kNever;     ///< U ends
     Pdu pdu;                 ///< Initiate, then the request, then its answer
@@ -96,7 +96,7 @@ class Msac2 {
   AcyclicMail& mail_;
   std::array<Channel, kC2Channels> channels_;
   int turn_ = kNobody;  ///< the channel whose request is with the user
-  Pdu reply_;           ///< what the chip itself says: immediate answers, initiate answers, aborts
+  Pdu reply_;           ///< replies of the chip itself: immediate answers, initiate answers, aborts
 };
 
 }  // namespace dsdpv1::profibus

@@ -1,4 +1,4 @@
-// C2 Initiate (7.3, tables 30 and 33; rulings V2, V3, V10): the resource manager lends a channel, and the connection is
+// C2 Initiate (7.3, tables 30 and 33; rulings V2, V3, V10): the resource manager lends a channel and the connection is
 // made.
 #include <algorithm>
 

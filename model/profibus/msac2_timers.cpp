@@ -1,5 +1,5 @@
-// The timers of C2 (figure 11; rulings V3, V12): F, within which the master polls, I, within which it asks again, U,
-// within which the user answers.
+// The timers of C2 (figure 11; rulings V3, V12): F limits the time to the master's poll, I to its next request, U to
+// the user's answer.
 #include <algorithm>
 
 #include "model/profibus/msac2.hpp"

@@ -1,13 +1,13 @@
 #pragma once
-// Why something happened: one row of a table, known by its address. Every room of the model has a table of its own
-// (reasons.inc: what every DP slave may say; a chip adds its rooms'), so that none needs to know the others'.
+// The reason for an event: one row of a table, identified by its address. Every room of the model has its own table
+// (reasons.inc: those of every DP slave; a chip adds its rooms'), so that no room depends on another's.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 
 namespace dsdpv1::profibus {
 
-/// What kind of event: decides how it is counted and shown.
+/// The kind of event: decides how it is counted and shown.
 enum class Severity : std::uint8_t {
   kInfo,       ///< a state change or a service that was carried out
   kRefusal,    ///< the chip refused something that a master or the user asked for
@@ -16,8 +16,8 @@ enum class Severity : std::uint8_t {
 
 // X(identifier, severity, stable code, text, advice). The text may hold {a}, {b}, {c} (decimal), {a:4x} (hexadecimal, 4
 // digits), {a:state} (a DP state), {a:rate} (a baud rate), {a:sap} (a SAP or none), {a:rm} (a row of the RM registry),
-// {a:high} and {a:low} (its bytes), {a:low2x}. Text and advice may hold the names of words.inc, {sync}: the chip's word
-// for it. docs/reasons.md explains each reason of the chip and is generated from the tables.
+// {a:high} and {a:low} (its bytes), {a:low2x}. Text and advice may hold names of words.inc, such as {sync}, replaced by
+// the chip's words. docs/reasons.md explains each reason of the chip and is generated from the tables.
 struct ReasonRow {
   Severity severity;
   const char *code, *text, *advice;
@@ -36,7 +36,7 @@ extern const ReasonRow kReasonRows[static_cast<std::size_t>(ReasonIndex::kCount)
 /// As small as a pointer, compared by name: `event.reason == Reason::kPrmIdent`.
 class Reason {
  public:
-  constexpr Reason() = default;  ///< none yet: to be assigned before it is asked
+  constexpr Reason() = default;  ///< none yet: assign before use
   constexpr explicit Reason(const ReasonRow& row) : row_(&row) {}
 
 #define X(id, ...) static const Reason id;
@@ -62,7 +62,7 @@ class Reason {
 inline const char* code(Reason reason) { return reason.row().code; }
 inline Severity severity(Reason reason) { return reason.row().severity; }
 
-/// The rows of one room, for whoever lists them.
+/// The rows of one room, for listing.
 struct ReasonTable {
   const ReasonRow* rows;
   std::size_t size;

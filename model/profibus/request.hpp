@@ -22,14 +22,14 @@ struct Request {
   std::uint8_t da = 0, sa = 0;  ///< without the SAP bit
   std::uint8_t code = 0;        ///< function code, 4 bits
   int dsap = kNoSap, ssap = kNoSap;
-  const std::uint8_t* data = nullptr;  ///< behind the SAP bytes
+  const std::uint8_t* data = nullptr;  ///< after the SAP bytes
   int size = 0;
 
   bool srd() const { return code == fc::kSrdLow || code == fc::kSrdHigh; }
   bool sdn() const { return code == fc::kSdnLow || code == fc::kSdnHigh; }
 };
 
-/// What a service says to a request; `kNothing` for SDN.
+/// A service's reply to a request; `kNothing` for SDN.
 struct Reply {
   enum class Kind : std::uint8_t { kNothing, kShort, kSd1, kData } kind = Kind::kNothing;
   std::uint8_t code = 0;  ///< response function code

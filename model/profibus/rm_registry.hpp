@@ -1,5 +1,5 @@
 #pragma once
-// The resource manager's registry (table 30): which C2 channel is lent to whom.
+// The resource manager's registry (table 30): which master holds which C2 channel.
 #include <array>
 #include <cstdint>
 

@@ -1,15 +1,15 @@
 #pragma once
-// The fixed buffers of figure 8, as large as the protocol allows. Outputs and inputs are double: buffer 1 is what the
-// other side gave last, buffer 2 what is shown on (ruling S4: the user and Read_Outputs see output 2, the master and
-// Read_Inputs see input 2).
+// The fixed buffers of figure 8, as large as the protocol allows. Outputs and inputs are double: buffer 1 has the
+// latest data of the other side, buffer 2 the data passed on (ruling S4: the user and Read_Outputs see output 2, the
+// master and Read_Inputs see input 2).
 #include <array>
 #include <cstdint>
 #include <cstring>
 
 namespace dsdpv1::profibus {
 
-/// The most that a telegram carries: 244 bytes behind the SAP bytes, less what each service puts before the user's.
-/// A chip may hold less (Capacities).
+/// Maximum data of a telegram: 244 bytes after the SAP bytes, less those that each service puts before the user's. A
+/// chip may hold less (Capacities).
 constexpr int kMaxIo = 244, kMaxCfg = 244, kMaxUserPrm = 244 - 7, kMaxDiag = 244 - 6, kMaxAcyclic = 244 - 4;
 
 /// A buffer of fixed size with the number of bytes in use.

@@ -44,7 +44,7 @@ Reply DpSlave::set_prm(Cycle now, const Request& request) {
   mail_.prm.due.set(now);
   if (config_.prm_mode == Judging::kUser) {
     log_.at_cycle(now, Reason::kPrmJudged, request.sa, static_cast<unsigned>(prm.user_size));
-    enter(now, DpState::kWaitPrm);  // who held the slave goes on holding it, the watchdog goes on watching (S15)
+    enter(now, DpState::kWaitPrm);  // the holding master still holds the slave, and the watchdog keeps running (S15)
     prm_ = prm;
     prm_awaited_ = true;
     cfg_awaited_ = false;

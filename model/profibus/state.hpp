@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
-// The state of a chip as bytes: written, and read again in another process. Each block says in one function beside its
-// members what its state is, for both ways:
-//
+// The state of a chip as bytes, written and read again, also in another process. Each block lists its state in one
+// function beside its members, for both directions:
 //   template <class Archive>
 //   void store(Archive& archive) {
 //     auto& [window, bits, deadline, index, searching] = *this;
@@ -12,9 +11,9 @@
 //     archive(index, searching);
 //   }
 //
-// The binding names all members: one that is added does not compile until it has its place there. What is read is
-// checked as it comes, so that no number, however it got into the bytes, leads a block beyond an array or into a loop
-// without end. Numbers are little endian and as wide as their type.
+// The binding names all members: a new member does not compile until it is listed. Values are checked as they are read,
+// so that damaged bytes cannot cause an access beyond an array or an endless loop. Numbers are little endian and as
+// wide as their type.
 #include <algorithm>
 #include <array>
 #include <bitset>
@@ -29,14 +28,14 @@
 
 namespace dsdpv1::profibus {
 
-/// What both ways have in common. `Way` has `number(T& value, T least, T most)` for each integer, `bytes` and `check`.
+/// Common to both directions. `Way` has `number(T& value, T least, T most)` for each integer, `bytes` and `check`.
 template <class Way>
 class StateArchive {
   friend Way;
   StateArchive() = default;
 
  public:
-  /// Truth values, integers that may have any value, blocks, and arrays of them.
+  /// Booleans, integers of any value, blocks, and arrays of them.
   template <class... T>
   void operator()(T&... fields) {
     (field(fields), ...);
@@ -46,7 +45,7 @@ class StateArchive {
   void within(Least least, Most most, T&... fields) {
     (limited(least, most, fields), ...);
   }
-  /// Cycles since the start of simulation, or kNever. As late as a tick can be, and early enough for what is long ago.
+  /// Cycles since the start of simulation, or kNever. As late as a tick can be, and early enough for events long ago.
   template <class... T>
   void cycles(T&... times) {
     (time(times, kLastTick / kTicksPerCycle), ...);
@@ -76,15 +75,15 @@ class StateArchive {
       for (std::size_t i = 0; i < 8; ++i) set.set(first + i, (byte >> i & 1U) != 0);
     }
   }
-  /// Given when the chip is made, or known from other members: not part of the state.
+  /// Given at construction, or derived from other members: not part of the state.
   template <class... T>
   void given(const T&... /*fields*/) {}
-  /// Written before it is read: not part of the state.
+  /// Written before it is read, so not part of the state.
   template <class... T>
   void scratch(const T&... /*fields*/) {}
 
  private:
-  // DPSIM_LAST_TICK of the C API and some more: what is planned may come after it.
+  // DPSIM_LAST_TICK of the C API and a margin: planned events may lie after it.
   static constexpr Tick kLastTick = (Tick{1} << 62) + (Tick{1} << 48), kFirst = -(Tick{1} << 32);
 
   Way& way() { return static_cast<Way&>(*this); }
@@ -152,7 +151,7 @@ class StateReader : public StateArchive<StateReader> {
 
   StateReader(const std::uint8_t* bytes, std::size_t size) : bytes_(bytes), size_(size) {}
 
-  /// What is not from `least` to `most` is left as it was, and the state is wrong.
+  /// A value outside `least` to `most` is not assigned, and the state is wrong.
   template <class T>
   void number(T& value, T least, T most) {
     const T read = next<T>();
@@ -165,13 +164,13 @@ class StateReader : public StateArchive<StateReader> {
     std::copy_n(bytes_ + at_, count, values);
     at_ += count;
   }
-  /// What a block can be in: `possible`, or the state is wrong.
+  /// Marks the state wrong unless `possible`, a consistency check of a block.
   void check(bool possible) {
     if (!possible && right_) wrong_at_ = at_;
     right_ = right_ && possible;
   }
 
-  /// All was right so far, and `wrong_at` bytes were read when something was not.
+  /// No fault so far; `wrong_at`: bytes read at the first fault.
   bool right() const { return right_; }
   std::size_t wrong_at() const { return wrong_at_; }
   bool at_end() const { return at_ == size_; }

@@ -8,7 +8,7 @@ namespace dsdpv1::profibus {
 namespace {
 
 constexpr Cycle kSynchroniserDelay = 2;  // P9: the logic sees a start edge two cycles after it was sampled
-constexpr Cycle kLoopDelay = 3;          // P9: an edge that the chip itself drives is sampled by the next edge
+constexpr Cycle kLoopDelay = 3;          // P9: an edge that the chip drives is sampled at the next edge
 
 }  // namespace
 
@@ -66,7 +66,7 @@ Unheard Station::unheard() const {
   return tx_.rts() ? Unheard{0, tx_.released() * kTicksPerCycle} : rx_.unheard();
 }
 
-// While a rate is searched, or an answer of this chip comes, who knows what becomes of it.
+// During the search, or while this chip answers, the result cannot be predicted.
 bool Station::set_run(const CharacterRun& run) {
   if (!listening() || search_.searching() || tx_.planned()) return false;
   const int to = telegrams_.takes_whole() ? addressee(run.bytes, static_cast<std::size_t>(run.size)) : kNoTelegram;
@@ -76,7 +76,7 @@ bool Station::set_run(const CharacterRun& run) {
 }
 
 Unconcerned Station::unconcerned() const {
-  constexpr int kGapBits = 2;  // more than a character that goes on may leave (S10), however it falls between two edges
+  constexpr int kGapBits = 2;  // more than S10 allows within a telegram, whatever its position between two edges
   const bool takes_whole = listening() && !search_.searching() && !tx_.planned() && telegrams_.takes_whole();
   const Cycle idle = takes_whole && (for_others_ || !rx_.in_run()) ? rx_.idle_from() : kNever;
   if (idle == kNever) return {};
@@ -91,7 +91,7 @@ void Station::leave_run(Tick at) {
 
 void Station::plan_timers() { timers_ = std::min({search_.next(), watchdog_.next(), slave_.next_timer()}); }
 
-/// Nothing is lost: the edges up to now are those of a character in progress, or nobody listens.
+/// Drops edges without loss: those up to now belong to a character in progress, or the receiver is deaf.
 void Station::make_room(Tick at) {
   const Cycle now = at / kTicksPerCycle;
   if (listening())
@@ -113,7 +113,7 @@ void Station::eval(Cycle now) {
   if (tx_.eval(now)) rx_.restart(search_.bit(), now, tx_.end() + kLoopDelay);
   if (was_sending || !tx_.rts()) return;
   ++answered_;
-  telegrams_.cut(now);  // half duplex: what comes now is our own echo
+  telegrams_.cut(now);  // half duplex: characters received now are our own echo
 }
 
 void Station::listen(Cycle now) {
@@ -166,7 +166,7 @@ void Station::lock(Cycle now) {
 
 // --- telegrams -------------------------------------------------------------------------------------------------------
 
-/// False: a telegram without a function, which is not counted.
+/// Returns false for a telegram without a function, which is not counted.
 bool Station::count(std::uint8_t sd) {
   const bool counts = sd != sd::kSc && sd != sd::kSd4;
   if (counts) ++received_;

@@ -1,6 +1,6 @@
 #pragma once
 // A PROFIBUS DP slave station between PBRXD and PBTXD: receiver, baud search, watchdog, FDL and the DP services,
-// evaluated in the order that docs/microarchitecture.md fixes. Nothing here knows how the user's side looks.
+// evaluated in the order that docs/microarchitecture.md defines. This file is independent of the user-side interface.
 #include <algorithm>
 #include <utility>
 
@@ -14,7 +14,7 @@
 
 namespace dsdpv1::profibus {
 
-/// What a chip makes of its station: parameters of the rulings, in cycles (bits where it says so), and its capacities.
+/// Per-chip configuration of the station: ruling parameters in cycles (bits where noted), and capacities.
 struct StationConfig {
   Cycle rts_lead = 4, rts_trail = 4;
   Cycle search_window = 50 * kCyclesPerMs;
@@ -26,52 +26,52 @@ struct StationConfig {
 class Station {
  public:
   Station(EventLog& log, const StationConfig& config);
-  Station(const Station&) = delete;  // its parts know each other
+  Station(const Station&) = delete;  // its parts refer to each other
   Station& operator=(const Station&) = delete;
 
-  /// PBRXD changes at `at`; every rising edge up to then has been evaluated. False: next() is what it was.
+  /// PBRXD changes at `at`; every rising edge up to then has been evaluated. Returns false if next() is unchanged.
   bool set_rxd(Tick at, bool level) {
     if (rx_.full()) make_room(at);
     const bool seen_again = std::exchange(for_others_, false);
     return rx_.set_line(at, level) || seen_again;
   }
-  /// See UartRx::set_run. False: the edges have to be told.
+  /// See UartRx::set_run. False: the edges must be passed.
   bool set_run(const CharacterRun& run);
   void leave_run(Tick at);
   bool rxd() const { return rx_.input(); }
   bool left_run() const { return rx_.left_run(); }
   void forget_run() { rx_.forget_run(); }
-  /// Changes of PBRXD within this time may be told late, before the rising edge at `until` or an earlier one at which
-  /// next() has something.
+  /// Changes of PBRXD within this time may be passed late, before the rising edge at `until` or an earlier one at which
+  /// next() is due.
   Unheard unheard() const;
-  /// Telegrams that need not be told, but for the last of them before anything else is: the others are counted, `count`
-  /// for stations, by pass().
+  /// Telegrams that may be skipped; only the last one must be passed before any other call. pass() counts the others,
+  /// `count` of them for stations.
   Unconcerned unconcerned() const;
   void pass(std::uint64_t count) { received_ += count; }
   /// Reset: everything as at power-on.
   void reset();
   /// The rising edge of `now`.
   void eval(Cycle now);
-  /// The next cycle at which eval() does something, but for unseen().
+  /// The next cycle at which eval() has an effect, not counting unseen().
   Cycle next() const;
-  /// The next cycle at which eval() has something to do with a telegram for others, told as a run: nobody sees it but
-  /// in telegrams_received(), so that it may be called late, before anything else concerns this station. kNever:
-  /// nothing.
+  /// The next cycle at which eval() processes a telegram for others that was passed as a run. Only telegrams_received()
+  /// shows it, so the call may come late, before anything else concerns this station. kNever: nothing.
   Cycle unseen() const { return for_others_ ? next_of_line() : kNever; }
-  /// Where that telegram has been heard and decided by the edge of `upto`: all that comes of it, in the place of
-  /// eval().
+  /// Applies all effects of that telegram at once, replacing eval(), if it was received and decided by the edge at
+  /// `upto`.
   bool pass_unseen(Cycle upto);
 
-  /// Whether eval(now) may do more than take a character or send a bit: change what the user's side hears, or a state.
+  /// Whether eval(now) may do more than receive a character or send a bit: change the mail to the user's side, or a
+  /// state.
   bool may_act(Cycle now) const {
     return now >= timers_ || (!tx_.rts() && now >= telegrams_.deadline() && !rx_.completes(now));
   }
 
-  /// Before this cycle eval() sends bits of an answer and does nothing else.
+  /// Before this cycle eval() only sends bits of an answer.
   Cycle only_sends_until() const { return tx_.rts() ? std::min(tx_.end(), timers_) : 0; }
-  /// The same as eval() before only_sends_until(); next().
+  /// As eval(), before only_sends_until(); returns next().
   Cycle send_bit(Cycle now) {
-    if (now == tx_.next()) tx_.next_run();  // something else was planned that has nothing to do any more
+    if (now == tx_.next()) tx_.next_run();  // a planned event has become void
     return std::min(tx_.next(), timers_);
   }
 
@@ -84,10 +84,10 @@ class Station {
   bool rts() const { return tx_.rts(); }
   bool baud_found() const { return running() && !search_.searching(); }
   BaudIndex baud_index() const { return baud_found() ? search_.index() : kBaudUnknown; }
-  /// All that the user's side may know and do.
+  /// The interface to the user's side.
   UserSide& user() { return user_; }
   const DpSlave& slave() const { return slave_; }
-  /// Searching: the rate that is tried.
+  /// During the search: the rate being tried.
   BaudIndex tried() const { return search_.index(); }
   Watchdog::State watchdog() const { return watchdog_.state(); }
   std::uint64_t telegrams_received() const { return received_; }
@@ -105,7 +105,7 @@ class Station {
   }
 
  private:
-  friend class UserSide;  // carries out its commands
+  friend class UserSide;  // it executes commands
   void initialise(Cycle now, const SlaveConfig& config);
   bool running() const { return slave_.state() != DpState::kOffline; }
   bool listening() const { return running() && !tx_.rts(); }
@@ -132,9 +132,9 @@ class Station {
   DpSlave slave_;
   Fdl fdl_;
   UartTx tx_;
-  // When search, watchdog or a timer of C2 is over next: kept, as it is asked at every bit sent.
+  // The next end of the search, the watchdog or a C2 timer: kept, because every bit sent reads it.
   Cycle timers_ = kNever;
-  bool for_others_ = false;  // what is heard, and waits for nobody
+  bool for_others_ = false;  // the present telegram is for others and no other event waits
   std::uint64_t received_ = 0, answered_ = 0;
 };
 

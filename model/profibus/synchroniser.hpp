@@ -1,5 +1,5 @@
 #pragma once
-// Two flip-flops in front of an asynchronous input (ruling P9): what rising edge m sampled, the logic uses at edge m+2.
+// Two flip-flops at an asynchronous input (ruling P9): the logic uses at edge m+2 the level sampled at rising edge m.
 #include <array>
 
 #include "model/profibus/time.hpp"
@@ -10,7 +10,7 @@ class Synchroniser {
  public:
   explicit Synchroniser(bool level) : level_(level), input_(level) {}
 
-  /// The input changes at `at`; pulses that no rising edge samples vanish.
+  /// The input changes at `at`; pulses that no rising edge samples are lost.
   void set(Tick at, bool level) {
     if (level == input_) return;
     input_ = level;
@@ -20,7 +20,7 @@ class Synchroniser {
     else
       slot(count_++) = {visible, level};
   }
-  /// The edge of `now`; true when the logic sees another level than before.
+  /// The edge of `now`. Returns true if the logic's level changes.
   bool eval(Cycle now) {
     const bool before = level_;
     while (count_ > 0 && slot(0).cycle <= now) {

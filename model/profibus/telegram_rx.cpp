@@ -74,7 +74,7 @@ void TelegramRx::character(Cycle now, const Character& character, int bit) {
   }
   const bool first = after_syn || !in_telegram();
   if (after_syn) report_unsynced(now);
-  if (first && !after_gap) {  // the rest of something that was given up, or that began with the chip's own answer
+  if (first && !after_gap) {  // the rest of a telegram that was abandoned, or that began during the chip's own answer
     if (!given_up_) count_unsynced();
     return;
   }
@@ -185,7 +185,7 @@ void TelegramRx::count_unsynced() {
   if (!quiet_ && unsynced_ < kMostUnsynced) ++unsynced_;
 }
 
-// While one is received it comes to its end before the bytes do.
+// A telegram in progress ends before its bytes do.
 bool TelegramRx::is_possible() const {
   if (state_ != State::kReceiving) return true;
   const bool length_known = bytes_[0] == sd::kSd2 && count_ >= 3;

@@ -18,10 +18,10 @@ struct Telegram {
   const std::uint8_t* data = nullptr;
   int size = 0;
   Cycle end = 0;        ///< calculated end of the last stop bit
-  bool synced = false;  ///< T_SYN went before it; answers of other stations have none
-  int idle_bits = 0;    ///< whole bit times of idle before it; a large number says little
+  bool synced = false;  ///< preceded by T_SYN; answers of other stations are not
+  int idle_bits = 0;    ///< whole bit times of idle before it; a large number is not exact
 
-  /// `from`: the bytes that `data` is of, `most` and one.
+  /// `from`: the bytes into which `data` points, `most` plus one.
   template <class Archive>
   void store(Archive& archive, const std::uint8_t* from, int most) {
     auto& [delimiter, to, sender, function, sum, bytes, length, ended, after_syn, idle] = *this;
@@ -42,28 +42,28 @@ class TelegramRx {
   void reset();
   /// Forgets the telegram in progress.
   void restart();
-  /// The chip's own answer begins at `now`: what is in progress is lost.
+  /// The chip's own answer begins at `now`: the telegram in progress is lost.
   void cut(Cycle now);
-  /// While `quiet`, faulty telegrams are neither events nor counted: at a wrong baud rate everything is faulty. What
-  /// was counted is forgotten.
+  /// While `quiet`, faulty telegrams are neither reported nor counted, because at a wrong baud rate all are faulty.
+  /// Resets the count.
   void set_quiet(bool quiet);
-  /// Nothing is under way or to be reported: of characters that are one right telegram, character() for each of them,
-  /// however late, is all that it takes, up to the edge behind the last.
+  /// True when idle with nothing to report. A complete valid telegram can then be fed with character() alone, even
+  /// late, up to the edge after its last character.
   bool takes_whole() const { return !in_telegram() && unsynced_ == 0; }
-  /// character() for each of them: the first came behind `idle` cycles, the last has ended at `end`. False: `idle` is
-  /// none before a telegram, and nothing was done.
+  /// Feeds all characters with character(): the first came after `idle` cycles, the last ended at `end`. Returns false
+  /// and does nothing if `idle` cannot precede a telegram.
   bool take_whole(const std::uint8_t* bytes, int size, Cycle idle, Cycle end, int bit);
-  /// The same of a telegram whose content nobody wants, and the edge of decided() in addition, when no character begins
-  /// until then.
+  /// As above, for a telegram whose content is not needed, including the edge of decided(), if no character begins
+  /// before it.
   bool pass_whole(Cycle idle, int bit);
-  /// When a telegram is decided that has ended at `end`, if no character begins until then.
+  /// When a telegram that ended at `end` is decided, if no character begins before.
   static Cycle decided(Cycle end, int bit) { return end + bit + 1; }
   /// A character was completed at `now`.
   void character(Cycle now, const Character& character, int bit);
-  /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see
+  /// The edge of `now`; `receiving`: a character is being sampled. Returns true when a telegram is decided (S10): see
   /// telegram().
   bool eval(Cycle now, bool receiving);
-  /// When the telegram in progress is decided if no character begins until then, kNever without one.
+  /// When the telegram in progress is decided, if no character begins before; kNever without one.
   Cycle deadline() const { return in_telegram() ? deadline_ : kNever; }
   const Telegram& telegram() const { return telegram_; }
 
@@ -96,8 +96,8 @@ class TelegramRx {
   EventLog& log_;
   State state_ = State::kWaitSyn;
   bool quiet_ = true;
-  bool given_up_ = false;  // what follows without a gap belongs to something that was reported or counted
-  unsigned unsynced_ = 0;  // faulty telegrams without T_SYN that were not reported yet (S8)
+  bool given_up_ = false;  // characters that follow without a gap belong to a telegram already reported or counted
+  unsigned unsynced_ = 0;  // faulty telegrams without T_SYN, not reported yet (S8)
   int count_ = 0, expected_ = 0;
   Cycle deadline_ = kNever;
   static constexpr int kMostBytes = 256;

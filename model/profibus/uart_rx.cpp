@@ -15,13 +15,13 @@ bool UartRx::set_line(Tick at, bool level) {
   if (level == input_) return false;
   input_ = level;
   note(first_edge_after(at) + kSynchroniser);
-  return count_ <= 2;  // nobody looks at more than the first two
+  return count_ <= 2;  // later ones do not change next()
 }
 
 void UartRx::note(Cycle visible) {
   const unsigned last = (first_ + count_ - 1) % kDepth;
   if (count_ > 0 && edges_[last] == visible)
-    --count_;  // there and back between two edges
+    --count_;  // two changes between two edges cancel
   else
     edges_[(first_ + count_++) % kDepth] = visible;
 }
@@ -57,10 +57,10 @@ Cycle UartRx::next() const {
   if (in_run() && at_once_) return stop_sample() + Cycle{run_size_ - 1 - run_index_} * kBitsPerCharacter * bit_;
   const Cycle stop = stop_sample();
   if (stop != kNever) return stop;
-  return state_ == State::kReceiving ? sample_ : edge();  // maybe no start bit, or none at all
+  return state_ == State::kReceiving ? sample_ : edge();  // it may not be a start bit at all
 }
 
-// Once the start bit stands, all that counts is the level at the sampling points, and that is asked at the last one.
+// Once the start bit is valid, only the levels at the sampling points count, and they are evaluated at the last one.
 Unheard UartRx::unheard() const {
   const Cycle stop = stop_sample();
   if (stop == kNever || in_run()) return {};
@@ -68,7 +68,7 @@ Unheard UartRx::unheard() const {
   return {stands ? 0 : (start_sample() - kSynchroniser) * kTicksPerCycle, stop * kTicksPerCycle};
 }
 
-// Edges and sampling points in their order; at one cycle the edge comes first.
+// Processes edges and sampling points in order; at one cycle the edge comes first.
 bool UartRx::eval(Cycle now) {
   if (in_run()) {
     if (stop_sample() > now) return false;
@@ -87,7 +87,8 @@ bool UartRx::eval(Cycle now) {
   }
 }
 
-// --- runs: what the same edges would have come to --------------------------------------------------------------------
+// --- runs: the effect of the same edges
+// ---------------------------------------------------------------------------------
 
 bool UartRx::set_run(const CharacterRun& run, bool at_once) {
   if (state_ != State::kIdle || count_ > 0 || in_run() || run.bit != bit_ || run.size > kLongestRun) return false;
@@ -119,7 +120,7 @@ void UartRx::pass_characters(int count) {
   run_index_ += count;
 }
 
-// The edges until `at` of the characters that are not complete: of one, and the first of the next.
+// Inserts the edges up to `at` of the characters that are not complete: one, and the first edge of the next.
 void UartRx::leave_run(Tick at) {
   while (in_run() && stop_sample() <= at / kTicksPerCycle) take_from_run();
   left_run_ |= in_run();
@@ -155,7 +156,7 @@ void UartRx::take_edge() {
 
 // The sampling points before `end`, up to which the line does not change.
 bool UartRx::sample(Cycle end) {
-  if (index_ == 0 && line_) {  // the start bit is gone at its middle: a glitch, idle goes on (S10)
+  if (index_ == 0 && line_) {  // the line is high in the middle of the start bit: a glitch, idle continues (S10)
     state_ = State::kIdle;
     return false;
   }

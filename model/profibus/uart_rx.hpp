@@ -1,6 +1,6 @@
 #pragma once
 // The receiving half of the UART bit engine: two flip-flops, start bit search, mid-bit sampling, even parity, stop bit
-// (rulings P9, S2, S10). An edge of the line is only noted; a character is decided once, at its last sampling point,
+// (rulings P9, S2, S10). Edges of the line are only noted; a character is decided once, at its last sampling point,
 // from the edges noted until then.
 #include <array>
 
@@ -9,7 +9,7 @@
 
 namespace dsdpv1::profibus {
 
-/// A character as it was sampled.
+/// A sampled character.
 struct Character {
   Cycle start = 0;  ///< the cycle at which the synchronised line fell
   Cycle idle = 0;   ///< idle cycles before `start`, from the calculated end of the stop bit before
@@ -25,13 +25,13 @@ struct Character {
   }
 };
 
-/// Times of changes of the line that need not be told at once; none when `from` is kNever.
+/// Times of changes of the line that may be passed late; none if `from` is kNever.
 struct Unheard {
   Tick from = kNever, until = kNever;
 };
 
-/// Telegrams of others that need not be told, told as runs otherwise: right ones (addressee()) that begin from `from`
-/// on, at `bit` cycles a bit, for another station than `address` or for nobody. None when `from` is kNever.
+/// Telegrams that need not be passed if they are passed as runs: valid ones (addressee()) from `from` on, at `bit`
+/// cycles per bit, for a station other than `address` or for none. None if `from` is kNever.
 struct Unconcerned {
   Tick from = kNever;
   Cycle bit = 0;
@@ -40,67 +40,67 @@ struct Unconcerned {
 
 class UartRx {
  public:
-  /// The line changes at `at`, not before an earlier call's. Pulses that no rising edge samples vanish. Not when
-  /// full(). False: next() and receiving() are what they were, as with most edges within a character.
+  /// The line changes at `at`, not before an earlier call's. Pulses that no rising edge samples are lost. Not while
+  /// full(). Returns false if next() and receiving() are unchanged, as for most edges within a character.
   bool set_line(Tick at, bool level);
-  /// No room for a further edge: those that the logic has seen are to be used by eval() or dropped by skip().
+  /// No room for another edge: eval() must use or skip() drop those that the logic has seen.
   bool full() const { return count_ == kDepth; }
-  /// The line as the logic sees it at `now`, without receiving.
+  /// Follows the line up to `now` without receiving.
   void skip(Cycle now);
 
-  /// Instead of set_line from now on, until the run is over or left: what comes is `run`, at this receiver's bit
-  /// length. False: not now, or not at all, as it is too long or of another bit length. With `at_once` next() is where
-  /// its last character is complete.
+  /// Replaces set_line from now on, until the run is over or left: the line carries `run` at this receiver's bit
+  /// length. Returns false if that is impossible now, or the run is too long or has another bit length. With `at_once`
+  /// next() is the completion of its last character.
   bool set_run(const CharacterRun& run, bool at_once);
-  /// The rest of the run, after `at`, is told by set_line, or does not come at all.
+  /// The rest of the run, after `at`, is passed by set_line or does not occur.
   void leave_run(Tick at);
-  /// The line as it was told last.
+  /// The last level passed.
   bool input() const { return input_; }
   bool in_run() const { return run_index_ < run_size_; }
-  /// From this cycle on the line is idle, but for what is not told yet; kNever as long as a character comes, or a
-  /// break.
+  /// The cycle from which the line is idle, unless a later change is passed; kNever during a character or a break.
   Cycle idle_from() const {
     if (in_run()) return run_end();
     return state_ == State::kIdle && count_ == 0 ? idle_since_ : kNever;
   }
-  /// The line as the logic sees it, and its next change, which eval() or skip() takes.
+  /// The line as seen by the logic, and its next change, which eval() or skip() takes.
   bool line() const { return line_; }
   Cycle next_change() const { return edge(); }
-  /// Between two characters, as far as eval() has come: since when; else, and in a break, kNever.
+  /// Between two characters, as far as eval() has come: the start of the idle time; otherwise, and in a break, kNever.
   Cycle idle_since() const { return state_ == State::kIdle ? idle_since_ : kNever; }
-  /// A run that was to be heard at once is complete at `now`, none of its characters was taken by eval(): take_run() is
-  /// all of them.
+  /// A run passed with `at_once` is complete at `now` and eval() has taken none of its characters: take_run() takes
+  /// all.
   bool whole_run(Cycle now) const { return in_run() && at_once_ && run_index_ == 0 && next() <= now; }
   const std::uint8_t* run_bytes() const { return run_.data(); }
   int run_size() const { return run_size_; }
-  /// Idle time before it and its end, as the logic sees them, in cycles.
+  /// Idle time before the run and its end, as seen by the logic, in cycles.
   Cycle run_idle() const { return run_start_ - idle_since_; }
   Cycle run_end() const { return run_start_ + Cycle{run_size_ - run_index_} * kBitsPerCharacter * bit_; }
   void take_run();
-  /// A run was left, by restart() or leave_run(), and forget_run() not called since.
+  /// A run was left by restart() or leave_run(), and forget_run() has not been called since.
   bool left_run() const { return left_run_; }
   void forget_run() { left_run_ = false; }
 
-  /// Forgets a character in progress and samples with `bit` cycles a bit from `now` on. Idle counts from `idle_since`
-  /// if the line is high, else from its next rise.
+  /// Abandons a character in progress and samples with `bit` cycles per bit from `now` on. Idle counts from
+  /// `idle_since` if the line is high, else from its next rise.
   void restart(int bit, Cycle now, Cycle idle_since);
-  /// The edge of `now`. True when a character is complete: see character(). To be called again then, of a run that was
-  /// to be heard at once there may be more.
+  /// The edge of `now`. Returns true when a character is complete: see character(). Then call it again, because a run
+  /// with `at_once` may have more.
   bool eval(Cycle now);
-  /// The next edge at which eval() does something that others see.
+  /// The next edge at which eval() has a visible effect.
   Cycle next() const;
-  /// A character is being sampled at `at` or begins then, as far as the edges noted say. eval() was called up to now.
+  /// Whether a character is being sampled at `at` or begins there, according to the noted edges. eval() was called up
+  /// to now.
   bool receiving(Cycle at) const {
     return state_ == State::kReceiving || (state_ == State::kIdle && edge() <= at) || (in_run() && run_start_ <= at);
   }
 
-  /// From when on, and before when, edges of the line may be told late: before eval() is called for `until`'s cycle.
+  /// The time within which edges of the line may be passed late: before eval() is called for `until`'s cycle.
   Unheard unheard() const;
   /// The last sampling point of a character is at `now`.
   bool completes(Cycle now) const { return stop_sample() == now; }
 
   const Character& character() const { return character_; }
-  /// Where the present character() was complete.
+  /// The cycle at which the present character() was complete.
   Cycle completed() const { return character_.start + to_stop(); }
   int bit() const { return bit_; }
 
@@ -123,8 +123,8 @@ class UartRx {
  private:
   static constexpr int kStopIndex = 10;
   enum class State : std::uint8_t { kIdle, kReceiving, kBreak };
-  // A break has no end, so edges are consumed as they come; within a character there are at most ten that count. More
-  // are noise: set_line's caller makes room.
+  // A break has no end, so edges are consumed as they come; within a character at most ten count. More are noise, for
+  // which set_line's caller makes room.
   static constexpr unsigned kDepth = 16;
   Cycle edge() const { return count_ > 0 ? edges_[first_] : kNever; }
   Cycle second_edge() const { return count_ > 1 ? edges_[(first_ + 1) % kDepth] : kNever; }
@@ -133,8 +133,8 @@ class UartRx {
     --count_;
     line_ = !line_;
   }
-  // Of the character that is being received or begins: the middle of its start bit while that is to come, and the last
-  // sampling point; kNever as long as the edges noted do not say that the start bit stands.
+  // For the character being received or beginning: the middle of its start bit until that has passed, and the last
+  // sampling point; kNever until the noted edges confirm the start bit.
   Cycle start_sample() const;
   Cycle stop_sample() const;
   void take_edge();
@@ -144,7 +144,7 @@ class UartRx {
   void take_from_run();
   void pass_characters(int count);
 
-  std::array<Cycle, kDepth> edges_{};  // at which the logic sees the line change, from line_ on
+  std::array<Cycle, kDepth> edges_{};  // cycles at which the logic sees the line change, starting from line_
   unsigned first_ = 0, count_ = 0;
   bool line_ = true, input_ = true;
 
@@ -156,11 +156,11 @@ class UartRx {
   Cycle idle_since_ = 0;
   Character character_;
 
-  // The last character of a run is complete when its sender has long forgotten it.
+  // Longer than any run: its sender has long forgotten it when the last character is complete.
   static constexpr int kLongestRun = 256;
   std::array<std::uint8_t, kLongestRun> run_{};
-  int run_size_ = 0, run_index_ = 0;  // the first character that is not complete; all of them are: no run
-  Cycle run_start_ = 0;               // the cycle at which the logic sees it begin ...
+  int run_size_ = 0, run_index_ = 0;  // the first incomplete character; equal to the size: no run
+  Cycle run_start_ = 0;               // its begin as seen by the logic ...
   Tick run_edge_ = 0;                 // ... and its start bit on the line
   bool at_once_ = false, left_run_ = false;
 };

@@ -47,7 +47,7 @@ bool UartTx::eval(Cycle now) {
   return false;
 }
 
-// What is left to be sent lies within the bytes.
+// The rest to be sent lies within the bytes.
 bool UartTx::is_possible() const {
   if (next_ == kNever) return true;
   if (bytes_ == nullptr || end_ != begin_ + Cycle{size_} * kBitsPerCharacter * bit_) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// The sending half of the UART bit engine: characters without a gap, PBRTS round them (rulings P2, S2).
+// The sending half of the UART bit engine: characters without a gap, framed by PBRTS (rulings P2, S2).
 #include "model/profibus/baud.hpp"
 #include "model/profibus/character_run.hpp"
 
@@ -10,16 +10,16 @@ class UartTx {
   /// Sends `size` bytes, which must stay unchanged until busy() is false. The first start bit falls at `begin`; PBRTS
   /// rises `lead` cycles before and falls `trail` cycles after the end of the last stop bit.
   void send(const std::uint8_t* bytes, int size, int bit, Cycle begin, Cycle lead, Cycle trail);
-  /// Drops everything at once: PBTXD high, PBRTS low.
+  /// Aborts at once: PBTXD high, PBRTS low.
   void abort();
-  /// The edge of `now`. True at the edge at which PBRTS falls.
+  /// The edge of `now`. Returns true at the edge at which PBRTS falls.
   bool eval(Cycle now);
-  /// The same at next() from the first start bit to end(): puts the next run of equal bits on the line, so that only
-  /// level changes and character ends need an evaluation.
+  /// As eval(), at next() from the first start bit to end(): sends a whole run of equal bits, so that only level
+  /// changes and character ends need an evaluation.
   void next_run() {
     if (frame_bits_ == 0) load();
     txd_ = (frame_ & 1U) != 0;
-    const unsigned other = txd_ ? ~frame_ : frame_;  // its lowest one is the next bit of the other level
+    const unsigned other = txd_ ? ~frame_ : frame_;  // its lowest 1 is the next bit of the other level
     const int run = __builtin_ctz(other | 1U << frame_bits_);
     frame_ >>= run;
     frame_bits_ -= run;
@@ -27,11 +27,11 @@ class UartTx {
   }
   Cycle next() const { return next_; }
 
-  /// While the first start bit begins: what is being sent. PBTXD is not shown any more, until show() is called, within
-  /// the characters, or they are over.
+  /// Call while the first start bit begins. Returns the characters being sent and hides PBTXD until show() is called
+  /// within them, or until they end.
   CharacterRun hide();
   bool begins(Cycle now) const { return rts_ && now == begin_; }
-  /// PBTXD is at `now` what it is without hide().
+  /// PBTXD takes its real level at `now`.
   void show(Cycle now);
 
   bool txd() const { return txd_; }
@@ -40,7 +40,7 @@ class UartTx {
   Cycle end() const { return end_; }                ///< end of the last stop bit
   Cycle released() const { return end_ + trail_; }  ///< PBRTS falls
 
-  /// `from`: what is sent, in whole; at most `most` bytes.
+  /// `from`: all bytes being sent; at most `most`.
   template <class Archive>
   void store(Archive& archive, const std::uint8_t* from, int most) {
     auto& [frames, bytes, size, bit, begin, end, trail, next, frame, frame_bits, txd, rts] = *this;

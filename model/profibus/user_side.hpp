@@ -1,8 +1,8 @@
 #pragma once
-// The one narrow interface between a DP slave and its user's side, whatever that is (a shared RAM, registers, a serial
-// port). The slave speaks by mail: what there is for the user, each with the cycle since which it waits. The user's
-// side looks at the mail when it comes to it, takes a block by copying it and clearing its `due`, and speaks by
-// commands. Mail that nobody takes is replaced by newer.
+// The only interface between a DP slave and its user's side (a shared RAM, registers, a serial port). The slave
+// communicates by mail: items for the user, each with the cycle since which it waits. The user's side reads the mail
+// when it gets to it, takes a block by copying it and clearing its `due`, and replies by commands. Mail that is not
+// taken is replaced by newer mail.
 #include "model/profibus/baud.hpp"
 #include "model/profibus/cfg_identifier.hpp"
 #include "model/profibus/dp_state.hpp"
@@ -14,15 +14,15 @@ namespace dsdpv1::profibus {
 
 class Station;
 
-/// The most that the chip's user side holds of each block; nothing above what the protocol allows (sap_buffers.hpp).
+/// Capacities of the chip's user side for each block; at most those of the protocol (sap_buffers.hpp).
 struct Capacities {
-  int user_prm = kMaxUserPrm;  ///< Set_Prm behind its 7 standard bytes
+  int user_prm = kMaxUserPrm;  ///< Set_Prm after its 7 standard bytes
   int cfg = kMaxCfg;           ///< Check_Cfg; more is answered with RR
   int io = kMaxIo;             ///< inputs, and outputs
   int acyclic = kMaxAcyclic;   ///< data of a C1 or C2 request or answer
 };
 
-/// Who judges parameters or a configuration: the slave by their length (tables 13 and 14), by comparison, or the user.
+/// Who judges parameters or a configuration: the slave by length (tables 13 and 14) or by comparison, or the user.
 enum class Judging : std::uint8_t { kMaximum = 0, kExact = 1, kUser = 2 };
 
 /// The initialisation of the slave, already checked: every number within the chip's capacities.
@@ -48,14 +48,14 @@ struct SlaveConfig {
   }
 };
 
-/// Something that waits to be handed to the user since a cycle; kNever: nothing waits.
+/// The cycle since which an item waits for the user; kNever: none waits.
 struct Due {
   Cycle since = kNever;
 
   void set(Cycle now) { since = now; }
   void clear() { since = kNever; }
   bool waiting() const { return since != kNever; }
-  /// Set before the cycle `now`: whoever acts at `now` sees what was there before its edge.
+  /// Set before the cycle `now`: an action at `now` uses the state before its edge.
   bool before(Cycle now) const { return since < now; }
   template <class Archive>
   void store(Archive& archive) {
@@ -87,7 +87,7 @@ struct CfgMail {
     archive(waits, cfg, outputs, inputs);
   }
 };
-/// New outputs; what they are at present: UserSide::outputs().
+/// New outputs; UserSide::outputs() has their present value.
 struct OutputMail {
   Due due;
 
@@ -97,7 +97,7 @@ struct OutputMail {
     archive(waits);
   }
 };
-/// A Global_Control that was carried out.
+/// A Global_Control that was executed.
 struct ControlMail {
   Due due;
   std::uint8_t command = 0, group = 0, master = 0;
@@ -108,7 +108,7 @@ struct ControlMail {
     archive(waits, control, groups, sender);
   }
 };
-/// A Set_Slave_Address that was carried out.
+/// A Set_Slave_Address that was executed.
 struct AddressMail {
   Due due;
   std::uint8_t address = 0;
@@ -133,7 +133,7 @@ struct StateMail {
     archive.within(DpState::kOffline, DpState::kDataExch, present);
   }
 };
-/// The baud rate: found, or searched again.
+/// The baud rate: found, or in search again.
 struct BaudMail {
   Due due;
   BaudIndex index;
@@ -157,7 +157,7 @@ struct AcyclicMail {
   }
 };
 
-/// What the user side hears.
+/// The mail to the user's side.
 struct UserMail {
   PrmMail prm;
   CfgMail cfg;
@@ -179,23 +179,23 @@ class UserSide {
  public:
   explicit UserSide(Station& station) : station_(station) {}
 
-  // --- what it hears ------------------------------------------------------------------------------------------------
+  // --- mail ---------------------------------------------------------------------------------------------------------
   UserMail& mail() { return mail_; }
   const UserMail& mail() const { return mail_; }
-  /// What the user is to see of the outputs (buffer 2), as they are at present.
+  /// The outputs that the user may see (buffer 2), at present.
   const IoBlock& outputs() const;
   int input_size() const;  ///< configured, from the initialisation or Check_Cfg
 
-  // --- what it commands ---------------------------------------------------------------------------------------------
+  // --- commands -----------------------------------------------------------------------------------------------------
   /// Through OFFLINE to WAIT_PRM and baud search (D7, S1).
   void initialise(Cycle now, const SlaveConfig& config);
-  /// `good`: the user found the parameters (configuration) right. See ruling H7.
+  /// `good`: the user accepts the parameters (configuration). See ruling H7.
   void prm_verdict(Cycle now, bool good);
   void cfg_verdict(Cycle now, bool good);
-  /// False with an event when refused (D10).
+  /// Returns false, with an event, if refused (D10).
   bool new_inputs(Cycle now, const std::uint8_t* bytes, int size);
   bool new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size);
-  /// The answer to a C1 (C2) request, at most 4 + Capacities::acyclic bytes; refused with an event when it does not fit
+  /// The answer to a C1 (C2) request, at most 4 + Capacities::acyclic bytes; refused with an event if it does not fit
   /// the request (V14).
   void c1_answer(Cycle now, const std::uint8_t* pdu, int size);
   void c2_answer(Cycle now, const std::uint8_t* pdu, int size);

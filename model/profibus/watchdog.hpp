@@ -1,6 +1,6 @@
 #pragma once
-// The watchdog state machine (ruling S1, APC3 4.4.2 and 4.4.3): BAUD_CONTROL watches that the baud rate still is right,
-// DP_CONTROL that the holding master lives. BAUD_SEARCH is the state without a deadline here: see BaudSearch.
+// The watchdog state machine (ruling S1, APC3 4.4.2 and 4.4.3): BAUD_CONTROL monitors that the baud rate is still
+// right, DP_CONTROL that the holding master is alive. BAUD_SEARCH is the state without a deadline: see BaudSearch.
 #include "model/profibus/baud.hpp"
 
 namespace dsdpv1::profibus {
@@ -20,11 +20,11 @@ class Watchdog {
     state_ = State::kBaudControl;
     deadline_ = now + baud_control_;
   }
-  /// A Set_Prm without or with watchdog, or the end of one. While the rate is searched there is nothing to watch.
+  /// A Set_Prm without or with watchdog, or the end of one. Ignored during the search.
   void baud_control(Cycle now) {
     if (state_ != State::kBaudSearch) rate_found(now);
   }
-  /// The time that Set_Prm gives: WD_Fact_1 x WD_Fact_2, and WD_Base, 1 or 10 ms.
+  /// The watchdog time of Set_Prm: WD_Fact_1 x WD_Fact_2, and WD_Base, 1 or 10 ms.
   static constexpr Cycle time_of(unsigned factors, unsigned base_ms) { return kCyclesPerMs * base_ms * factors; }
   void dp_control(Cycle now, Cycle time) {
     if (state_ == State::kBaudSearch) return;
@@ -32,7 +32,7 @@ class Watchdog {
     time_ = time;
     deadline_ = now + time;
   }
-  /// An error-free telegram to this station; `from_holder`: from the master that holds the slave (ruling S22).
+  /// An error-free telegram to this station; `from_holder`: sent by the master that holds the slave (ruling S22).
   void trigger(Cycle now, bool from_holder) {
     if (state_ == State::kBaudControl) deadline_ = now + baud_control_;
     if (state_ == State::kDpControl && from_holder) deadline_ = now + time_;

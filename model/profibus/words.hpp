@@ -1,7 +1,6 @@
 #pragma once
-// The words in which a chip's reasons speak of its user's side. The reasons of every DP slave know no register: where
-// their text has `{sync}`, the chip says what that is to its user; a chip that says nothing has the GSD's
-// name for it.
+// A chip's words for its user's side, used in reasons. The reasons of every DP slave name no register: `{sync}` in
+// their text is replaced by the chip's word for it, or by the GSD's name if the chip has none.
 namespace dsdpv1::profibus {
 
 struct Words {

@@ -11,7 +11,7 @@ namespace dsdpv1::systemc {
 using profibus::Tick;
 
 /// The n-th rising edge (from 0) is the core's cycle n. Between two edges the chip's time follows simulation time, but
-/// never reaches an edge before CLK does: a slow, fast or asymmetric CLK stretches or cuts the pause before it.
+/// never reaches an edge before CLK does: a slow, fast or asymmetric CLK stretches or shortens the pause before it.
 class BoundClock {
  public:
   /// Rising edges over which the frequency is measured: 10 us at 48 MHz.
@@ -25,7 +25,7 @@ class BoundClock {
   Tick chip_tick(const sc_core::sc_time& now) const;
   std::int64_t edges() const { return cycle_ + 1; }
 
-  /// The frequency in MHz, if the window that the last rising edge closed is the first one out of the tolerance.
+  /// The frequency in MHz, if the window closed by the last rising edge is the first one outside the tolerance.
   std::optional<double> take_wrong_frequency();
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Characters of PROFIBUS (start bit, eight data bits LSB first, even parity, stop bit) to and from the edges of a line.
-// Times are the chip's ticks (1/12 ns). No SystemC in here.
+// Converts between characters of PROFIBUS (start bit, eight data bits LSB first, even parity, stop bit) and edges of a
+// line. Times are the chip's ticks (1/12 ns). Independent of SystemC.
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -33,7 +33,7 @@ struct Edge {
   bool level;
 };
 
-/// Right characters that follow each other without a gap.
+/// Valid characters without a gap between them.
 struct LineRun {
   Tick start = 0, bit = profibus::kTicksPerCycle;
   std::vector<std::uint8_t> bytes = {};
@@ -42,20 +42,20 @@ struct LineRun {
     return start + static_cast<Tick>(index) * profibus::kBitsPerCharacter * bit;
   }
   Tick end() const { return character(bytes.size()); }
-  /// As the core is told it; `bit` is a whole number of cycles. Valid as long as the bytes are.
+  /// The run in the core's format; `bit` must be a whole number of cycles. Valid as long as the bytes are.
   profibus::CharacterRun told() const {
     return {start, bit / profibus::kTicksPerCycle, bytes.data(), static_cast<int>(bytes.size())};
   }
 };
 
-/// The changes of a line that characters are put on, in order of time. The line idles high.
+/// The changes of a line that carries characters, in order of time. The line idles high.
 class EdgeQueue {
  public:
-  /// Appends a change. A change planned for the same tick or later is dropped: whoever comes later wins.
+  /// Appends a change. Changes already planned for the same tick or later are dropped.
   void push(Edge edge);
-  /// A change before, or between, those that wait.
+  /// Inserts a change before or between the waiting ones.
   void insert(Edge edge);
-  /// Tick of the earliest change, kNever when there is none.
+  /// Tick of the earliest change, kNever without one.
   Tick next() const { return edges_.empty() ? profibus::kNever : edges_.front().at; }
   Edge take();
 
@@ -63,7 +63,7 @@ class EdgeQueue {
   std::deque<Edge> edges_;
 };
 
-/// Collects the characters that a transmitter of known bit time sends.
+/// Collects the characters of a transmitter with known bit time.
 class CharacterCollector {
  public:
   /// The line is `level` from `at` on. `bit` (> 0) is the bit time to assume when this edge starts a character.

@@ -9,7 +9,7 @@
 namespace dsdpv1::systemc {
 namespace {
 
-/// Of the host port's violations, those after which the data of the access are not to be trusted.
+/// The violations of the host port after which the data of the access are not reliable.
 bool spoils_data(profibus::Reason reason) {
   constexpr profibus::Reason kSpoiling[] = {
       Reason::kWriteLowTooShort, Reason::kWriteSetup,   Reason::kWriteHold,          Reason::kWriteFloating,
@@ -18,7 +18,7 @@ bool spoils_data(profibus::Reason reason) {
   return std::find(std::begin(kSpoiling), std::end(kSpoiling), reason) != std::end(kSpoiling);
 }
 
-/// True for as long as it lives, also when a report is made to throw.
+/// True during its lifetime, even if a report throws.
 class WhileIn {
  public:
   explicit WhileIn(bool& flag) : flag_(flag) { flag = true; }
@@ -58,7 +58,7 @@ void ChipModule::set(Tick at, Pin pin, Level level) {
   if (chip_.level(pin) == level) return;
   const WhileIn core(in_core_);
   if (on_pin) {
-    chip_.advance(at);  // what the core did before belongs before this change
+    chip_.advance(at);  // earlier events of the core must precede this change
     on_pin(at, pin, level);
   }
   chip_.set(at, pin, level);
@@ -124,13 +124,13 @@ bool ChipModule::take_broken_timing() {
   return broken;
 }
 
-// A notification that is no longer needed is left to fire: the kernel keeps cancelled ones in its queue until their
-// time has come, and a watchdog that every telegram moves on would leave thousands there. For the same reason none is
+// A notification that is no longer needed is not cancelled: the kernel keeps cancelled ones in its queue until their
+// time, and a watchdog that every telegram moves would leave thousands there. For the same reason no notification is
 // made for a time far ahead.
 void ChipModule::schedule(Tick now, Tick due) {
   constexpr Tick kFarthest = 100'000 * profibus::kTicksPerNs;
   if (due == profibus::kNever) return;
-  // Everything of this tick is done; asking for it again would stop simulation time.
+  // Everything of this tick is done; scheduling it again would stop simulation time.
   const Tick at = std::min(std::max(due, now + 1), now + kFarthest);
   if (scheduled_ > now && scheduled_ <= at) return;
   scheduled_ = at;

@@ -8,7 +8,7 @@
 namespace dsdpv1::systemc {
 namespace {
 
-/// The time by which a bound CLK must have made its first window of edges, so that a dead one is noticed.
+/// A bound CLK must have made its first window of edges by then; otherwise it is reported as dead.
 const Tick kClockStart = 2 * BoundClock::kWindow * profibus::kTicksPerCycle;
 
 }  // namespace
@@ -47,7 +47,7 @@ void PinModule::evaluate() {
   plan_between_edges(now);
 }
 
-/// No input has changed, nor who drives D: the chip takes it and lets it go at the user's own edges.
+/// Neither an input nor the driver of D has changed: the chip drives and releases D at the user's own edges.
 void PinModule::evaluate_core() {
   const Tick now = scheduled();
   advance(now);
@@ -86,7 +86,7 @@ void PinModule::check_clock() {
 
 Tick PinModule::present() const { return clock_ ? clock_->chip_tick(sc_core::sc_time_stamp()) : chip_now(); }
 
-/// Each pin that has changed is told, the host's all together: their order matters.
+/// Applies each changed pin, those of the host together, because their order matters.
 void PinModule::apply_inputs(Tick at, bool first) {
   const bool user_drives_d = chip().level(Pin::kDOut) == kLevelZ;
   const bool access = CSR.event() || RD.event() || WR.event() || A.event() || D.event();
@@ -100,7 +100,7 @@ void PinModule::apply_host(Tick at) {
   if (R_REQ.read()) set(at, Pin::kRReq, 1);
   if (R_STA.read()) set(at, Pin::kRSta, 1);
   set(at, Pin::kA, static_cast<Level>(A.read().to_uint()));
-  if (D.event()) user_d_ = level_of(D.read());  // dear: four-valued
+  if (D.event()) user_d_ = level_of(D.read());  // costly: four-valued
   set(at, Pin::kDIn, user_drives_d_ ? user_d_ : kLevelZ);
   if (!CSR.read()) set(at, Pin::kCsr, 0);
   set(at, Pin::kRd, RD.read());

@@ -15,8 +15,8 @@
 namespace dsdpv1::systemc {
 
 struct PinOptions : ChipOptions {
-  /// (p) A bound CLK whose mean over BoundClock::kWindow edges is further from 48 MHz is reported once as
-  /// /dsdpv1/clock. The default is the 0.3 % that EN 50170 allows a station's bit rate.
+  /// (p) A bound CLK whose mean over BoundClock::kWindow edges deviates more from 48 MHz is reported once as
+  /// /dsdpv1/clock. The default is the 0.3 % that EN 50170 allows for a station's bit rate.
   double clock_tolerance_ppm = 3000;
 };
 
@@ -26,8 +26,8 @@ struct PinOptions : ChipOptions {
 /// CLK bound: cycle n is its n-th rising edge, counted from 0; `phase` is not used.
 ///
 /// An input that changes at the time of a rising edge is seen by the next one (ruling P9). The levels at the end of
-/// time 0 are the initial ones: delta cycles at time 0 are no edges. Inputs that change in one delta cycle are applied
-/// A and D first, then CSR, RD, WR; what ends an access (CSR, R_REQ, R_STA released) last.
+/// time 0 are the initial ones: delta cycles at time 0 are not edges. Inputs that change in one delta cycle are applied
+/// in this order: A and D, then CSR, RD, WR, and last the end of an access (CSR, R_REQ, R_STA released).
 class PinModule : public ChipModule {
  public:
   template <class T>
@@ -51,12 +51,12 @@ class PinModule : public ChipModule {
 
  protected:
   void end_of_elaboration() override;
-  /// Inputs that have changed, all of them when it is the `first` time.
+  /// Applies inputs that have changed; all of them the `first` time.
   virtual void apply_inputs(Tick at, bool first);
   virtual void drive_pins(std::uint32_t pins);
 
  private:
-  /// CLK is bound, the chip is at `now`: for what it does between two edges of CLK.
+  /// CLK is bound, the chip is at `now`: plans events between two edges of CLK.
   virtual void plan_between_edges(Tick /*now*/) {}
   void evaluate();
   void evaluate_core();
@@ -69,8 +69,8 @@ class PinModule : public ChipModule {
   double clock_tolerance_ppm_;
   std::unique_ptr<BoundClock> clock_;  ///< only while CLK is bound
   bool applied_ = false;               ///< the initial levels
-  bool user_drives_d_ = true;          ///< the chip does not
-  Level user_d_ = kLevelZ;             ///< D as it was when it changed last
+  bool user_drives_d_ = true;          ///< the chip does not drive it
+  Level user_d_ = kLevelZ;             ///< last level of D from the user
 };
 
 }  // namespace dsdpv1::systemc

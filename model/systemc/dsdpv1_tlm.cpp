@@ -7,7 +7,7 @@
 namespace dsdpv1::systemc {
 namespace {
 
-/// The platform's initiators take the delay that b_transport returns for time that has passed.
+/// The platform's initiators treat the delay returned by b_transport as elapsed time.
 bool is_decoupled() { return tlm::tlm_global_quantum::instance().get() > sc_core::SC_ZERO_TIME; }
 
 }  // namespace
@@ -77,7 +77,7 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   host_bus_.unlock();
 }
 
-/// The chip lives in simulation time: an initiator that runs ahead of it is brought back to it here.
+/// The chip is in simulation time: waits until an initiator that runs ahead is in step again.
 void TlmModule::wait_for(sc_core::sc_time& delay) {
   if (delay != sc_core::SC_ZERO_TIME) sc_core::wait(delay);
   delay = sc_core::SC_ZERO_TIME;
@@ -88,7 +88,7 @@ void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
   if (payload.get_data_length() == 1 && is_enabled(payload, 0)) carry_out_byte_ahead(payload, 0, delay);
 }
 
-/// The index of the first byte that has to wait for simulation time; the length when the transaction is over.
+/// Returns the index of the first byte that must wait for simulation time; the length if the transaction is complete.
 unsigned int TlmModule::carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay) {
   const unsigned int length = payload.get_data_length();
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
@@ -97,9 +97,9 @@ unsigned int TlmModule::carry_out_bytes_ahead(Payload& payload, sc_core::sc_time
   return length;
 }
 
-/// Until the end of the access the kernel has nothing to do and the user owns the DPRAM, so that nobody can tell when
-/// it was carried out; the core is ahead of simulation time then, and whatever comes next finds it at the tick it is
-/// at. False: nothing is done.
+/// Until the end of the access the kernel is idle and the user owns the DPRAM, so the time of execution is not
+/// observable; the core is then ahead of simulation time, and any later event finds it at its present tick. Returns
+/// false if nothing was done.
 bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay) {
   unsigned char& byte = payload.get_data_ptr()[index];
   const auto address = static_cast<std::uint16_t>(payload.get_address() + index);
@@ -107,7 +107,7 @@ bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_co
   const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
   Level sampled = kLevelX;
   if (!is_alone(begin, end) || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return false;
-  plan(chip_now(), chip().next_seen());  // that a write settles is no event of its own
+  plan(chip_now(), chip().next_seen());  // a settling write is not an event
   delay = time_until(end);
   if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
   payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE
@@ -163,9 +163,9 @@ void TlmModule::release_host_pins() {
   plan();
 }
 
-/// `sampled_` is then the level of D when it was sampled, X without a sample. As long as the user owns the DPRAM and
-/// nobody hears the pins, only they see what an access does, so they are moved late: when something else happens, or at
-/// its end.
+/// `sampled_` is then the level of D at the sample, X without a sample. As long as the user owns the DPRAM and the pins
+/// are not observed, only the pins show an access, so they are moved late: at the next other event, or at the end of
+/// the access.
 void TlmModule::perform(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing) {
   wait_until(access_start_);
   access_ = maker_.make(write, address, value, timing);
@@ -226,7 +226,7 @@ void TlmModule::evaluate() {
   plan(now, chip().next_event());
 }
 
-/// Most of what wakes the module moves L_REQ and L_STA, or ends a character of the chip's, and does nothing else.
+/// Most wake-ups of the module only move L_REQ and L_STA or end a character of the chip.
 void TlmModule::evaluate_core() {
   const Tick now = scheduled();
   advance(now);
@@ -254,7 +254,7 @@ Tick TlmModule::catch_up() {
   return now;
 }
 
-/// The core knows another level: a run was left in the middle of a character, and PBRXD has been high all the time.
+/// The core has another level: a run was left in the middle of a character, and PBRXD has been high all the time.
 bool TlmModule::line_is_stale(Tick now) const {
   return !in_run(now) && chip().level(Pin::kPbrxd) != Level{line_level()};
 }
@@ -271,8 +271,8 @@ void TlmModule::apply(Tick now, Pin pin, bool level) {
   set(now, pin, level);
 }
 
-/// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta
-/// cycle.
+/// Only `evaluate` writes signals (SystemC allows one writer); characters for the present time take effect in the next
+/// delta cycle.
 void TlmModule::plan(Tick now, Tick core) {
   const Tick line = line_is_stale(now) ? now : next_of_line();
   arrivals_ = std::min(line, next_of_host());

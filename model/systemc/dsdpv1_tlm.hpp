@@ -30,7 +30,7 @@ namespace dsdpv1::systemc {
 /// One character on the bus.
 struct BusCharacter {
   sc_core::sc_time start;  ///< falling edge of the start bit, absolute
-  sc_core::sc_time bit;    ///< length of a bit: what the baud rate is
+  sc_core::sc_time bit;    ///< length of a bit, given by the baud rate
   std::uint8_t data = 0;
   bool parity_ok = true;  ///< even parity
   bool stop_ok = true;    ///< the stop bit is high (else a framing error)
@@ -41,13 +41,13 @@ constexpr std::uint32_t kHostPins = mask(Pin::kA) | mask(Pin::kDIn) | mask(Pin::
 
 struct TlmOptions : ChipOptions {
   AccessTiming access{};
-  /// The pins that `on_pin` hears (dsdpv1::mask). Of the outputs each change costs an event. Of the inputs it always
-  /// hears RESET, R_REQ and R_STA. Where nobody hears PBRXD or PBTXD, a telegram of right characters costs a few
-  /// events, not six a character; where nobody hears A, D, CSR, RD and WR, an access of the DPRAM's owner costs one.
+  /// The pins reported to `on_pin` (dsdpv1::mask). Each change of a reported output costs an event. RESET, R_REQ and
+  /// R_STA are always reported. If PBRXD and PBTXD are not, a telegram of valid characters costs a few events instead
+  /// of six per character; if A, D, CSR, RD and WR are not, an access of the DPRAM's owner costs one.
   std::uint32_t observed = kOutputPins | mask(Pin::kPbrxd) | kHostPins;
 };
 
-/// Knows whether somebody listens.
+/// A port that knows whether it is bound.
 template <class T>
 class ListenedPort : public tlm::tlm_analysis_port<T> {
  public:
@@ -69,18 +69,18 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
   using OptionalOut = sc_core::sc_port<sc_core::sc_signal_inout_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
 
-  /// DPRAM 0x000..0x7FF. Every byte of a transaction is one access with `AccessTiming`; the time passes inside
+  /// DPRAM 0x000..0x7FF. Every byte of a transaction is one access with `AccessTiming`; its time passes inside
   /// b_transport.
   ///   data length 0, streaming width less than the length    TLM_BURST_ERROR_RESPONSE
   ///   byte enables: any pattern of 0x00 and 0xFF; others     TLM_BYTE_ENABLE_ERROR_RESPONSE
-  ///   a byte outside of the DPRAM                            TLM_ADDRESS_ERROR_RESPONSE, nothing accessed
+  ///  a byte outside the DPRAM                               TLM_ADDRESS_ERROR_RESPONSE, nothing accessed
   ///   neither read nor write                                 TLM_COMMAND_ERROR_RESPONSE
   ///   X or Z read, table 15 violated by a write              TLM_GENERIC_ERROR_RESPONSE, the burst ends there
-  /// With a global quantum (tlm_global_quantum) other than zero b_transport does not wait for an access of the DPRAM's
-  /// owner up to whose end nothing else happens in the simulation: its time is in the delay that comes back. Before an
-  /// initiator moves R_REQ, R_STA or RESET, or looks at an output, it waits for its delay.
-  /// Access without ownership is carried out and reported (P12). Debug transport reads and writes the DPRAM past the
-  /// pins; direct memory access is denied.
+  /// With a global quantum (tlm_global_quantum) other than zero, b_transport does not wait for an access of the DPRAM's
+  /// owner if nothing else happens in the simulation before its end: the time is added to the returned delay. An
+  /// initiator must wait for its delay before it moves R_REQ, R_STA or RESET, or samples an output.
+  /// Access without ownership is executed and reported (P12). Debug transport reads and writes the DPRAM without pins;
+  /// direct memory access is denied.
   /// Must be bound (error /dsdpv1/binding), unless the straps of a DSDPV1-RSU choose another port.
   tlm_utils::simple_target_socket_optional<TlmModule> host_socket{"host_socket"};
 
@@ -90,43 +90,43 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   OptionalOut INTR0{"INTR0"};
   OptionalOut PBF{"PBF"}, BR{"BR"}, READY{"READY"};
 
-  /// Characters to the chip. `start` may be now or later, in order of time; one that begins before the previous one has
-  /// ended destroys the rest of that (a collision), one in the past is not sent; both are reported as the warning
+  /// Characters to the chip. `start` is now or later, in order of time. A character that begins before the end of the
+  /// previous one destroys its rest (a collision), and one in the past is not sent; both are reported as the warning
   /// /dsdpv1/bus.
   sc_core::sc_export<tlm::tlm_analysis_if<BusCharacter>> bus_in{"bus_in"};
   /// Characters from the chip, each at the end of its stop bit.
   ListenedPort<BusCharacter> bus_out{"bus_out"};
   OptionalOut PBRTS{"PBRTS"};  ///< the RS-485 driver's enable (P2)
-  /// The raw line, beside the characters. A bound PBRXD and the characters of `bus_in` are both on the wire: a low of
+  /// The raw line, in addition to the characters. A bound PBRXD and the characters of `bus_in` share the wire: a low of
   /// either wins.
   OptionalIn PBRXD{"PBRXD"};
   OptionalOut PBTXD{"PBTXD"};
 
   explicit TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options = {});
 
-  /// In the place of the changes of PBRXD that the characters of `run` come to, from the present time on, which is the
-  /// run's start. False: the changes are wanted. True: PBRXD stays high until the run's end, or until it is left: by
-  /// leave_run at the present time, what comes then is on PBRXD; or by the module, which tells `on_left_run`.
+  /// Replaces the changes of PBRXD that the characters of `run` cause, from the present time on, which is the run's
+  /// start. False: the changes are needed. True: PBRXD stays high until the run ends or is left. leave_run at the
+  /// present time leaves it, and PBRXD carries the rest; if the module leaves it, it calls `on_left_run`.
   bool hear_run(const profibus::CharacterRun& run);
   void leave_run();
   std::function<void(Tick at)> on_left_run;
-  /// An answer begins, in the place of the changes of PBTXD. Return true and PBTXD is not told until PBRTS falls, or
-  /// until show_txd is called, before the run's end: at the present time it has its level, without being told. Not with
-  /// PBTXD bound. Set it before the simulation starts.
+  /// Called at the begin of an answer, instead of changes of PBTXD. Return true to hide PBTXD until PBRTS falls, or
+  /// until show_txd is called before the run's end: PBTXD then takes its present level without a report. Not called if
+  /// PBTXD is bound. Set it before the simulation starts.
   std::function<bool(const profibus::CharacterRun& run)> on_answer;
   void show_txd();
 
-  /// An access of the host is under way. Its edges are moved at their ticks, but later, when something else happens or
-  /// it ends; sync() moves those up to now.
+  /// An access of the host is in progress. Its edges are applied later than their ticks, at the next other event or at
+  /// its end; sync() applies those up to now.
   bool in_access() const { return access_.size() > 0; }
 
-  /// A, D, CSR, RD and WR idle from now on, as of a host in reset. When the initiator of an access is reset or killed,
-  /// this happens by itself.
+  /// A, D, CSR, RD and WR idle from now on, as for a host in reset. Done automatically when the initiator of an access
+  /// is reset or killed.
   void release_host_pins();
 
-  /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through
-  /// `chip()`. Does nothing when called from `on_pin` or `on_event`: the core is on its way then. `ahead`: to so much
-  /// later, for a decoupled initiator; the kernel must be quiet until then.
+  /// Advances the core to the present time, or `ahead` later for a decoupled initiator (the kernel must be idle until
+  /// then); signals follow in the next delta cycle. For users that read levels through `chip()`. Does nothing when
+  /// called from `on_pin` or `on_event`, because the core is running then.
   void sync(const sc_core::sc_time& ahead = sc_core::SC_ZERO_TIME);
 
  protected:
@@ -134,19 +134,19 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
 
   void start_of_simulation() override;
   unsigned int transport_dbg(Payload& payload);
-  /// Up to the present tick, which it returns.
+  /// Advances to the present tick and returns it.
   Tick catch_up();
   void plan() { plan(chip_now(), chip().next_event()); }
   void wait_until(Tick tick);
-  /// The first simulation tick at which a transaction that comes now may begin: one ahead of simulation time may have
-  /// brought the core further.
+  /// The first simulation tick at which a new transaction may begin: an earlier one ahead of simulation time may have
+  /// advanced the core.
   Tick earliest() const;
-  /// The thread of a transaction is brought to its annotated delay.
+  /// Waits until a transaction's annotated delay has passed.
   static void wait_for(sc_core::sc_time& delay);
   bool output_changed(Tick at, Pin pin, Level level) override;
-  /// Something that plan() asks for has changed in the middle of the core's doing.
+  /// A value used by plan() has changed while the core was running.
   void others_changed() { others_ = arrivals_ = 0; }
-  /// `on_pin` is to hear it.
+  /// `on_pin` receives the pin.
   bool hears(Pin pin) const { return (observed_ & mask(pin)) != 0; }
   /// The live host port's socket is bound.
   template <class Socket>
@@ -155,16 +155,16 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   }
 
  private:
-  // For a host at another port.
+  // For a host on another port.
   /// Reports a socket that must be bound.
   virtual void check_binding() { require_bound(host_socket, "it is the host port"); }
-  /// Outputs that it wants to hear (output_changed), whoever else does.
+  /// Outputs that this port needs (output_changed), independent of other observers.
   virtual std::uint32_t heard_outputs() const { return 0; }
-  /// Its pins are moved up to the chip's tick `now`.
+  /// Applies its edges up to the chip's tick `now`.
   virtual void move_host(Tick /*now*/) {}
-  /// The core has come to `now`.
+  /// Reports that the core has reached `now`.
   virtual void tell_host(Tick /*now*/) {}
-  /// The chip's tick of its next edge, or of what it is told next.
+  /// The chip's tick of its next edge or report.
   virtual Tick next_of_host() const { return profibus::kNever; }
 
   void write(const BusCharacter& character) override;  // bus_in
@@ -195,7 +195,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void spell_out(const LineRun& run, Tick behind);
   void apply_inputs(Tick now);
   void apply(Tick now, Pin pin, bool level);
-  /// `core`: when that is to be evaluated next.
+  /// `core`: the tick of the core's next evaluation.
   void plan(Tick now, Tick core);
   Tick next_of_line() const;
 
@@ -214,28 +214,28 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void take_back_last_run();
 
   AccessTiming timing_;
-  // As plan() found it; 0: it has to be asked again.
-  Tick arrivals_ = 0;  ///< when something comes to the chip next, on the line or from the host ...
-  Tick others_ = 0;    ///< ... and when anything but the core acts, which may be the end of a character of the chip's
+  // As found by plan(); 0: must be found again.
+  Tick arrivals_ = 0;  ///< the next arrival at the chip, from the line or the host ...
+  Tick others_ = 0;    ///< ... and the next event outside the core, which may be the end of a character of the chip
   std::uint32_t observed_, bound_ = 0;  ///< pins
-  std::uint32_t applied_ = 0;           ///< of RESET, R_REQ, R_STA those that the core knows as high
-  sc_core::sc_mutex host_bus_;          ///< accesses of several initiators follow each other
+  std::uint32_t applied_ = 0;           ///< those of RESET, R_REQ, R_STA that are high for the core
+  sc_core::sc_mutex host_bus_;          ///< serialises the accesses of several initiators
   HostAccessMaker maker_;
   Tick access_start_ = 0;    ///< simulation tick of the running access' first edge
-  HostAccess access_;        ///< the running access, without edges when there is none ...
+  HostAccess access_;        ///< the running access, without edges if there is none ...
   std::size_t moved_ = 0;    ///< ... how many of its edges have happened ...
-  Level sampled_ = kLevelX;  ///< ... and what D was
+  Level sampled_ = kLevelX;  ///< ... and the level of D
 
   EdgeQueue to_chip_;
   std::deque<LineRun> runs_;      ///< characters of `bus_in` that have not begun and are not in `to_chip_`
-  LineRun run_;                   ///< the last of them that has begun, and is heard as a run while `run_is_own_`
-  bool run_is_own_ = false;       ///< else it is that of hear_run
-  Tick run_end_ = 0;              ///< of the run that the core hears or heard
+  LineRun run_;                   ///< the last of them that has begun, received as a run while `run_is_own_`
+  bool run_is_own_ = false;       ///< else run_ comes from hear_run
+  Tick run_end_ = 0;              ///< end of the core's present or last run
   Tick line_busy_until_ = 0;      ///< chip tick of the end of the last character in `to_chip_`
-  bool characters_level_ = true;  ///< what the characters of `bus_in` drive now
+  bool characters_level_ = true;  ///< present level from the characters of `bus_in`
   bool may_hide_ = false, answer_waits_ = false;
-  LineRun answer_;            ///< of the chip, while PBTXD is not told
-  std::size_t answered_ = 0;  ///< how many of its characters are over
+  LineRun answer_;            ///< of the chip, while PBTXD is hidden
+  std::size_t answered_ = 0;  ///< number of its completed characters
   CharacterCollector from_chip_;
   std::vector<LineCharacter> complete_;  ///< collected, to be sent through `bus_out` ...
   std::size_t emitted_ = 0;              ///< ... from this one on

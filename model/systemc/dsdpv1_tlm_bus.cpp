@@ -1,4 +1,4 @@
-// The bus side of the TLM module: characters to and from PBRXD and PBTXD, as runs where nobody hears the pins.
+// The bus side of the TLM module: characters to and from PBRXD and PBTXD, as runs if the pins are not observed.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -21,7 +21,7 @@ void TlmModule::write(const BusCharacter& character) {
   if (!is_sendable(character, bit)) return;
   const Tick before = next_of_line();
   put_on_line(character, bit);
-  if (next_of_line() != before) plan();  // else it belongs to a telegram that is planned
+  if (next_of_line() != before) plan();  // else it belongs to a telegram already planned
 }
 
 bool TlmModule::is_sendable(const BusCharacter& character, Tick bit) {
@@ -45,13 +45,13 @@ void TlmModule::put_on_line(const BusCharacter& character, Tick bit) {
   if (!put_in_run(character, start, bit)) put_as_edges(character);
 }
 
-/// The chip's tick nearest to the start of a bit, or of what comes behind the last.
+/// The chip's tick nearest to the start of a bit, or of the position after the last bit.
 Tick TlmModule::tick_of_bit(const BusCharacter& character, unsigned int bit) const {
   return chip_tick(to_tick(sc_core::sc_time::from_value(character.start.value() + bit * character.bit.value())));
 }
 
-/// A right character whose bits are whole cycles goes on with the run before it, or begins one. Who adds up rounded
-/// times is some femtoseconds beside the ticks; as long as the nearest tick is right at both ends, it is in between.
+/// A valid character whose bits are whole cycles extends the run before it, or begins one. Accumulated rounded times
+/// are some femtoseconds off the ticks; if the nearest tick is right at both ends, it is right in between.
 bool TlmModule::put_in_run(const BusCharacter& character, Tick start, Tick bit) {
   const bool exact = tick_of_bit(character, profibus::kBitsPerCharacter) == start + profibus::kBitsPerCharacter * bit &&
                      bit % profibus::kTicksPerCycle == 0;
@@ -62,7 +62,7 @@ bool TlmModule::put_in_run(const BusCharacter& character, Tick start, Tick bit) 
   return true;
 }
 
-/// What comes last on the line is broken into: its changes are wanted.
+/// Converts the last run on the line back to changes, because something interrupts it.
 void TlmModule::take_back_last_run() {
   if (!runs_.empty() && runs_.back().end() == line_busy_until_) {
     spell_out(runs_.back(), 0);
@@ -110,7 +110,7 @@ void TlmModule::begin_run(Tick now) {
     spell_out(run_, now - 1);
 }
 
-/// The changes of a run behind `behind`.
+/// The changes of a run after `behind`.
 void TlmModule::spell_out(const LineRun& run, Tick behind) {
   bool level = true;
   for (std::size_t i = 0; i < run.bytes.size(); ++i) {
@@ -123,7 +123,7 @@ void TlmModule::spell_out(const LineRun& run, Tick behind) {
   }
 }
 
-/// The core hears changes again from `now` on; those of a run of `bus_in` behind it wait from now on.
+/// The core receives changes again from `now` on; later ones of a run of `bus_in` are queued.
 void TlmModule::stop_run(Tick now) {
   ChipModule::leave_run(now);
   if (!in_run(now)) return;
@@ -164,11 +164,11 @@ bool TlmModule::output_changed(Tick at, Pin pin, Level level) {
   others_changed();
   if (pin == Pin::kPbrts && level == 0) {
     end_answer(at);
-    txd_changed(at, true);  // RESET takes both away
+    txd_changed(at, true);  // RESET ends both
   }
   if (pin == Pin::kPbrts) return ((bound_ | observed_) & mask(pin)) != 0;
   if (may_hide_ && chip().begins_to_send()) {
-    answer_waits_ = true;  // until the core is at rest
+    answer_waits_ = true;  // until the core is idle
     return false;
   }
   txd_changed(at, level != 0);
@@ -180,7 +180,7 @@ void TlmModule::txd_changed(Tick at, bool level) {
   from_chip_.edge(at, level, bit_time());
 }
 
-// Without a baud rate the chip does not send; an edge then is RESET cutting a character off.
+// Without a baud rate the chip does not send; an edge then comes from RESET cutting a character.
 Tick TlmModule::bit_time() const {
   const BaudIndex baud = chip().status().baud_index;
   return (baud.known() ? baud.bit_cycles() : 1) * profibus::kTicksPerCycle;
@@ -196,7 +196,7 @@ void TlmModule::collect_character(Tick now) {
 void TlmModule::tell_characters(Tick now) {
   collect_character(now);
   if (complete_.empty()) return;
-  while (emitted_ < complete_.size()) {  // a listener may call back, and goes on here
+  while (emitted_ < complete_.size()) {  // a listener may call back and continue here
     const LineCharacter c = complete_[emitted_++];
     bus_out.write({to_time(c.start + phase()), to_time(c.bit), c.data, c.parity_ok, c.stop_ok});
   }
@@ -206,13 +206,13 @@ void TlmModule::tell_characters(Tick now) {
 
 // --- answers as runs -------------------------------------------------------------------------------------------------
 
-/// The end of a character of the answer, which is told then if anybody listens.
+/// The end of a character of the answer, which is then sent if bus_out is bound.
 Tick TlmModule::next_answered() const {
   const bool more = bus_out.bound() && answered_ < answer_.bytes.size();
   return more ? answer_.character(answered_ + 1) : profibus::kNever;
 }
 
-/// PBTXD has fallen, and nobody was told yet.
+/// PBTXD has fallen, not reported yet.
 void TlmModule::offer_answer() {
   if (!std::exchange(answer_waits_, false)) return;
   const profibus::CharacterRun run = hide_txd();
@@ -228,7 +228,7 @@ void TlmModule::offer_answer() {
   answered_ = 0;
 }
 
-/// PBTXD is told again, or rises for good, maybe in the middle of a character: what of that was on the line.
+/// PBTXD is reported again, or rises for good, maybe in the middle of a character: emits the part already on the line.
 void TlmModule::end_answer(Tick at) {
   collect_character(at);
   if (answered_ < answer_.bytes.size() && bus_out.bound()) {

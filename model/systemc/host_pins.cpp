@@ -10,7 +10,7 @@ HostPins::HostPins(const sc_core::sc_module_name& name, const AccessTiming& timi
   A.initialize(HostAccess::kIdleAddress);
   for (sc_core::sc_out<bool>* strobe : {&CSR, &RD, &WR}) strobe->initialize(true);
   SC_HAS_PROCESS(HostPins);
-  SC_THREAD(run);  // the only process that writes the pins, whoever the initiator is
+  SC_THREAD(run);  // the only process that writes the pins, for all initiators
 }
 
 void HostPins::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
@@ -31,9 +31,9 @@ void HostPins::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& 
   }
 }
 
-/// False: a read has found no level at D, or none that is certain, or a write does not keep table 15.
+/// Returns false if a read found no certain level at D, or a write violates table 15.
 bool HostPins::carry_out(const HostAccess& access) {
-  while (busy_) wait(end_);  // an initiator was killed in its access, which goes on
+  while (busy_) wait(end_);  // the access of a killed initiator is still running
   access_ = access;
   busy_ = true;
   begin_.notify(sc_core::SC_ZERO_TIME);
@@ -65,7 +65,7 @@ void HostPins::move(const HostAccess::Edge& edge) {
     case Pin::kWr: WR.write(edge.level != 0); break;
     case Pin::kDIn: D.write(wires(edge.level)); break;
     default:
-      wait(sc_core::SC_ZERO_TIME);  // what the chip does to D at this tick is there
+      wait(sc_core::SC_ZERO_TIME);  // then the chip's change of D at this tick is visible
       sampled_ = level_of(D.read());
   }
 }

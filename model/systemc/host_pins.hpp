@@ -1,5 +1,5 @@
 #pragma once
-// From transactions to the pins of the host port: a user CPU of TLM-2.0 at the PinModule, or at RTL of the chip.
+// Converts transactions to pins of the host port: connects a TLM-2.0 user CPU to the PinModule, or to RTL of the chip.
 //
 //   dsdpv1::systemc::HostPins host("host");
 //   cpu.socket.bind(host.socket);
@@ -15,16 +15,16 @@
 
 namespace dsdpv1::systemc {
 
-/// Every byte of a transaction is one access, whose pins move at the ticks at which TlmModule has them; the time passes
-/// inside b_transport.
+/// Every byte of a transaction is one access with the same pin timing as in TlmModule; its time passes inside
+/// b_transport.
 class HostPins : public sc_core::sc_module {
  public:
   /// DPRAM 0x000..0x7FF, with the responses of TlmModule::host_socket. Each access is a synchronisation point, with any
-  /// quantum. An initiator that is reset or killed in an access leaves that to its end. No debug transport, no DMI.
+  /// quantum. An access whose initiator is reset or killed runs to its end. No debug transport, no DMI.
   tlm_utils::simple_target_socket<HostPins> socket{"socket"};
 
   sc_core::sc_out<sc_dt::sc_uint<11>> A{"A"};            ///< 0x7FF between accesses
-  sc_core::sc_inout_rv<8> D{"D"};                        ///< Z but for writes
+  sc_core::sc_inout_rv<8> D{"D"};                        ///< Z except for writes
   sc_core::sc_out<bool> CSR{"CSR"}, RD{"RD"}, WR{"WR"};  ///< low-active
 
   explicit HostPins(const sc_core::sc_module_name& name, const AccessTiming& timing = {});
@@ -36,11 +36,11 @@ class HostPins : public sc_core::sc_module {
   void move(const HostAccess::Edge& edge);
 
   AccessTiming timing_;
-  sc_core::sc_mutex host_bus_;  ///< accesses of several initiators follow each other
+  sc_core::sc_mutex host_bus_;  ///< serialises the accesses of several initiators
   HostAccessMaker maker_;
   HostAccess access_;        ///< the running one
   bool busy_ = false;        ///< ... while there is one
-  Level sampled_ = kLevelX;  ///< what D was in it
+  Level sampled_ = kLevelX;  ///< level of D in it
   sc_core::sc_event begin_{"begin"}, end_{"end"};
 };
 

@@ -24,7 +24,7 @@ struct Stack {
   std::size_t bytes = 0;
 };
 
-/// As the operating system made it, whatever it was left for since.
+/// As the operating system created it, whichever stack is in use now.
 Stack stack_of_this_thread() {
   Stack stack;
   pthread_attr_t attributes;

@@ -17,7 +17,7 @@ sc_dt::sc_logic wire(Level level) {
 
 RsuPinModule::RsuPinModule(const sc_core::sc_module_name& name, const PinOptions& options)
     : PinModule(name, of_rsu(options)) {
-  // Of PinModule's process, the last that was made.
+  // Applies to PinModule's process, the last one created.
   sensitive << between_edges_ << XSS << SCK << MOSI << RXD << MODE << ADR << UBR << UIV;
 }
 

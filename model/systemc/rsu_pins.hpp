@@ -11,9 +11,9 @@
 
 namespace dsdpv1::systemc {
 
-/// All pins must be bound, those of dead ports too: the chip does not look at them (R14). A strap's level counts at the
-/// end of a reset. Inputs that change in one delta cycle with others of the parallel port are applied before those;
-/// among them, and with CLK, the order is of no consequence.
+/// All pins must be bound, also those of unused ports, which the chip ignores (R14). A strap's level counts at the end
+/// of a reset. Inputs that change in one delta cycle with others of the parallel port are applied before those; among
+/// themselves, and relative to CLK, the order does not matter.
 class RsuPinModule : public PinModule {
  public:
   In<bool> XSS{"XSS"};                    ///< low-active, idle high
@@ -22,7 +22,7 @@ class RsuPinModule : public PinModule {
   In<bool> RXD{"RXD"};                    ///< idle high
   Out TXD{"TXD"};                         ///< idle high
   In<sc_dt::sc_uint<2>> MODE{"MODE"};     ///< 0 parallel, 1 SPI, 2 UART
-  In<sc_dt::sc_uint<2>> ADR{"ADR"};       ///< the card's own address, 1 or 2
+  In<sc_dt::sc_uint<2>> ADR{"ADR"};       ///< the card's address, 1 or 2
   In<sc_dt::sc_uint<3>> UBR{"UBR"};       ///< baud rate of the UART (UA1)
   In<sc_dt::sc_uint<3>> UIV{"UIV"};       ///< interval between its characters (UA3)
 

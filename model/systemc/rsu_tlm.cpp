@@ -85,25 +85,25 @@ template <class Edges>
 void RsuTlmModule::carry_out(Lane<Edges>& lane, Edges edges, Tick begin) {
   wait_until(begin);
   lane = {std::move(edges), 0, chip_tick(begin)};
-  catch_up();  // at its begin
+  catch_up();  // start with the core at the present time
   wait_until(begin + lane.edges.duration());
   plan();
 }
 
-/// Each edge is an event of the kernel, so that those up to `now` are at `now`, in any order of the two ports.
+/// Each edge is an event of the kernel, so those up to `now` are at `now`, in any order of the two ports.
 void RsuTlmModule::move_host(Tick now) {
   while (spi_.next() <= now) {
     const SerialEdge edge = spi_.edges[spi_.moved++];
     const Tick at = spi_.begin + edge.at;
     if (edge.pin == Pin::kMiso)
-      spi_.edges.sampled(miso_before(at) != 0);  // released, it is high: a board has a pull-up
+      spi_.edges.sampled(miso_before(at) != 0);  // released, it reads high: a board has a pull-up
     else
       set(at, edge.pin, edge.level ? 1 : 0);
   }
   for (; uart_.next() <= now; ++uart_.moved) set(uart_.next(), Pin::kRxd, uart_.edges[uart_.moved].level ? 1 : 0);
 }
 
-/// Ends a transaction at once, when its initiator's process was reset or killed: the pins idle.
+/// Ends a transaction at once, because its initiator's process was reset or killed: the pins idle.
 void RsuTlmModule::release(std::initializer_list<Pin> pins) {
   catch_up();
   for (const Pin pin : pins) {

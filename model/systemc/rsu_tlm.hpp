@@ -1,6 +1,6 @@
 #pragma once
-// The DSDPV1-RSU as a SystemC module with TLM-2.0 sockets: that of the DSDPV1, with one socket more for SPI and one for
-// the UART. Straps are options.
+// The DSDPV1-RSU as a SystemC module with TLM-2.0 sockets: TlmModule with an additional socket each for SPI and UART.
+// Straps are options.
 //
 //   dsdpv1::systemc::RsuTlmOptions options;
 //   options.straps.mode = dsdpv1::HostMode::kSpi;
@@ -20,10 +20,10 @@
 
 namespace dsdpv1::systemc {
 
-/// Levels of the pins MODE, ADR, UBR and UIV (R11), which hold for good.
+/// Levels of the pins MODE, ADR, UBR and UIV (R11), which never change.
 struct RsuStraps {
   HostMode mode = HostMode::kParallel;
-  int address = 1;    ///< ADR, 0..3: the card's own address, 1 or 2
+  int address = 1;    ///< ADR, 0..3: the card's address, 1 or 2
   int uart_rate = 7;  ///< UBR, 0..7: UA1
   int interval = 0;   ///< UIV, 0..7: UA3
 };
@@ -40,20 +40,20 @@ struct RsuTlmOptions : TlmOptions {
 
 class RsuTlmModule : public TlmModule {
  public:
-  /// Each transaction is one frame of XSS, mode 0, MSB first: its data are what goes out at MOSI and, of a read, are
-  /// then what has come in at MISO (FF where the chip does not drive it). The time passes inside of b_transport, which
+  /// Each transaction is one frame of XSS, mode 0, MSB first: its data are sent on MOSI and, for a read, replaced by
+  /// the bytes received on MISO (FF where the chip does not drive it). The time passes inside b_transport, which
   /// returns when XSS rises; the next frame waits for the rest of the gap.
   ///   address other than 0                                   TLM_ADDRESS_ERROR_RESPONSE
   ///   data length 0, streaming width less than the length    TLM_BURST_ERROR_RESPONSE
   ///   byte enables                                           TLM_BYTE_ENABLE_ERROR_RESPONSE
   ///   neither read nor write                                 TLM_COMMAND_ERROR_RESPONSE
   ///   no data pointer                                        TLM_GENERIC_ERROR_RESPONSE
-  /// Each is a synchronisation point, with any quantum. Debug transport reads and writes the DPRAM, as that of
+  /// Each is a synchronisation point, with any quantum. Debug transport reads and writes the DPRAM, as with
   /// `host_socket`.
   tlm_utils::simple_target_socket_optional<RsuTlmModule> spi_socket{"spi_socket"};
-  /// Each write is one telegram on RXD: characters without a pause but `UartTiming::gap`; b_transport returns when the
-  /// last stop bit is over. A read is a TLM_COMMAND_ERROR_RESPONSE; the other responses, and debug transport, are those
-  /// of `spi_socket`.
+  /// Each write is one telegram on RXD: characters without a pause except `UartTiming::gap`; b_transport returns at the
+  /// end of the last stop bit. A read gets TLM_COMMAND_ERROR_RESPONSE; the other responses, and debug transport, are as
+  /// for `spi_socket`.
   tlm_utils::simple_target_socket_optional<RsuTlmModule> uart_socket{"uart_socket"};
   /// The bytes that the chip sends on TXD, each at the end of its stop bit.
   ListenedPort<std::uint8_t> uart_out{"uart_out"};
@@ -65,7 +65,7 @@ class RsuTlmModule : public TlmModule {
   template <class Edges>
   struct Lane {
     Edges edges = {};
-    std::size_t moved = 0;  ///< of the edges; all of them: nothing is under way
+    std::size_t moved = 0;  ///< number of applied edges; all of them: idle
     Tick begin = 0;         ///< the chip's tick
     Tick next() const { return moved < edges.size() ? begin + edges[moved].at : profibus::kNever; }
   };
@@ -87,10 +87,10 @@ class RsuTlmModule : public TlmModule {
   RsuStraps straps_;
   SpiTiming spi_timing_;
   UartTiming uart_timing_;
-  sc_core::sc_mutex spi_bus_, uart_bus_;  ///< transactions of several initiators follow each other
+  sc_core::sc_mutex spi_bus_, uart_bus_;  ///< serialise the transactions of several initiators
   Lane<SpiFrame> spi_;
   Lane<UartTelegram> uart_;
-  Tick spi_free_at_ = 0;  ///< simulation tick: the gap after the last frame is over
+  Tick spi_free_at_ = 0;  ///< simulation tick: end of the gap after the last frame
   CharacterCollector from_uart_;
   std::vector<std::uint8_t> received_;  ///< from TXD, to be sent through `uart_out`
 };

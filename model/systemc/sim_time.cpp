@@ -12,12 +12,12 @@ namespace {
 constexpr std::uint64_t kFsPerThreeTicks = 250'000;
 constexpr std::uint64_t kFinest = 1, kCoarsest = 1000;  ///< femtoseconds
 
-/// Asking SystemC for its resolution fixes it.
+/// Reading SystemC's resolution fixes it.
 std::uint64_t resolution_in_femtoseconds() {
   return static_cast<std::uint64_t>(std::llround(sc_core::sc_get_time_resolution().to_seconds() * 1e15));
 }
 
-/// Out of line: what is asked for in each event stays small.
+/// Kept out of line so that the per-event path stays small.
 [[gnu::cold, gnu::noinline]] std::uint64_t checked_resolution() {
   const std::uint64_t femtoseconds = resolution_in_femtoseconds();
   if (femtoseconds >= kFinest && femtoseconds <= kCoarsest) return femtoseconds;
@@ -26,13 +26,13 @@ std::uint64_t resolution_in_femtoseconds() {
       ", allowed is 1 fs to 1 ps (a tick of the chip is 83.3 ps): call sc_core::sc_set_time_resolution(1, "
       "sc_core::SC_PS) before the first sc_time is made";
   SC_REPORT_ERROR("/dsdpv1/time_resolution", text.c_str());
-  return kCoarsest;  // reports that do not throw
+  return kCoarsest;  // for reports that do not throw
 }
 
-/// No tick, a tick, two and three in units of the simulation's resolution, rounded; three are 250 ps, which are a whole
-/// number of them, as SystemC takes powers of ten.
+/// Zero, one, two and three ticks in units of the simulation's resolution, rounded; three are 250 ps, a whole number of
+/// units, since SystemC allows powers of ten only.
 const std::array<std::uint64_t, 4>& units_of_ticks() {
-  // Not a guarded constant: it is asked for several times in each event.
+  // Not a guarded constant, because every event reads it several times.
   static std::array<std::uint64_t, 4> units = {};
   if (units[3] == 0) {
     units[3] = kFsPerThreeTicks / checked_resolution();
@@ -47,7 +47,7 @@ std::uint64_t units(Tick tick) {
   return count / 3 * of[3] + of[count % 3];
 }
 
-/// The compiler divides by constants without dividing.
+/// A constant divisor lets the compiler avoid the division instruction.
 template <std::uint64_t kInThree>
 Tick nearest_tick(std::uint64_t value) {
   const std::uint64_t rest = (value % kInThree * 3 + kInThree / 2) / kInThree;
@@ -59,7 +59,7 @@ std::uint64_t units_until(Tick tick) {
   return time > now ? time - now : 0;
 }
 
-/// SystemC refuses a second setting, also of the same value; its own text does not say who asked or what to do.
+/// SystemC refuses a second setting, even of the same value; its text names neither the caller nor a remedy.
 void try_to_set_femtoseconds() {
   const sc_core::sc_report_handler_proc handler = sc_core::sc_report_handler::get_handler();
   sc_core::sc_report_handler::set_handler(
@@ -82,7 +82,7 @@ Tick to_tick(const sc_core::sc_time& time) {
   return in_three == 25'000 ? nearest_tick<25'000>(time.value()) : nearest_tick<2'500>(time.value());
 }
 
-/// Time stands still while much of what it is asked for happens.
+/// Cached, because it is queried often at the same simulation time.
 Tick current_tick() {
   static std::uint64_t time = 0;
   static Tick tick = 0;
@@ -101,7 +101,7 @@ Tick kernel_quiet_until() {
 }
 
 void require_resolution() {
-  announce_main_stack_at_exit();  // here, as every program with a simulation comes by
+  announce_main_stack_at_exit();  // here, because every program with a simulation calls this function
   checked_resolution();
 }
 

@@ -1,8 +1,8 @@
 #pragma once
-// Where the core's ticks (1/12 ns) meet sc_time, at whatever resolution the simulation has, from 1 fs to 1 ps.
-// Conversion always starts from the absolute tick count and is rounded once, so nothing drifts: the time of a tick is
-// wrong by a third of the resolution at most, 333 fs at 1 ps. Two neighbouring ticks are 83 ps apart, so tick -> time
-// -> tick gives the tick back.
+// Converts between the core's ticks (1/12 ns) and sc_time, at any resolution from 1 fs to 1 ps. Conversion always
+// starts from the absolute tick count and rounds once, so nothing drifts: the time of a tick is off by at most a third
+// of the resolution, 333 fs at 1 ps. Neighbouring ticks are 83 ps apart, so a tick converted to time and back is the
+// same tick.
 #include <systemc>
 
 #include "model/profibus/time.hpp"
@@ -11,33 +11,33 @@ namespace dsdpv1::systemc {
 
 using profibus::Tick;
 
-/// The simulation time of `tick` (>= 0, up to the end of SystemC's time: 18446 s at 1 fs, a thousand times that at
-/// 1 ps), rounded to the nearest unit of the resolution. As all of these functions, it reports the error
+/// The simulation time of `tick` (>= 0, up to the end of SystemC's time: 18446 s at 1 fs, a thousand times that at 1
+/// ps), rounded to the nearest unit of the resolution. Like all functions here, it reports the error
 /// /dsdpv1/time_resolution at a resolution that is not allowed.
 sc_core::sc_time to_time(Tick tick);
 
-/// The tick nearest to `time`, half way the later one.
+/// The tick nearest to `time`; half way, the later one.
 Tick to_tick(const sc_core::sc_time& time);
 
 /// The tick nearest to the present simulation time.
 Tick current_tick();
 
-/// From the present simulation time to that of `tick`, zero when it is over.
+/// From the present simulation time to that of `tick`, zero if it has passed.
 sc_core::sc_time time_until(Tick tick);
 
-/// But for the process that asks, the kernel has nothing to do before this tick: no process to run, no signal to
-/// update, no event to notify.
+/// Apart from the calling process the kernel is idle before this tick: no process to run, no signal to update, no event
+/// to notify.
 Tick kernel_quiet_until();
 
-/// Fixes the time resolution of the simulation at what the program has set, or at SystemC's own 1 ps, and reports the
-/// error /dsdpv1/time_resolution (which SystemC throws as sc_core::sc_report) when it is not 1 fs to 1 ps. Every module
-/// of this library calls it when it is constructed.
+/// Fixes the time resolution of the simulation at the program's setting, or at SystemC's default of 1 ps, and reports
+/// the error /dsdpv1/time_resolution (thrown by SystemC as sc_core::sc_report) if it is not 1 fs to 1 ps. Every module
+/// of this library calls it in its constructor.
 void require_resolution();
 
-/// For programs that want SystemC's finest resolution, which ends after 18446 s: makes 1 fs the time resolution, or
-/// reports the error /dsdpv1/time_resolution when another one is fixed already, because an sc_time or a module was made
-/// before. First thing in sc_main. (After a program's own sc_set_time_resolution(1, SC_FS) it works as well, but
-/// SystemC then counts one error: it offers no way to ask beforehand.)
+/// For programs that need SystemC's finest resolution, whose time ends after 18446 s: sets the time resolution to 1 fs,
+/// or reports the error /dsdpv1/time_resolution if another one is already fixed by an sc_time or a module. Call it
+/// first in sc_main. (After a program's own sc_set_time_resolution(1, SC_FS) it works as well, but SystemC then counts
+/// one error, because it offers no way to ask beforehand.)
 void require_femtoseconds();
 
 }  // namespace dsdpv1::systemc
