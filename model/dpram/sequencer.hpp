@@ -62,11 +62,11 @@ class Sequencer {
 
   bool owns() const { return phase_ > Phase::kIdle; }       ///< an access of the chip is under way
   bool started_up() const { return phase_ > Phase::kDue; }  ///< the start-up access of this reset has begun
-  /// true while the start-up access is due or running
+  /// True while the start-up access is due or running.
   bool starts_up() const { return phase_ <= Phase::kDue || phase_ == Phase::kStartUp; }
   bool initialised() const { return initialised_; }  ///< an initialisation has succeeded
   /// The cycle at which new parameters or a new configuration were last flagged for the user (P7); kNever: not since
-  /// reset. Read it after eval() to trigger INTR0.
+  /// reset. Read it after eval().
   Cycle told_user() const { return told_user_; }
   std::uint64_t accesses() const { return accesses_; }
   Cycle longest_wait() const { return longest_wait_; }
