@@ -53,7 +53,7 @@ def ports():
     yield Port("parallel", "mode: parallel", "", ("R_REQ", "R_STA"), 4000)
     yield Port("SPI, 9 MHz", "mode: spi", "spi: {clock: 9000}", ("XSS",), 4000)
     for name, rate in RATES.items():
-        yield Port(f"UART, {name}Bd".replace("kBd", " kBd").replace("MBd", " MBd"), f"mode: uart, uart_rate: {name}", "", ("RXD", "TXD"), 12_000_000_000 // rate)
+        yield Port(f"UART, {name[:-1]} {name[-1]}bit/s", f"mode: uart, uart_rate: {name}", "", ("RXD", "TXD"), 12_000_000_000 // rate)
 
 
 def edges(wave):

@@ -37,8 +37,8 @@ SWEEPS = [
     Sweep("rsu_spi_timing", CLOCKS, ("user_cpu.spi.byte_gap", "0us,500ns,1us,2us", "gap between bytes")),
     Sweep("rsu_spi_timing", CLOCKS, ("user_cpu.spi.gap", "500ns,20us,100us", "gap between frames")),
     Sweep("rsu_uart_timing", ("user_cpu.uart.gap", "0us,20us,21us,83us,84us,166us,167us", "gap between characters"),
-          ("chip.uart_rate", "230.4k,460.8k,1.8432M", "rate / Bd"), "end=130ms", "masters.plc.start=35ms", "user_cpu.cycle=20ms"),
-    Sweep("rsu_uart_timing", ("user_cpu.uart.rate", "430000..490000/5000", "host's rate / Bd, the chip's is 460.8k"),
+          ("chip.uart_rate", "230.4k,460.8k,1.8432M", "rate / (bit/s)"), "end=130ms", "masters.plc.start=35ms", "user_cpu.cycle=20ms"),
+    Sweep("rsu_uart_timing", ("user_cpu.uart.rate", "430000..490000/5000", "host's rate / (bit/s), the chip's is 460.8k"),
           ("user_cpu.uart.gap", "0us,10us", "gap between characters"), "chip.uart_rate=460.8k", "end=35ms", "masters.plc.start=8ms", "user_cpu.cycle=2ms"),
 ]
 
