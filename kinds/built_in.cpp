@@ -1,4 +1,4 @@
-// The kinds of chips that this program has.
+// The kinds of chips in this program.
 #include "kinds/dsdpv1/kind.hpp"
 #include "tb/chip/chip_kind.hpp"
 

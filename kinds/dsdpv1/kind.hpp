@@ -1,5 +1,5 @@
 #pragma once
-// The DSDPV1 and its sisters as kinds of chips.
+// The DSDPV1 and its sister chips as kinds of chips.
 #include "model/dsdpv1/part.hpp"
 #include "tb/chip/chip_kind.hpp"
 

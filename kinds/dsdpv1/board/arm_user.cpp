@@ -17,7 +17,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-/// As the scenario's check has found them right.
+/// The values were validated when the scenario was read.
 arm::Switches switches_of(const Dsdpv1User& user) {
   arm::Switches switches;
   for (const Name& text : user.switches) {
@@ -29,8 +29,8 @@ arm::Switches switches_of(const Dsdpv1User& user) {
   return switches;
 }
 
-/// The straps of a DSDPV1-RSU, which the processor reads as well (R13): MODE at PC10 PC11, ADR PB0 PB1, UBR PD8 to
-/// PD10, UIV PE13 to PE15, bit 0 at the lower pin (p).
+/// The straps of a DSDPV1-RSU, which the processor also reads (R13): MODE at PC10 PC11, ADR PB0 PB1, UBR PD8 to PD10,
+/// UIV PE13 to PE15, bit 0 at the lower pin (p).
 void hold_straps(arm::Switches& switches, const Dsdpv1Settings& chip) {
   struct Place {
     unsigned port, pin, count;
@@ -44,7 +44,7 @@ void hold_straps(arm::Switches& switches, const Dsdpv1Settings& chip) {
   }
 }
 
-/// The mailbox has room for so many.
+/// Limited by the room in the mailbox.
 void check_objects(const scenario::Scenario& scenario, const scenario::Slave& slave, const arm::Firmware& firmware) {
   const std::size_t count = slave.user_cpu.dpv1.objects.size();
   if (firmware.mailbox && count > DSDPV1_MAILBOX_OBJECTS)

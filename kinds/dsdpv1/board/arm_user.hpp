@@ -1,10 +1,10 @@
 #pragma once
-// Firmware on the ARM board, as the user CPU beside a DSDPV1.
+// Firmware on the ARM board as the user CPU of a DSDPV1.
 
 namespace dsdpv1::tb {
 
-/// This program has the ARM board: called before the first scenario is read. What firmware without a mailbox cannot do
-/// of a scenario is left out or refused, see untold.hpp.
+/// Registers the ARM board; call it before the first scenario is read. Parts of a scenario that firmware without a
+/// mailbox cannot execute are left out or rejected, see untold.hpp.
 void add_arm_board();
 
 }  // namespace dsdpv1::tb

@@ -14,7 +14,7 @@ namespace {
 // The board's wiring.
 constexpr unsigned kRReqPin = 6, kRStaPin = 7;
 
-/// Something that the bench does on its own stack, at once.
+/// An action executed at once on the bench's stack.
 class AtOnce : public user_cpu::Transfer {
  public:
   AtOnce(Tick at, const std::function<void(Tick)>& action) : at_(at), action_(action) {}
@@ -31,7 +31,7 @@ class AtOnce : public user_cpu::Transfer {
   bool done_ = false;
 };
 
-/// Only edges, accesses and the processor take time: instructions are counted by the processor itself.
+/// Only edges, accesses and the processor take time: the processor counts its instructions.
 user_cpu::CpuTiming no_overhead() {
   user_cpu::CpuTiming timing;
   timing.overhead = timing.pin_sample = timing.pin_write = 0;
@@ -76,7 +76,7 @@ Board::~Board() {
 
 // ------------------------------------------------------------------------------------------------- the bench's side
 
-// The mailbox first: afterwards the processor has gone on to its next stop, which lies behind `now`.
+// The mailbox first: after it the processor has run to its next stop, which is later than `now`.
 void Board::run(Tick now) {
   if (mailbox_) look_at_mailbox(now);
   for (Tick at = now;;) {
@@ -88,20 +88,20 @@ void Board::run(Tick now) {
   if (std::exchange(chip_reset_due_, false)) set_chip_reset_(cpu_.now(), chip_reset_);
 }
 
-/// The peripherals move on before the processor looks; an interrupt of theirs ends its sleep.
+/// Peripherals run before the processor; their interrupts end its sleep.
 void Board::run_serial(Tick now) {
   while (serial_tick() <= now) serial_.run(now, bus_);
   if ((serial_.requests() << kExtiIrq.size() & ~requests_) != 0) cpu_.wake(now);
 }
 
-/// Called while the chip acts, perhaps before this agent's turn; the processor may be ahead.
+/// Called while the chip acts, possibly before this agent's turn; the processor may be ahead.
 void Board::txd_changed(Tick at, bool level) {
   serial_.txd_changed(cycle_of(std::max(at, since_)), level);
   announce();
   if (on_plan) on_plan();
 }
 
-/// Firmware may sleep until an event comes (WFE): a command is one.
+/// Firmware may sleep until an event (WFE): a command is one.
 void Board::look_at_mailbox(Tick now) {
   const bool was_right = mailbox_->wrong().empty();
   const bool handed_over = mailbox_->look(now, [this](const user_cpu::DriverError& error) {
@@ -161,10 +161,10 @@ void Board::run_firmware(user_cpu::Cpu& cpu) {
   }
 }
 
-/// Also a fault that the firmware has a handler for ends the run: that handler is for products, here somebody wants to
-/// see it.
+/// Ends the run even if the firmware has a handler for the fault: that handler is for products, while users of the
+/// bench want to see the fault.
 void Board::note_fault(const Fault& fault) {
-  if (fault.outcome != FaultOutcome::kHandled) return;  // comes as FaultError
+  if (fault.outcome != FaultOutcome::kHandled) return;  // otherwise it arrives as FaultError
   fault_ = fault;
   if (debugger_) debugger_->fault(fault.text);
   core_.stop();
@@ -185,7 +185,7 @@ Tick Board::tick_of(std::uint64_t cycle) const {
   return since_ + static_cast<Tick>(cycle - since_cycle_) * cycle_ticks_ / cycle_parts_;
 }
 
-/// The first cycle that does not begin before `tick`.
+/// The first cycle that begins at or after `tick`.
 std::uint64_t Board::cycle_of(Tick tick) const {
   return since_cycle_ + static_cast<std::uint64_t>(((tick - since_) * cycle_parts_ + cycle_ticks_ - 1) / cycle_ticks_);
 }
@@ -194,7 +194,7 @@ std::int64_t Board::hclk_hz() const {
   return options_.fsmc.hclk_mhz ? std::int64_t{1'000'000} * *options_.fsmc.hclk_mhz : rcc_.hclk_hz();
 }
 
-/// Cycles last what RCC says, from the present one on.
+/// The cycle length follows RCC from the present cycle on.
 void Board::follow_clock() {
   since_ = now();
   since_cycle_ = core_.cycles();
@@ -204,18 +204,18 @@ void Board::follow_clock() {
   if (pins_ != nullptr) set_access_timing();
 }
 
-/// Everybody else has come to the processor's time.
+/// Waits until all other agents have reached the processor's time.
 void Board::come_up() {
   pins_->wait_until(now());
   take_intr0_edges();
 }
 
-/// The serial peripherals have done what is due by the processor's time.
+/// Runs the serial peripherals up to the processor's time.
 void Board::meet_serial() {
   if (serial_tick() <= now()) come_up();
 }
 
-/// The processor may stay ahead of the others as long as nobody has anything to do.
+/// The processor may stay ahead of the other agents as long as none of them is due.
 std::uint64_t Board::keep_up() {
   if (has_news() || stays_until() <= now()) come_up();
   return next_due();
@@ -227,18 +227,18 @@ std::uint64_t Board::next_due() {
   return next == bus::kNever ? kNever : cycle_of(std::max(next, now()));
 }
 
-/// A chip that runs ahead tells of its edges before their time.
+/// A chip that runs ahead reports its edges before their time.
 Tick Board::stays_until() {
   const Tick quiet = quiet_until();
   return intr0_edges_.empty() ? quiet : std::min(quiet, intr0_edges_.front().at);
 }
 
-/// The serial peripherals are others, too.
+/// The serial peripherals count as other agents.
 Tick Board::quiet_until() { return others() != nullptr ? std::min(serial_tick(), others()->quiet_until()) : 0; }
 
 bool Board::go_on(Tick tick) { return serial_tick() > tick && turn_goes_on(tick); }
 
-/// What is looked at between two turns is looked at first.
+/// Checks first what is checked between two turns.
 bool Board::turn_goes_on(Tick tick) {
   return !has_news() && !chip_reset_due_ && others() != nullptr && others()->go_on(tick);
 }
@@ -266,7 +266,7 @@ void Board::reset() {
   update_pins();
 }
 
-/// Whether an interrupt is asked for that was not before, or an event has come.
+/// Returns true for a new interrupt request or an event.
 bool Board::take_intr0_edges() {
   const unsigned before = requests_;
   for (; !intr0_edges_.empty() && intr0_edges_.front().at <= pins_->now(); intr0_edges_.pop_front()) {
@@ -276,7 +276,7 @@ bool Board::take_intr0_edges() {
   return update_interrupts() || (requests_ & ~before) != 0;
 }
 
-/// Whether there was an event, which ends a WFE.
+/// Returns true if there was an event, which ends a WFE.
 bool Board::update_interrupts() {
   const unsigned now = exti_.requests() | serial_.requests() << kExtiIrq.size(), changed = now ^ requests_;
   const auto irq = [](std::size_t i) {
@@ -303,7 +303,7 @@ void Board::update_pins() {
   if (const bool level = ports_.at(reset_pin_.port).level(reset_pin_.pin, true);
       std::exchange(chip_reset_, level) != level) {
     chip_reset_due_ = true;
-    pins_->wait(1);  // the bench moves the pin before the firmware goes on
+    pins_->wait(1);  // the bench moves the pin before the firmware continues
   }
 }
 
@@ -313,7 +313,7 @@ void Board::update_serial_pins() {
   on_bus([this](Tick at) { serial_.move(at, bus_); });
 }
 
-/// Pins move on the bench's stack.
+/// Pins are moved on the bench's stack.
 void Board::on_bus(const std::function<void(Tick)>& action) {
   AtOnce transfer(pins_->now(), action);
   pins_->transfer(transfer);

@@ -1,18 +1,18 @@
 #pragma once
-// An evaluation board with an STM32F103 as a station's user CPU: it runs the firmware that is meant for the real board.
+// An evaluation board with an STM32F103 as a station's user CPU: it runs the firmware built for the real board.
 //
-//   PC6 R_REQ, PC7 R_STA  outputs; low while the firmware has not made them outputs (pull-down on the board)
+//   PC6 R_REQ, PC7 R_STA  outputs; low until the firmware makes them outputs (pull-down on the board)
 //   PC8 L_REQ, PC9 L_STA  inputs
-//   PE4 RESET             of the chip; high while it is no output (pull-up on the board); of card 2: PE5
-//   PG6 INTR0             through AFIO, EXTI line 6, IRQ 23; of card 2: PD12, line 12, IRQ 40
-//   SPI1, SPI2, USART2    as serial_side.hpp has them
+//   PE4 RESET             of the chip; high unless it is an output (pull-up on the board); card 2: PE5
+//   PG6 INTR0             through AFIO, EXTI line 6, IRQ 23; card 2: PD12, line 12, IRQ 40
+//   SPI1, SPI2, USART2    see serial_side.hpp
 //   PG12, PG13, PG14      inputs: PBF, BR, READY (p)
-//   other pins            inputs: what BoardOptions::switches holds; else their own pull-up or pull-down
+//   other pins            inputs: held by BoardOptions::switches, else their own pull-up or pull-down
 //   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, RD, WR, CSR; the 2 KB repeat
 //   USART1                a terminal
 //
-// HCLK follows the firmware's RCC, 8 MHz from the HSI at first; an instruction takes what it lasts, an access to a
-// peripheral two cycles more (p: the bridge to APB), an access to the chip what the FSMC's registers say.
+// HCLK follows the firmware's RCC, starting at 8 MHz from the HSI. An instruction takes its own cycles, an access to a
+// peripheral two more (p: the bridge to APB), and an access to the chip the time set in the FSMC's registers.
 #include <algorithm>
 #include <array>
 #include <deque>
@@ -51,19 +51,19 @@ struct BoardOptions {
   std::shared_ptr<const Firmware> firmware;
   user_cpu::ProgramOptions program;  ///< for the mailbox, when the firmware has one
   user_cpu::FsmcOverride fsmc;
-  std::optional<AccessTiming> access;  ///< edges in place of those that the FSMC makes
+  std::optional<AccessTiming> access;  ///< edges that replace those of the FSMC
   Timing timing;
   Switches switches;
-  unsigned card = 1;                                  ///< 1 or 2: where RESET, INTR0 and SPI are wired to
+  unsigned card = 1;                                  ///< 1 or 2: selects the wiring of RESET, INTR0 and SPI
   bool serial = false;                                ///< the chip has the pins of SPI and UART
-  std::function<const tb::ChipView&(Tick now)> chip;  ///< as it is `now`, for a debugger; null: that sees none
+  std::function<const tb::ChipView&(Tick now)> chip;  ///< the chip's state at `now`, for a debugger; null: not shown
   std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
   std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };
 
 class Board final : public user_cpu::StationCpu, private user_cpu::Others, private System {
  public:
-  /// Its processor leaves reset at `start`. `set_chip_reset` moves the chip's RESET pin; both must outlive the board.
+  /// The processor leaves reset at `start`. `set_chip_reset` sets the chip's RESET pin; both must outlive the board.
   Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool level)> set_chip_reset,
         Tick start);
   ~Board() override;
@@ -86,13 +86,13 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   struct Place {
     unsigned port, pin;
   };
-  /// What somebody outside of the processor does to the pins of a port.
+  /// Levels driven onto a port's pins from outside the processor.
   struct Levels {
     std::uint16_t driven, levels;
   };
   enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
 
-  // Others, for the CPU that moves the pins
+  // Others, called by the CPU that moves the pins
   Tick quiet_until() override;
   bool go_on(Tick tick) override;
 
@@ -146,17 +146,17 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   bool stays(std::uint32_t address) const;
   std::uint32_t load_port(unsigned port, std::uint32_t offset);
   Levels outside(unsigned port);
-  /// What the chip's outputs make of pins: L_REQ, L_STA; lamps as user_cpu::HostBus has them; MISO.
+  /// Inputs from the chip's outputs: L_REQ, L_STA; lamps as in user_cpu::HostBus; MISO.
   struct Outputs {
     unsigned handshake = 0, lamps = 0;
     bool miso = true;
   };
   Levels wired(unsigned port, const Outputs& chip) const;
   std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
-  /// Notes what of a register's use a real one would not answer or the board does not have.
+  /// Notes uses of a register that a real one would not support or the board does not model.
   void look_at(std::uint32_t address, std::optional<std::uint32_t> written);
   void look_at_clock(const Peripheral& of);
-  /// Once for each; `what`: a bit of the register, or more.
+  /// True once for each; `what`: a bit of the register, or more.
   bool is_new(std::uint32_t address, unsigned what) { return noted_.emplace(address, what).second; }
   void note(const std::string& text);
 
@@ -175,20 +175,20 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Terminal terminal_;
   Fsmc fsmc_;
   OtherRegisters others_;
-  std::deque<Intr0Edge> intr0_edges_;  ///< that the processor has not come to
+  std::deque<Intr0Edge> intr0_edges_;  ///< not yet reached by the processor
   bool intr0_ = true;
   bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
   user_cpu::HandshakeCounters handshake_;
-  unsigned requests_ = 0;  ///< of exti_ and, above them, serial_, as the processor knows them
+  unsigned requests_ = 0;  ///< of exti_ and, above them, serial_, as last passed to the processor
   std::set<std::pair<std::uint32_t, unsigned>> noted_;  ///< by is_new
   std::vector<std::string> notes_;
   std::optional<Fault> fault_;  ///< that the firmware would have handled
   CortexM3 core_;
   std::unique_ptr<Debugger> debugger_;
   std::optional<MailboxLink> mailbox_;
-  std::vector<std::uint8_t> no_outputs_;  ///< of firmware without mailbox
+  std::vector<std::uint8_t> no_outputs_;  ///< of firmware without a mailbox
   user_cpu::Cpu* pins_ = nullptr;         ///< of cpu_, while the processor runs
-  user_cpu::NativeCpu cpu_;               // ends before everything that its fiber uses
+  user_cpu::NativeCpu cpu_;               // destroyed before everything that its fiber uses
 };
 
 }  // namespace dsdpv1::arm

@@ -1,4 +1,4 @@
-// What the processor finds at an address: the chip on the memory bus, registers, and what a debugger sees of them.
+// The processor's address space: the chip on the memory bus, registers, and a debugger's view of them.
 #include <fmt/format.h>
 
 #include <array>
@@ -56,7 +56,7 @@ constexpr std::array<Peripheral, 16> kMap = {{
 }};
 constexpr const Peripheral& kFsmc = kMap.back();
 
-/// Null: nothing there that the board has.
+/// Null: the board has no peripheral there.
 const Peripheral* peripheral_at(std::uint32_t address) {
   static constexpr auto kPlaces = [] {  // from 1 on, by block
     std::array<std::uint8_t, kPeripheralsSize / kBlock> places{};
@@ -84,13 +84,13 @@ std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
 void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   if (address >= kBank1 && address < kBank1End) return store_chip(address, bytes, value);
   if (bytes == 4) return store_word(address, value);
-  // The bridge to APB has whole words only: the rest of the register stays.
+  // The bridge to APB writes whole words only, so the rest of the register is kept.
   const unsigned shift = address % 4 * 8;
   const std::uint32_t mask = ((1U << bytes * 8) - 1) << shift;
   store_word(address & ~3U, (load_word(address & ~3U) & ~mask) | (value << shift & mask));
 }
 
-/// Wider accesses are as many of a byte, the lowest address first.
+/// Wider accesses are made byte by byte, the lowest address first.
 std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
   if (!may_access(address, false)) return 0;
   come_up();
@@ -109,7 +109,7 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
   end_accesses(bytes);
 }
 
-/// They were whole cycles, each rounded to ticks.
+/// Accesses are whole cycles, each rounded to ticks.
 void Board::end_accesses(unsigned count) { core_.advance_to(cycle_of(pins_->now() - count)); }
 
 void Board::set_access_timing() {
@@ -154,9 +154,9 @@ std::uint32_t Board::load_register(std::uint32_t address) {
   return others_.read(address, core_.pc());
 }
 
-/// A register whose look has no effect, or none once more, until somebody has a turn. That does not hold for MISO and
-/// the lamps; for L_REQ and L_STA while a chip that nobody asks, and nobody watches, makes up its accesses afterwards;
-/// and for what is not there, where accesses are counted.
+/// True if reading the register has no effect and gives the same value until another agent has a turn. That is false
+/// for MISO and the lamps; for L_REQ and L_STA while an idle, unobserved chip simulates its accesses afterwards; and
+/// for missing registers, whose accesses are counted.
 bool Board::stays(std::uint32_t address) const {
   if (address < kGpioA || address >= kGpioEnd) return peripheral_at(address) != nullptr;
   const unsigned port = (address - kGpioA) / kBlock;
@@ -169,7 +169,7 @@ std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {
   return ports_.at(port).read(offset, there.driven, there.levels);
 }
 
-/// The chip, the board's pull-up, the switches and the serial peripherals.
+/// Levels from the chip, the board's pull-up, the switches and the serial peripherals.
 Board::Levels Board::outside(unsigned port) {
   Outputs chip;
   if (port == kC || port == kG || port == intr0_pin_.port || serial_.concerns(port)) come_up();
@@ -271,7 +271,7 @@ void Board::store_word(std::uint32_t address, std::uint32_t value) {
   }
 }
 
-/// EXTI hears outputs as well as inputs.
+/// EXTI also sees pins that are outputs.
 void Board::store_gpio(unsigned port, std::uint32_t offset, std::uint32_t value) {
   come_up();
   Gpio& gpio = ports_.at(port);
@@ -299,7 +299,7 @@ void Board::store_rcc(std::uint32_t offset, std::uint32_t value) {
 
 void Board::follow_flash() { core_.set_flash(flash_.wait_states(), flash_.prefetch()); }
 
-/// RM0008, FLASH_ACR: a wait state for each 24 MHz that are begun, but the first.
+/// RM0008, FLASH_ACR: one wait state for each 24 MHz after the first.
 void Board::check_clock() {
   const std::int64_t hz = rcc_.hclk_hz(), mhz = hz / 1'000'000, wanted = (hz - 1) / kHclkWithoutWait;
   if (hclk_hz() > kGreatestHclk && is_new(kRcc, kTooFast))

@@ -43,7 +43,7 @@ std::uint8_t word_for(user_cpu::InputSource source) {
   return DSDPV1_INPUTS_IDLE;
 }
 
-/// Copies what has room and returns how much that was.
+/// Copies as much as fits and returns that number.
 template <std::size_t kSize>
 std::uint8_t put(const std::vector<std::uint8_t>& bytes, std::uint8_t (&to)[kSize]) {
   const std::size_t count = std::min(bytes.size(), kSize);
@@ -51,7 +51,7 @@ std::uint8_t put(const std::vector<std::uint8_t>& bytes, std::uint8_t (&to)[kSiz
   return static_cast<std::uint8_t>(count);
 }
 
-/// The memory has been cleared: the text's end is there.
+/// The memory was cleared, so the text is terminated.
 template <std::size_t kSize>
 void put(const std::string& text, char (&to)[kSize]) {
   std::copy_n(text.begin(), std::min(text.size(), kSize - 1), to);
@@ -179,7 +179,7 @@ struct Fill {
       default: throw std::logic_error("the board's firmware has no such telegrams");
     }
   }
-  /// A scenario that asks for it is refused (kinds/dsdpv1/keys/serial_keys.cpp).
+  /// A scenario with this action is rejected (kinds/dsdpv1/keys/serial_keys.cpp).
   void operator()(const command::HostTelegram&) const {
     throw std::logic_error("the board sends no others' telegrams");
   }
@@ -226,7 +226,7 @@ bool MailboxLink::hand_over() {
   return true;
 }
 
-/// Whether it is; the first that is not stays in wrong().
+/// Returns `right`; keeps the first wrong value for wrong().
 bool MailboxLink::is_right(const std::string& field, unsigned value, bool right, const char* allowed) {
   if (!right && wrong_.empty()) wrong_ = fmt::format("{} is {}, allowed are {}", field, value, allowed);
   return right;
@@ -243,7 +243,7 @@ void MailboxLink::fetch_outputs() {
 
 void MailboxLink::fetch_errors(Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error) {
   const std::uint32_t count = box_.report.error_count;
-  if (count < errors_seen_) errors_seen_ = 0;  // firmware that has begun again, and counts again
+  if (count < errors_seen_) errors_seen_ = 0;  // the firmware has restarted and counts from 0
   if (count - errors_seen_ > DSDPV1_MAILBOX_ERRORS) errors_seen_ = count - DSDPV1_MAILBOX_ERRORS;
   for (; errors_seen_ != count; ++errors_seen_) {
     const std::uint32_t place = errors_seen_ % DSDPV1_MAILBOX_ERRORS;

@@ -13,26 +13,26 @@ namespace dsdpv1::arm {
 
 class MailboxLink {
  public:
-  /// `memory` is the mailbox in the processor's RAM; it is cleared and the settings filled in. At most
+  /// `memory` is the mailbox in the processor's RAM; the constructor clears it and writes the settings. At most
   /// DSDPV1_MAILBOX_OBJECTS objects.
   MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& options);
 
   void post(const user_cpu::DriverCommand& command) { commands_.push_back(command); }
-  /// Whether look() would find something.
+  /// Whether look() would have an effect.
   bool has_news() const {
     return (!commands_.empty() && is_done()) || outputs_received_ != box_.report.outputs_received ||
            errors_seen_ != box_.report.error_count || !done_is_right();
   }
-  /// Hands over the next command when the firmware is done with the last, fetches outputs and errors: after each step
-  /// of the processor. True when it has handed one over. What the firmware has written is checked before it is used,
+  /// To be called after each step of the processor: passes the next command when the firmware has finished the last,
+  /// and fetches outputs and errors. Returns true if it passed one. Values from the firmware are validated before use,
   /// see wrong().
   bool look(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
 
-  /// The first thing in the mailbox that the firmware cannot have meant: "report.output_length is 250, allowed are 0 to
-  /// 244". Empty: nothing. From then on look() does nothing.
+  /// The first invalid value in the mailbox: "report.output_length is 250, allowed are 0 to 244". Empty: none. After
+  /// one, look() does nothing.
   const std::string& wrong() const { return wrong_; }
 
-  /// As of the last look().
+  /// State at the last look().
   std::uint64_t outputs_received() const { return outputs_received_; }
   const std::vector<std::uint8_t>& outputs() const { return outputs_; }
   user_cpu::ProgramCounters counters() const;

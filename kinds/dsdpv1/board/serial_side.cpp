@@ -16,7 +16,7 @@ constexpr std::uint32_t kSpi1Remap = 1U << 0U, kUsart2Remap = 1U << 3U;
 
 constexpr unsigned kPortA = 0;
 constexpr unsigned kRtsPin = 1, kTxPin = 2, kRxPin = 3;
-enum : unsigned { kNss, kSck, kMiso, kMosi };           // pins of an SPI, from its first one on
+enum : unsigned { kNss, kSck, kMiso, kMosi };           // pins of an SPI, counted from its first one
 constexpr std::array<unsigned, 2> kFirstPin = {4, 12};  // PA4, PB12
 
 void append(std::uint8_t& byte, bool bit) {
@@ -148,7 +148,7 @@ void SerialSide::move(Tick at, user_cpu::SerialPins& chip) {
   set(Pin::kRxd, before.rxd, levels_.rxd);
 }
 
-/// What the chip's shift register would take, bit by bit at SCK's rises.
+/// Collects the bits that the chip's shift register takes at SCK's rises.
 void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPins& chip) {
   if (before.xss && !levels_.xss) {
     out_.clear();
@@ -169,7 +169,7 @@ void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPin
 
 SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {
   Seen seen;
-  if (port >= spi_.size()) return seen;  // USART2 is on port A, too
+  if (port >= spi_.size()) return seen;  // USART2 is also on port A
   const auto add = [&](unsigned pin, bool level) {
     seen.driven |= static_cast<std::uint16_t>(1U << pin);
     if (level) seen.levels |= static_cast<std::uint16_t>(1U << pin);

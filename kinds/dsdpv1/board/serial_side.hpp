@@ -1,12 +1,12 @@
 #pragma once
-// The board's serial peripherals and what of them is wired to the chip:
+// The board's serial peripherals and their wiring to the chip:
 //
 //   card 1   SPI1: PA4 XSS, PA5 SCK, PA6 MISO, PA7 MOSI
 //   card 2   SPI2: PB12 XSS, PB13 SCK, PB14 MISO, PB15 MOSI
-//   both     USART2: PA2 the chip's RXD, PA3 its TXD; PA1 RTS, which the chip has no pin for
+//   both     USART2: PA2 the chip's RXD, PA3 its TXD; PA1 RTS, not connected to the chip
 //
-// XSS and RXD are pulled high, SCK and MOSI low (p). An output of a port moves the pin as well as the peripheral does,
-// when the pin is its alternate function; remapped ones (AFIO_MAPR) have left these pins.
+// XSS and RXD are pulled high, SCK and MOSI low (p). A pin is moved by its port's output or, if it is the alternate
+// function, by the peripheral; remapped ones (AFIO_MAPR) are no longer on these pins.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -39,49 +39,49 @@ class SerialSide {
   std::uint32_t peek(std::uint32_t address) const;
   std::uint32_t read(std::uint32_t address);
   void write(std::uint32_t address, std::uint32_t value, std::uint64_t now);
-  /// What RCC says: clocks, and which of them are reset.
+  /// Applies RCC: clocks, and peripherals in reset.
   void follow(const Rcc& rcc);
   /// AFIO_MAPR.
   void remap(std::uint32_t mapr) { mapr_ = mapr; }
   void reset();
 
-  /// The cycle of HCLK of their next action.
+  /// The HCLK cycle of the next action.
   std::uint64_t next() const { return next_; }
-  /// Acts at cycle next(), which begins at tick `at`; the chip's pins follow.
+  /// Acts at cycle next(), which begins at tick `at`; updates the chip's pins.
   void run(Tick at, user_cpu::SerialPins& chip);
-  /// The chip's TXD changed; cycle `cycle` is the first that sees it.
+  /// The chip's TXD changed; `cycle` is the first that sees it.
   void txd_changed(std::uint64_t cycle, bool level);
 
-  /// Ports or registers have been written: whether the chip's pins are to move. NSS hears its pin here.
+  /// Ports or registers were written. Returns true if the chip's pins must be updated. NSS reads its pin here.
   bool moved();
   void move(Tick at, user_cpu::SerialPins& chip);
   /// Bits for kSerialIrq.
   unsigned requests() const;
 
-  /// Levels that ports A and B see from here, of pins that the ports do not drive. `miso` as the chip has it.
+  /// Levels driven from here onto pins that ports A and B do not drive. `miso` from the chip.
   struct Seen {
     std::uint16_t driven = 0, levels = 0;
   };
   Seen seen(unsigned port, bool miso) const;
-  /// Something of the chip is on that port.
+  /// The port has a pin of the chip.
   bool concerns(unsigned port) const { return card_ != 0 && port < 2; }
-  /// MISO is on that port, so that its level has to be known.
+  /// MISO is on that port, so its level must be known.
   bool has_miso(unsigned port) const { return card_ != 0 && port == card_ - 1; }
 
-  /// Holds of the DPRAM, as the frames between the pins tell.
+  /// Holds of the DPRAM, according to the frames on the pins.
   const user_cpu::HoldCounters& holds() const { return claims_.counters(); }
   /// For the end of the run: bytes lost.
   std::vector<std::string> notes() const;
 
  private:
-  /// As on the chip's pins: XSS, SCK, MOSI, RXD.
+  /// Levels of the chip's pins XSS, SCK, MOSI, RXD.
   struct Levels {
     bool xss = true, sck = false, mosi = false, rxd = true;
     bool operator!=(const Levels& other) const {
       return xss != other.xss || sck != other.sck || mosi != other.mosi || rxd != other.rxd;
     }
   };
-  /// A peripheral's pin, as the port lets it through.
+  /// Output of a peripheral, as passed on by the port.
   struct Alternate {
     unsigned port, pin;
     bool drives, level;
@@ -99,7 +99,7 @@ class SerialSide {
   Usart usart_;
   std::uint64_t next_ = kNever;  ///< of all three
   Levels levels_;
-  std::vector<std::uint8_t> out_, in_;  ///< of the frame, both ways; the bits of an unfinished byte in the last ones
+  std::vector<std::uint8_t> out_, in_;  ///< of the frame, both ways; the last one holds the bits of an unfinished byte
   unsigned frame_bits_ = 0;
   Tick frame_begin_ = 0;
   user_cpu::ClaimCounters claims_;

@@ -21,7 +21,7 @@ bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// Keys of user_cpu that are about the program; the others are about processor, board and bus.
+/// Keys of user_cpu that concern the program; the others concern processor, board and bus.
 bool is_for_the_program(const std::string& key) {
   static const std::vector<std::string> keys = {
       "behaviour",        "constant",    "overwrite_inputs", "start_delay", "cycle", "judge_delay",
@@ -29,7 +29,7 @@ bool is_for_the_program(const std::string& key) {
   return is_one_of(key, keys);
 }
 
-/// Keys of init that the masters go by as well.
+/// Keys of init that masters also use.
 bool is_for_masters(const std::string& key) {
   static const std::vector<std::string> keys = {"ident", "max_inputs", "max_outputs", "cfg"};
   return is_one_of(key, keys);
@@ -37,7 +37,7 @@ bool is_for_masters(const std::string& key) {
 
 bool is_of_the_driver(const std::string& event) { return event.rfind("DSDPV1_ERR_", 0) == 0; }
 
-/// What a condition wants to know from the slave's program; nullopt: nothing.
+/// The part of the program's state that a condition needs; nullopt: none.
 std::optional<std::string> wanted(const Condition& condition, const std::string& slave) {
   if (condition.slave.text != slave) return std::nullopt;
   if (condition.outputs) return fmt::format("outputs are those that the program of {} has fetched", slave);

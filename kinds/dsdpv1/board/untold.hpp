@@ -1,6 +1,6 @@
 #pragma once
-// What firmware without a mailbox is not told, and what it does not tell: those parts of a scenario are refused, or
-// left out.
+// Without a mailbox, firmware receives no commands and reports nothing: the parts of a scenario that need these are
+// rejected or left out.
 #include <set>
 #include <string>
 #include <vector>
@@ -14,9 +14,9 @@ struct Untold {
   std::vector<std::string> notes;  ///< for the end of the run
 };
 
-/// For a slave whose `firmware` has no mailbox. Throws InputError for the first thing that the scenario demands of its
-/// program by name, unless its user_cpu says `without_mailbox: leave_out`. Settings of the file are no demands to
-/// firmware that the command line has put in the place of the file's: those are noted.
+/// For a slave whose `firmware` has no mailbox. Throws InputError for the first demand of the scenario on its program
+/// by name, unless its user_cpu has `without_mailbox: leave_out`. Settings of the file are not demands if the command
+/// line replaced the file's firmware: those are noted.
 Untold untold(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& firmware);
 
 }  // namespace dsdpv1::tb

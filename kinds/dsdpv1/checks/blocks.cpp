@@ -7,14 +7,14 @@ namespace {
 
 constexpr unsigned kAcyclicHeader = 4;
 
-/// The bytes before the CRC that a length byte, found at `length`, counts from `data` on.
+/// The number of bytes before the CRC: those up to `data`, and as many as the length byte at `length` counts.
 std::optional<unsigned> counted(const Block& block, Address length, Address data, const Look& look) {
   const std::optional<std::uint8_t> count = look(length);
   if (!count || data + *count > block.crc) return std::nullopt;
   return static_cast<unsigned>(data - block.first) + *count;
 }
 
-/// V14: reads and transports carry data, everything else is the header alone.
+/// V14: reads and transports carry data, other answers only the header.
 std::optional<unsigned> covered_of_answer(const Block& block, const Look& look) {
   const std::optional<std::uint8_t> function = look(block.first);
   if (!function) return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
-// The blocks of the DPRAM that one side writes and announces to the other with a flag (tables 2, 8 to 11), and what
-// their CRC covers (D3).
+// The blocks of the DPRAM that one side writes and announces to the other with a flag (tables 2, 8 to 11), and the
+// range of their CRC (D3).
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -17,11 +17,11 @@ struct Block {
   Address command;    ///< B00E, B00F: the chip announces it; B010, B011: the user
   std::uint8_t flag;  ///< bit of `command`
   Address first;
-  Address data;  ///< behind the length and what belongs to it
+  Address data;  ///< after the length and its header
   Address crc;   ///< high byte, the low one follows
 };
 
-// What the user hands over.
+// Blocks written by the user.
 constexpr std::array<Block, 5> kUserBlocks = {{
     {"initialisation", dsdpv1::regs::kUserCommand1, dsdpv1::regs::kUserCommand1Init, dsdpv1::regs::kInit,
      dsdpv1::regs::kInitAddress, dsdpv1::regs::kInitCrc},
@@ -35,7 +35,7 @@ constexpr std::array<Block, 5> kUserBlocks = {{
      dsdpv1::regs::kC2Crc},
 }};
 
-// What the chip hands over.
+// Blocks written by the chip.
 constexpr std::array<Block, 5> kChipBlocks = {{
     {"outputs", dsdpv1::regs::kChipCommand1, dsdpv1::regs::kChipCommand1Output, dsdpv1::regs::kOutput,
      dsdpv1::regs::kOutputData, dsdpv1::regs::kOutputCrc},
@@ -49,13 +49,13 @@ constexpr std::array<Block, 5> kChipBlocks = {{
      dsdpv1::regs::kC2Crc},
 }};
 
-/// Reads a cell; absent when its content is not known.
+/// Reads a cell; absent if its content is unknown.
 using Look = std::function<std::optional<std::uint8_t>(Address)>;
 
-/// How many bytes the CRC of a block of the user covers; absent when a byte is not known, or the length cannot be right
+/// The number of bytes covered by the CRC of a block of the user; absent if a byte is unknown, or the length is invalid
 /// (D12, V14: the chip refuses such a block unread).
 std::optional<unsigned> covered(const Block& block, const Look& look);
-/// The CRC over `count` bytes from `first` (4.2, D2); absent when a byte is not known.
+/// The CRC over `count` bytes from `first` (4.2, D2); absent if a byte is unknown.
 std::optional<std::uint16_t> crc_over(Address first, unsigned count, const Look& look);
 
 }  // namespace dsdpv1::checks

@@ -5,7 +5,7 @@
 namespace dsdpv1::checks {
 namespace {
 
-/// The bits of B00A..B011 that mean something, by who sets them.
+/// The meaningful bits of B00A..B011, by the side that sets them.
 struct FlagByte {
   Address address;
   std::uint8_t chip_sets, user_sets;
@@ -28,7 +28,7 @@ constexpr std::array<FlagByte, 8> kFlags = {{
     {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2 | regs::kUserCommand2InputClear, false},
 }};
 
-/// A verdict on a block: bit of B010, and of B00E, which stands until the user has fetched the block.
+/// A verdict on a block: bit of B010, and bit of B00E, which stays set until the user fetches the block.
 struct Verdict {
   std::uint8_t given, block;
   const char* name;
@@ -126,7 +126,7 @@ void CellRules::note_read_of_block(Address address) {
   }
 }
 
-/// The first look of a hold shows what the chip has made of what the user left.
+/// The first read in a hold shows how the chip changed the values that the user left.
 void CellRules::check_what_chip_did(const Access& access) {
   const std::size_t place = access.address - kFirstFlags;
   if (hold_.flags_seen[place] || !access.value) return;
@@ -166,7 +166,7 @@ void CellRules::wrote(const Access& access) {
 void CellRules::count_written(const Access& access) {
   count_left_ = access.value;
   if (hold_.counted_unknown || !access.value) {
-    hold_.counted_unknown = true;  // what follows from X is not judged
+    hold_.counted_unknown = true;  // a result computed from X is not judged
     return;
   }
   const bool right = hold_.count && *access.value == bits(*hold_.count + 1U);
@@ -174,7 +174,7 @@ void CellRules::count_written(const Access& access) {
   hold_.count = access.value;
 }
 
-/// Flags that a new initialisation set aside may be given back, and it may withdraw what was announced before (D11).
+/// A new initialisation may restore flags it set aside, and withdraw earlier announcements (D11).
 bool CellRules::restores(Address address, std::uint8_t set) const {
   return is_command_of_chip(address) && (set & ~set_aside_.at(address - regs::kChipCommand1)) == 0;
 }
@@ -238,7 +238,7 @@ void CellRules::check_crc_written(const Block& block, Tick at) {
   });
 }
 
-/// A look at the length alone is no fetching, unless the flag is cleared with it.
+/// Reading only the length is not a fetch, unless the flag is cleared with it.
 void CellRules::check_crcs_fetched(Tick at) {
   for (std::size_t i = 0; i < kChipBlocks.size(); ++i) {
     const bool fetched = hold_.data_read[i] || (hold_.header_read[i] && hold_.flag_cleared[i]);
@@ -251,7 +251,7 @@ void CellRules::check_crcs_fetched(Tick at) {
 
 // --- verdicts --------------------------------------------------------------------------------------------------------
 
-/// One that stood before is none of this hold's, and one taken back in it is none at all.
+/// A verdict that was set before does not belong to this hold, and one withdrawn in it does not count.
 void CellRules::note_verdicts(std::uint8_t now, std::uint8_t before) {
   for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
     const std::uint8_t given = kVerdicts.at(i).given;
@@ -266,8 +266,8 @@ void CellRules::note_fetched(std::uint8_t now, const std::optional<std::uint8_t>
   }
 }
 
-/// Whether the block's flag stands. Not looked at in this hold, it still does when it did before, as only the user
-/// clears it; else nobody knows whether a newer block has come, but who has cleared nothing since the last verdict has
+/// Whether the block's flag is set. If it was set before and not read in this hold, it still is, because only the user
+/// clears it. Otherwise a newer block may have come; but a user who has cleared nothing since the last verdict has
 /// fetched nothing.
 std::optional<bool> CellRules::stands_unfetched(std::size_t verdict) const {
   constexpr std::size_t kPlace = regs::kChipCommand1 - kFirstFlags;
@@ -276,7 +276,7 @@ std::optional<bool> CellRules::stands_unfetched(std::size_t verdict) const {
   return fetched_[verdict] ? std::nullopt : std::optional(true);
 }
 
-/// At the release: the order of the writes within the hold does not matter, the chip sees them all at once.
+/// At the release: the order of writes within the hold does not matter, because the chip sees them all at once.
 void CellRules::check_verdicts(Tick at) {
   for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
     if (!hold_.verdicts[i]) continue;

@@ -1,6 +1,6 @@
 #pragma once
-// What the user may do with the cells of the DPRAM: B006, the CRCs, the flags, the chip's own cells. All of it is read
-// from the user's accesses.
+// Rules for the user's accesses to DPRAM cells: B006, the CRCs, the flags, the chip's own cells. Derived from the
+// user's accesses only.
 #include <array>
 #include <bitset>
 #include <cstdint>
@@ -13,28 +13,28 @@
 
 namespace dsdpv1::checks {
 
-/// A hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again. What the chip may have changed
-/// before it is not known until the user reads it.
+/// A hold runs from R_STA's rise until R_REQ and R_STA are both low again. Changes made by the chip before it are
+/// unknown until the user reads them.
 class CellRules {
  public:
   explicit CellRules(Recorder& recorder);
 
-  /// RESET is low: afterwards every cell that only the user writes is 0 (H6).
+  /// RESET is low: then every cell that only the user writes is 0 (H6).
   void reset();
   void hold_began();
   void hold_ended(Tick at);
   void accessed(const Access& access);
 
  private:
-  /// B00A..B011: the bytes whose bits belong to one side or the other.
+  /// B00A..B011: bytes whose bits belong to one side or the other.
   static constexpr Address kFirstFlags = dsdpv1::regs::kChipStatus1, kLastFlags = dsdpv1::regs::kUserCommand2;
   static constexpr std::size_t kFlagBytes = kLastFlags - kFirstFlags + 1;
 
-  /// What the user did in the present hold.
+  /// The user's actions in the present hold.
   struct Hold {
     std::uint64_t accesses = 0;
-    std::optional<std::uint8_t> count;  ///< B006 as the user read it last
-    bool counted_unknown = false;       ///< ... which brought nothing certain
+    std::optional<std::uint8_t> count;  ///< B006 as last read by the user
+    bool counted_unknown = false;       ///< ... with an uncertain result
     unsigned increments = 0;            ///< right ones
     unsigned wrong_counts = 0;
     std::bitset<kFlagBytes> flags_seen;         ///< read or written
@@ -68,10 +68,10 @@ class CellRules {
   std::array<std::uint8_t, dsdpv1::regs::kDpramSize> cells_{};
   std::bitset<dsdpv1::regs::kDpramSize> known_, chip_writes_, only_chip_writes_;
   Hold hold_;
-  std::optional<std::uint8_t> count_left_;             ///< B006 as the user wrote it last
-  std::array<std::uint8_t, kFlagBytes> flags_left_{};  ///< B00A.. as the user knew them last
+  std::optional<std::uint8_t> count_left_;             ///< B006 as last written by the user
+  std::array<std::uint8_t, kFlagBytes> flags_left_{};  ///< B00A.. as last known to the user
   std::bitset<2> fetched_;                             ///< the user cleared B00E.1, B00E.2 since the last verdict
-  std::array<std::uint8_t, 2> set_aside_{};  ///< B00E, B00F: flags that were cleared without fetching the block
+  std::array<std::uint8_t, 2> set_aside_{};            ///< B00E, B00F: flags cleared without fetching the block
 };
 
 }  // namespace dsdpv1::checks

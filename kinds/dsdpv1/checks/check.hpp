@@ -19,12 +19,12 @@ constexpr Check kAllChecks[] = {
 #undef X
 };
 
-/// Those from here on are about SPI, then about the UART, which only the DSDPV1-RSU has.
+/// The first checks about SPI and UART, which only the DSDPV1-RSU has; SPI first.
 constexpr Check kFirstSpiCheck = Check::kSckHigh, kFirstUartCheck = Check::kRxdCharacterGap;
 
-/// The rules of a part: of all but the DSDPV1-RSU those without the serial ports.
+/// The rules of a part: without the serial ports for all except the DSDPV1-RSU.
 const RuleTable& rules(Part part = {});
-/// Of any part: the place of a check is the same in all of their tables.
+/// For any part: the position of a check is the same in all tables.
 const Rule& rule(CheckId check);
 
 }  // namespace dsdpv1::checks

@@ -56,7 +56,7 @@ void Checks::parallel_pin(Tick at, Pin pin, Level level) {
   }
 }
 
-/// In reset the port neither reads nor writes (P10), and whatever was going on is over.
+/// In reset the port neither reads nor writes (P10), and all running measurements end.
 void Checks::reset_pin(Tick at, bool level) {
   in_reset_ = !level;
   holding_ = false;
@@ -76,7 +76,7 @@ void Checks::handshake(Tick at, Pin pin, bool level) {
   if (in_reset_) return;
   if (pin == Pin::kRSta && level && !std::exchange(holding_, true)) cells_.hold_began();
   if (ownership_.held_off_since()) {
-    hold_end_.reset();  // a release that lasted no time is none
+    hold_end_.reset();  // a release of zero length does not count
   } else {
     if (since) service_.held_off(*since, at);
     if (holding_) hold_end_ = at;

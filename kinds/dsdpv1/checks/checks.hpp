@@ -30,18 +30,18 @@ namespace dsdpv1::checks {
 
 class Checks : public ChipChecks, private AccessSink {
  public:
-  /// Of table 1 all but the line, which the monitor hears, and PBF, BR, READY; PBRTS says who sends.
+  /// All pins of table 1 except the line, which the monitor receives, and PBF, BR, READY; PBRTS shows who sends.
   static constexpr std::uint32_t kPins =
       dsdpv1::kCommonPins &
       ~(dsdpv1::mask(dsdpv1::Pin::kPbrxd) | dsdpv1::mask(dsdpv1::Pin::kPbtxd) | dsdpv1::mask(dsdpv1::Pin::kPbf) |
         dsdpv1::mask(dsdpv1::Pin::kBr) | dsdpv1::mask(dsdpv1::Pin::kReady));
 
-  /// What they see of a part's pins.
+  /// The pins of a part that the checks need.
   static constexpr std::uint32_t pins(Part part) {
     return has_serial_ports(part) ? kPins | dsdpv1::kSerialPins : kPins;
   }
 
-  /// `serial`: straps and parameters; a change of a strap counts from then on.
+  /// `serial`: straps and parameters; later changes of a strap are followed.
   explicit Checks(const Limits& limits = Limits(rules()), Part part = {}, const SerialSettings& serial = {})
       : pins_(pins(part)),
         settings_(serial),
@@ -65,7 +65,7 @@ class Checks : public ChipChecks, private AccessSink {
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void finish(Tick end) override;
 
-  /// Over SPI and UART the parallel port and its handshake are dead (R14), and what the cells hold is in telegrams.
+  /// With SPI and UART the parallel port and its handshake are unused (R14), and telegrams show the cells.
   bool applies(CheckId check) const override;
   const Record& record(CheckId check) const override { return recorder_.record(check); }
   const Limit& limit(CheckId check) const override { return recorder_.limit(check); }
@@ -97,8 +97,8 @@ class Checks : public ChipChecks, private AccessSink {
   SpiFrames frames_;
   UartFrames uart_;
   bool in_reset_ = true;
-  bool holding_ = false;          ///< a hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again
-  std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void
+  bool holding_ = false;          ///< a hold runs from R_STA's rise until R_REQ and R_STA are both low again
+  std::optional<Tick> hold_end_;  ///< judged when time advances: a RESET at the same tick voids it
 };
 
 }  // namespace dsdpv1::checks

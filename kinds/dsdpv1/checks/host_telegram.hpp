@@ -1,5 +1,5 @@
 #pragma once
-// The requests of the host to a DSDPV1-RSU, by the names that the checks have for them.
+// The requests of the host to a DSDPV1-RSU, under the names used by the checks.
 #include "kinds/dsdpv1/port/host_telegram.hpp"
 
 namespace dsdpv1::checks {

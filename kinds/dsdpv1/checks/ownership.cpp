@@ -32,7 +32,7 @@ void Ownership::r_req(Tick at, bool level) {
   const bool before = holds_off();
   r_req_ = level;
   holding_off_may_have_changed(at, before);
-  const bool with_r_sta = r_sta_ && r_sta_rose_ == at;  // the order within a tick does not count
+  const bool with_r_sta = r_sta_ && r_sta_rose_ == at;  // the order within a tick is irrelevant
   if (level) {
     r_req_rose_ = at;
     end_alone(at);
@@ -70,7 +70,7 @@ void Ownership::r_sta_rose(Tick at) {
     record(Check::kBothOwn, at, at - std::max(l_sta_fell_, held_off_since_));
 }
 
-/// Both low for no time is not low: the window goes on (H2).
+/// Both low for zero time does not count as low: the window continues (H2).
 void Ownership::holding_off_may_have_changed(Tick at, bool before) {
   if (holds_off() == before) return;
   if (holds_off()) {

@@ -1,11 +1,10 @@
 #pragma once
-// Who owns the DPRAM (5.1; H1, H2, P12), from R_REQ, R_STA, L_STA and the begin and end of the user's accesses.
+// Ownership of the DPRAM (5.1; H1, H2, P12), from R_REQ, R_STA, L_STA and the begin and end of the user's accesses.
 //
-// While R_REQ or R_STA is high the user holds the chip off; only with both high may they access. So of a release, in
-// which they may fall one after the other in either order, the first fall ends the right to access, and the second lets
-// the chip in.
+// While R_REQ or R_STA is high the chip is held off; only with both high may the user access the DPRAM. In a release
+// they may fall separately, in either order: the first fall ends the right to access, and the second lets the chip in.
 //
-// Pins that change at the same tick may be told in any order: what lasts no time breaks no rule.
+// Pins that change at the same tick may be reported in any order: states of zero length break no rule.
 #include <optional>
 
 #include "kinds/dsdpv1/checks/check.hpp"
@@ -17,18 +16,18 @@ class Ownership {
  public:
   explicit Ownership(Recorder& recorder) : recorder_(recorder) {}
 
-  /// RESET has become low or high: nothing of what was going on is judged any more, nor what the pins do while it is
-  /// low. Levels stay.
+  /// RESET has become low or high: all running measurements are dropped, and pin changes while it is low are not
+  /// judged. Levels are kept.
   void reset(Tick at, bool low);
   void r_req(Tick at, bool level);
   void r_sta(Tick at, bool level);
   void l_sta(Tick at, bool level);
   void access_began(Tick at);
   void access_ended(Tick at);
-  /// The run ends: what still lasts is judged as if it ended now.
+  /// End of the run: judges running measurements as if they ended now.
   void finish(Tick at);
 
-  /// Since when the user has held the chip off, the end of a reset at the earliest; absent while R_REQ and R_STA are
+  /// Since when the user has held the chip off, but not before the end of a reset; absent while R_REQ and R_STA are
   /// low.
   std::optional<Tick> held_off_since() const;
 
@@ -50,13 +49,13 @@ class Ownership {
   bool r_req_ = false, r_sta_ = false, l_sta_ = false, owned_ = false;
   Tick r_req_rose_ = 0, r_sta_rose_ = -1, l_sta_fell_ = 0, owned_since_ = 0;
   Tick held_off_since_ = 0;  ///< R_REQ or R_STA rose when both were low
-  Tick freed_ = -1;          ///< both are low since then
+  Tick freed_ = -1;          ///< both have been low since then
   std::optional<Tick> both_own_since_;
   std::optional<Tick> alone_since_;  ///< R_STA rose without R_REQ
   bool accessing_ = false;
   std::optional<Tick> last_access_end_;  ///< in the present ownership
   std::optional<Tick> not_owned_since_;  ///< an access runs without ownership
-  bool began_not_owned_ = false;         ///< ... and began so; else it was lost on the way
+  bool began_not_owned_ = false;         ///< ... and began so; else ownership was lost during it
 };
 
 }  // namespace dsdpv1::checks

@@ -106,7 +106,7 @@ void PortTiming::capture(Tick at) {
   sink_.accessed({true, address, value, std::min(began_, at), at});
 }
 
-/// A write follows without a change of A or D in between: they were stable until now at least.
+/// A write follows without a change of A or D in between: they have been stable until now.
 void PortTiming::end_holds(Tick at) {
   const auto writing = [this] { return fmt::format("writing B{:03X}", written_); };
   if (a_hold_) recorder_.value(Check::kAddressHold, *a_hold_, at - *a_hold_, writing);
@@ -157,7 +157,7 @@ void PortTiming::chip_data_changed(Tick at, Level level) {
   d_out_ = level;
 }
 
-/// D as the chip drove it just before `at`; it may have been released at that very tick.
+/// D as driven by the chip just before `at`; it may have been released at that very tick.
 std::optional<std::uint8_t> PortTiming::chip_data(Tick at) const {
   const Level level = d_out_changed_ == at ? d_out_before_ : d_out_;
   return level < 0 ? std::nullopt : std::optional(static_cast<std::uint8_t>(level));

@@ -1,9 +1,10 @@
 #pragma once
-// The user's accesses to the host port, read from CSR, RD, WR, A and D, and table 15 with rulings P5, P8 and P11 on
-// them.
+// The user's accesses to the host port, derived from CSR, RD, WR, A and D, checked against table 15 with rulings P5, P8
+// and P11.
 //
-// Pins that change at the same tick may be told in any order. What a write brings is D at WR's rise; what a read brings
-// is D as the chip drove it until RD or CSR rose. Nobody sees at the pins when exactly the user sampled it: a user CPU
+// Pins that change at the same tick may be reported in any order. A write transfers D at WR's rise; a read transfers D
+// as the chip drove it until RD or CSR rose. The pins do not show when the user sampled it; a user CPU of the bench
+// reports that.
 // of the bench tells.
 #include <array>
 #include <cstdint>
@@ -15,11 +16,11 @@
 
 namespace dsdpv1::checks {
 
-/// One byte moved by the user.
+/// One byte transferred by the user.
 struct Access {
   bool write = false;
   std::uint16_t address = 0;          ///< 0..0x7FF
-  std::optional<std::uint8_t> value;  ///< absent when nobody drove D or it was unknown
+  std::optional<std::uint8_t> value;  ///< absent if D was not driven or unknown
   Tick began = 0;                     ///< CSR and the strobe are low
   Tick at = 0;                        ///< WR's rise, end of the read
 };
@@ -27,7 +28,7 @@ struct Access {
 class AccessSink {
  public:
   virtual ~AccessSink() = default;
-  /// CSR and RD or WR are low, and no longer.
+  /// CSR and RD or WR are low; the end of that.
   virtual void access_began(Tick at) = 0;
   virtual void access_ended(Tick at) = 0;
   /// After `access_ended` of a read, before that of a write.
@@ -38,11 +39,11 @@ class PortTiming {
  public:
   PortTiming(Recorder& recorder, AccessSink& sink) : recorder_(recorder), sink_(sink) {}
 
-  /// RESET is low: the chip forgets an access begun. Levels stay.
+  /// RESET is low: the chip drops an access that has begun. Levels are kept.
   void reset();
   /// A change of CSR, RD, WR, A, D_IN or D_OUT.
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
-  /// The read that begins next samples D at `sample`.
+  /// The next read samples D at `sample`.
   void read(Tick sample) { sample_ = sample; }
 
  private:
@@ -82,10 +83,10 @@ class PortTiming {
   std::size_t write_count_ = 0;
 
   bool reading_ = false, read_spoilt_ = false;
-  std::optional<Tick> sample_;  ///< of D by the user, where it is known
+  std::optional<Tick> sample_;  ///< of D by the user, if known
   Tick sample_edge_ = 0;
   dsdpv1::Level a_read_ = 0;  ///< the address that the chip samples
-  Tick a_valid_since_ = 0;    ///< since when it has been there
+  Tick a_valid_since_ = 0;    ///< since when it has been valid
 };
 
 }  // namespace dsdpv1::checks

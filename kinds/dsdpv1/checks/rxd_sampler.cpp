@@ -47,7 +47,7 @@ std::optional<RxdCharacter> RxdSampler::advance(Tick at) {
   return std::nullopt;
 }
 
-/// A pulse that is over in mid-bit is no start bit: silence goes on.
+/// A pulse that ends before mid-bit is not a start bit: silence continues.
 bool RxdSampler::take(bool level) {
   if (index_ == kStartBit && level) {
     state_ = State::kIdle;

@@ -1,5 +1,5 @@
 #pragma once
-// RXD's characters as the chip samples them: start bit, 8 data bits, parity, stop bit (UA1), each in its middle and
+// Characters on RXD as the chip samples them: start bit, 8 data bits, parity, stop bit (UA1), each in its middle and
 // just before an edge of CLK (UA2, P9).
 #include <cstdint>
 #include <optional>
@@ -10,13 +10,13 @@ namespace dsdpv1::checks {
 
 constexpr int kBitsPerCharacter = 11;
 
-/// The first edge of CLK that sees what changes at `at`.
+/// The first edge of CLK that sees a change at `at`.
 constexpr Tick edge_seeing(Tick at) { return at / kTicksPerCycle + 1; }
 
 struct RxdCharacter {
   Tick fell = 0;        ///< begin of its start bit, a tick
-  Tick idle_since = 0;  ///< edge of CLK from which the silence before it counts
-  Tick stop = 0;        ///< tick at which its stop bit is sampled: changes at it are later
+  Tick idle_since = 0;  ///< edge of CLK from which the silence before the character counts
+  Tick stop = 0;        ///< tick of the stop bit's sample: changes at it come later
   std::uint8_t value = 0;
   bool parity_ok = false, stop_ok = false;
   bool low = false;  ///< all its bits up to the stop bit are 0
@@ -24,19 +24,19 @@ struct RxdCharacter {
 
 class RxdSampler {
  public:
-  /// From now on, the line as it is: low is a break. Silence counts from edge `idle_since`. `bit`: cycles.
+  /// Restarts with the present level: low is a break. Silence counts from edge `idle_since`. `bit`: cycles.
   void restart(bool level, Tick idle_since, Tick bit);
-  /// As restart() with a line that was high and has fallen at `fell`.
+  /// As restart(), with a line that was high and fell at `fell`.
   void restart_with_start_bit(Tick fell, Tick bit);
-  /// Time comes to `at`, which is not before a change told; what changes there is told afterwards. The character that
-  /// is complete by then.
+  /// Advances time to `at`, which is not before a reported change; changes at `at` are reported after it. Returns the
+  /// character that is complete by then.
   std::optional<RxdCharacter> advance(Tick at);
-  /// RXD changes, after advance() to the same tick. An edge of CLK sees it before the next change.
+  /// RXD changes, after advance() to the same tick. An edge of CLK sees the level before the next change.
   void change(Tick at, bool level);
 
   /// A start bit has begun.
   bool receiving() const { return state_ == State::kReceiving; }
-  /// Edge of CLK from which the present silence counts; none in a break and in a character.
+  /// Edge of CLK from which the present silence counts; none in a break or a character.
   std::optional<Tick> idle_since() const { return state_ == State::kIdle ? std::optional(idle_since_) : std::nullopt; }
 
  private:
@@ -47,8 +47,8 @@ class RxdSampler {
   State state_ = State::kIdle;
   bool level_ = true;
   Tick bit_ = 0, idle_since_ = 0;
-  Tick edge_ = 0;       ///< that sees the start bit
-  int index_ = 0;       ///< of what is sampled next: 0 start bit, 1..8 data, 9 parity, 10 stop bit
+  Tick edge_ = 0;       ///< edge that sees the start bit
+  int index_ = 0;       ///< of the next sample: 0 start bit, 1..8 data, 9 parity, 10 stop bit
   unsigned shift_ = 0;  ///< data and parity, first bit lowest
   RxdCharacter character_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What the checks of SPI and UART have to know of a DSDPV1-RSU.
+// Settings of a DSDPV1-RSU that the checks of SPI and UART need.
 #include "bus/baud.hpp"
 #include "kinds/dsdpv1/port/serial_settings.hpp"
 

@@ -29,7 +29,7 @@ void Service::accessed(const Access& access) {
   const bool in_areas = access.address >= regs::kPrm && access.address <= regs::kCfgCrc + 1;
   if (!in_areas && (access.address != regs::kChipCommand1 || !access.value)) return;
   constexpr unsigned kNews = regs::kChipCommand1Prm | regs::kChipCommand1Cfg;
-  // Nothing in B00E: an earlier service has taken this block along, and there is nothing left to do.
+  // Nothing in B00E: an earlier service has already fetched this block.
   if (in_areas || (*access.value & kNews) != 0)
     recorder_.value(Check::kIntr0Service, *intr0_fell_, access.began - *intr0_fell_,
                     [&access] { return fmt::format("served by the read of B{:03X}", access.address); });
@@ -55,12 +55,12 @@ void Service::held_off(Tick since, Tick at) {
   add_part(since, at);
 }
 
-/// What lies before the interval does not count.
+/// The time before the interval does not count.
 void Service::add_part(Tick since, Tick at) {
   if (last_exchange_) longest_part_ = std::max(longest_part_, at - std::max(since, *last_exchange_));
 }
 
-/// Time has come to `at`.
+/// Time has advanced to `at`.
 void Service::pass(Tick at, std::optional<Tick> held_off_since) {
   if (!due_exchange_ || *due_exchange_ > at) return;
   if (held_off_since && *held_off_since < *due_exchange_) add_part(*held_off_since, *due_exchange_);
@@ -68,7 +68,7 @@ void Service::pass(Tick at, std::optional<Tick> held_off_since) {
   due_exchange_.reset();
 }
 
-/// Which address the station has is seen by what it answers to: nobody else drives the line while PBRTS is high.
+/// The station's address is learnt from its answers: while PBRTS is high only the chip drives the line.
 bool Service::is_own_answer(const bus::WireTelegram& telegram) const {
   return telegram.tsdr && pbrts_rose_ <= telegram.start && (sending_ || pbrts_fell_ >= telegram.end) &&
          pbrts_rose_ != 0;

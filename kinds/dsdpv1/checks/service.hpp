@@ -1,5 +1,5 @@
 #pragma once
-// Whether the user is quick enough: INTR0 (P7, 4.1.6), and holds against the bus cycle (H1, H5).
+// Checks that the user is quick enough: INTR0 (P7, 4.1.6), and holds compared with the bus cycle (H1, H5).
 #include <optional>
 
 #include "bus/monitor/monitor.hpp"
@@ -11,20 +11,20 @@ namespace dsdpv1::checks {
 
 class Service {
  public:
-  /// `interval`: the check that is about holds against the bus cycle.
+  /// `interval`: the check that compares holds with the bus cycle.
   explicit Service(Recorder& recorder, Check interval = Check::kHoldInterval)
       : recorder_(recorder), interval_(interval) {}
 
-  /// RESET is low. The station's address has to be learnt again.
+  /// RESET is low. The station's address must be learnt again.
   void reset();
   void intr0(Tick at, bool level);
   void pbrts(Tick at, bool level);
   void accessed(const Access& access);
   /// The user held the chip off from `since` to `at`.
   void held_off(Tick since, Tick at);
-  /// A telegram of the line is heard at `now`; `held_off_since`: the user holds the chip off since then.
+  /// A telegram on the line, at `now`; `held_off_since`: the user has held the chip off since then.
   void telegram(Tick now, const bus::WireTelegram& telegram, std::optional<Tick> held_off_since);
-  /// The run ends: an INTR0 not served is judged as if it were now.
+  /// End of the run: judges an unserved INTR0 as if it were served now.
   void finish(Tick at, std::optional<Tick> held_off_since);
 
  private:
@@ -36,15 +36,15 @@ class Service {
 
   Recorder& recorder_;
   Check interval_;
-  std::optional<Tick> intr0_fell_;  ///< and nobody has served it
+  std::optional<Tick> intr0_fell_;  ///< and has not been served
   std::optional<std::uint8_t> address_;
   bool sending_ = false;
   Tick pbrts_rose_ = 0, pbrts_fell_ = 0;
   // A Data_Exchange counts from its execution, a bit time after its end (docs/microarchitecture.md, section 7):
   // intervals run between these.
-  std::optional<Tick> due_exchange_;   ///< has been heard
+  std::optional<Tick> due_exchange_;   ///< has been received
   std::optional<Tick> last_exchange_;  ///< was executed
-  Tick longest_part_ = 0;              ///< of the interval since then, that the user held the chip off
+  Tick longest_part_ = 0;  ///< longest part of the interval since then during which the user held the chip off
 };
 
 }  // namespace dsdpv1::checks

@@ -50,7 +50,7 @@ void SpiFrames::judge_gap(Tick at) {
   if (at - *last_write_ >= kWriteGap && heard(at)) last_write_.reset();
 }
 
-/// SP9, in cycles as the chip counts them.
+/// SP9, in cycles as counted by the chip.
 bool SpiFrames::heard(Tick fell) const {
   return !last_write_ || fell / kTicksPerCycle >= *last_write_ / kTicksPerCycle + Tick{settings_.spi_write_gap};
 }
@@ -87,14 +87,14 @@ void SpiFrames::reply_byte(Tick at, std::uint8_t byte) {
     if (byte >> 5 == kErrorReply) effect_ = Effect::kNone;
     settle();
   }
-  // Ownership that the host did not give back has ended by U_Timer (SP17).
+  // Ownership not released by the host has ended by U_Timer (SP17).
   const bool read = request_.kind() == TelegramKind::kRead && request_.right() && request_.covers(kOwnershipCell);
   if (read && owned_since_ && reply_bytes_ == kReplyHeader + kOwnershipCell - request_.address() + 1 &&
       (byte & kOwner) == 0)
     release(at);
 }
 
-/// Once a telegram, where its reply begins or has to (SP6).
+/// Once per telegram, when its reply begins or must begin (SP6).
 void SpiFrames::judge_reply(Tick at, bool begins) {
   const unsigned gap = idle_bytes_++;
   if (begins ? gap <= settings_.spi_reply_gap : gap == settings_.spi_reply_gap)
@@ -103,7 +103,7 @@ void SpiFrames::judge_reply(Tick at, bool begins) {
     });
 }
 
-/// The telegram was not refused: its effect counts from its last bit.
+/// The telegram was not refused: it takes effect from its last bit.
 void SpiFrames::settle() {
   const Effect effect = std::exchange(effect_, Effect::kNone);
   if (effect == Effect::kClaim && !owned_since_) owned_since_ = asked_;

@@ -1,5 +1,5 @@
 #pragma once
-// The telegrams of a host on SPI: the 2.7 us after a write (SP9), and the ownership by B014 (SP12, SP16).
+// The telegrams of a host on SPI: the 2.7 us after a write (SP9), and ownership by B014 (SP12, SP16).
 #include <cstddef>
 #include <optional>
 
@@ -14,7 +14,7 @@ namespace dsdpv1::checks {
 
 class SpiFrames : private tb::SpiFrameReader {
  public:
-  /// `settings` outlives it.
+  /// `settings` must outlive it.
   SpiFrames(Recorder& recorder, const SerialSettings& settings)
       : recorder_(recorder), settings_(settings), service_(recorder, Check::kOwnerInterval) {}
 
@@ -26,7 +26,7 @@ class SpiFrames : private tb::SpiFrameReader {
   void finish(Tick end);
 
  private:
-  /// What a telegram does when the chip does not refuse it.
+  /// Effect of a telegram unless the chip refuses it.
   enum class Effect : std::uint8_t { kNone, kClaim, kRelease, kReadAndWrite };
 
   void frame_began(Tick at) override;
@@ -41,18 +41,18 @@ class SpiFrames : private tb::SpiFrameReader {
   void settle();
   void release(Tick at);
   void owner_gone(Tick since, Tick at);
-  /// Since when the host holds the chip off.
+  /// Since when the host has held the chip off.
   std::optional<Tick> held_off_since() const;
 
   Recorder& recorder_;
   const SerialSettings& settings_;
   Service service_;
-  bool heard_ = false;  ///< the frame
+  bool heard_ = false;  ///< the chip receives the frame
   HostTelegram request_{SerialPort::kSpi};
   bool for_card_ = false, complete_ = false;
-  unsigned idle_bytes_ = 0;                            ///< of FF after the request
-  std::size_t reply_bytes_ = 0;                        ///< from the first one on that is not FF
-  Effect effect_ = Effect::kNone;                      ///< of this telegram, until its reply says that it is refused
+  unsigned idle_bytes_ = 0;                            ///< bytes of FF after the request
+  std::size_t reply_bytes_ = 0;                        ///< counted from the first byte that is not FF
+  Effect effect_ = Effect::kNone;                      ///< effect of this telegram, until its reply shows a refusal
   Tick asked_ = 0;                                     ///< last bit of the request
   std::optional<Tick> last_write_;                     ///< last bit of a write or read-and-write telegram
   std::optional<Tick> owned_since_, exclusive_since_;  ///< by B014; by a read-and-write telegram

@@ -51,7 +51,7 @@ void SpiTiming::sck_rose(Tick at) {
   else if (sck_fell_)
     record(Check::kSckLow, at, at - *sck_fell_);
   if (sck_rose_) record(Check::kSckPeriod, at, at - *sck_rose_);
-  if (hold_) record(Check::kMosiHold, *hold_, at - *hold_);  // stable until now at least
+  if (hold_) record(Check::kMosiHold, *hold_, at - *hold_);  // stable at least until now
   const bool together = mosi_changed_ == at;
   record(Check::kMosiSetup, at, at - (together ? mosi_changed_before_ : mosi_changed_));
   hold_.reset();
@@ -76,7 +76,7 @@ void SpiTiming::mosi_changed(Tick at) {
   hold_.reset();
 }
 
-/// With XSS's edges MISO is driven or released, and that is no bit.
+/// At XSS's edges MISO is driven or released, which is not a bit.
 void SpiTiming::miso_changed(Tick at, bool driven) {
   if (!driven || !selected(at) || !sck_fell_) return;
   const Tick delay = at - *sck_fell_;

@@ -1,5 +1,5 @@
 #pragma once
-// What SP2 asks of XSS, SCK and MOSI, and when MISO follows. Pins that change at the same tick may be told in any
+// Checks of SP2 on XSS, SCK and MOSI, and of MISO's delay. Pins that change at the same tick may be reported in any
 // order.
 #include <functional>
 #include <limits>
@@ -14,10 +14,10 @@ namespace dsdpv1::checks {
 
 class SpiTiming {
  public:
-  /// `settings` outlives it.
+  /// `settings` must outlive it.
   SpiTiming(Recorder& recorder, const SerialSettings& settings) : recorder_(recorder), settings_(settings) {}
 
-  /// What was going on is over; the next frame begins with a fall of XSS.
+  /// Drops running measurements; the next frame begins with a fall of XSS.
   void reset() { *this = SpiTiming(recorder_, settings_); }
   /// A change of XSS, SCK, MOSI or MISO, not in reset.
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);

@@ -12,7 +12,7 @@ constexpr Tick kSynchroniser = 2 * kTicksPerCycle;  // P9
 
 }  // namespace
 
-/// The margin in bit times stands beside that in ns.
+/// Shows the margin in bit times beside that in ns.
 void UartFrames::value(Check check, Tick at, Tick measured, const std::string& what) {
   recorder_.value(
       check, at, measured,
@@ -40,7 +40,7 @@ void UartFrames::pin(Tick at, Pin pin, Level level) {
     txd_fell(at);
 }
 
-/// There and back between two edges of CLK is no change (P9).
+/// A pulse between two edges of CLK is not a change (P9).
 void UartFrames::note_rxd(Tick at, bool level) {
   if (level == (unseen_ ? unseen_->level : rxd_)) return;
   if (unseen_)
@@ -96,7 +96,7 @@ bool UartFrames::in_time(const RxdCharacter& character) {
   return left >= 0;
 }
 
-/// What follows before the telegram's end, as far as that is known, is the rest of it.
+/// A character before the telegram's end, as far as that is known, belongs to the telegram.
 bool UartFrames::is_silence_over(const RxdCharacter& character) {
   const Tick beyond = character.fell - silence_after(character.idle_since);
   if (beyond >= 0 || over_) value(Check::kRxdSilence, character.fell, beyond, "after a telegram that was spoilt");
@@ -117,13 +117,13 @@ void UartFrames::hear(const RxdCharacter& character) {
   if (right && over_) request_complete(character);
 }
 
-/// A break ends the telegram, whatever was still to come.
+/// A break ends the telegram, complete or not.
 void UartFrames::follow(const RxdCharacter& character) {
   request_.add(character.value);
   over_ = (character.low && !character.stop_ok) || (request_.begins() && request_.complete());
 }
 
-/// Early by RXD's rise, late by its next fall: no edge of RXD is near the sampling.
+/// Measured to RXD's rise if early, to its next fall if late: no edge of RXD is near the sample.
 void UartFrames::judge_stop(Tick next_edge) {
   const StopBit stop = *std::exchange(stop_bit_, std::nullopt);
   const RxdCharacter& character = stop.character;
@@ -147,7 +147,7 @@ void UartFrames::request_complete(const RxdCharacter& last) {
   note_registers();
 }
 
-/// The write is carried out: over the UART the chip refuses none that is right.
+/// The write takes effect: the UART refuses no valid telegram.
 void UartFrames::note_registers() {
   if (request_.kind() != TelegramKind::kWrite || !request_.right()) return;
   interval_cell_ = request_.written(kUartIntervalCell).value_or(interval_cell_);
@@ -163,7 +163,7 @@ void UartFrames::txd_fell(Tick at) {
   if (!reply_end_ || at > *reply_end_ - bit_ticks() / 2) reply_end_ = at + kBitsPerCharacter * bit_ticks();
 }
 
-/// A start bit that the chip sees when its last stop bit is over is heard: that is one behind its synchroniser.
+/// The chip receives a start bit that it sees after its last stop bit: one that comes after its synchroniser's delay.
 void UartFrames::end_reply(Tick reply_end) {
   const Tick free = reply_end - kSynchroniser;
   if (talked_)

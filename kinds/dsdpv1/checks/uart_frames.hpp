@@ -1,5 +1,6 @@
 #pragma once
-// The UART port: RXD's characters and telegrams, the silences between them, and when TXD replies (UA1 to UA5, UA16).
+// The UART port: characters and telegrams on RXD, the silences between them, and the time of TXD's reply (UA1 to UA5,
+// UA16).
 #include <optional>
 #include <string>
 
@@ -15,14 +16,14 @@ namespace dsdpv1::checks {
 /// RXD and TXD may change at the same tick in any order.
 class UartFrames {
  public:
-  /// `settings` outlives it.
+  /// `settings` must outlive it.
   UartFrames(Recorder& recorder, const SerialSettings& settings) : recorder_(recorder), settings_(settings) {}
 
   void reset(Tick at, bool in_reset);
   /// A change of a pin, in reset too.
   void pin(Tick at, Pin pin, Level level);
   void finish(Tick end);
-  /// A bit as UBR has it, in ticks.
+  /// A bit in ticks, by UBR.
   Tick bit_ticks() const { return bit() * kTicksPerCycle; }
 
  private:
@@ -31,9 +32,9 @@ class UartFrames {
     kWait,   ///< for a telegram's first character
     kIn,     ///< a telegram
     kDeaf,   ///< until a silence
-    kReply,  ///< a telegram is complete and not yet replied: RXD is not heard
+    kReply,  ///< a telegram is complete and not yet replied: RXD is ignored
   };
-  /// A stop bit that has been sampled; its margin is known with RXD's next edge.
+  /// A sampled stop bit; its margin is known at RXD's next edge.
   struct StopBit {
     RxdCharacter character;
     Tick rose;           ///< RXD's last rise before it
@@ -60,7 +61,7 @@ class UartFrames {
   void follow(const RxdCharacter& character);
   void request_complete(const RxdCharacter& last);
   void note_registers();
-  /// First tick at which a start bit is too late for the telegram, as silence counts from edge `idle_since`.
+  /// First tick at which a start bit is too late for the telegram, if silence counts from edge `idle_since`.
   Tick silence_after(Tick idle_since) const { return (idle_since + gap_ + 1) * kTicksPerCycle; }
   void end_reply(Tick reply_end);
 
@@ -70,13 +71,13 @@ class UartFrames {
   Recorder& recorder_;
   const SerialSettings& settings_;
   State state_ = State::kOff;
-  bool rxd_ = true;             ///< as CLK has seen it
+  bool rxd_ = true;             ///< as seen by CLK
   std::optional<Edge> unseen_;  ///< since the last edge of CLK
   Tick rxd_rose_ = 0, rxd_fell_ = 0;
   RxdSampler sampler_;
   std::optional<StopBit> stop_bit_;
   HostTelegram request_{SerialPort::kUart};
-  bool over_ = false;                               ///< kDeaf: the host has sent all of the telegram that was spoilt
+  bool over_ = false;                               ///< kDeaf: the host has sent all of the disturbed telegram
   Tick gap_ = 0;                                    ///< the interval in cycles
   std::uint8_t interval_cell_ = 0, tsdr_cell_ = 0;  ///< B019, B01A
   // kReply
@@ -84,7 +85,7 @@ class UartFrames {
   Tick tsdr_ = 0;                  ///< bit times
   std::optional<Tick> reply_end_;  ///< of the characters that have begun
   std::optional<Tick> talked_;     ///< RXD's first fall
-  std::optional<Tick> free_;       ///< the chip hears since then, and RXD has not fallen yet
+  std::optional<Tick> free_;       ///< the chip has received since then, and RXD has not fallen yet
 };
 
 }  // namespace dsdpv1::checks

@@ -1,5 +1,5 @@
 #pragma once
-// The core of a DSDPV1 behind its pins by number, which are the enumerators of dsdpv1::Pin.
+// The core of a DSDPV1 as a device with numbered pins: the enumerators of dsdpv1::Pin.
 #include <vector>
 
 #include "kinds/dsdpv1/pins/inside_watch.hpp"
@@ -8,7 +8,7 @@
 
 namespace dsdpv1::tb {
 
-/// What the core says of itself, as the bench has it.
+/// The core's status in the bench's format.
 ChipStatus status_of(const dsdpv1::Chip& core);
 
 class CoreDevice : public PinDevice {

@@ -68,7 +68,7 @@ void Dsdpv1PinChip::set_serial(Tick at, Pin pin, bool level) {
   report(at, pin, pin);
 }
 
-/// Released, it is high: a board has a pull-up (SP6 reads FF where nobody drives).
+/// Released, it is high: a board has a pull-up (SP6 reads FF while MISO is not driven).
 bool Dsdpv1PinChip::miso(Tick at) {
   PinDevice& chip = device();
   chip.advance(at - 1);
@@ -92,7 +92,7 @@ void Dsdpv1PinChip::set_r_sta(Tick at, bool level) {
 }
 
 void Dsdpv1PinChip::begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) {
-  pins_->begin(at, access, timing);  // no edge yet: the chip is not concerned
+  pins_->begin(at, access, timing);  // no edge yet, so the chip is not affected
   if (wanted_.actions) listener_->action(number_, at, words_of(access));
   if (!access.write && wanted_.reads) listener_->read(number_, pins_->sample_tick());
 }
@@ -107,13 +107,13 @@ void Dsdpv1PinChip::catch_up_host(Tick at) {
     if (pins_->next_edge() < at) pins_->run_edges(at - 1);
     return;
   }
-  for (Tick edge = pins_->next_edge(); edge < at; edge = pins_->next_edge()) {  // watched since it was put off
+  for (Tick edge = pins_->next_edge(); edge < at; edge = pins_->next_edge()) {  // watched since the access was put off
     pins_->run_edges(edge);
     report_access(edge);
   }
 }
 
-// Whoever is told something acts before the next edge.
+// Listeners act before the next edge.
 void Dsdpv1PinChip::run_edges(Tick until) {
   hear_line();
   pauses_ = put_off_ = false;
@@ -129,7 +129,7 @@ void Dsdpv1PinChip::run_edges_singly(Tick until) {
   }
 }
 
-// Strobes that rise with CSR are told before it, as the TLM module does.
+// Strobes that rise with CSR are reported before it, as the TLM module does.
 void Dsdpv1PinChip::report_access(Tick at) {
   if (device_->level(number(Pin::kCsr)) != 0) report_inputs(at, number(Pin::kRd), number(Pin::kWr));
   report_inputs(at, number(Pin::kCsr), number(Pin::kDIn));

@@ -1,5 +1,5 @@
 #pragma once
-// A DSDPV1 by its pins on the segment, with its host bus: the core, or RTL.
+// A DSDPV1 with its pins on the segment and its host bus: the core, or RTL.
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace dsdpv1::tb {
 
-/// On a board.
+/// Pins used on a board.
 extern const BoardPins kDsdpv1BoardPins;
 
 class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
@@ -18,7 +18,7 @@ class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
   Dsdpv1PinChip(const std::string& name, std::unique_ptr<PinDevice> device, Part part, PinMask watched,
                 bus::Segment& segment);
 
-  /// Holds the straps of a DSDPV1-RSU, before anything else.
+  /// Sets the straps of a DSDPV1-RSU, before anything else.
   void strap(const Straps& levels);
   void reset_host(Tick at) override;
   user_cpu::UserSide* user_side() override { return static_cast<user_cpu::HostBus*>(this); }
@@ -43,7 +43,7 @@ class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
   bool l_sta(Tick at) override { return pins().l_sta(at); }
   bool intr0(Tick at) override { return pins().intr0(at); }
   unsigned lamps(Tick at) override { return pins().lamps(at); }
-  /// RTL may need a larger stack than that of a program.
+  /// RTL may need a larger stack than a program has.
   bool is_looked_at_from_anywhere() const override { return core_ != nullptr; }
   void begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return pins_->next_edge(); }
@@ -54,11 +54,11 @@ class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
   bool last_read_was_bad() const override { return pins_->last_read_was_bad(); }
 
   const Part part_;
-  dsdpv1::Chip* const core_;  ///< null: RTL, which wants each edge
+  dsdpv1::Chip* const core_;  ///< null: RTL, which needs each edge
   std::optional<user_cpu::PinHostBus> pins_;
 };
 
-/// What ChipListener::action says of an access, and of a pin that the user CPU moves.
+/// Text of ChipListener::action for an access or a pin moved by the user CPU.
 std::string words_of(const user_cpu::Access& access);
 std::string words_of(const char* pin, bool level);
 

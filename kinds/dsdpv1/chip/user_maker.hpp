@@ -1,5 +1,5 @@
 #pragma once
-// The user CPU that a scenario asks for beside a DSDPV1: a C++ program, or firmware on the ARM board, which not every
+// Makes the user CPU that a scenario selects for a DSDPV1: a C++ program, or firmware on the ARM board, which not every
 // program has.
 #include "kinds/dsdpv1/user_cpu/host_bus.hpp"
 #include "tb/chip/chip_kind.hpp"
@@ -8,7 +8,7 @@ namespace dsdpv1::tb {
 
 using MakeArmUser = MakeUser (*)(const UserRequest& request, user_cpu::HostBus& host);
 
-/// Said by a program that has the ARM board, before the first scenario is read.
+/// Called by a program that has the ARM board, before the first scenario is read.
 void set_arm_maker(MakeArmUser make);
 
 /// ChipKind::make_user. Throws InputError for an ARM board in a program without.

@@ -1,4 +1,4 @@
-// H1, H3, H6, H8: when the chip takes the DPRAM, and for how long.
+// H1, H3, H6, H8: when the chip takes the DPRAM and for how long.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::string cycles_text(const Span& span) { return fmt::format("{:.1f} to {:.1f}
 
 // --- L_REQ against L_STA
 
-/// Each edge of `one` has its like on `other`. `names`: the words where it has not.
+/// Each edge of `one` must have a counterpart on `other`. `names`: text for a missing one.
 void judge_edges(const Scene& scene, Found& found, Wire one, Wire other, const char* names) {
   const Trace &edges = scene.record[one], &others = scene.record[other];
   const Tick near = scene.time.margin();
@@ -52,7 +52,7 @@ void judge_together(const Scene& scene, Found& found) {
 
 // --- the interval
 
-/// Whether the access at `i` + 1 comes when it is due, without the user and without being overdue.
+/// Whether the access at `i` + 1 comes when due, not delayed by the user or an overdue access.
 bool undisturbed(const Scene& scene, std::size_t i) {
   const ChipAccess &one = scene.accesses[i], &two = scene.accesses[i + 1];
   if (!one.whole || scene.is_start_up(one) || scene.in_reset(one.start, two.start)) return false;
@@ -65,7 +65,7 @@ Instance interval_of(const Scene& scene, std::size_t i) {
   return {to, scene.time.between(from, to), scene.time.best(from, to)};
 }
 
-/// Runs of accesses of which each is one interval after the one before: `count` intervals from `from` to `to`.
+/// A run of accesses, each one interval after the previous: `count` intervals from `from` to `to`.
 struct Chain {
   Tick from = 0, to = 0;
   double count = 0;
@@ -99,8 +99,8 @@ void narrow_by_chains(const Scene& scene, Estimate& interval) {
   if (narrow.count != 0 && overlap(narrow.span, interval.span)) interval.span = common(narrow.span, interval.span);
 }
 
-/// A whole number of cycles between far edges says how the clocks differ: bounds of each chain, and, since the errors
-/// of sampling spread as the clocks drift, the sum of all.
+/// The whole number of cycles between far edges gives the difference of the clocks: bounds from each chain and, since
+/// sampling errors spread as the clocks drift, from the sum of all.
 Estimate clock_of(const Scene& scene, const std::vector<Chain>& chains, double interval) {
   constexpr double kSigmas = 4;
   const double doubt = scene.time.doubt();
@@ -150,7 +150,7 @@ void fit_interval(Scene& scene, Found& found) {
   if (const auto whole = fit.estimate.whole()) narrow_clock(scene, static_cast<double>(*whole), found);
 }
 
-/// What comes too early is against the ruling; what comes late too, where the user's pins show that it did not ask.
+/// An early access violates the ruling; a late one does too if the user's pins show no request.
 void judge_interval(const Scene& scene, Found& found) {
   Estimate& interval = found.fit(parameter::kAccessInterval).estimate;
   if (interval.count == 0) return;
@@ -166,7 +166,7 @@ void judge_interval(const Scene& scene, Found& found) {
 
 // --- the user's pins
 
-/// When both had fallen last before `at`; nothing when one is high or nobody asked.
+/// When both had last fallen before `at`; absent if one is high or there was no request.
 std::optional<Tick> released_before(const Scene& scene, Tick at) {
   Tick released = -1;
   for (const Wire wire : {wire::kRReq, wire::kRSta}) {
@@ -178,14 +178,14 @@ std::optional<Tick> released_before(const Scene& scene, Tick at) {
   return released < 0 ? std::nullopt : std::optional<Tick>(released);
 }
 
-/// How long one of the user's pins had been high when the chip looked, 2 cycles before `at`; 0 when none was.
+/// How long one of the user's pins had been high when the chip looked, 2 cycles before `at`; 0 if none was.
 bool held_when_looked(const Scene& scene, Tick at) {
   const Tick doubt = scene.time.ticks(scene.time.doubt() + 0.5), looked = at - scene.time.ticks(2);
   return scene.record[wire::kRReq].high(looked - doubt - bus::kTicksPerCycle, looked + doubt) ||
          scene.record[wire::kRSta].high(looked - doubt - bus::kTicksPerCycle, looked + doubt);
 }
 
-/// Where samples may lie so far apart that a release between two holds is not seen, what would be wrong is not known.
+/// If samples are so far apart that a release between two holds may be missed, a violation cannot be decided.
 void judge_fine(const Scene& scene, const Claim& claim, bool right, Tick at, const std::string& how, Found& found) {
   constexpr double kShortRelease = 3;  // cycles
   if (right)
@@ -217,7 +217,7 @@ void judge_start(const Scene& scene, std::size_t i, const Fit& interval, Found& 
 void judge_user_pins(const Scene& scene, Found& found) {
   if (!scene.sees_user()) return;
   for (std::size_t i = 0; i < scene.accesses.size(); ++i) {
-    const ChipAccess& access = scene.accesses[i];  // a start-up access waits, too (H6)
+    const ChipAccess& access = scene.accesses[i];  // a start-up access also waits (H6)
     if (scene.is_start_up(access) || !scene.in_reset(access.start - scene.time.ticks(8), access.start))
       judge_start(scene, i, found.fit(parameter::kAccessInterval), found);
   }
@@ -237,8 +237,8 @@ Instance length_of(const Scene& scene, const ChipAccess& access) {
   return {access.start, scene.time.between(access.start, access.end), scene.time.best(access.start, access.end)};
 }
 
-/// None is shorter than one with nothing to do. Those that may be one are so where all of them together leave no other
-/// whole number: what the samples hide of each the mean shows.
+/// No access is shorter than an empty one. Single samples may hide the length; then the mean decides, if it leaves only
+/// one whole number.
 void judge_shortest(const Scene& scene, Found& found) {
   std::vector<Instance> empty;
   for (const ChipAccess& access : scene.accesses) {
@@ -261,7 +261,7 @@ void judge_shortest(const Scene& scene, Found& found) {
       found.judge.coarse(kEmpty);
 }
 
-/// Of accesses before which the user did not have the DPRAM since the one before.
+/// Accesses before which the user did not hold the DPRAM since the previous access.
 std::vector<Instance> lengths_without_user(const Scene& scene) {
   std::vector<Instance> lengths;
   for (std::size_t i = 1; i < scene.accesses.size(); ++i) {
@@ -272,8 +272,8 @@ std::vector<Instance> lengths_without_user(const Scene& scene) {
   return lengths;
 }
 
-/// Most of these find nothing to do: no master can bring something for every third. So the shorter two thirds are, on
-/// average, not longer than one with nothing to do.
+/// Most of these are empty, because no master can cause work for every third. So the shorter two thirds are, on
+/// average, not longer than an empty access.
 void judge_share(const Scene& scene, Found& found) {
   constexpr std::size_t kEnough = 20;
   constexpr double kExchange = 660;  // cycles: one byte of outputs and a short answer at 12 Mbit/s, with TSDR and T_SYN
@@ -293,7 +293,7 @@ void judge_share(const Scene& scene, Found& found) {
                       fmt::format("most of {} take another time, the shorter two thirds {}", all, cycles_text(most)));
 }
 
-/// With long samples it seems to be one with the next.
+/// With long samples it may merge with the next access.
 void judge_start_up(const Scene& scene, Found& found) {
   for (const ChipAccess& access : scene.accesses) {
     if (!access.whole || !scene.is_start_up(access) || cut_by_reset(scene, access)) continue;

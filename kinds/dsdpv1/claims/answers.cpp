@@ -25,7 +25,7 @@ struct Driver {
   std::vector<Instance> leads, trails;
 };
 
-/// PBRTS round answer `i`: its rise behind the beginning of the answer before, its fall before the next one.
+/// PBRTS around answer `i`: its rise after the beginning of the previous answer, its fall before the next one.
 void measure_driver(const Scene& scene, std::size_t i, Driver& driver, Found& found) {
   const Trace& rts = scene.record[wire::kPbrts];
   const LineTelegram& sent = scene.sent[i];
@@ -74,7 +74,7 @@ void judge_driven(const Scene& scene, Found& found) {
 
 // --- bits
 
-/// The levels of a telegram change where its bits do.
+/// A telegram's level changes must match its bits.
 void judge_bits(const Scene& scene, const LineTelegram& sent, Found& found) {
   const Trace& txd = scene.record[wire::kPbtxd];
   std::size_t edge = txd.count_until(sent.start);
@@ -97,7 +97,7 @@ void judge_bits(const Scene& scene, const LineTelegram& sent, Found& found) {
   found.judge.holds(kBits);
 }
 
-/// A reset or a new initialisation ends an answer at once; without BR what breaks off may have been ended so.
+/// A reset or a new initialisation cuts an answer; without BR any broken answer may have been cut so.
 bool is_cut(const Scene& scene, const LineTelegram& sent) {
   const Tick from = sent.last_edge - scene.time.margin(), to = sent.idle_until() + scene.time.margin();
   const auto falls = [&](Wire wire) {
@@ -117,7 +117,7 @@ bool wants_answer(const Exchange& exchange) {
          exchange.request->telegram.sa < bus::kBroadcast;
 }
 
-/// The capture could not read what came while the answer may have been due: the answer behind that may be this one.
+/// The capture could not read the characters at the time of the answer: the next answer may be this one.
 bool answer_may_be_another(const Scene& scene, const LineTelegram& request) {
   const auto next = std::upper_bound(scene.received.begin(), scene.received.end(), request.start,
                                      [](Tick at, const LineTelegram& each) { return at < each.start; });
@@ -125,9 +125,9 @@ bool answer_may_be_another(const Scene& scene, const LineTelegram& request) {
          next->start < request.end() + request.max_tsdr();
 }
 
-/// Whether the exchanges before and behind show that the chip answers requests like this one. One with a gap may be
-/// void. Without BR one may have ended a search (S1, S9): after a silence, or after a new initialisation, which ends
-/// DATA_EXCH.
+/// Whether the exchanges before and after show that the chip answers requests like this one. A request with a gap may
+/// be void. Without BR a request may have ended a search (S1, S9): after a silence, or after a new initialisation,
+/// which ends DATA_EXCH.
 bool chip_listens(const Scene& scene, std::size_t i) {
   const auto& all = scene.exchanges;
   const LineTelegram& request = *all[i].request;
@@ -167,7 +167,7 @@ void judge_answered(const Scene& scene, Found& found) {
   }
 }
 
-/// An answer belongs to a request that is right, for the station and wants one.
+/// An answer needs a valid request to the station that expects one.
 void judge_asked(const Scene& scene, Found& found) {
   for (const LineTelegram* sent : scene.unasked) found.judge.fails(kAsked, sent->start, "no request before it");
   for (const Exchange& exchange : scene.exchanges) {

@@ -1,4 +1,4 @@
-// P1: what the crystals of the chip and of the master do against the capture's.
+// P1: deviation of the chip's and the master's crystals from the capture's clock.
 #include <fmt/format.h>
 
 #include "bus/wire/uart.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 const Claim kClock = {"P1", "CLK is 48 MHz, as far as two crystals may differ", {wire::kPbtxd}};
 
-/// Bits from the first start bit to the last edge of a telegram, the one to its last stop bit's level.
+/// Bits from the first start bit to the last edge of a telegram, the edge before its last stop bit.
 int bits_to_last_edge(const bus::Bytes& bytes) {
   const std::uint16_t bits = bus::Character::of(bytes.back()).bits;
   int last = bus::kCharacterBits - 1;
@@ -17,7 +17,7 @@ int bits_to_last_edge(const bus::Bytes& bytes) {
   return static_cast<int>(bytes.size() - 1) * bus::kCharacterBits + last;
 }
 
-/// Cycles of the sender in one of the capture.
+/// The sender's cycles per cycle of the capture.
 Estimate clock_of(const std::vector<LineTelegram>& telegrams, const Trace& trace, const TimeBase& time) {
   std::vector<Instance> instances;
   for (const LineTelegram& telegram : telegrams) {

@@ -1,5 +1,5 @@
 #pragma once
-// What measures: parameters, claims of rulings, clocks.
+// The measurements: parameters, claims of rulings, clocks.
 #include <vector>
 
 #include "kinds/dsdpv1/claims/scene.hpp"
@@ -7,7 +7,7 @@
 
 namespace dsdpv1::calibrate {
 
-/// What docs/chip.md marks (p), in the order of the rows.
+/// The parameters marked (p) in docs/chip.md, in the order of the rows.
 namespace parameter {
 
 constexpr Parameter kRtsLead{0}, kRtsTrail{1}, kIntrLow{2}, kIntrGap{3}, kAccessInterval{4}, kReadyCycles{5},
@@ -17,12 +17,12 @@ constexpr Parameter kRtsLead{0}, kRtsTrail{1}, kIntrLow{2}, kIntrGap{3}, kAccess
 
 using ClaimList = std::vector<const Claim*>;
 
-// Each measures its part of the scene; its claims stand in the table of rulings.
+// Each measures its part of the scene; the table of rulings has its claims.
 
-/// P1: the clocks, from the bits of telegrams; sets the scale of the scene's time.
+/// P1: the clocks, from the bits of telegrams; sets the time scale of the scene.
 void measure_clock(Scene& scene, double limit_ppm, Found& found);
 ClaimList clock_claims();
-/// H1, H3, H6, H8: L_REQ and L_STA. Makes the scale of the scene's time finer.
+/// H1, H3, H6, H8: L_REQ and L_STA. Refines the time scale of the scene.
 void measure_access(Scene& scene, Found& found);
 ClaimList access_claims();
 /// D1: when B004 is written; after measure_access, no claims.
@@ -42,7 +42,7 @@ ClaimList search_claims();
 /// S1, S22: the watchdog and the end of BAUD_CONTROL.
 void measure_watchdog(const Scene& scene, Found& found);
 ClaimList watchdog_claims();
-/// What telegrams say.
+/// The content of telegrams.
 void measure_telegrams(const Scene& scene, Found& found);
 ClaimList telegram_claims();
 /// The user's accesses.

@@ -23,14 +23,14 @@ std::vector<Pulse> pulses_of(const Scene& scene) {
   std::vector<Pulse> pulses;
   const Trace& trace = scene.record[wire::kIntr0];
   for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2)
-    if (!scene.in_reset(trace.edges[edge], trace.edges[edge + 1] + scene.time.margin()))  // not cut by one
+    if (!scene.in_reset(trace.edges[edge], trace.edges[edge + 1] + scene.time.margin()))  // not cut by a reset
       pulses.push_back({trace.edges[edge], trace.edges[edge + 1]});
   return pulses;
 }
 
 bool sees_accesses(const Scene& scene) { return scene.record.sees(wire::kLReq) && !scene.may_miss_accesses(); }
 
-/// Whether the chip has the DPRAM at `at`, or had it just before.
+/// Whether the chip holds the DPRAM at `at`, or held it just before.
 bool owned(const Scene& scene, Tick at) {
   const Trace& trace = scene.record[wire::kLReq];
   const Tick about = scene.time.ticks(1) + scene.time.margin();
@@ -52,8 +52,7 @@ Estimate length_of(const Scene& scene, const std::vector<Pulse>& pulses) {
   return estimate(instances, &scene.time);
 }
 
-/// Those that have their whole length: where no two agree the shortest may be cut, and beside those that agree one that
-/// is shorter.
+/// The pulses of full length: if no two agree the shortest may be cut; if some agree, a shorter one may be.
 std::vector<Pulse> whole_pulses(const Scene& scene, std::vector<Pulse> pulses) {
   const auto length = [](const Pulse& pulse) { return pulse.rise - pulse.fall; };
   std::sort(pulses.begin(), pulses.end(), [&](const Pulse& a, const Pulse& b) { return length(a) < length(b); });
@@ -84,7 +83,7 @@ void fit_low(const Scene& scene, const std::vector<Pulse>& pulses, Found& found)
 
 // --- when they come
 
-/// A pulse that begins while the chip does not have the DPRAM had to wait for the end of the gap; others only say that
+/// A pulse that begins while the chip does not hold the DPRAM had to wait for the end of the gap; others only show that
 /// the gap is not longer.
 void fit_gap(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
   std::vector<Instance> waited;

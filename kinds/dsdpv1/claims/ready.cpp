@@ -7,7 +7,7 @@
 namespace dsdpv1::calibrate {
 namespace {
 
-/// The accesses of start-ups, by their places.
+/// Indexes of the start-up accesses.
 std::vector<std::size_t> start_ups(const Scene& scene) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.accesses.size(); ++i)
@@ -18,8 +18,8 @@ std::vector<std::size_t> start_ups(const Scene& scene) {
 /// Cycles to an access from cycle R of the start-up before it.
 class SinceRelease {
  public:
-  /// R is 2 to 3 cycles after RESET rose; without RESET it is where the start-up access begins, if the user did not ask
-  /// before the chip looked.
+  /// R is 2 to 3 cycles after RESET rose; without RESET it is the begin of the start-up access, if the user made no
+  /// request before the chip looked.
   static std::optional<SinceRelease> of(const Scene& scene, const ChipAccess& start_up) {
     const Trace& reset = scene.record[wire::kReset];
     const std::size_t rose = reset.last(start_up.start, true);
@@ -38,10 +38,10 @@ class SinceRelease {
 
   const Scene& scene_;
   Tick from_;
-  Span behind_;  ///< R is so many cycles behind it
+  Span behind_;  ///< R is so many cycles after it
 };
 
-/// The access that has written B004 by what the user has read, as long as it has not written there itself (P6).
+/// The access that wrote B004 according to the user's reads, unless the user wrote there (P6).
 void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until, const SinceRelease& since,
                     Span& bound) {
   constexpr std::uint32_t kB004 = 4;
@@ -61,14 +61,14 @@ void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until,
   }
 }
 
-/// ... and by length: it is the first behind the one that writes B012 that takes a cycle more than an empty one, as
+/// ... and by length: the first access after the one that writes B012 that takes a cycle more than an empty one, as
 /// long as the user has written nothing.
 void bound_by_length(const Scene& scene, std::size_t start_up, std::size_t until, const SinceRelease& since,
                      Span& bound) {
   const Span empty{kEmptyAccess, kEmptyAccess}, one_byte{kEmptyAccess + 1, kEmptyAccess + 1};
   for (std::size_t i = start_up + 2; i < until && scene.accesses[i].whole; ++i) {
     const Span length = scene.time.between(scene.accesses[i].start, scene.accesses[i].end);
-    if (overlap(length, empty) && overlap(length, one_byte)) return;  // too coarse to tell
+    if (overlap(length, empty) && overlap(length, one_byte)) return;  // too coarse to decide
     if (overlap(length, empty)) continue;
     if (!overlap(length, one_byte)) return;
     bound.lo = std::max(bound.lo, since(scene.accesses[i - 1]).lo);

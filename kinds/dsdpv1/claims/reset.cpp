@@ -1,4 +1,4 @@
-// P9, P10: what RESET does.
+// P9, P10: the effects of RESET.
 #include "kinds/dsdpv1/claims/found.hpp"
 
 namespace dsdpv1::calibrate {

@@ -1,10 +1,10 @@
 #pragma once
-// The table of what docs/chip.md rules, and the table of its parameters: what pins can show of each.
+// The rulings of docs/chip.md and the parameters in tables, each with the evidence that pins can give.
 #include "lab/calibrate/claims.hpp"
 
 namespace dsdpv1::calibrate {
 
-/// What calibrate can see of the DSDPV1.
+/// The claims about the DSDPV1 that calibrate can check.
 const Claims& dsdpv1_claims();
 
 }  // namespace dsdpv1::calibrate

@@ -13,13 +13,13 @@ void find_accesses(Scene& scene) {
   }
 }
 
-/// The first edge to `level` at or behind `from`; bus::kNever when there is none.
+/// The first edge to `level` at or after `from`; bus::kNever without one.
 Tick edge_behind(const Trace& trace, Tick from, bool level) {
   const std::size_t edge = trace.next(from, level);
   return edge == Trace::kNone ? bus::kNever : trace.edges[edge];
 }
 
-/// P5, P11: an access is where CSR and the strobe are both low. Where CSR rises before WR nothing is written.
+/// P5, P11: CSR and the strobe are both low in an access. If CSR rises before WR nothing is written.
 void find_user_accesses(Scene& scene, Wire strobe) {
   const Record& record = scene.record;
   const Trace &trace = record[strobe], &select = record[wire::kCsr];

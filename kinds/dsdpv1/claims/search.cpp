@@ -28,7 +28,7 @@ bool locks(const LineTelegram& telegram) {
 
 // --- windows of the search
 
-/// The rate of index `baud` was found between these cycles behind the beginning of the search.
+/// The rate with index `baud` was found this many cycles after the begin of the search.
 struct Lock {
   Tick at = 0;
   int baud = 0;
@@ -51,7 +51,7 @@ std::optional<Tick> search_start(const Scene& scene, Tick found_at) {
   return start < 0 ? std::nullopt : std::optional<Tick>(start);
 }
 
-/// The telegram that ends the search at `at`: its last character is not long before.
+/// The telegram that ends the search at `at`: its last character is just before.
 std::size_t telegram_ending(const Scene& scene, Tick at) {
   std::size_t last = Trace::kNone;
   for (std::size_t i = 0; i < scene.received.size() && scene.received[i].last_start <= at; ++i)
@@ -62,7 +62,7 @@ std::size_t telegram_ending(const Scene& scene, Tick at) {
   return scene.time.between(telegram.last_start, at).lo < near ? last : Trace::kNone;
 }
 
-/// What ends there was not read: the samples are too far apart, or the capture begins in it.
+/// The telegram that ends there was not read: the samples are too far apart, or the capture begins in it.
 bool ends_unread(const Scene& scene, Tick at) {
   constexpr int kSlowest = bus::kBaudCount - 1;
   const auto near = [&](Tick edge, int baud) {
@@ -87,8 +87,8 @@ void judge_decision(const Scene& scene, const LineTelegram& telegram, Tick at, F
     found.judge.fails(kDecided, at, fmt::format("{:+.1f} cycles from it", seen.middle() - right.middle()));
 }
 
-/// A telegram that comes whole, T_SYN included, in the window of its rate locks it: one that did not came too early. So
-/// with telegrams during most of the search, close to each other; it is taken for the first round of the rates then.
+/// A telegram that lies, with its T_SYN, entirely in the window of its rate locks it; one that did not lock came too
+/// early. This needs closely spaced telegrams during most of the search, and assumes the first round of the rates.
 Lock lock_of(const Scene& scene, Tick start, std::size_t by) {
   const LineTelegram& telegram = scene.received[by];
   const double syn = bus::kSynBits * telegram.bit(), doubt = 8;
@@ -131,7 +131,7 @@ std::vector<Lock> locks_of(const Scene& scene, Found& found) {
   return all;
 }
 
-/// The least and greatest value of 1 .. most for which `fits` holds at some value of the other parameter.
+/// The lowest and highest value of 1 .. most for which `fits` holds at some value of the other parameter.
 struct Range {
   double lo = 0, hi = 0;
   bool any = false;
@@ -149,7 +149,7 @@ struct Range {
 
 constexpr int kMostMs = 10'000, kLeastBits = 100, kMostBits = 100'000;
 
-/// The bit times that fit all locks when the least time is `ms`; the sum of windows only grows with either.
+/// The bit times that fit all locks if the minimum time is `ms`; the sum of windows grows with either.
 Range bits_for(const std::vector<Lock>& all, int ms) {
   int lo = kLeastBits, hi = kMostBits;
   for (const Lock& lock : all) {
@@ -178,8 +178,8 @@ Range bits_for(const std::vector<Lock>& all, int ms) {
   return range;
 }
 
-/// What fits all locks. Either time may explain much in the place of the other, so that the one that is not needed is
-/// taken to be the default; only where neither is, both are left open.
+/// Values that fit all locks. Either time can explain much of the other, so if one is not needed it is taken to be the
+/// default; both are left open only if neither is needed.
 struct Windows {
   Range ms, bits;
 };

@@ -7,15 +7,15 @@ namespace dsdpv1::calibrate {
 namespace {
 
 /// Cycles. Before the first initialisation no access takes more than 1235: the user's blocks at full length, which are
-/// read and dropped. Afterwards it may be 2424, with those for the user (micro-architecture, 9).
+/// read and dropped. Later it may take 2424, with the blocks for the user (micro-architecture, 9).
 constexpr double kLonger = 1500, kLongest = 2424;
-/// Cycles without an access that no interval of a scenario explains.
+/// Cycles without an access that no interval of a scenario can explain.
 constexpr double kSilence = 10'000;
 
-/// From the access before, or the beginning.
+/// The begin of the previous access, or of the capture.
 Tick before(const Scene& scene, std::size_t i) { return i == 0 ? 0 : scene.accesses[i - 1].start; }
 
-/// What RESET says, where it says something.
+/// The evidence of RESET, if any.
 std::optional<bool> released_before(const Scene& scene, std::size_t i) {
   const Trace& reset = scene.record[wire::kReset];
   if (!reset.seen) return std::nullopt;
@@ -24,7 +24,7 @@ std::optional<bool> released_before(const Scene& scene, std::size_t i) {
   return i == 0 ? std::nullopt : std::optional<bool>(false);
 }
 
-/// Its outputs are as a reset leaves them until the first initialisation.
+/// The outputs have their reset levels until the first initialisation.
 bool may_be_uninitialised(const Scene& scene, const ChipAccess& access) {
   const Tick from = access.start + scene.time.margin(), to = access.end - scene.time.margin();
   const auto is = [&](Wire wire, bool level) {
@@ -34,20 +34,20 @@ bool may_be_uninitialised(const Scene& scene, const ChipAccess& access) {
   return is(wire::kReady, false) && is(wire::kBr, false) && is(wire::kPbf, true) && is(wire::kPbrts, false);
 }
 
-/// Nobody kept the chip, and yet it made no access for long.
+/// The chip made no access for long, although the user did not hold it off.
 bool was_silent(const Scene& scene, std::size_t i) {
   const Tick from = i == 0 ? 0 : scene.accesses[i - 1].end, to = scene.accesses[i].start;
   return scene.sees_user() && !scene.may_miss_accesses() && scene.time.between(from, to).lo > kSilence &&
          scene.user_lets(from, to);
 }
 
-/// As long as H6 says; with long samples the gap of one cycle behind it is not seen, and it seems to be one with the
-/// next.
+/// The length given by H6; with long samples the gap of one cycle after it is missed, and it merges with the next
+/// access.
 bool has_right_length(const Scene& scene, const Span& length) {
   return length.contains(kStartUpAccess) || (scene.time.doubt() >= 1 && length.contains(kStartUpWithNext));
 }
 
-/// No access of the operation is; where the samples hide the gap of one cycle, two may seem to be.
+/// No access in operation is so long, but two may merge if the samples hide the gap of one cycle.
 bool is_too_long(const Scene& scene, const Span& length) { return scene.time.doubt() < 1 && length.lo > kLongest; }
 
 bool is_start_up(const Scene& scene, std::size_t i) {
@@ -61,7 +61,7 @@ bool is_start_up(const Scene& scene, std::size_t i) {
          (scene.record.sees(wire::kReady) || is_too_long(scene, length) || has_right_length(scene, length));
 }
 
-/// READY falls by nothing else; the chip is back with its next access.
+/// READY falls only in a reset; the chip is back at its next access.
 void find_falls_of_ready(Scene& scene) {
   const Trace& ready = scene.record[wire::kReady];
   for (std::size_t edge = ready.next(0, false); edge < ready.edges.size(); edge += 2) {

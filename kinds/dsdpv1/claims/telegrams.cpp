@@ -1,4 +1,4 @@
-// What the chip answers to what, as far as it follows from the telegrams and the pins beside them.
+// Which answer the chip gives to which request, as far as telegrams and pins show it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 using bus::Telegram;
 using bus::TelegramKind;
 
-/// A right request of one station, and its right answer.
+/// A valid request to one station, and its valid answer.
 struct Asked {
   const Telegram& request;
   const Telegram& answer;
@@ -26,14 +26,14 @@ struct Asked {
   bool no_resource() const { return is_status(bus::fc::kRr); }
   bool has_data() const { return answer.kind == TelegramKind::kSd2 || answer.kind == TelegramKind::kSd3; }
   bool data_from(std::uint8_t sap) const { return has_data() && answer.ssap == sap; }
-  /// The state counts where the request is decided, between its end and the answer, but for a repetition (S26).
+  /// The state counts when the request is decided, between its end and the answer, except for a repetition (S26).
   bool outside_exchange() const {
     const Tick from = exchange.request->end() - scene.time.margin();
     return !exchange.repeats && scene.record[wire::kPbf].high(from, exchange.answer->start);
   }
 };
 
-/// When it says something, and whether it is so.
+/// When the rule applies, and whether it is kept.
 struct Rule {
   Claim claim;
   bool (*applies)(const Asked&);
@@ -187,7 +187,7 @@ void judge_rules(const Scene& scene, const Exchange& exchange, Found& found) {
   }
 }
 
-/// Whether nothing ended the chip's memory of the last answer between the two.
+/// Whether the chip's memory of the last answer lasted between the two.
 bool remembered(const Scene& scene, const Exchange& first, const Exchange& second) {
   const Tick from = first.request->start, to = second.request->end();
   const auto between = [&](const LineTelegram& telegram) {

@@ -15,7 +15,7 @@ const Claim kMinTsdr = {"S11",
                         "min_TSDR of Set_Prm counts from the answer to it, or the verdict, on, 11 at least",
                         {wire::kPbrxd, wire::kPbtxd}};
 
-/// A min_TSDR as it counts at the request's rate (S11, S30).
+/// A min_TSDR as applied at the request's rate (S11, S30).
 int bits_at(const LineTelegram& request, int bits) {
   return std::min(std::max(bits, bus::kMinTsdrBits), bus::baud(request.baud).max_tsdr_bits);
 }
@@ -49,7 +49,7 @@ class TsdrJudge {
   struct Asked {
     int bits;
     std::uint8_t master;
-    bool perhaps;  ///< it may have been accepted before what min_TSDR is now
+    bool perhaps;  ///< may have been accepted before the present min_TSDR
   };
 
   void restart() {
@@ -58,7 +58,7 @@ class TsdrJudge {
     before_.clear();
     changed_ = open_ = false;
   }
-  /// The fall of BR is a new initialisation, or the end of BAUD_CONTROL, which leaves it.
+  /// BR falls at a new initialisation, or at the end of BAUD_CONTROL, which keeps min_TSDR.
   void take_restarts(Tick at) {
     for (const Wire wire : {wire::kReset, wire::kReady})
       if (has_edge(wire, at)) restart();
@@ -105,7 +105,7 @@ class TsdrJudge {
     else
       accept(request);
   }
-  /// Whether it was accepted will not be known.
+  /// It stays unknown whether it was accepted.
   void give_up_asked() {
     if (asked_ && !now_.empty()) now_.push_back(asked_->bits);
     asked_.reset();
@@ -122,7 +122,7 @@ class TsdrJudge {
     now_ = {bits};
   }
 
-  /// Keeps of what min_TSDR may be what this answer allows; false when that is nothing.
+  /// Keeps the possible values of min_TSDR that this answer allows; returns false if none is left.
   bool narrows(const Span& cycles, const Exchange& exchange) {
     const LineTelegram& request = *exchange.request;
     const bool as_asked = asked_ && fits(cycles, request, asked_->bits);
@@ -144,13 +144,13 @@ class TsdrJudge {
       now_.clear(), before_.clear();
       return learns(cycles, request);
     }
-    // Without BR a new initialisation is only known not to have been before what shows DATA_EXCH.
+    // Without BR a new initialisation can only be excluded before evidence of DATA_EXCH.
     const bool restarted = !scene_.record.sees(wire::kBr) && (!exchange.exchanged() || exchange.repeats) &&
                            fits(cycles, request, bus::kMinTsdrBits);
     if (restarted) restart();
     return restarted;
   }
-  /// Where the capture begins in the middle.
+  /// For a capture that begins in operation.
   bool learns(const Span& cycles, const LineTelegram& request) {
     for (int bits = bus::kMinTsdrBits; bits <= bus::baud(request.baud).max_tsdr_bits; ++bits)
       if (fits(cycles, request, bits)) now_.push_back(bits);
@@ -177,9 +177,9 @@ class TsdrJudge {
   const Scene& scene_;
   Found& found_;
   Tick looked_ = 0;
-  std::vector<int> now_;        ///< what min_TSDR may be; empty: the capture has not shown it yet
-  std::optional<Asked> asked_;  ///< by a Set_Prm that may have been accepted, or will be
-  std::vector<int> before_;     ///< what it was before the last Set_Prm
+  std::vector<int> now_;        ///< possible values of min_TSDR; empty: not shown yet
+  std::optional<Asked> asked_;  ///< by a Set_Prm that may have been, or may be, accepted
+  std::vector<int> before_;     ///< value before the last Set_Prm
   bool changed_ = false;        ///< by a Set_Prm, and no answer has shown it yet
   bool open_ = false;           ///< by a Set_Prm that was not read, perhaps: the first answer that shows it counts
 };

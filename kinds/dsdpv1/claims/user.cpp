@@ -1,4 +1,4 @@
-// What the user reads: version, RAM, CRCs, flags.
+// The user's reads: version, RAM, CRCs, flags.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,10 +30,10 @@ constexpr std::uint8_t kFlags = dsdpv1::regs::kUserCommand1Input | dsdpv1::regs:
                                 dsdpv1::regs::kUserCommand1Init | dsdpv1::regs::kUserCommand1CfgVerdict |
                                 dsdpv1::regs::kUserCommand1PrmVerdict;
 
-/// A block that the chip writes: its length byte stands last of the header.
+/// A block written by the chip: its length byte is the last of the header.
 struct Area {
   std::uint32_t first, header, crc;
-  std::uint8_t news;  ///< the bit of B00E that says that it was written
+  std::uint8_t news;  ///< the bit of B00E that announces it
   const char* what;
 
   bool has(std::uint32_t address) const { return address >= first && address <= crc + 1; }
@@ -57,12 +57,13 @@ class UserJudge {
   }
 
  private:
-  /// Whether the chip had the DPRAM since the access before.
+  /// Whether the chip held the DPRAM since the previous access.
   bool chip_came_before(const UserAccess& access) {
     bool came = false;
     for (; next_ < scene_.accesses.size() && scene_.accesses[next_].start < access.end; ++next_) {
       came = true;
-      if (scene_.is_start_up(scene_.accesses[next_])) users_.clear(), valid_ = false;  // H6: all is the chip's again
+      if (scene_.is_start_up(scene_.accesses[next_]))
+        users_.clear(), valid_ = false;  // H6: all cells are the chip's again
     }
     return came;
   }
@@ -102,7 +103,7 @@ class UserJudge {
       if (access.address == area.crc + 1 && !is_users(area)) judge_crc(area, access);
   }
 
-  /// No wire of A or D changes in the samples about WR's rise, so that what they show is what the chip took.
+  /// No wire of A or D changes in the samples around WR's rise, so they show the value that the chip took.
   bool stands_at_end(const UserAccess& access) const {
     const Tick from = access.end - scene_.time.ticks(scene_.time.doubt()),
                to = access.end + scene_.time.ticks(2 * scene_.time.jitter);
@@ -111,7 +112,7 @@ class UserJudge {
                        [&](const Trace& wire) { return wire.count_until(from) == wire.count_until(to); });
   }
 
-  /// A bit that the user had written as 0 in an earlier hold: since then the chip has written this block.
+  /// A bit that the user cleared in an earlier hold: the chip has written this block since then.
   void find_written(std::uint8_t news) {
     const auto cleared = users_.find(dsdpv1::regs::kChipCommand1);
     if (cleared == users_.end()) return;
@@ -123,7 +124,7 @@ class UserJudge {
         cell = cell->second.hold <= before ? users_.erase(cell) : std::next(cell);
     }
   }
-  /// P6: something in it is the user's, or may be.
+  /// P6: it contains a byte that is, or may be, the user's.
   bool is_users(const Area& area) const {
     const auto cell = users_.lower_bound(area.first);
     return cell != users_.end() && area.has(cell->first);
@@ -139,13 +140,13 @@ class UserJudge {
   void judge_version(const UserAccess& access) {
     constexpr std::array<unsigned, 4> kVersion4 = {0x01, 0x0D, 0x07, 0x01};
     constexpr unsigned kValid = 0xC5;
-    if (users_.count(access.address) != 0) return;  // P6: it holds that until the chip rewrites it
+    if (users_.count(access.address) != 0) return;  // P6: it keeps the user's value until the chip rewrites it
     if (access.address < kVersion4.size()) check(kVersion, access, kVersion4.at(access.address));
     if (access.address != dsdpv1::regs::kValidFlag) return;
     if (access.data != 0 || (valid_ && scene_.record.sees(wire::kLReq))) check(kVersion, access, kValid);
     valid_ = valid_ || access.data == kValid;
   }
-  /// No wire of D changes between 1.5 cycles behind RD's fall and its rise.
+  /// No wire of D changes between 1.5 cycles after RD's fall and its rise.
   void judge_data(const Standing& standing) {
     for (std::size_t bit = 0; bit < kDataWires; ++bit) {
       const Trace& wire = scene_.record.traces.at(static_cast<std::size_t>(wire::kD) + bit);
@@ -155,7 +156,7 @@ class UserJudge {
     }
     found_.judge.holds(kData);
   }
-  /// Only of blocks that were read whole in one hold.
+  /// Only for blocks read completely in one hold.
   void judge_crc(const Area& area, const UserAccess& access) {
     const auto length = read_.find(area.first + area.header - 1);
     if (length == read_.end()) return;
@@ -170,7 +171,7 @@ class UserJudge {
     const auto high = read_.find(area.crc);
     if (high == read_.end()) return;
     const unsigned seen = static_cast<unsigned>(high->second) << 8U | access.data, right = crc.value();
-    if (seen == 0 && empty) return;  // as the start-up has left it
+    if (seen == 0 && empty) return;  // as left by the start-up
     if (seen == right)
       found_.judge.holds(kCrc);
     else
@@ -186,9 +187,9 @@ class UserJudge {
 
   const Scene& scene_;
   Found& found_;
-  std::size_t next_ = 0;                                  ///< the chip's access that is looked at
+  std::size_t next_ = 0;                                  ///< the chip's access being evaluated
   std::map<std::uint32_t, std::uint8_t> written_, read_;  ///< in this hold
-  std::map<std::uint32_t, Written> users_;                ///< cells that the user has written, the last time
+  std::map<std::uint32_t, Written> users_;                ///< cells written by the user, with the last write
   std::size_t hold_ = 0;                                  ///< a number for each
   bool valid_ = false;                                    ///< B004 was C5
   std::uint8_t flags_now_ = 0, flags_before_ = 0;

@@ -1,4 +1,4 @@
-// S1, S22: what ends DATA_EXCH, and what BR falls after.
+// S1, S22: the causes of leaving DATA_EXCH and of BR's falls.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ const Claim kBrFalls = {"S1",
                         "BR falls the same whole number of ms after the last telegram, or the watchdog's end",
                         {wire::kPbrxd, wire::kPbtxd, wire::kBr}};
 
-/// A new initialisation may be taken there: an access of the chip that has read more than its flags.
+/// A new initialisation may be taken there: an access of the chip that read more than its flags.
 bool long_access(const Scene& scene, Tick at) {
   constexpr double kLeast = 10;
   if (!scene.record.sees(wire::kLReq)) return true;
@@ -30,7 +30,7 @@ bool long_access(const Scene& scene, Tick at) {
   return access.end >= at - about && (!access.whole || scene.time.between(access.start, access.end).hi >= kLeast);
 }
 
-/// PBF rises by something else than the watchdog: a request decided just before, or a new initialisation.
+/// PBF rises for another cause than the watchdog: a request decided just before, or a new initialisation.
 bool ended_otherwise(const Scene& scene, Tick at) {
   constexpr Span kJustBefore = {-1, 16};
   const auto decided = [&](const Exchange& exchange) {
@@ -58,14 +58,14 @@ void judge_watchdog(const Scene& scene, Found& found) {
   }
 }
 
-/// The time runs on at the last character of a request, or the capture's end.
+/// The time keeps running at the last character of a request, or at the capture's end.
 struct Running {
   Tick at = 0;
   Supervised supervised;
-  Span passed;  ///< cycles since the last telegram, or the end of the watchdog that ran before
+  Span passed;  ///< cycles since the last telegram, or the end of the previous watchdog
 };
 
-/// Where the telegrams tell what runs, all of them read.
+/// Where the telegrams, all of them read, show what is running.
 std::vector<Running> runs_on(const Scene& scene) {
   std::vector<Running> all;
   std::vector<Tick> unread;
@@ -85,7 +85,7 @@ std::vector<Running> runs_on(const Scene& scene) {
   return all;
 }
 
-/// PBF stays low when the watchdog has ended.
+/// PBF must not stay low after the watchdog has ended.
 void judge_unended(const Scene& scene, Found& found) {
   for (const Running& each : runs_on(scene))
     if (each.supervised.state == Supervised::State::kDpControl && each.passed.lo > 2 &&
@@ -93,10 +93,10 @@ void judge_unended(const Scene& scene, Found& found) {
       found.judge.fails(kWatchdog, each.at, fmt::format("PBF is low {:.1f} cycles after its end", each.passed.lo));
 }
 
-/// Whether a fall of BR is a new initialisation.
+/// Whether a fall of BR was caused by a new initialisation.
 enum class Initialised : std::uint8_t { kNo, kPerhaps, kYes };
 
-/// It ends DATA_EXCH, and is in a long access of the chip; the end of BAUD_CONTROL leaves the state as it is (S1).
+/// A new initialisation ends DATA_EXCH, in a long access of the chip; the end of BAUD_CONTROL keeps the state (S1).
 Initialised initialised_at(const Scene& scene, Tick at) {
   const Trace& pbf = scene.record[wire::kPbf];
   const Tick from = at - scene.time.margin(), to = at + scene.time.margin();
@@ -108,19 +108,19 @@ Initialised initialised_at(const Scene& scene, Tick at) {
 /// BR falls.
 struct Fall {
   Tick at = 0;
-  Span ms;  ///< since the last telegram, or the end of the watchdog that ran before
+  Span ms;  ///< since the last telegram, or the end of the previous watchdog
   Initialised initialised = Initialised::kPerhaps;
 };
 
 struct Falls {
   std::vector<Fall> all;
-  bool unknown = false;       ///< there are others, of which the capture does not show what came before
-  bool initialised = false;   ///< others are new initialisations, as PBF or L_REQ shows
-  std::vector<Fall> not_yet;  ///< it is still high there
+  bool unknown = false;       ///< there are others, whose prior events the capture does not show
+  bool initialised = false;   ///< others are new initialisations, as shown by PBF or L_REQ
+  std::vector<Fall> not_yet;  ///< BR is still high there
   double longest = 0;         ///< of these, at least; ms
 };
 
-/// Where BR does not fall though the time runs.
+/// Places where BR does not fall although the time is running.
 void find_silences(const Scene& scene, Falls& falls) {
   for (const Running& each : runs_on(scene)) {
     if (!scene.record[wire::kBr].high(each.supervised.last.edge, each.at)) continue;
@@ -155,7 +155,7 @@ bool is_whole(const Span& ms) {
   return whole >= 1 && ms.lo - kNearMs <= whole && whole <= ms.hi + kNearMs;
 }
 
-/// Falls that measure the time of BAUD_CONTROL. A new initialisation may come at any ms, but never later than its end.
+/// Falls that measure the time of BAUD_CONTROL. A new initialisation may come at any time, but never after its end.
 std::vector<Fall> ends_of_time(Falls& falls) {
   std::vector<Fall> ends;
   double latest = falls.longest;
@@ -175,8 +175,8 @@ std::vector<Fall> ends_of_time(Falls& falls) {
   return ends;
 }
 
-/// The time that they show. A single one that may be a new initialisation says only that it had not passed before,
-/// unless it is just the default.
+/// The time that they show. A single fall that may be a new initialisation only shows that the time had not passed
+/// before, unless it matches the default.
 void fit_time(const std::vector<Fall>& ends, Fit& fit) {
   std::vector<Instance> instances;
   instances.reserve(ends.size());
@@ -189,7 +189,7 @@ void fit_time(const std::vector<Fall>& ends, Fit& fit) {
   fit.at_least = true;
 }
 
-/// What does not agree is a new initialisation, where there may be one.
+/// A fall that does not agree counts as a new initialisation, if there may be one.
 void judge_falls(const Falls& falls, Found& found) {
   Fit& fit = found.fit(parameter::kBaudControlMs);
   for (const Fall& fall : falls.all) {

@@ -1,5 +1,5 @@
 #pragma once
-// The wires of the chip that a capture shows: table 1.
+// The wires of the chip in a capture: table 1.
 #include "lab/calibrate/wires.hpp"
 #include "model/dsdpv1/pins.hpp"
 

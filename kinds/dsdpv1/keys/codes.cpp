@@ -76,7 +76,7 @@ const char* advice_of(dsdpv1_error error) {  // NOLINT(readability-function-size
   return "";
 }
 
-/// The text with values that are possible: levels and words that are listed in the text, else numbers and addresses.
+/// The text with example values: for levels and words the first listed in the text, else numbers and addresses.
 std::string example_of(profibus::Reason reason) {
   const std::string text = dsdpv1::text_template(reason);
   const auto has = [&text](const char* words) { return text.find(words) != std::string::npos; };

@@ -1,5 +1,5 @@
 #pragma once
-// The codes of the chip's events, of the driver's errors and of the ARM board, with what to do about each.
+// The codes of the chip's events, of the driver's errors and of the ARM board, each with its advice.
 #include <vector>
 
 #include "tb/chip/chip_kind.hpp"

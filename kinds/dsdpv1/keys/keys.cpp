@@ -1,4 +1,4 @@
-// Keys of a scenario that are the DSDPV1's: parameters of the chip, and the user CPU with its bus.
+// The DSDPV1's keys in a scenario: parameters of the chip, and the user CPU with its bus.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -52,14 +52,15 @@ const ObjectOf<UartKeys>& uart_keys() {
 
 constexpr std::array<int, 8> kRates = {9600, 19'200, 38'400, 57'600, 115'200, 230'400, 460'800, 1'843'200};  // UA1
 
-/// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's
-/// pins are dead (R14), and the UART knows no ownership (UA6).
+/// Actions that only a DSDPV1's program supports. SPI and UART do not check block CRCs (SP15) and leave the handshake's
+/// pins unused (R14), and the UART has no ownership (UA6).
 std::vector<std::string> orders_for(CpuKind kind, HostMode mode) {
   using user_cpu::kCutTelegram, user_cpu::kEarlyRSta, user_cpu::kFlipBit, user_cpu::kHoldDpram, user_cpu::kHostTelegram,
       user_cpu::kPauseTelegram, user_cpu::kSendBreak, user_cpu::kTalkOverReply, user_cpu::kWrongCrc,
       user_cpu::kWrongParity;
   if (mode == HostMode::kParallel) return {kHoldDpram, kWrongCrc, kEarlyRSta};
-  const bool firmware = kind == CpuKind::kArm;  // spoils what it sends (DSDPV1_SPOIL_ of its mailbox), and no more
+  const bool firmware =
+      kind == CpuKind::kArm;  // it can disturb its telegrams (DSDPV1_SPOIL_ of its mailbox), nothing more
   if (mode == HostMode::kSpi && firmware) return {kHoldDpram, kFlipBit, kCutTelegram};
   if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram, kHostTelegram};
   if (firmware) return {kFlipBit, kCutTelegram, kWrongParity};
@@ -98,7 +99,7 @@ user_cpu::UartPort uart_port(const UartKeys& keys, const Dsdpv1Settings& chip) {
   return port;
 }
 
-/// Its firmware says how fast it is, and which pins are free depends on the chip.
+/// The firmware sets its own speed, and the free pins depend on the chip.
 void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file) {
   const auto refuse = [&](int where, const char* key) {
     throw InputError(file, where,

@@ -1,5 +1,5 @@
 #pragma once
-// What a scenario says with the keys of the DSDPV1: parameters of the chip, and the user CPU with its bus.
+// The DSDPV1's settings in a scenario: parameters of the chip, and the user CPU with its bus.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -27,13 +27,13 @@ struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {
   int interval = 0;   ///< UIV
 };
 
-/// The word that scenarios and command lines have for it.
+/// The word for it in scenarios and on command lines.
 const char* mode_name(HostMode mode);
 
 /// Levels of MODE, ADR, UBR and UIV.
 using Straps = std::array<Level, 4>;
 Straps straps_of(const OwnSettings& settings);
-/// Whether a key of the chip is one of them.
+/// True if a key of the chip is a strap.
 bool is_strap(const std::string& key);
 
 struct AccessTimes : AccessTiming {
@@ -49,7 +49,7 @@ struct CpuTimes : user_cpu::CpuTiming {
 };
 
 enum class CpuKind : std::uint8_t { kNative, kArm };
-/// What becomes of that part of a scenario that only firmware with a mailbox can carry out or tell.
+/// Treatment of scenario parts that need firmware with a mailbox.
 enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
 
 /// The user's end of an SPI port. Times in ticks.
@@ -62,7 +62,7 @@ struct SpiKeys {
 
 /// The user's end of a UART port.
 struct UartKeys {
-  int rate = 0;  ///< bit/s; 0: that of the chip's strap
+  int rate = 0;  ///< bit/s; 0: the rate of the chip's strap
   Tick gap = 0;
   int line = 0;
 };
@@ -72,8 +72,8 @@ struct Dsdpv1User : OwnSettings {
   Name elf;                                                  ///< kArm
   WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
   std::vector<Name> switches;                                ///< kArm: "PA0=low"
-  std::optional<double> cpi;                                 ///< kArm: cycles of HCLK that every instruction takes
-  std::optional<CpuTimes> timing;  ///< kNative; its `access` is left alone: that is the next member
+  std::optional<double> cpi;                                 ///< kArm: cycles of HCLK per instruction
+  std::optional<CpuTimes> timing;                            ///< kNative; its `access` is unused: see the next member
   std::optional<AccessTimes> access;
   std::optional<Fsmc> fsmc;
   std::optional<SpiKeys> spi;    ///< kNative, HostMode::kSpi
@@ -106,10 +106,10 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
 void check_order(const std::string& order, CpuKind kind, HostMode mode, const std::string& file, int line);
 
 SerialSettings serial_settings_of(const Dsdpv1Settings& chip);
-/// Reads the telegrams of the chip's serial port; null: it has the parallel one.
+/// Makes a reader for the telegrams of the chip's serial port; null: it uses the parallel one.
 std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip);
 
-/// How the user CPU reaches the chip.
+/// The user CPU's port to the chip.
 user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& chip);
 
 }  // namespace dsdpv1::tb

@@ -17,9 +17,9 @@ DiagramEdge only(DiagramEdge edge, Pin where, Level level) {
   return edge;
 }
 
-/// P5: an access is where CSR and the strobe are both low.
+/// P5: in an access CSR and the strobe are both low.
 Edges begin(Pin strobe) { return {only(fall(strobe), Pin::kCsr, 0), only(fall(Pin::kCsr), strobe, 0)}; }
-/// The later of them has begun an access that is still running.
+/// The later of them began an access that is still running.
 Edges falls(Pin strobe) { return {fall(strobe), fall(Pin::kCsr)}; }
 Edges end(Pin strobe) { return {only(rise(strobe), Pin::kCsr, 0), only(rise(Pin::kCsr), strobe, 0)}; }
 Edges at(Edges edges, Level address) {
@@ -50,7 +50,7 @@ std::vector<PinNumber> pins(std::initializer_list<Pin> list) {
   return numbers;
 }
 
-/// Figures 4 and 5: R_REQ, a look at L_REQ and L_STA, R_STA, the first access.
+/// Figures 4 and 5: R_REQ, samples of L_REQ and L_STA, R_STA, the first access.
 TimingDiagram take() {
   return {
       "take",
@@ -64,7 +64,7 @@ TimingDiagram take() {
       pins({Pin::kRReq, Pin::kRSta, Pin::kLReq, Pin::kLSta, Pin::kCsr, Pin::kRd, Pin::kWr})};
 }
 
-/// Figure 5: the first of the two that falls ends the ownership; H1: the release is complete with the later.
+/// Figure 5: the first fall ends the ownership; H1: the later one completes the release.
 TimingDiagram give_back() {
   const Edges complete = {only(fall(Pin::kRSta), Pin::kRReq, 0), only(fall(Pin::kRReq), Pin::kRSta, 0)};
   return {
@@ -105,7 +105,7 @@ TimingDiagram write() {
 }
 
 TimingDiagram interrupt() {
-  constexpr Level kB00e = 0x00E;                       // P7: what has come stands there
+  constexpr Level kB00e = 0x00E;                       // P7: tells what has arrived
   constexpr bus::Tick kTb = 64 * bus::kTicksPerCycle;  // 1.333 us
   return {"intr0",
           "INTR0 and who serves it",

@@ -1,5 +1,6 @@
 #pragma once
-// What reports show of the DSDPV1's pins: handshake (5.1), accesses (5.2, table 15), INTR0, and the answer on the line.
+// Timing diagrams of the DSDPV1's pins for reports: handshake (5.1), accesses (5.2, table 15), INTR0, and the answer on
+// the line.
 #include <vector>
 
 #include "tb/chip/timing_diagram.hpp"

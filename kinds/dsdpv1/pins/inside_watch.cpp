@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<regs::Address, 4> kFlags = {regs::kChipCommand1, regs::kChipCommand2, regs::kUserCommand1,
                                                  regs::kUserCommand2};
 
-/// 5.1: who holds the DPRAM.
+/// 5.1: the owner of the DPRAM.
 const char* owner(bool chip, bool user) {
   if (chip) return user ? "both" : "chip";
   return user ? "user" : "-";

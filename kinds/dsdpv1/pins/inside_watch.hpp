@@ -1,5 +1,5 @@
 #pragma once
-// The inner signals of a DSDPV1: what waves show beside the pins.
+// The internal signals of a DSDPV1, shown in waves beside the pins.
 #include <array>
 #include <string>
 #include <vector>
@@ -11,15 +11,15 @@
 
 namespace dsdpv1::tb {
 
-/// Looks at a chip after each of its rising edges, and tells what has changed.
+/// Compares a chip's state after each of its rising edges and reports changes.
 class InsideWatch {
  public:
   static const std::vector<InnerSignal>& signals();
-  /// Told in the order of `signals()`; `number`: of the chip.
+  /// Reports in the order of `signals()`; `number`: of the chip.
   void look(bus::Tick at, const dsdpv1::Chip& chip, std::size_t number, ChipListener& listener);
 
  private:
-  /// What the signals are made of; cheap to compare, as it is done in every cycle.
+  /// The source of the signals; cheap to compare, because that happens in every cycle.
   struct Seen {
     dsdpv1::Inside inside;
     bool chip_owns = false, user_owns = false, offline = false;

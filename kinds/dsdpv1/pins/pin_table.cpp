@@ -32,7 +32,7 @@ struct Shown {
 constexpr Shown kShown[] = {
 #define DSDPV1_PIN(pin, name, width, direction, level, group, place, ...) {group, place, name},
 #include "model/dsdpv1/pins.inc"
-    {"host", 5, "D"},  // D_IN and D_OUT: of waves that show the two directions of D by themselves
+    {"host", 5, "D"},  // D_IN and D_OUT: for waves that show the two directions of D separately
     {"spi", 4, "spi_request"},
     {"spi", 6, "spi_reply"},
     {"uart", 2, "uart_request"},

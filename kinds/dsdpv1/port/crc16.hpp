@@ -1,5 +1,6 @@
 #pragma once
-// The CRC of blocks (4.2, D2) and telegrams (R15). Written apart from the driver's and the chip's, which it judges.
+// The CRC of blocks (4.2, D2) and telegrams (R15). Independent of the driver's and the chip's implementation, because
+// it checks both.
 #include <cstdint>
 
 namespace dsdpv1::tb {

@@ -19,7 +19,7 @@ struct CrcOf {
   bool right() const { return received == computed; }
 };
 
-/// Of a telegram with at least its CRC.
+/// For a telegram that has at least its CRC.
 CrcOf crc_of(const bus::Bytes& bytes) {
   const std::size_t covered = bytes.size() - kCrcBytes;
   Crc16 crc;
@@ -34,7 +34,7 @@ std::string crc_fault(const bus::Bytes& bytes) {
   return crc.right() ? "" : fmt::format("CRC {:04X}, computed {:04X}", crc.received, crc.computed);
 }
 
-/// The words of the bits that are 1, the lowest first; empty: none is.
+/// The words of the set bits, the lowest first; empty if none is set.
 template <std::size_t N>
 std::string bit_words(unsigned value, const std::array<const char*, N>& words) {
   std::vector<const char*> found;

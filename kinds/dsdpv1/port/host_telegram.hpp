@@ -1,5 +1,5 @@
 #pragma once
-// What the bytes of a DSDPV1-RSU's host telegrams mean (SP4, SP10, SP16, UA5, UA7 to UA13), also in words.
+// Decodes host telegrams of a DSDPV1-RSU (SP4, SP10, SP16, UA5, UA7 to UA13), also to text.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,31 +27,31 @@ class HostRequest {
   }
   bool empty() const { return bytes_.empty(); }
   std::size_t size() const { return size_; }
-  /// What comes after the longest telegram there is tells nothing more, and is left out.
+  /// Bytes after the longest possible telegram add no information and are dropped.
   const bus::Bytes& bytes() const { return bytes_; }
 
-  // From here on there is a byte.
-  /// The first one is a telegram's (SP11).
+  // The following need at least one byte.
+  /// The first byte can begin a telegram (SP11).
   bool begins() const { return kind() <= TelegramKind::kExchange && (bytes_[0] & 0x1C) == 0; }
   unsigned card() const { return bytes_[0] & 3U; }
   TelegramKind kind() const { return static_cast<TelegramKind>(bytes_[0] >> 5U); }
   bool complete() const { return begins() && bytes_.size() == size_needed(); }
 
-  // Of a complete one.
+  // The following need a complete telegram.
   bool is_exchange() const { return link_ == HostLink::kUart && kind() == TelegramKind::kExchange; }
   unsigned length() const { return bytes_[length_at()]; }
   unsigned address() const { return static_cast<unsigned>(bytes_[address_at()]) << 8 | bytes_[address_at() + 1]; }
-  /// CRC (R15), address and length are right (SP10, UA5): it is carried out unless the chip is busy (SP13). Of an
-  /// exchange the areas are not looked at (UA9).
+  /// CRC (R15), address and length are right (SP10, UA5): it is executed unless the chip is busy (SP13). Areas of an
+  /// exchange are not checked (UA9).
   bool right() const;
   /// A read or write of this cell.
   bool covers(unsigned cell) const { return cell >= address() && cell < address() + length(); }
-  /// What a write that covers the cell writes there; absent for another telegram.
+  /// The value that a write to the cell writes; absent for another telegram.
   std::optional<std::uint8_t> written(unsigned cell) const;
 
-  /// "write B020, length 23, card 1, CRC right"; of one that is not complete what is known.
+  /// "write B020, length 23, card 1, CRC right"; as much as is known of an incomplete one.
   std::string words() const;
-  /// "CRC 18CF, computed 4711"; empty: its CRC is right.
+  /// "CRC 18CF, computed 4711"; empty if its CRC is right.
   std::string wrong() const;
 
  private:
@@ -60,7 +60,7 @@ class HostRequest {
   bool has_address() const { return link_ == HostLink::kUart || kind() != TelegramKind::kExchange; }
   std::size_t address_at() const { return is_exchange() ? 2 : 1; }
   std::size_t length_at() const { return has_address() ? address_at() + 2 : 1; }
-  /// All that it needs by its length byte; absent while that has not come.
+  /// The size according to its length byte; absent until that has been received.
   std::optional<std::size_t> size_needed() const;
   unsigned most_data() const;
   const char* name() const;
@@ -79,9 +79,9 @@ class HostReply {
   const bus::Bytes& bytes() const { return bytes_; }
 
   bool complete(const HostRequest& request) const { return bytes_.size() == size_needed(request); }
-  /// "reply to read, length 1, code 00, card 1, CRC right"; of one that is not complete what is known.
+  /// "reply to read, length 1, code 00, card 1, CRC right"; as much as is known of an incomplete one.
   std::string words(const HostRequest& request) const;
-  /// As of a request; of a complete one.
+  /// As for a request; needs a complete reply.
   std::string wrong() const;
 
  private:

@@ -24,7 +24,7 @@ void LastAccess::pin(Tick at, PinNumber pin, Level level) {
     case Pin::kWr: return level != 0 ? strobe(at, true) : void();
     case Pin::kA:
       a_ = level;
-      if (at == access_ && !write_) address_ = level;  // at one tick A is told after RD
+      if (at == access_ && !write_) address_ = level;  // at one tick A is reported after RD
       break;
     case Pin::kDIn: d_ = level; break;
     case Pin::kRxd: return rxd(at, level != 0);
@@ -75,7 +75,7 @@ std::string LastAccess::words() const {
   return fmt::format("write B{:03X} := {} at {}", address_, level_text(d, data_), cycle_text(access_));
 }
 
-/// A character whose end no edge shows is taken as it stands.
+/// A character whose end has no edge counts with its present bits.
 std::string LastAccess::telegram_words() const {
   LastAccess whole = *this;
   whole.sample_until(bus::kNever);

@@ -1,5 +1,5 @@
 #pragma once
-// What the user has done last at the host port in words, read from the chip's inputs: an access, or a telegram.
+// The user's last action at the host port as text, derived from the chip's inputs: an access, or a telegram.
 #include <string>
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace dsdpv1::tb {
 
-/// A read counts from the fall of RD, a write from the rise of WR, each while CSR is low. A frame of SPI counts from
-/// XSS's fall, a telegram of the UART from its first start bit; characters belong to one as long as fewer than seven
-/// half characters are between them (UA3's shortest). The rate is that of the strap UBR.
+/// A read counts from the fall of RD, a write from the rise of WR, both while CSR is low. A frame of SPI counts from
+/// XSS's fall, a telegram of the UART from its first start bit; characters belong to one telegram if fewer than seven
+/// half characters are between them (UA3's minimum). The strap UBR gives the rate.
 class LastAccess : public AccessReader, private SpiFrameReader {
  public:
   void pin(Tick at, PinNumber pin, Level level) override;
@@ -32,7 +32,7 @@ class LastAccess : public AccessReader, private SpiFrameReader {
   bool write_ = false;
   Level address_ = 0, data_ = 0;                   ///< of the access
   Level csr_ = 1, a_ = 0, d_ = kLevelZ, ubr_ = 0;  ///< at the pins
-  const char* what_ = "";                          ///< the telegram is
+  const char* what_ = "";                          ///< kind of telegram
   std::vector<std::uint8_t> bytes_;
   // UART
   bool rxd_ = true;

@@ -14,7 +14,7 @@ void SpiFrameReader::read(Tick at, Pin pin, Level level) {
     case Pin::kXss: return xss(at, level != 0);
     case Pin::kSck: return level != 0 ? sck_rose(at) : void();
     case Pin::kMosi: return mosi_.set(at, level != 0);
-    case Pin::kMiso: return miso_.set(at, level != 0);  // released: as high
+    case Pin::kMiso: return miso_.set(at, level != 0);  // released: read as high
     default: return;
   }
 }

@@ -53,7 +53,7 @@ void SpiReader::request_byte(Tick at, std::uint8_t byte) {
   if (asked_) tell_request(at, request_.wrong());
 }
 
-/// Bytes of FF may come before it and after it (SP6).
+/// Bytes of FF may precede and follow it (SP6).
 void SpiReader::reply_byte(Tick at, std::uint8_t byte) {
   if (replied_ || (reply_.empty() && byte == kIdle)) return;
   if (reply_.empty()) reply_start_ = byte_start();

@@ -29,7 +29,7 @@ class SpiReader : public HostReader, private SpiFrameReader {
   Tick request_start_ = 0, reply_start_ = 0;  ///< first rises of SCK
   HostRequest request_{HostLink::kSpi};
   HostReply reply_;
-  bool asked_ = false, replied_ = false;  ///< the request, the reply is complete
+  bool asked_ = false, replied_ = false;  ///< the request, the reply are complete
 };
 
 }  // namespace dsdpv1::tb

@@ -89,7 +89,7 @@ bool UartReader::heard(const bus::ReceivedCharacter& character) const {
   return !replying_ && character.start > reply_end_;
 }
 
-/// A request that nothing is wrong with but perhaps its CRC is replied to.
+/// A request is replied to if at most its CRC is wrong.
 void UartReader::end_request(Tick end, const std::string& wrong) {
   if (spoilt_.empty() && request_.complete()) {
     if (request_.right()) b019_ = request_.written(kIntervalCell).value_or(b019_);
@@ -102,7 +102,7 @@ void UartReader::end_request(Tick end, const std::string& wrong) {
   tell(telegram);
 }
 
-/// UA3: longer than this within a telegram drops it. In a break none is counted.
+/// UA3: a longer silence within a telegram drops it. In a break none is counted.
 Tick UartReader::silence_at() const {
   if (request_.empty() || from_user_.receiving() || !rxd_) return bus::kNever;
   return idle_since_ + longest_silence_ + bus::kTicksPerCycle + 1;

@@ -1,6 +1,6 @@
 #pragma once
-// Reads the telegrams on RXD and TXD of a DSDPV1-RSU: characters as its strap UBR says, telegrams as UA2, UA3 and UA16
-// have them.
+// Reads the telegrams on RXD and TXD of a DSDPV1-RSU: characters at the rate of its strap UBR, telegrams by UA2, UA3
+// and UA16.
 #include <string>
 
 #include "bus/wire/uart.hpp"
@@ -35,15 +35,15 @@ class UartReader : public HostReader {
 
   bus::UartReceiver from_user_, from_chip_;
   SerialSettings settings_;
-  unsigned b019_ = 0;                                              ///< as the user's telegrams have written it
-  Tick longest_silence_ = 0;                                       ///< of the telegram that comes
+  unsigned b019_ = 0;                                              ///< as written by the user's telegrams
+  Tick longest_silence_ = 0;                                       ///< of the present telegram
   Tick idle_since_ = 0;                                            ///< RXD; meaningless while it is low
   bool rxd_ = true;                                                ///< its level
-  HostRequest request_{HostLink::kUart}, asked_{HostLink::kUart};  ///< that comes; that the chip replies to
+  HostRequest request_{HostLink::kUart}, asked_{HostLink::kUart};  ///< the present one; the one being replied to
   HostReply reply_;
   Tick request_start_ = 0, request_end_ = 0, reply_start_ = 0, reply_end_ = 0;
-  std::string spoilt_;     ///< why the chip does not hear the telegram that comes; empty: it does
-  bool replying_ = false;  ///< a request for this card has come, its reply has not ended
+  std::string spoilt_;     ///< why the chip ignores the present telegram; empty: it does not
+  bool replying_ = false;  ///< a request to this card was received, its reply has not ended
 };
 
 }  // namespace dsdpv1::tb

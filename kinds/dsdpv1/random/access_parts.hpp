@@ -1,5 +1,5 @@
 #pragma once
-// The parts of an access of the chip to the DPRAM that stimuli aim at and situations tell apart, in the words of
+// The parts of a chip access to the DPRAM that stimuli target and situations distinguish, in the words of
 // dpram::Inside::item.
 #include <cstddef>
 
@@ -9,7 +9,7 @@ enum class AccessPart {
   kStartUp,
   kCommands,
   kChoice,  ///< a transfer's last cycle: its flag is set or cleared, the next one is not chosen yet
-  // H4's transfers, without those that are over in the cycle of the choice.
+  // H4's transfers, without those that end in the cycle of the choice.
   kInit,
   kPrmVerdict,
   kCfgVerdict,

@@ -23,7 +23,7 @@ UserPlan take(const Action& action) {
 
 UserPlan give(const Action& /*action*/) { return {{edge(0, Pin::kRSta, 0), edge(0, Pin::kRReq, 0)}}; }
 
-/// When the access is over.
+/// Returns the end of the access.
 Tick add_write(UserPlan& plan, Tick begin, const Action& action, Tick address, Tick value) {
   const Tick fall = begin + action.setup, rise = fall + action.low, end = rise + action.hold;
   plan.edges.insert(plan.edges.end(), {edge(begin, Pin::kA, static_cast<Level>(address & kLastCell)),
@@ -71,7 +71,7 @@ int bit_of(const bus::Bytes& bytes, int index) {
   return byte >> (kByteBits - 1 - index % kByteBits) & 1;
 }
 
-/// The levels of a character at RXD, each with the millibits from the character's begin.
+/// The levels of a character on RXD, each with the millibits from the character's begin.
 void add_character(std::vector<PinEdge>& edges, const bus::Character& character, Tick begin) {
   const Tick glitch = character.glitch ? character.glitch->start_millibits : -1;
   const Tick over = character.glitch ? glitch + character.glitch->length_millibits : -1;

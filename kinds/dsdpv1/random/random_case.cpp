@@ -1,4 +1,4 @@
-// How a random case comes and goes: reset, the way to data exchange, episodes, a reset again.
+// Builds a random case: reset, the way to data exchange, episodes, a reset again.
 #include "kinds/dsdpv1/random/random_case.hpp"
 
 #include <utility>
@@ -18,7 +18,7 @@ SearchTimes times_of(const dsdpv1::Config& config) {
 }
 
 constexpr int kReady = 4200;    // cycles: B004 is C5 (H6)
-constexpr int kFastEnough = 3;  // rate at which the way to data exchange takes no longer than a case at 12 Mbit/s
+constexpr int kFastEnough = 3;  // slowest rate at which reaching data exchange takes no longer than a case at 12 Mbit/s
 
 }  // namespace
 
@@ -39,13 +39,13 @@ Stimulus RandomCase::make() {
   return std::move(stimulus_);
 }
 
-/// Where a telegram of the host lasts as long as thousands on the line.
+/// For hosts whose telegrams last as long as thousands on the line.
 Stimulus RandomCase::host_only() {
   for (int i = random_.between(1, 2); i > 0; --i) user_.anything();
   return std::move(stimulus_);
 }
 
-/// An initialisation, a baud rate, mostly data exchange, and then what the theme is about.
+/// An initialisation, a baud rate, usually data exchange, and then the theme.
 void RandomCase::episode() {
   const Theme& theme = any_theme();
   come_up(theme);
@@ -73,11 +73,11 @@ void RandomCase::power_on() {
   sync();
   if (held) host_->wait(random_.between(0, kReady));
   if (held) host_->give();
-  // Sometimes the user comes before the chip is ready (H6).
+  // Sometimes the user acts before the chip is ready (H6).
   host_->wait(random_.one_in(4) ? random_.between(0, kReady) : kReady);
 }
 
-/// In good order, most of the time: what comes later goes wrong often enough.
+/// In the right order most of the time: later steps go wrong often enough.
 void RandomCase::come_up(const Theme& theme) {
   theme_ = &theme;
   setup_ = user_.any_setup();
@@ -95,10 +95,10 @@ void RandomCase::come_up(const Theme& theme) {
   careful(false);
 }
 
-/// The usual way to data exchange, with the user's verdicts where the modes ask for them.
+/// The usual way to data exchange, with the user's verdicts if the modes require them.
 void RandomCase::bring_up() {
   if (random_.one_in(2)) master_.slave_diag();
-  const bool held = random_.one_in(4);  // both blocks wait for the user to let go of the DPRAM
+  const bool held = random_.one_in(4);  // both blocks wait until the user releases the DPRAM
   if (held) host_->take();
   sync();
   master_.set_prm(true);
@@ -127,7 +127,7 @@ void RandomCase::reach(DpState state) {
   verdict(false, true);
 }
 
-/// A good one, where the user judges.
+/// Accepts the blocks that the user judges.
 void RandomCase::verdict(bool prm, bool cfg) {
   sync();
   if ((prm ? setup_.prm_mode : setup_.cfg_mode) != 2) return;
@@ -147,7 +147,7 @@ void RandomCase::reset() {
   master_.choose_rate();
 }
 
-/// RESET falls while telegrams, blocks of the user and accesses of the chip are under way (H6, P10).
+/// RESET falls during telegrams, blocks of the user and accesses of the chip (H6, P10).
 void RandomCase::reset_amid() {
   constexpr int kWhile = 300'000;  // ticks: a telegram at 12 Mbit/s, or a block
   sync();

@@ -1,5 +1,6 @@
 #pragma once
-// A random case in the making: it brings the slave up, mostly in an orderly way, and then plays one of its themes.
+// A random case under construction: it brings the slave up, usually in the right order, and then plays one of its
+// themes.
 #include <memory>
 
 #include "cosim/random/random_master.hpp"
@@ -17,7 +18,7 @@ class RandomCase {
   Stimulus make();
 
  private:
-  /// What an episode is about: what the slave has to be like for it, how fast the line is, and what happens.
+  /// The theme of an episode: the required state of the slave, the line's rate, and the events.
   struct Theme {
     int weight;
     void (RandomCase::*prepare)();
@@ -35,7 +36,7 @@ class RandomCase {
   void bring_up();
   void reach(profibus::DpState state);
   void reset();
-  // what the themes want of the slave
+  // states of the slave that themes require
   void as_it_is() {}
   void with_dpv1();
   void perhaps_with_dpv1();

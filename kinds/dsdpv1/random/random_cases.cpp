@@ -13,7 +13,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// A limit of the baud search or of BAUD_CONTROL (S1): the short one, and those that cases vary it in.
+/// A limit of the baud search or of BAUD_CONTROL (S1): the short one, and the range within which cases vary it.
 struct Limit {
   const char* key;
   int usual, least, most;
@@ -24,7 +24,7 @@ constexpr Limit kLimits[] = {{"search_window_ms", 1, 1, 3},
 
 std::string setting(const Limit& limit, int value) { return fmt::format("chip.{}={}", limit.key, value); }
 
-/// Of the cycles of a campaign the DSDPV1 has 55 percent, the DSDPV1-RSU the others; the DSDPV1-R is a DSDPV1.
+/// The DSDPV1 gets 55 percent of a campaign's cycles, the DSDPV1-RSU the rest; the DSDPV1-R is a DSDPV1.
 std::vector<HostPort> ports_of(Part part) {
   if (!has_serial_ports(part)) return {{"parallel", part == Part::kDsdpv1 ? 55U : 0U, {}}};
   return {{"parallel", 5, {}}, {"spi", 20, {"chip.mode=spi"}}, {"uart", 20, {"chip.mode=uart"}}};
@@ -33,7 +33,7 @@ std::vector<HostPort> ports_of(Part part) {
 Vocabulary words_of(Part part) {
   Vocabulary words{ports_of(part), verbs_of(part), {std::begin(kAccessParts), std::end(kAccessParts)}};
   for (const Limit& each : kLimits) words.quick.push_back(setting(each, each.usual));
-  if (has_serial_ports(part)) words.quick.emplace_back("chip.u_timer=20000");  // of SPI: some frames
+  if (has_serial_ports(part)) words.quick.emplace_back("chip.u_timer=20000");  // for SPI: some frames
   words.faults = fmt::format("rtl_ref/{}/faults.txt", row(part).rtl);
   words.stimuli = fmt::format("tests/cosim/stimuli/{}", row(part).rtl);
   return words;
@@ -47,7 +47,7 @@ class Dsdpv1Cases : public RandomCases {
 
   const Vocabulary& words() const override { return words_; }
   std::vector<std::string> case_settings(std::uint64_t seed) const override {
-    constexpr std::uint64_t kOwnNumbers = 0x5EA5C4;  // not those of the case's stimulus
+    constexpr std::uint64_t kOwnNumbers = 0x5EA5C4;  // a separate sequence from the case's stimulus
     Random random(seed ^ kOwnNumbers);
     std::vector<std::string> settings;
     if (!random.one_in(3)) return settings;

@@ -1,6 +1,6 @@
 #pragma once
-// What the user of a random case does at a host port: the DPRAM taken and given, cells and blocks read and written, and
-// things that nobody should do. One class for each port: parallel, SPI and UART.
+// The user of a random case at a host port: takes and releases the DPRAM, reads and writes cells and blocks, and breaks
+// rules. One class per port: parallel, SPI and UART.
 #include <memory>
 
 #include "cosim/random/random_setup.hpp"
@@ -14,14 +14,14 @@ class RandomHost {
   RandomHost(Random& random, Stimulus& stimulus) : random_(random), stimulus_(stimulus) {}
   virtual ~RandomHost() = default;
 
-  /// From now on nothing goes wrong at the port, and the user does what is meant.
+  /// From now on no mishap occurs at the port, and the user acts as intended.
   void careful(bool careful) { careful_ = careful; }
-  /// Something goes wrong, once in `n` times; never while careful.
+  /// True once in `n` times, for a mishap; never while careful.
   bool mishap(int n) { return !careful_ && random_.one_in(n); }
 
   /// The straps, before RESET rises.
   virtual void strap() {}
-  /// Pins high from here on that keep the chip from the DPRAM.
+  /// Pins that are high from here on and keep the chip from the DPRAM.
   virtual void hold_through_reset() {}
   virtual void take() = 0;
   virtual void give() = 0;
@@ -29,29 +29,29 @@ class RandomHost {
   virtual void read(int address) = 0;
   /// ... and its CRC, which may be wrong.
   virtual void block(int address, int crc_address, const bus::Bytes& bytes) = 0;
-  /// Pins in an order that nothing has.
+  /// Pins in an invalid order.
   virtual void rude() = 0;
-  /// Accesses of which each breaks a rule of its own; the port is at rest before and after.
+  /// Accesses that each break one rule; the port is idle before and after.
   virtual void break_rules() {}
-  /// Traffic that only this port has; false, without a number drawn: it has none.
+  /// Traffic that only this port has; returns false, without drawing a number, if it has none.
   virtual bool own_traffic() { return false; }
-  /// The port's first edge of something, be it proper or not, during a part of an access of the chip that comes within
-  /// so many ticks; the port is at rest behind it.
+  /// The first edge of an action, valid or not, during a part of a chip access that comes within so many ticks; the
+  /// port is idle afterwards.
   virtual void edge(AccessPart part, Tick within) = 0;
-  /// What the user has just done is left as soon as the chip has it: nobody waits for its reply.
+  /// Ends the user's last action as soon as the chip has received it, without waiting for a reply.
   virtual void hurry() {}
-  /// About how many requests of a master pass while the user does something.
+  /// Approximate number of master requests during one action of the user.
   virtual int slowness() const { return 1; }
-  /// Whether whole initialisations and data exchange take no longer than a case.
+  /// True if whole initialisations and data exchange take no longer than a case.
   virtual bool is_quick() const { return true; }
-  /// Nothing for so many cycles.
+  /// Waits so many cycles.
   void wait(int cycles);
 
  protected:
   /// All actions of the user go through here.
   void push(Action action);
   void pin(Pin pin, int value, Tick delay);
-  /// The next action is aimed, in the place of its delay.
+  /// The next action waits for a part of an access instead of its delay.
   void aim(AccessPart part, Tick within);
 
   Random& random_;
@@ -64,7 +64,7 @@ class RandomHost {
 };
 
 std::unique_ptr<RandomHost> make_random_parallel(Random& random, Stimulus& stimulus, Part part);
-/// Of the DSDPV1-RSU.
+/// For the DSDPV1-RSU.
 std::unique_ptr<RandomHost> make_random_spi(Random& random, Stimulus& stimulus);
 std::unique_ptr<RandomHost> make_random_uart(Random& random, Stimulus& stimulus);
 

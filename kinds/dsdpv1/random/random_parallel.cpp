@@ -1,4 +1,4 @@
-// The host at the parallel port: R_REQ and R_STA, strobes with mostly the times of table 15. Left out is what its times
+// The host at the parallel port: R_REQ and R_STA, strobes mostly with the times of table 15. Excluded is what its times
 // do not allow and docs/rtl.md names: two rises of WR within a cycle.
 #include <algorithm>
 #include <utility>
@@ -60,7 +60,7 @@ void RandomParallel::rude() {
   wait(1);
 }
 
-/// Too late: they are in force since the last reset (R11). Behind it they stand as before.
+/// Too late: the straps of the last reset are in force (R11). Restored afterwards.
 void RandomParallel::late_straps() {
   constexpr Pin kStraps[] = {Pin::kMode, Pin::kAdr, Pin::kUbr, Pin::kUiv};
   const Pin strap = random_.pick(kStraps);
@@ -68,7 +68,7 @@ void RandomParallel::late_straps() {
   pin(strap, 0, random_.below(900));
 }
 
-/// R_REQ rises, for as long as the chip may see it or longer; or the user comes while the chip is there.
+/// R_REQ rises, for as long as the chip may see it or longer; or the user comes during a chip access.
 void RandomParallel::edge(AccessPart part, Tick within) {
   aim(part, within);
   if (random_.one_in(3)) {
@@ -83,7 +83,7 @@ void RandomParallel::edge(AccessPart part, Tick within) {
   give();
 }
 
-/// With both of R_REQ and R_STA, one or none, soon enough to meet the chip in its access (P12, H2).
+/// With both of R_REQ and R_STA, one or none, early enough to meet the chip in its access (P12, H2).
 void RandomParallel::amid() {
   constexpr int kSoon = 100;
   if (random_.one_in(2)) pin(Pin::kRSta, 1, random_.below(kSoon));
@@ -129,7 +129,7 @@ void RandomParallel::late_data() {
   pin(Pin::kDIn, dsdpv1::kLevelZ, kLeast);
 }
 
-/// A changes after RD fell, about where the chip samples it (Tc, P5).
+/// A changes after RD fell, near the chip's sample (Tc, P5).
 void RandomParallel::late_address() {
   pin(Pin::kA, random_.below(0x800), kLeast);
   pin(Pin::kCsr, 0, 0);
@@ -139,7 +139,7 @@ void RandomParallel::late_address() {
   pin(Pin::kCsr, 1, kLeast);
 }
 
-/// The cell just written, while the write is still on its way (P8).
+/// Reads the cell just written, while the write is still pending (P8).
 void RandomParallel::read_back_at_once() {
   Action access;
   access.address = random_.below(0x800);
@@ -152,7 +152,7 @@ void RandomParallel::read_back_at_once() {
   push(access);
 }
 
-/// With R_REQ alone, R_STA alone, or neither when nothing was taken before (P12).
+/// With R_REQ alone, R_STA alone, or neither if the DPRAM was not taken before (P12).
 void RandomParallel::half_owned() {
   const Pin raised = random_.one_in(2) ? Pin::kRReq : Pin::kRSta,
             other = raised == Pin::kRReq ? Pin::kRSta : Pin::kRReq;
@@ -193,7 +193,7 @@ Action RandomParallel::access(Verb verb) {
   return action;
 }
 
-/// A strobe below Tw, A and D gone before Td is over, the next access at once.
+/// A strobe below Tw, A and D removed before Td has passed, the next access at once.
 void RandomParallel::shorten(Action& action) {
   action.low = random_.between(1, static_cast<int>(kTw) - 1);
   action.setup = std::max(action.setup, kCycle - action.low);
@@ -231,7 +231,7 @@ void RandomParallel::take() {
   push(action);
 }
 
-/// R_REQ for less than the chip may see, or R_STA with it before the chip can have answered (H2).
+/// R_REQ too short to be seen by the chip, or R_STA with it before the chip can have answered (H2).
 void RandomParallel::take_unseen() {
   pin(Pin::kRReq, 1, small_delay());
   if (random_.one_in(2)) pin(Pin::kRSta, 1, random_.below(4 * static_cast<int>(kCycle)));
@@ -239,7 +239,7 @@ void RandomParallel::take_unseen() {
   pin(Pin::kRReq, 0, random_.below(2 * static_cast<int>(kCycle)));
 }
 
-/// R_REQ and R_STA fall together, or one after the other in either order (H1).
+/// R_REQ and R_STA fall together, or separately in either order (H1).
 void RandomParallel::give() {
   if (mishap(6)) {
     const bool request_first = random_.one_in(2);
@@ -284,7 +284,7 @@ void RandomHost::pin(Pin pin, int value, Tick delay) {
 }
 
 void RandomHost::wait(int cycles) {
-  Action action;  // D is released already: nothing happens but the delay
+  Action action;  // D is already released: only the delay remains
   action.verb = Verb::kPin;
   action.delay = cycles * kCycle + random_.below(static_cast<int>(kCycle));
   action.pin = number(Pin::kDIn);

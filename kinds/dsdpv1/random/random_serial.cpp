@@ -15,7 +15,7 @@ std::uint8_t byte(int value) { return static_cast<std::uint8_t>(value); }
 
 }  // namespace
 
-/// Mostly a card that is spoken to and the fastest rate; MODE, ADR, UBR and UIV stand before RESET rises (R11).
+/// Usually the addressed card and the fastest rate; MODE, ADR, UBR and UIV are stable before RESET rises (R11).
 void RandomSerial::strap() {
   constexpr int kFastest = 7;
   adr_ = random_.one_in(20) ? random_.below(4) : random_.between(1, 2);
@@ -47,7 +47,7 @@ void RandomSerial::write_bytes(int address, const bus::Bytes& bytes) {
   send(telegram, 4);
 }
 
-/// The block's own CRC is looked at with `serial_block_crc` only (SP15).
+/// The block's CRC is checked only with `serial_block_crc` (SP15).
 void RandomSerial::block(int address, int crc_address, const bus::Bytes& bytes) {
   if (bytes.size() <= kMostData && exchange(address, bytes)) return;
   for (std::size_t at = 0; at < bytes.size(); at += kMostData) {
@@ -111,8 +111,8 @@ void RandomSerial::break_rules() {
   for (int i = random_.between(1, 4); i > 0; --i) wrong_telegram();
 }
 
-/// Any bytes; addresses beyond the DPRAM and lengths beyond the limits with a right CRC, which each has a bit of its
-/// own in the error code.
+/// Any bytes; addresses beyond the DPRAM and lengths beyond the limits with a right CRC, each of which has its own bit
+/// in the error code.
 void RandomSerial::wrong_telegram() {
   constexpr int kArea = 0x5D0;  // of an exchange
   if (random_.one_in(6)) return send(random_.bytes(random_.between(1, 12)), random_.below(8));

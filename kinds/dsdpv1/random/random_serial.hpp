@@ -1,5 +1,5 @@
 #pragma once
-// What the hosts at SPI and UART share: telegrams right and wrong, cells and blocks by telegrams, straps.
+// Shared by the hosts at SPI and UART: valid and invalid telegrams, cells and blocks by telegrams, straps.
 #include "kinds/dsdpv1/random/random_host.hpp"
 
 namespace dsdpv1::cosim {
@@ -17,23 +17,23 @@ class RandomSerial : public RandomHost {
   void break_rules() override;
 
  protected:
-  /// A telegram without its CRC, which is added; a reply of so many bytes is expected.
+  /// Sends a telegram, adding its CRC; a reply of so many bytes is expected.
   virtual void send(const bus::Bytes& telegram, int reply) = 0;
-  /// Inputs, or a block that an exchange may carry; false: it cannot.
+  /// Inputs, or a block that an exchange may carry; returns false if it cannot.
   virtual bool exchange(int address, const bus::Bytes& bytes) = 0;
   virtual void own_telegram() = 0;
 
   std::uint8_t start(int command) { return static_cast<std::uint8_t>(command << 5 | card()); }
-  /// The address in a telegram: mostly the card's own.
+  /// The address in a telegram: usually the card's.
   std::uint8_t card();
-  /// The one of the three kinds of telegrams that is the port's own, to `address` where it names one.
+  /// The third of the kinds of telegrams, specific to the port, to `address` if it names one.
   virtual void third(int address, const bus::Bytes& bytes) = 0;
 
-  /// A telegram of hundreds of bytes, not too often for how long it lasts.
+  /// A telegram of hundreds of bytes, rarer the longer it lasts.
   bool is_long() { return random_.one_in(3 + 3 * slowness()); }
   void ask(int address, int count);
   void write_bytes(int address, const bus::Bytes& bytes);
-  /// With its CRC, now and then changed somewhere.
+  /// Adds the CRC, and sometimes changes a byte.
   bus::Bytes finished(bus::Bytes telegram);
 
   int adr_ = 1, ubr_ = 7, uiv_ = 0;

@@ -1,6 +1,6 @@
 // The host at the SPI port: frames with clocks within and beyond SP2, cut anywhere, too long, too soon after another,
-// broken by a pulse of XSS, and with SCK high where XSS changes. Left out is what nothing is ruled for: SCK periods
-// below a cycle in a frame (5.1), and XSS that rises and falls at one tick.
+// broken by a pulse of XSS, and with SCK high where XSS changes. Excluded is what no ruling covers: SCK periods below a
+// cycle in a frame (5.1), and XSS that rises and falls at one tick.
 #include <utility>
 
 #include "kinds/dsdpv1/random/host_verbs.hpp"
@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kOwnership = 0x014, kUTimer = 0x015;
 constexpr int kLeast = 600;        // SP2: 50 ns
-constexpr int kLeastPeriod = 250;  // 5.1: below it nothing is ruled
+constexpr int kLeastPeriod = 250;  // 5.1: no ruling covers less
 constexpr int kWriteGap = 32'400;  // SP9
-constexpr int kPulse = 700;        // XSS high: none, one or two edges of CLK see it
+constexpr int kPulse = 700;        // XSS high: seen by no, one or two edges of CLK
 
 class RandomSpi : public RandomSerial {
  public:
@@ -61,21 +61,21 @@ void RandomSpi::send(const bus::Bytes& telegram, int reply) {
   wrote_ = !telegram.empty() && telegram[0] >> 5 != 0;
   if (mishap(40)) clock_high_at_the_end();
   if (!action.bytes.empty() && mishap(40))
-    pin(Pin::kSck, 1, random_.between(1, kPulse));  // the frame's first rise is none
+    pin(Pin::kSck, 1, random_.between(1, kPulse));  // the frame's first rise does not count
   if (action.bytes.size() > 1 && mishap(30)) return broken(std::move(action));
   if (mishap(30) && !action.bytes.empty()) action.bits = random_.between(1, 8 * static_cast<int>(action.bytes.size()));
   push(std::move(action));
 }
 
-/// XSS high before a frame: as SP2 and SP9 want it, too short after a write, or too short after any frame.
+/// XSS high before a frame: as required by SP2 and SP9, too short after a write, or too short after any frame.
 Tick RandomSpi::pause_before() {
   if (mishap(24)) return random_.between(1, kPulse);
   if (mishap(12)) return random_.below(kWriteGap + 1000);
   return (wrote_ ? kWriteGap : kLeast) + random_.below(1000);
 }
 
-/// A pulse of XSS somewhere in the frame, after a whole byte or within one: a second frame has the rest, or for CLK the
-/// same one goes on.
+/// A pulse of XSS in the frame, after a whole byte or within one: a second frame has the rest, or, as seen by CLK, the
+/// same one continues.
 void RandomSpi::broken(Action action) {
   Action rest = action;
   const int place = random_.between(1, static_cast<int>(action.bytes.size()) - 1);
@@ -87,7 +87,7 @@ void RandomSpi::broken(Action action) {
   push(std::move(rest));
 }
 
-/// A frame of one rise: XSS rises before SCK has fallen.
+/// A frame with one rise of SCK: XSS rises before SCK has fallen.
 void RandomSpi::clock_high_at_the_end() {
   pin(Pin::kXss, 0, random_.between(1, 2 * kLeast));
   pin(Pin::kSck, 1, random_.below(kPulse));
@@ -107,7 +107,7 @@ void RandomSpi::clocks(Action& action) {
   if (mishap(10)) action.pause = random_.below(20'000);
 }
 
-/// Inputs also by a read and write telegram (SP16).
+/// Inputs may also go in a read and write telegram (SP16).
 bool RandomSpi::exchange(int address, const bus::Bytes& bytes) {
   if (address != regs::kInput || random_.one_in(2)) return false;
   bus::Bytes telegram = {start(2)};
@@ -116,7 +116,7 @@ bool RandomSpi::exchange(int address, const bus::Bytes& bytes) {
   return true;
 }
 
-/// A read and write: `bytes` behind a length byte that counts them.
+/// A read and write: `bytes` after a length byte that counts them.
 void RandomSpi::third(int /*address*/, const bus::Bytes& bytes) {
   bus::Bytes telegram = {start(2), static_cast<std::uint8_t>(bytes.size())};
   telegram.insert(telegram.end(), bytes.begin(), bytes.end());
@@ -129,7 +129,7 @@ void RandomSpi::break_rules() {
   if (random_.one_in(6)) keep();
 }
 
-/// The DPRAM, until U_Timer takes it away (SP17).
+/// Keeps the DPRAM until U_Timer ends the ownership (SP17).
 void RandomSpi::keep() {
   constexpr int kUTimerEnds = 21'000;  // cycles
   write(kUTimer, 1);
@@ -137,7 +137,7 @@ void RandomSpi::keep() {
   wait(kUTimerEnds);
 }
 
-/// A long write, and as soon as a frame is heard again one so fast that it is judged before all has been written
+/// A long write, and as soon as frames are accepted again one so fast that it is judged before all bytes are written
 /// (SP13).
 void RandomSpi::overrun() {
   constexpr int kArea = 0x5D0, kMost = 245;
@@ -159,7 +159,7 @@ void RandomSpi::edge(AccessPart part, Tick within) {
   pin(Pin::kXss, 1, random_.between(1, 2 * kPulse));
 }
 
-/// XSS rises behind the request's last byte.
+/// XSS rises after the request's last byte.
 void RandomSpi::hurry() {
   Action& frame = stimulus_.back();
   if (frame.verb == verb::kSpi && frame.bytes.size() > request_) frame.bytes.resize(request_);

@@ -1,4 +1,4 @@
-// What the episodes of random cases are about.
+// The themes of episodes in random cases.
 #include "kinds/dsdpv1/random/random_case.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ constexpr Tick kCycle = profibus::kTicksPerCycle;
 
 }  // namespace
 
-// Those that wait for milliseconds are rare: cycles are what a case costs.
+// Themes that wait for milliseconds are rare, because cost grows with cycles.
 const RandomCase::Theme RandomCase::kThemes[] = {
     {4, &RandomCase::as_it_is, &RandomMaster::choose_rate, &RandomCase::wild},
     {6, &RandomCase::with_dpv1, &RandomMaster::fastest_rate, &RandomCase::acyclic},
@@ -38,7 +38,7 @@ const RandomCase::Theme& RandomCase::any_theme() {
   return *theme;
 }
 
-// --- what they want of the slave ------------------------------------------------------------------------------------
+// --- states that they require ---------------------------------------------------------------------------------------
 
 void RandomCase::with_dpv1() {
   setup_.dpv1 = true;
@@ -63,7 +63,7 @@ void RandomCase::without_address() {
   if (random_.one_in(2)) setup_.address = 126;
 }
 
-/// Whatever the chip's accesses may have to do can be brought about.
+/// Allows every item of the chip's accesses to be caused.
 void RandomCase::with_everything() {
   with_dpv1();
   setup_.cfg_mode = 0;
@@ -79,7 +79,7 @@ void RandomCase::wild() {
   for (int i = steps(); i > 0; --i) step();
 }
 
-/// About as many cycles at every rate.
+/// About the same number of cycles at every rate.
 int RandomCase::steps() {
   constexpr int kMost[] = {60, 30, 15, 8, 4};
   const int most = setup_.rate < static_cast<int>(std::size(kMost)) ? kMost[setup_.rate] : 3;
@@ -114,7 +114,7 @@ void RandomCase::priority() {
 
 // --- DPV1 ------------------------------------------------------------------------------------------------------------
 
-/// Requests of both classes and the user's answers, in an order that is mostly the right one (V1 to V14).
+/// Requests of both classes and the user's answers, usually in the right order (V1 to V14).
 void RandomCase::acyclic() {
   master_.careful(true);
   for (int i = random_.between(0, 3); i > 0; --i) {
@@ -123,7 +123,8 @@ void RandomCase::acyclic() {
       if (!random_.one_in(6)) master_.acyclic_poll(channel);
   }
   host_->careful(random_.one_in(2));
-  for (int i = random_.below(4); i > 0; --i) user_.inputs();  // a UART tells parameters and configuration first (UA10)
+  for (int i = random_.below(4); i > 0; --i)
+    user_.inputs();  // a UART reports parameters and configuration first (UA10)
   for (int i = random_.between(6, 20) / host_->slowness() + 5; i > 0; --i) acyclic_step(random_.below(3));
   careful(false);
 }
@@ -149,7 +150,7 @@ void RandomCase::acyclic_step(int channel) {
   if (random_.one_in(10)) bring_up();
 }
 
-/// F, I or U run out (V3, V12), of both channels or one: Send_Timeout is 10 ms.
+/// F, I or U run out (V3, V12), on both channels or one: Send_Timeout is 10 ms.
 void RandomCase::acyclic_timers() {
   constexpr int kSteps = 3;  // Initiate, its poll, a request
   constexpr int kFewest[] = {10, 20, 10},
@@ -169,7 +170,7 @@ void RandomCase::acyclic_timers() {
 
 // --- Sync and Freeze -------------------------------------------------------------------------------------------------
 
-/// Sync, Freeze and their ends, with new data on both sides in between (S4).
+/// Sync, Freeze and their ends, with new data on both sides between them (S4).
 void RandomCase::hold_commands() {
   careful(!random_.one_in(4));
   for (int i = random_.between(1, 3); i > 0; --i) random_.one_in(4) ? hold_commands_unseen() : hold_commands_seen();
@@ -194,7 +195,7 @@ void RandomCase::hold_commands_seen() {
   }
 }
 
-/// The same while the user keeps the chip from the DPRAM: what comes in the end is what Sync has let through.
+/// As above, while the user keeps the chip from the DPRAM: the final data are those that Sync passed.
 void RandomCase::hold_commands_unseen() {
   sync();
   host_->take();
@@ -214,8 +215,8 @@ void RandomCase::judgements() {
   for (int i = random_.between(4, 12); i > 0; --i) random_.one_in(4) ? supersede() : judging();
 }
 
-/// Parameters or a configuration that may be wrong, in the state in which they are looked at, and what the diagnosis
-/// says (S6, D8).
+/// Parameters or a configuration that may be wrong, in the state in which they are checked, and the resulting diagnosis
+/// (S6, D8).
 void RandomCase::judging() {
   const bool prm = random_.one_in(2);
   sync();
@@ -236,7 +237,7 @@ void RandomCase::judging() {
   master_.careful(false);
 }
 
-/// A verdict on the block that the user has, while a newer one waits for them to let go of the DPRAM (H7).
+/// A verdict on the user's present block, while a newer one waits for the release of the DPRAM (H7).
 void RandomCase::supersede() {
   const bool prm = random_.one_in(2);
   careful(true);
@@ -272,7 +273,8 @@ void RandomCase::services() {
   }
 }
 
-/// One after the other: the first may lock the address (S5). With the delivery address there are no parameters (S33).
+/// In sequence, because the first may lock the address (S5). With the delivery address no parameters are accepted
+/// (S33).
 void RandomCase::addresses() {
   for (int i = random_.between(1, 3); i > 0; --i) {
     if (random_.one_in(2)) {
@@ -291,7 +293,7 @@ void RandomCase::address_changes() {
   master_.careful(false);
 }
 
-/// What can happen at any rate has happened at others: here are the receiver's and the transmitter's bits.
+/// Everything independent of the rate is covered at faster ones: this covers the receiver's and the transmitter's bits.
 void RandomCase::slow_rates() {
   master_.careful(true);
   for (int i = random_.between(0, 1); i > 0; --i) master_.slave_diag();
@@ -311,7 +313,7 @@ void RandomCase::timeouts() {
   careful(false);
 }
 
-/// Parameters with a short watchdog, and no telegram until it has run out (S1): as a rule it goes on while the user
+/// Parameters with a short watchdog, and no telegram until it has expired (S1): usually it runs on while the user
 /// judges newer ones (S15).
 void RandomCase::watchdog() {
   sync();
@@ -325,7 +327,7 @@ void RandomCase::watchdog() {
   master_.slave_diag();
 }
 
-/// Silence until BAUD_CONTROL has run out, then another rate (S1); the DP state stays.
+/// Silence until BAUD_CONTROL has expired, then another rate (S1); the DP state stays.
 void RandomCase::search_again() {
   sync();
   master_.slave_diag();
@@ -344,7 +346,7 @@ void RandomCase::port() {
   }
 }
 
-/// An edge of the host's, or RESET, in a part of an access of the chip that is brought about for it.
+/// An edge of the host, or RESET, in a part of a chip access caused for it.
 void RandomCase::edges() {
   for (int i = random_.between(3, 8); i > 0; --i) {
     const auto part = static_cast<AccessPart>(random_.below(static_cast<int>(AccessPart::kNone)));
@@ -356,7 +358,7 @@ void RandomCase::edges() {
 }
 
 void RandomCase::edge_in(AccessPart part) {
-  constexpr Tick kSoon = 400 * kCycle, kTelegrams = 20'000 * kCycle;  // after what the user, or the master has done
+  constexpr Tick kSoon = 400 * kCycle, kTelegrams = 20'000 * kCycle;  // after the action of the user or the master
   const bool by_user = cause(part);
   if (by_user) host_->hurry();
   host_->edge(part, by_user ? kSoon : kTelegrams);
@@ -381,7 +383,7 @@ void RandomCase::reset_in(AccessPart part) {
   come_up(*theme_);
 }
 
-/// True: the user does it.
+/// Returns true if the user causes it.
 bool RandomCase::cause(AccessPart part) {
   switch (part) {
     case AccessPart::kStartUp: push_reset(); return false;
@@ -389,7 +391,7 @@ bool RandomCase::cause(AccessPart part) {
     case AccessPart::kCfg: master_.check_cfg(true); return false;
     case AccessPart::kOutputs: master_.data_exchange(); return false;
     case AccessPart::kC1Request:
-      reach(DpState::kDataExch);  // on the way, what is open is dropped
+      reach(DpState::kDataExch);  // on the way, open requests are dropped
       master_.acyclic_request(0);
       return false;
     case AccessPart::kC2Request: {

@@ -1,5 +1,5 @@
-// The host at the UART port: telegrams with broken characters and bits too long or too short, silences about as long as
-// the interval, breaks, characters while the chip replies.
+// The host at the UART port: telegrams with broken characters and bits too long or too short, silences near the
+// interval, breaks, characters during the chip's reply.
 #include "kinds/dsdpv1/random/host_verbs.hpp"
 #include "kinds/dsdpv1/random/random_serial.hpp"
 #include "registers/dsdpv1_regs.hpp"
@@ -8,7 +8,7 @@ namespace dsdpv1::cosim {
 namespace {
 
 constexpr int kInterval = 0x019, kTsdr = 0x01A;
-constexpr int kQuick = 6;  // UBR: 460.8 kBd
+constexpr int kQuick = 6;  // UBR: 460.8 kbit/s
 constexpr int kInputs = 0x130, kDiagnosis = 0x227, kC1 = 0x5D0, kC2 = 0x6D0;
 
 class RandomUart : public RandomSerial {
@@ -41,10 +41,10 @@ void RandomUart::send(const bus::Bytes& telegram, int reply) {
   const Tick bit = uart_bit(ubr_);
   action.delay = random_.one_in(4) ? random_.below(static_cast<int>(bit)) : bit * random_.below(mishap(2) ? 60 : 12);
   if (random_.one_in(5)) action.ppm = random_.between(-20'000, 20'000);
-  if (mishap(20)) action.ppm = random_.between(-80'000, 80'000);  // beyond what a stop bit's sample bears
+  if (mishap(20)) action.ppm = random_.between(-80'000, 80'000);  // beyond the tolerance of a stop bit's sample
   if (mishap(12)) break_it(action);
   if (is_quick() && mishap(24)) low_line(static_cast<int>(bit));
-  // The host sometimes speaks before it has heard the reply to its end (UA16).
+  // The host sometimes sends before the end of the reply (UA16).
   action.reply_bits = mishap(12) ? random_.below(40) : 60 + (reply > 0 ? random_.below(300) : 0);
   if (!is_quick()) action.delay = 0;
   push(action);
@@ -95,8 +95,8 @@ void RandomUart::third(int address, const bus::Bytes& bytes) {
   send(telegram, 250);
 }
 
-/// RXD falls: a telegram, a spike, a character or a break. The chip may have a reply under way, whose end is waited
-/// for.
+/// RXD falls: a telegram, a spike, a character or a break. If the chip is replying, waits for the end of the reply
+/// first.
 void RandomUart::edge(AccessPart part, Tick within) {
   constexpr int kReply = 2000;  // cycles
   aim(part, within);

@@ -102,7 +102,7 @@ void RandomUser::initialise_wrong() {
   const auto at = [&bytes](int address) -> std::uint8_t& {
     return bytes[static_cast<std::size_t>(address - regs::kInit)];
   };
-  if (random_.one_in(4)) {  // too few inputs or outputs, or an identifier without its end
+  if (random_.one_in(4)) {  // too few inputs or outputs, or an incomplete identifier
     at(random_.one_in(2) ? regs::kInitMaxInput : regs::kInitMaxOutput) = 0;
     bytes.back() |= 0xC0;
   } else {
@@ -224,7 +224,7 @@ void RandomUser::anything() {
 }
 
 void RandomUser::command(int value) {
-  // Now and then with other flags, whose blocks are then what they happen to be.
+  // Sometimes with other flags, whose blocks then have arbitrary content.
   host_.write(regs::kUserCommand1, host_.mishap(12) ? value | random_.byte() : value);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The user of a random case: blocks right and wrong, verdicts, reads, and things that nobody should do.
+// The user of a random case: valid and invalid blocks, verdicts, reads, and actions that break rules.
 #include "kinds/dsdpv1/random/random_host.hpp"
 
 namespace dsdpv1::cosim {
@@ -9,17 +9,17 @@ class RandomUser {
   RandomUser(Random& random, const Setup& setup, RandomHost& host) : random_(random), setup_(setup), host_(host) {}
 
   Setup any_setup();
-  /// The block of the present setup, mostly right.
+  /// The block of the present setup, usually valid.
   void initialise();
-  /// ... with one of its bytes out of its limits (D7, D11, D12).
+  /// ... with one byte out of range (D7, D11, D12).
   void initialise_wrong();
   void inputs();
   void diagnosis();
   void verdict(bool prm, bool cfg, bool good);
-  /// Reads a block that the chip has written and clears its flag.
+  /// Reads a block written by the chip and clears its flag.
   void fetch();
   void enable_dpv1(int value);
-  /// To the last request on SAP 51 (channel 0), 48 or 47; mostly right.
+  /// Answers the last request on SAP 51 (channel 0), 48 or 47; usually right.
   void acyclic_answer(int channel);
   void anything();
 

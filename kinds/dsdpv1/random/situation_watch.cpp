@@ -136,7 +136,7 @@ void SituationWatch::event(const profibus::Event& event) {
   if (event.reason == Reason::kGcFreeze) freeze_ = false;
 }
 
-/// S24, S4, S27. What Set_Prm has not asked for is refused by an event that follows.
+/// S24, S4, S27. A later event refuses what Set_Prm has not requested.
 void SituationWatch::global_control(unsigned command) {
   namespace gc = bus::global_control;
   const char* held = sync_ && freeze_ ? "Sync and Freeze" : sync_ ? "Sync" : freeze_ ? "Freeze" : "nothing held";

@@ -29,7 +29,7 @@ class SituationWatch : public PlayListener {
   void host_telegram(const tb::HostTelegram& telegram);
   void host_reply(const bus::Bytes& bytes);
   void exchange_reply(unsigned function);
-  /// The part of an access that is under way, "-" between two.
+  /// The part of the access in progress, "-" between two.
   std::string phase() const;
   Level level(Pin pin) const { return levels_[static_cast<std::size_t>(pin)]; }
 
@@ -37,10 +37,10 @@ class SituationWatch : public PlayListener {
   Situations& situations_;
   const tb::PinDevice* model_ = nullptr;
   std::array<Level, kRsuPinCount> levels_{};
-  const char* item_ = nullptr;  ///< of the access under way, counted
+  const char* item_ = nullptr;  ///< of the access in progress, counted
   unsigned state_ = 0;
   bool sync_ = false, freeze_ = false;
-  std::string service_;  ///< asked of this station and not answered yet; empty: none
+  std::string service_;  ///< requested from this station and not answered yet; empty: none
   std::unique_ptr<tb::HostReader> reader_;
   unsigned command_ = 0;  ///< bits 7..5 of the last request of the host
 };

@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What of an event is told apart: `format` makes a word of 0 a, 1 b, 2 c, 3 and 4 the bytes of a, 5 the DP state.
+/// A detail that distinguishes events: `format` makes a word of 0 a, 1 b, 2 c, 3 and 4 the bytes of a, 5 the DP state.
 struct Detail {
   const char* code;
   const char* format;
@@ -97,7 +97,7 @@ const Detail* detail_of(const std::string& code) {
 
 bool begins(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 
-/// The port has no such event, whatever its host does (R14, SP15, UA6).
+/// The port cannot have such an event, whatever its host does (R14, SP15, UA6).
 bool is_foreign(const std::string& code, Part part, HostMode mode) {
   const bool parallel = mode == HostMode::kParallel;
   const bool strap = code == "STRAP_CHANGED", shared = code == "HOST_READ_ONLY";
@@ -118,7 +118,7 @@ void add(std::vector<Situation>& all, const char* group, const Words& items) {
   for (const std::string& item : items) all.emplace_back(group, item);
 }
 
-/// S13, S14, S20: what a service may be answered in each state.
+/// S13, S14, S20: the possible answers to a service in each state.
 Words services() {
   struct Service {
     const char* name;
@@ -157,7 +157,7 @@ Words services() {
 
 Words transfers() { return {std::begin(kAccessParts) + kFirstTransfer, std::end(kAccessParts)}; }
 
-/// Of the chip's accesses: in none, in each part of one.
+/// Relative to the chip's accesses: in none, in each part of one.
 Words phases() {
   Words all = {"-"};
   all.insert(all.end(), std::begin(kAccessParts), std::end(kAccessParts));

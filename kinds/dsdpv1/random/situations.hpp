@@ -1,5 +1,5 @@
 #pragma once
-// The situations of a DSDPV1 in lockstep runs: those that the rulings know, and what an event counts as.
+// The situations of a DSDPV1 in lockstep runs: those that the rulings define, and the mapping of events to them.
 #include <string>
 #include <vector>
 
@@ -9,9 +9,9 @@
 
 namespace dsdpv1::cosim {
 
-/// RandomCases::known_situations, of a part whose host is connected to this port.
+/// RandomCases::known_situations, for a part whose host is connected to this port.
 std::vector<Situation> known_situations(Part part, HostMode mode);
-/// The situations of an event, beside those of group "DP states": its code, and which of those that the ruling
+/// The situation of an event, in addition to those of group "DP states": its code, and the case that the ruling
 /// distinguishes. `state`: the DP state in which it happened.
 std::string event_item(const profibus::Event& event, const std::string& state);
 /// "WAIT_PRM".

@@ -9,11 +9,11 @@ namespace dsdpv1::cosim {
 namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
-constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: nothing was due, B006 := 01 is all
-constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is on its way
-constexpr unsigned kImageEvery = 256;      // ... the DPRAM is compared all the same from time to time
+constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: no work, only B006 := 01
+constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is pending
+constexpr unsigned kImageEvery = 256;      // ... the DPRAM is still compared from time to time
 constexpr Tick kStartsUp = 3500 * kCycle;  // H6: the start-up access has written every cell
-constexpr Tick kImageGap = 1000 * kCycle;  // with a serial port no pin shows an access: as often as this
+constexpr Tick kImageGap = 1000 * kCycle;  // with a serial port no pin shows an access: compare this often
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void AccessWatch::change(Tick at, PinNumber changed, Level to) {
   user_.pin(at, changed, to);
 }
 
-/// With a serial port the DPRAM is the same in every cycle, so it may be compared at any.
+/// With a serial port the DPRAM is equal in every cycle, so it may be compared in any.
 void AccessWatch::serial_change(Tick at, Pin pin) {
   if (pin == Pin::kReset) {
     image_at_ = at + kStartsUp;

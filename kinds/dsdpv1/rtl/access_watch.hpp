@@ -1,5 +1,5 @@
 #pragma once
-// Accesses of the user and of the chip to the DPRAM, as the pins show them.
+// Accesses of the user and of the chip to the DPRAM, derived from the pins.
 #include <array>
 #include <optional>
 #include <string>
@@ -14,7 +14,7 @@ namespace dsdpv1::cosim {
 class AccessWatch : public MemoryWatch {
  public:
   explicit AccessWatch(Part part);
-  /// D is what the user drives.
+  /// D is the user's level.
   void change(Tick at, PinNumber changed, Level to) override;
   std::optional<Tick> take_end() override { return std::exchange(end_, std::nullopt); }
   bool worth_a_look(Tick end) override;
@@ -33,9 +33,9 @@ class AccessWatch : public MemoryWatch {
   std::optional<Tick> end_;
   Tick last_write_ = -1;
   Tick image_at_ = 0;       ///< with a serial port
-  bool serial_ = false;     ///< the port that is live
+  bool serial_ = false;     ///< the live port
   bool user_wrote_ = true;  ///< since the DPRAM was compared
-  unsigned unseen_ = 0;     ///< accesses that brought nothing
+  unsigned unseen_ = 0;     ///< accesses without effect
 };
 
 }  // namespace dsdpv1::cosim

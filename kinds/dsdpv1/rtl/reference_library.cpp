@@ -1,6 +1,6 @@
-// The reference RTL as a shared library (cosim/rtl_library.hpp), compiled together with what Verilator makes of
-// rtl_ref/ (reference_rtl.cmake), in which the top, dsdpv1 or dsdpv1_rsu, is called Vchip. A row of pins.inc or
-// parameters.inc is all that a port needs.
+// The reference RTL as a shared library (cosim/rtl_library.hpp), compiled with Verilator's output for rtl_ref/
+// (reference_rtl.cmake), in which the top, dsdpv1 or dsdpv1_rsu, is called Vchip. A port needs only a row of pins.inc
+// or parameters.inc.
 #include <unistd.h>
 
 #include <atomic>
@@ -39,7 +39,7 @@ struct Design {
     context.randSeed(static_cast<int>(start.seed % 0x7FFF'FFFF + 1));
     model = std::make_unique<Vchip>(&context);
   }
-  /// Verilator takes the design's names out of the context that the thread had last, another design's perhaps.
+  /// Verilator takes the design's names from the thread's last context, which may belong to another design.
   ~Design() {
     Verilated::threadContextp(&context);
     model->final();
@@ -67,13 +67,13 @@ void put(std::uint8_t* image, std::uint32_t write) {
   image[write >> 8 & (kDpramSize - 1)] = static_cast<std::uint8_t>(write & 0xFF);
 }
 
-/// Z of a bus that nobody drives becomes ones; the model likewise reads no bits from it.
+/// Z of an undriven bus becomes ones; the model, too, reads no bits from it.
 template <class Port>
 void set(Port& port, std::int16_t level) {
   port = static_cast<Port>(level);
 }
 
-// A pin as a port of the top: inputs NAME_i, outputs NAME_o, one that is Z while RESET is low has its NAME_oe_o.
+// Maps a pin to a port of the top: inputs NAME_i, outputs NAME_o; one that is Z while RESET is low also has NAME_oe_o.
 #define INPUT(pin, name, width, direction, level, group, place, port) INPUT_##direction(pin, port)
 #define INPUT_kInput(pin, port) set(model.port##_i, levels[number(Pin::pin)]);
 #define INPUT_kOutput(pin, port)
@@ -99,7 +99,7 @@ void* dsdpv1_rtl_create(const RtlStart* start) {
   return design.release();
 }
 
-/// A build that counts coverage leaves it as a file of its own in the folder that the environment names
+/// A build that counts coverage writes it to a separate file in the folder named by the environment variable
 /// DSDPV1_RTL_COVERAGE.
 void dsdpv1_rtl_destroy(void* self) {
   const std::unique_ptr<Design> design(static_cast<Design*>(self));
@@ -123,7 +123,7 @@ void dsdpv1_rtl_eval(void* self, bool clk, std::int16_t* levels) {
 #include "model/dsdpv1/pins.inc"
 }
 
-/// Four memories interleaved by the low address bits, and up to two writes on their way to them, the older one first.
+/// Four memories interleaved by the low address bits, and up to two pending writes, the older one first.
 void dsdpv1_rtl_memory(void* self, std::uint8_t* image) {
   const auto& root = *model_of(self).rootp;
   for (unsigned i = 0; i < kDpramSize; i += 4) {

@@ -13,7 +13,7 @@ class Dsdpv1Rtl : public RtlOf {
  public:
   explicit Dsdpv1Rtl(Part part) : part_(part) {}
 
-  /// Strobes act at their own tick, and of the DSDPV1-RSU SCK; MISO follows its register later
+  /// Strobes act at their own tick, as does SCK of the DSDPV1-RSU; MISO follows its register later
   /// (docs/microarchitecture_rsu.md, 5.1).
   RtlTiming timing(const tb::OwnSettings& chip) const override {
     RtlTiming timing;

@@ -48,7 +48,7 @@ void TlmChip::write(Signal& signal, bool level) {
 void TlmChip::line_changed(bus::Tick /*at*/, bool level) { write(rxd_, level); }
 
 bool TlmChip::run_begins(const bus::CharacterRun& run) {
-  if (own_run_) return true;  // while it sends, it does not listen
+  if (own_run_) return true;  // the chip does not receive while it sends
   if (run.bit % bus::kTicksPerCycle != 0) return false;
   timeline_.catch_up();
   return module_->hear_run({run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});

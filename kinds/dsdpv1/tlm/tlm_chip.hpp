@@ -1,5 +1,5 @@
 #pragma once
-// A chip in its TLM view as a station of the bench: RESET and the handshake as calls, the bus as a station of an RS-485
+// A chip in its TLM view as a station of the bench: RESET and the handshake as calls, and a station on an RS-485
 // segment.
 #include <functional>
 #include <memory>
@@ -12,10 +12,9 @@
 
 namespace dsdpv1::systemc_bench {
 
-/// R_REQ or R_STA: a level that is there at once, in the place of an sc_signal, which would have it a delta cycle
-/// later: an update, an event and a process of the kernel less, for the pins that a user CPU moves four times each time
-/// that it wants the DPRAM. Whoever sets it tells the chip, which reads it (TlmModule::sync); nobody waits for its
-/// events.
+/// R_REQ or R_STA: a level that takes effect at once, instead of an sc_signal, which takes a delta cycle. That saves an
+/// update, an event and a process of the kernel for pins that a user CPU moves four times per hold of the DPRAM. The
+/// caller that sets it must notify the chip, which reads it (TlmModule::sync); no process waits for its events.
 class HandshakePin : public sc_core::sc_prim_channel, public sc_core::sc_signal_in_if<bool> {
  public:
   explicit HandshakePin(const char* name) : sc_prim_channel(name) {}
@@ -36,12 +35,12 @@ class HandshakePin : public sc_core::sc_prim_channel, public sc_core::sc_signal_
   sc_core::sc_event never_;
 };
 
-/// The module and what it is wired to. The segment hears PBTXD and PBRTS at their exact ticks, also from inside the
-/// core; what the segment says arrives at PBRXD at its tick (one delta cycle later, which no rule of the chip can tell
-/// apart: P9). The phase of the chip must be 0: the bench counts the chip's ticks.
+/// The module and its wiring. The segment receives PBTXD and PBRTS at their exact ticks, also from inside the core; the
+/// line arrives at PBRXD at its tick (one delta cycle later, which no rule of the chip can distinguish: P9). The phase
+/// of the chip must be 0: the bench counts the chip's ticks.
 class TlmChip : public sc_core::sc_module, private bus::Listener {
  public:
-  /// Telegrams are told as runs in the direction whose pin `options.observed` leaves out.
+  /// Telegrams are passed as runs in the direction whose pin is not in `options.observed`.
   TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,
           TimelineModule& timeline);
   TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::RsuTlmOptions& options, bus::Segment& segment,
@@ -49,11 +48,11 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
 
   dsdpv1::systemc::TlmModule& module() { return *module_; }
   const dsdpv1::systemc::TlmModule& module() const { return *module_; }
-  /// The module of a DSDPV1-RSU; null of other chips.
+  /// The module of a DSDPV1-RSU; null for other chips.
   dsdpv1::systemc::RsuTlmModule* rsu() { return rsu_; }
   bus::StationId station() const { return station_; }
 
-  /// Pins that the bench drives, at the timeline's present time only.
+  /// Pins driven by the bench, only at the timeline's present time.
   void set_reset(bool level) { write(reset_, level); }
   void set_r_req(bool level) { move(r_req_, level); }
   void set_r_sta(bool level) { move(r_sta_, level); }
@@ -63,7 +62,7 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
 
  private:
   TlmChip(const sc_core::sc_module_name& name, bus::Segment& segment, TimelineModule& timeline);
-  /// `module` is this one's from here on.
+  /// Takes ownership of `module`.
   void take(dsdpv1::systemc::TlmModule* module, const dsdpv1::systemc::TlmOptions& options);
 
   using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process

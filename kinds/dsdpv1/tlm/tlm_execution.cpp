@@ -21,7 +21,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-// Pins at which an agent has a new plan: the user CPU, and who reads the telegrams of the serial ports.
+// Pins at which an agent's plan changes: the user CPU, and readers of the serial ports' telegrams.
 constexpr std::uint32_t kPlannedBy =
     dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kTxd) | dsdpv1::mask(Pin::kRxd) | dsdpv1::mask(Pin::kXss);
 
@@ -90,7 +90,7 @@ class TlmExecution : public Execution {
     if (stopped()) return;
     module_.limit = end;
     module_.stopped = stopped;
-    sc_core::sc_start(dsdpv1::systemc::to_time(end + 1));  // SystemC leaves the last tick out
+    sc_core::sc_start(dsdpv1::systemc::to_time(end + 1));  // SystemC excludes the last tick
     dsdpv1::systemc::announce_main_stack();
   }
 
@@ -124,7 +124,7 @@ int inside_systemc(const std::function<int()>& body) {
   return status;
 }
 
-/// SystemC would print an exception in words of its own.
+/// SystemC would print an exception with its own text.
 int run_body() {
   try {
     return (*body_of_sc_main)();

@@ -7,11 +7,11 @@
 
 namespace dsdpv1::tb {
 
-/// Only inside of sc_main, once a process.
+/// Only inside sc_main, once per process.
 std::unique_ptr<Execution> make_tlm_execution();
 
-/// Calls `body` from an sc_main of its own and returns what it returned. Exceptions of `body` come through. For
-/// programs with a main of their own.
+/// Calls `body` from its own sc_main and returns its result. Exceptions of `body` pass through. For programs that have
+/// their own main.
 int inside_systemc(const std::function<int()>& body);
 
 }  // namespace dsdpv1::tb

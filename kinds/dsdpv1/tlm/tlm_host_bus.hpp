@@ -14,20 +14,20 @@
 
 namespace dsdpv1::user_cpu {
 
-/// An access is one transaction. It has two edges: the first begins it, at the second its result is there. As long as
-/// nobody else has a turn until then it is carried out ahead of simulation time, in the timeline's thread; otherwise by
-/// a thread of its own, so that the timeline goes on meanwhile. The module moves the same pins at the same ticks as
-/// PinHostBus does.
+/// An access is one transaction with two edges: the first begins it, the second has its result. If no other agent has a
+/// turn between them, it is executed ahead of simulation time, in the timeline's thread; otherwise by a separate
+/// thread, so that the timeline continues meanwhile. The module moves the same pins at the same ticks as PinHostBus
+/// does.
 class TlmHostBus : public sc_core::sc_module, public HostBus {
  public:
   TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip);
 
-  /// An access begins, which samples D at `sample` if it is a read.
+  /// Called at the begin of an access; a read samples D at `sample`.
   std::function<void(Tick at, const Access& access, Tick sample)> on_begin;
-  /// R_REQ or R_STA is moved.
+  /// Called when R_REQ or R_STA changes.
   std::function<void(Tick at, const char* pin, bool level)> on_handshake;
 
-  /// The user CPU is reset: an access, frame or telegram begun is forgotten, the pins are released. From a SystemC
+  /// The user CPU is reset: drops an access, frame or telegram in progress and releases the pins. From a SystemC
   /// process.
   void reset();
 
@@ -55,7 +55,7 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   bool is_high(Tick at, dsdpv1::Pin pin);
 
   systemc_bench::TlmChip& chip_;
-  std::optional<TlmSerialPorts> serial_;  ///< of a DSDPV1-RSU
+  std::optional<TlmSerialPorts> serial_;  ///< for a DSDPV1-RSU
   tlm_utils::simple_initiator_socket<TlmHostBus> socket_{"socket"};
   sc_core::sc_process_handle initiator_;
   sc_core::sc_event start_{"start"};

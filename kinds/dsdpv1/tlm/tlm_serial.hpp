@@ -1,5 +1,5 @@
 #pragma once
-// The user CPU's controllers at the sockets of a DSDPV1-RSU's serial ports in SystemC.
+// The user CPU's controllers on the sockets of a DSDPV1-RSU's serial ports in SystemC.
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace dsdpv1::user_cpu {
 
-/// A thread with a socket that carries out one transaction after the other, so that the timeline goes on meanwhile.
+/// A thread with a socket that executes transactions in sequence, so that the timeline continues meanwhile.
 template <class Extension>
 class TlmSender : public sc_core::sc_module {
  public:
@@ -26,10 +26,11 @@ class TlmSender : public sc_core::sc_module {
   }
   tlm_utils::simple_initiator_socket<TlmSender> socket{"socket"};
 
-  /// The transaction begins at `at`, not before the present time; `extension` says how. From the timeline's thread.
+  /// The transaction begins at `at`, not before the present time; `extension` has its options. From the timeline's
+  /// thread.
   void begin(Tick at, tlm::tlm_command command, std::vector<std::uint8_t> bytes, const Extension& extension);
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
-  /// What is under way is forgotten, the pins idle. From a SystemC process.
+  /// Drops a transaction in progress; the pins idle. From a SystemC process.
   void reset();
 
  private:
@@ -42,7 +43,7 @@ class TlmSender : public sc_core::sc_module {
   sc_core::sc_event start_{"start"};
 };
 
-/// A transfer that is one transaction: one action begins it, at the next it is over.
+/// A transfer by one transaction: one action begins it, at the next it is complete.
 template <class Base>
 class TlmTransfer : public Base {
  public:

@@ -1,6 +1,6 @@
 #pragma once
-// The DPV1 side of the standard user program: objects by slot and index with memory of their own, I&M0, and answers
-// that come at once, late, never, or as an error.
+// The DPV1 side of the standard user program: objects by slot and index with their memory, I&M0, and answers that come
+// at once, late, never, or as an error.
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -16,10 +16,10 @@ namespace dsdpv1::user_cpu {
 
 struct AcyclicCounters {
   std::uint64_t requests = 0;  ///< fetched with the right CRC
-  std::uint64_t answers = 0;   ///< handed to the chip, the next two included
+  std::uint64_t answers = 0;   ///< passed to the chip, the next two included
   std::uint64_t refusals = 0;  ///< negative ones
   std::uint64_t repeated = 0;  ///< written again: the chip had found the CRC wrong
-  std::uint64_t dropped = 0;   ///< answers or requests that came to nothing
+  std::uint64_t dropped = 0;   ///< answers or requests that were abandoned
 };
 
 /// Not copied or moved: the driver points into it.
@@ -31,7 +31,7 @@ class AcyclicServer {
 
   /// Once, for an opened device.
   dsdpv1_error open(dsdpv1_device& device);
-  /// Fetches and answers what there is; `now` starts the delay of requests that come with it.
+  /// Fetches and answers waiting requests; `now` starts the delay of those that arrive.
   dsdpv1_error poll(Tick now);
 
   void set_answering(Answering answering) { options_.answering = answering; }
@@ -45,7 +45,7 @@ class AcyclicServer {
     bool refuse = false;
     std::vector<std::uint8_t> data;
   };
-  struct Entry {  // what a handler gets as its context
+  struct Entry {  // a handler's context
     AcyclicServer* server = nullptr;
     AcyclicObject* object = nullptr;
   };

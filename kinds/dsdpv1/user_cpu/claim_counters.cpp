@@ -6,13 +6,13 @@
 namespace dsdpv1::user_cpu {
 namespace {
 
-/// A write of one byte to B014 (SP12) in the frame; -1: another telegram.
+/// The value that the frame writes to B014 (SP12); -1: another telegram.
 int ownership(const std::vector<std::uint8_t>& out) {
   const bool write = out.size() > 10 && out[0] >> 5 == 1 && out[1] == 0x00 && out[2] == 0x14 && out[3] == 1;
   return write ? out[4] : -1;
 }
 
-/// The reply is a write's, without an error.
+/// The reply belongs to a write and has no error.
 bool granted(const std::vector<std::uint8_t>& in) {
   constexpr std::size_t kRequest = 7;
   const auto first = std::find_if(in.begin() + kRequest, in.end(), [](std::uint8_t byte) { return byte != 0xFF; });

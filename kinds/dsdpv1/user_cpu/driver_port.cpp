@@ -46,7 +46,7 @@ bool DriverPort::look(bool (Cpu::*pin)()) {
   return (cpu_.*pin)();
 }
 
-/// Short pauses are the synchroniser window, long ones the driver's polling.
+/// Short pauses are the synchroniser window, long ones come from the driver's polling.
 void DriverPort::pause(std::uint32_t ns) {
   constexpr std::uint32_t kPolling = 1000;
   const Tick asked = static_cast<Tick>(ns) * bus::kTicksPerNs;

@@ -1,6 +1,5 @@
 #pragma once
-// The driver's port on a simulated CPU: what a device maker writes for their MCU, with counters and, on request,
-// faults.
+// The driver's port on a simulated CPU, which a device maker writes for their MCU; with counters and optional faults.
 #include <cstdint>
 #include <map>
 
@@ -10,7 +9,7 @@
 
 namespace dsdpv1::user_cpu {
 
-/// Must not move while the driver uses it. Keeps the delays of rule H2 that `Cpu::timing` asks for.
+/// Must not move while the driver uses it. Keeps the delays of ruling H2 from `Cpu::timing`.
 class DriverPort {
  public:
   explicit DriverPort(Cpu& cpu) : cpu_(cpu) {}
@@ -21,7 +20,7 @@ class DriverPort {
   dsdpv1_port port();
   const HoldCounters& counters() const { return handshake_.counters(); }
 
-  /// A fault: the next `times` writes to `address` have the bits of `mask` inverted.
+  /// Injects a fault: the next `times` writes to `address` have the bits of `mask` inverted.
   void corrupt_writes(std::uint16_t address, std::uint8_t mask, int times);
 
  private:

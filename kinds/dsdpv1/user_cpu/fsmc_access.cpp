@@ -5,7 +5,7 @@
 namespace dsdpv1::user_cpu {
 namespace {
 
-/// Ticks of so many HCLK periods, rounded to the nearest.
+/// Converts HCLK periods to ticks, rounded to the nearest.
 class Hclk {
  public:
   explicit Hclk(std::int64_t hz) : hz_(hz) {}
@@ -15,7 +15,7 @@ class Hclk {
   std::int64_t hz_;
 };
 
-/// From the end of one access to the earliest fall of CSR in the next: what RM0008 promises for the time between them.
+/// From the end of one access to the earliest fall of CSR in the next: the minimum of RM0008.
 int high_time(const FsmcTiming& timing, FsmcMode mode) { return timing.busturn + (mode == FsmcMode::k1 ? 1 : 2); }
 
 AccessTiming read_timing(const FsmcTiming& timing, FsmcMode mode, const Hclk& at) {

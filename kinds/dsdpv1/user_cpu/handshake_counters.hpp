@@ -1,5 +1,5 @@
 #pragma once
-// What a user CPU's handshake pins tell about its holds of the DPRAM.
+// Statistics of a user CPU's holds of the DPRAM, derived from its handshake pins.
 #include <algorithm>
 #include <utility>
 
@@ -7,8 +7,8 @@
 
 namespace dsdpv1::user_cpu {
 
-/// Told of each change of the two pins, in order of time. A wait runs from R_REQ's rise to R_STA's, a hold from R_STA's
-/// rise to the time that both are low again (H1).
+/// Receives each change of the two pins, in order of time. A wait runs from R_REQ's rise to R_STA's, a hold from
+/// R_STA's rise until both are low again (H1).
 class HandshakeCounters {
  public:
   void r_req(Tick at, bool level) {

@@ -1,6 +1,6 @@
 #pragma once
-// How a user CPU reaches the chip: the handshake pins and INTR0, and a DPRAM access that proceeds edge by edge, so that
-// other parties of the bench act in between and every edge lies at its exact tick.
+// The user CPU's access to the chip: the handshake pins and INTR0, and a DPRAM access that proceeds edge by edge, so
+// that other agents act in between and every edge has its exact tick.
 #include <cstdint>
 
 #include "bus/time.hpp"
@@ -12,40 +12,40 @@ namespace dsdpv1::user_cpu {
 struct Access {
   bool write = false;
   std::uint16_t address = 0;  ///< 0..0x7FF
-  std::uint8_t value = 0;     ///< of a write
+  std::uint8_t value = 0;     ///< for a write
 };
 
-/// Implemented by PinHostBus on the pins of the core, and by whoever has a socket instead: such a bus has one edge, the
-/// end of the access.
+/// Implemented by PinHostBus on the pins of the core, and by adapters to a socket: such a bus has one edge, the end of
+/// the access.
 ///
-/// Calls come in order of time. All of them are made from `bus::Agent::run` of the CPU, on the stack of the bench.
+/// Calls come in order of time, all from `bus::Agent::run` of the CPU, on the stack of the bench.
 class HostBus : public SerialPins {
  public:
   virtual void set_r_req(Tick at, bool level) = 0;
   virtual void set_r_sta(Tick at, bool level) = 0;
-  /// The pins as they are at `at`, all chip activity up to and including that tick done.
+  /// The pins at `at`, after all chip activity up to and including that tick.
   virtual bool l_req(Tick at) = 0;
   virtual bool l_sta(Tick at) = 0;
   virtual bool intr0(Tick at) = 0;
   /// The lamps' pins at `at`: PBF in bit 0, BR in bit 1, READY in bit 2.
   virtual unsigned lamps(Tick /*at*/) { return 0; }
-  /// Whether these looks need not be made on the bench's stack.
+  /// Whether these pins may be sampled outside the bench's stack.
   virtual bool is_looked_at_from_anywhere() const { return false; }
 
   /// Begins an access whose first edge is at `at`. Only one runs at a time.
   virtual void begin(Tick at, const Access& access, const AccessTiming& timing) = 0;
   /// The tick of the running access' next edge, `bus::kNever` when all are done.
   virtual Tick next_edge() const = 0;
-  /// The access just begun is nobody else's business until its end: `run_edges` need not be called before `end()`,
-  /// though others act meanwhile. False: each edge at its time.
+  /// Returns true if no other agent is concerned by the access just begun until its end: `run_edges` need not be called
+  /// before `end()`, even if others act meanwhile. False: each edge at its time.
   virtual bool put_off() { return false; }
-  /// Carries out the edges due up to `until`, which is not before `next_edge()`, each at its tick; only those up to one
-  /// that somebody is told of.
+  /// Executes the edges due up to `until`, which is not before `next_edge()`, each at its tick; stops after an edge
+  /// that is reported to a listener.
   virtual void run_edges(Tick until) = 0;
   /// The tick at which the next access may begin: the last edge plus the recovery time.
   virtual Tick end() const = 0;
 
-  /// What the last read brought. 0xFF when `last_read_was_bad()`.
+  /// The value of the last read. 0xFF if `last_read_was_bad()`.
   virtual std::uint8_t read_value() const = 0;
   /// The sampled data were unknown (X) or floating (Z).
   virtual bool last_read_was_bad() const = 0;

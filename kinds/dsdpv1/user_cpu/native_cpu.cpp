@@ -41,10 +41,10 @@ void NativeCpu::go_on_program() {
   take_request();
 }
 
-/// Nobody else has a turn before `at`, the next one of this CPU: that is this one.
+/// No other agent has a turn before `at`, this CPU's next one: continue with it in this turn.
 bool NativeCpu::goes_on(Tick at) { return at != bus::kNever && others != nullptr && others->go_on(at); }
 
-/// Starts what the program asked for before it suspended.
+/// Starts the request that the program made before it suspended.
 void NativeCpu::take_request() {
   switch (request_.op) {
     case Op::kNone:
@@ -80,8 +80,8 @@ void NativeCpu::begin_access() {
   const bool own_timing = request_.access.write && timing_.write_access;
   bus_.begin(now_, request_.access, own_timing ? *timing_.write_access : timing_.access);
   ready_at_ = bus_.end() + timing_.overhead;
-  // Its edges have one turn each, unless nobody else has one before the last: then all of them are this one; or unless
-  // nobody else hears of them: then they are its last.
+  // Each of its edges has a turn, with two exceptions: all are executed in this turn if no other agent has one before
+  // the last, and all in the last turn if no other agent observes them.
   const bool in_one_go = others != nullptr && others->quiet_until() > bus_.end();
   put_off_ = others != nullptr && !in_one_go && bus_.put_off();
   if (put_off_) return;
@@ -140,7 +140,7 @@ void NativeCpu::serve_interrupt() {
 std::uint8_t NativeCpu::read(std::uint16_t address) {
   request_ = {Op::kAccess, {false, address, 0}, false, 0, nullptr};
   fiber_.suspend();
-  const std::uint8_t value = bus_.read_value();  // before a handler reads something else
+  const std::uint8_t value = bus_.read_value();  // before a handler reads another
   serve_interrupt();
   return value;
 }
@@ -153,7 +153,7 @@ void NativeCpu::set_r_req(bool level) { perform({Op::kSetRReq, {}, level, 0, nul
 
 void NativeCpu::set_r_sta(bool level) { perform({Op::kSetRSta, {}, level, 0, nullptr}); }
 
-/// One that takes no time is part of this turn: nobody need be waited for.
+/// A sample that takes no time is part of this turn: no other agent must be waited for.
 void NativeCpu::look(Op what) {
   if (timing_.pin_sample != 0 || !bus_.is_looked_at_from_anywhere()) return perform({what, {}, false, 0, nullptr});
   request_.op = what;
@@ -188,7 +188,7 @@ void NativeCpu::suspend_until(Tick at, Break reason) {
   perform({Op::kWait, {}, false, at, nullptr});
 }
 
-/// Nobody else has a turn, and nothing is heard, until then: the program goes on without a look at the bench.
+/// No other agent has a turn, and no pin is observed, until then: the program continues without the bench.
 bool NativeCpu::passes_at_once(Tick at) {
   break_ = Break::kInterrupt;
   return at < break_tick() && others != nullptr && others->go_on(at);

@@ -1,6 +1,6 @@
 #pragma once
-// A user CPU made of a C++ program: it runs on a stack of its own and is suspended during every access and wait, so
-// that blocking code like the driver takes simulated time.
+// A user CPU that runs a C++ program on a separate stack and suspends it during every access and wait, so that blocking
+// code like the driver takes simulated time.
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace dsdpv1::user_cpu {
 
-/// The bus is touched from `run` only, on the bench's stack. Exceptions of the program leave through `run`.
+/// Only `run` uses the bus, on the bench's stack. Exceptions of the program leave through `run`.
 class NativeCpu : public bus::Agent, private Cpu {
  public:
   using Program = std::function<void(Cpu&)>;
@@ -23,21 +23,21 @@ class NativeCpu : public bus::Agent, private Cpu {
 
   Tick next() const override;
   void run(Tick now) override;
-  /// Of the last action: behind a turn that went on, the last of its ticks.
+  /// Tick of the last action: after a turn that was extended, the last of its ticks.
   Tick now() const override { return now_; }
 
-  /// As StationCpu has it.
+  /// As in StationCpu.
   Others* others = nullptr;
 
-  /// Besides `announce`, for the agent that this CPU is a part of.
+  /// Called in addition to `announce`, for the agent that contains this CPU.
   std::function<void()> on_announce;
 
-  /// INTR0 changed at `at`; for the bench that watches the pin. Callable while the chip runs ahead of this agent's
-  /// turn.
+  /// INTR0 changed at `at`; called by the bench, which watches the pin. May be called while the chip runs ahead of this
+  /// agent's turn.
   void intr0_changed(Tick at, bool level);
   /// Ends a `wait_for_wake`, the present or the next one, not before `at`.
   void wake(Tick at);
-  /// The program has returned; the CPU does nothing any more.
+  /// The program has returned; the CPU does nothing from now on.
   bool ended() const { return fiber_.ended(); }
   const CpuCounters& counters() const { return counters_; }
 
@@ -50,7 +50,7 @@ class NativeCpu : public bus::Agent, private Cpu {
     Tick until = 0;                ///< kWait
     Transfer* transfer = nullptr;  ///< kTransfer
   };
-  /// What may end a kWait before its time.
+  /// Events that may end a kWait early.
   enum class Break : std::uint8_t { kInterrupt, kWake, kIntr0 };
 
   const CpuTiming& timing() const override { return timing_; }
@@ -94,14 +94,14 @@ class NativeCpu : public bus::Agent, private Cpu {
   CpuCounters counters_;
   std::function<void()> handler_;
   bool enabled_ = true, in_handler_ = false;
-  Tick interrupt_at_ = bus::kNever;  ///< a falling INTR0 edge waits for its handler since then
-  Tick intr0_at_ = bus::kNever;      ///< a falling edge that wait_intr0 has not reported
+  Tick interrupt_at_ = bus::kNever;  ///< since when a falling INTR0 edge waits for its handler
+  Tick intr0_at_ = bus::kNever;      ///< a falling edge not yet reported by wait_intr0
   Tick wake_at_ = bus::kNever;
   Request request_;
   Break break_ = Break::kInterrupt;
-  bool put_off_ = false;  ///< the access under way, up to its end
+  bool put_off_ = false;  ///< the present access is put off until its end
   Tick now_ = 0;
-  Tick ready_at_;  ///< when the program goes on
+  Tick ready_at_;  ///< when the program continues
   bool sampled_ = false;
   unsigned lamps_ = 0;
   Fiber fiber_;

@@ -38,7 +38,7 @@ class NativeUser : public StationCpu {
 
  private:
   UserProgram program_;
-  NativeCpu cpu_;  // ends before the program that it runs
+  NativeCpu cpu_;  // destroyed before the program that it runs
 };
 
 }  // namespace dsdpv1::user_cpu

@@ -1,6 +1,6 @@
 #pragma once
-// What a scenario's script can order the user program of a DSDPV1 to do beyond what every slave's program does, and the
-// codes of what its driver returns.
+// Script actions for the user program of a DSDPV1 beyond those of every slave's program, and the codes of its driver's
+// results.
 #include <string>
 #include <vector>
 
@@ -23,10 +23,10 @@ constexpr const char* kTalkOverReply = "talk_over_reply";
 /// The words of command::OfChip::block, in the order of command::Area.
 const std::vector<std::string>& block_words();
 
-/// The bench's command as this chip's programs take it.
+/// Converts the bench's command for this chip's programs.
 DriverCommand driver_command(const Command& command);
 
-/// "DSDPV1_ERR_INIT_CRC", ...: what a call of the driver returned.
+/// "DSDPV1_ERR_INIT_CRC", ...: the code of a driver call's result.
 std::string driver_error_code(dsdpv1_error error);
 
 }  // namespace dsdpv1::user_cpu

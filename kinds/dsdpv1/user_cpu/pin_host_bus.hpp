@@ -9,8 +9,8 @@
 
 namespace dsdpv1::user_cpu {
 
-/// Drives a chip, which must outlive it. Between accesses CSR, RD and WR are high, D and A as HostAccess leaves them.
-/// `core`: that behind these pins, which takes accesses as a whole; null: each edge is set.
+/// Drives a chip, which must outlive it. Between accesses CSR, RD and WR are high, D and A as left by HostAccess.
+/// `core`: the core of these pins, which takes whole accesses; null: each edge is set.
 class PinHostBus : public HostBus {
  public:
   explicit PinHostBus(tb::PinDevice& pins, dsdpv1::Chip* core = nullptr) : chip_(pins), core_(core) {}
@@ -27,13 +27,13 @@ class PinHostBus : public HostBus {
   Tick next_edge() const override { return edge_ < access_->size() ? begin_ + (*access_)[edge_].at : bus::kNever; }
   bool put_off() override { return edge_ == 0 && core_ != nullptr && core_->is_private(begin_, *access_); }
   void run_edges(Tick until) override;
-  /// The running access at once, if that comes to the same and it has not begun.
+  /// Executes the running access at once, if the result is the same and it has not begun.
   bool run_whole();
   Tick last_edge() const { return begin_ + access_->last(); }
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }
   bool last_read_was_bad() const override { return bad_; }
-  /// The tick at which the read begun last samples D.
+  /// The tick at which the last read samples D.
   Tick sample_tick() const { return sample_tick_; }
 
  private:
@@ -44,7 +44,7 @@ class PinHostBus : public HostBus {
   tb::PinDevice& chip_;
   dsdpv1::Chip* const core_;
   dsdpv1::HostAccessMaker maker_;
-  const dsdpv1::HostAccess* access_ = &maker_.make(false, 0, 0, {});  ///< the one that runs or ran last
+  const dsdpv1::HostAccess* access_ = &maker_.make(false, 0, 0, {});  ///< the present or last one
   Tick begin_ = 0;                                                    ///< of its first edge
   std::size_t edge_ = 0;
   Tick end_ = 0, sample_tick_ = 0;

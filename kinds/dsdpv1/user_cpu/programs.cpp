@@ -75,7 +75,7 @@ void UserProgram::run_firmware(Cpu& cpu) {
   if (bring_up()) main_loop();
 }
 
-/// Orders that need no driver are carried out meanwhile.
+/// Executes commands that need no driver meanwhile.
 void UserProgram::wait_for_start() {
   const Tick start = cpu_->now() + options_.start_delay;
   const auto needs_no_driver = [](const DriverCommand& command) {
@@ -110,7 +110,7 @@ bool UserProgram::bring_up() {
     cpu_->wait(options_.retry_delay);
   }
   cpu_->on_intr0([this] { intr0(); });
-  service();  // what came between the initialisation and the line above
+  service();  // serves events between the initialisation and the line above
   return true;
 }
 
@@ -128,7 +128,7 @@ void UserProgram::main_loop() {
       run_commands();
       wait_while_stopped();
     } while (cpu_->wait_for_wake(due) || !commands_.empty());
-    due = std::max(due, cpu_->now() - options_.period);  // a long hold does not make the exchanges come in a burst
+    due = std::max(due, cpu_->now() - options_.period);  // a long hold must not cause a burst of exchanges
     service_if_pending();
     exchange();
     poll_acyclic();
@@ -146,7 +146,7 @@ void UserProgram::exchange() {
   const std::vector<std::uint8_t> inputs = next_inputs();
   const bool known = inputs_known();
   const auto length = static_cast<std::uint8_t>(std::min<std::size_t>(inputs.size(), 255));
-  static constexpr std::uint8_t kNothing = 0;  // inputs of length 0 are inputs, too
+  static constexpr std::uint8_t kNothing = 0;  // inputs of length 0 are inputs as well
   const std::uint8_t* bytes = !known ? nullptr : inputs.empty() ? &kNothing : inputs.data();
   ++counters_.exchanges;
   check(dsdpv1_exchange(&device_, options_.overwrite_inputs ? DSDPV1_INPUT_NEWEST : DSDPV1_INPUT_WHEN_CONSUMED, bytes,
@@ -167,7 +167,7 @@ void UserProgram::poll_acyclic() {
   if (acyclic_) check(acyclic_->poll(cpu_->now()), "acyclic_poll");
 }
 
-/// Before the master has sent a configuration nobody knows how long the inputs have to be.
+/// Before the master has sent a configuration the length of the inputs is unknown.
 bool UserProgram::inputs_known() const {
   return set_inputs_ || (input_length_ && options_.inputs != InputSource::kIdle);
 }
@@ -203,7 +203,7 @@ void UserProgram::service_if_pending() {
 
 void UserProgram::service() {
   const dsdpv1_error error = dsdpv1_service(&device_);
-  if (error != DSDPV1_ERR_NESTED)  // no failure: the interrupted program does it
+  if (error != DSDPV1_ERR_NESTED)  // not a failure: the interrupted program does it
     check(error, "service");
 }
 
@@ -262,7 +262,7 @@ void UserProgram::claim_for(Tick duration) {
   check(dsdpv1_release(&device_), "release");
 }
 
-/// Without the driver, whose holds are as short as possible, over the parallel port. The interrupt handler is kept out
+/// Over the parallel port, without the driver, whose holds are as short as possible. The interrupt handler is disabled
 /// meanwhile.
 void UserProgram::carry_out(const command::Hold& hold) {
   if (serial_) return claim_for(hold.duration);

@@ -1,7 +1,6 @@
 #pragma once
-// The standard user program: the firmware of a simple device, made of the driver. It initialises the chip, then
-// exchanges inputs and outputs at a fixed period, judges what the master sends, and carries out what the bench asks of
-// it.
+// The standard user program: the firmware of a simple device, built on the driver. It initialises the chip, then
+// exchanges inputs and outputs at a fixed period, judges the master's blocks, and executes the bench's commands.
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -24,30 +23,30 @@ namespace dsdpv1::user_cpu {
 dsdpv1_config driver_config(const StationConfig& station);
 dsdpv1_diag_type diag_type(DiagnosisKind kind);
 
-/// What only this chip's programs can be asked for, besides user_cpu::Command.
+/// Commands specific to this chip's programs, in addition to user_cpu::Command.
 namespace command {
 /// Takes the DPRAM and keeps it for `duration`.
 struct Hold {
   Tick duration = 0;
 };
-/// Breaks rule H2: R_STA rises `after` R_REQ without a look at L_REQ and L_STA; then both fall after `hold`.
+/// Breaks ruling H2: R_STA rises `after` R_REQ without a sample of L_REQ and L_STA; then both fall after `hold`.
 struct EarlyRSta {
   Tick after = 250;
   Tick hold = 12'000;
 };
 enum class Area : std::uint8_t { kInit, kInputs, kDiagnosis, kC1Answer, kC2Answer };
-/// The CRC of the next `times` blocks of that kind is written wrong.
+/// Writes a wrong CRC with the next `times` blocks of that kind.
 struct WrongCrc {
   Area area = Area::kInputs;
   int times = 1;
 };
-/// The next `times` telegrams to the chip go wrong: SPI and UART.
+/// Disturbs the next `times` telegrams to the chip: SPI and UART.
 struct SpoilTelegrams {
   TelegramFault fault = TelegramFault::kFlippedBit;
   int times = 1;
   Tick pause = 0;  ///< TelegramFault::kPause
 };
-/// A telegram that the driver does not send, right or wrong, so often: `bytes`, with their CRC. SPI and UART.
+/// Sends a telegram that the driver does not, valid or not, a number of times: `bytes`, with their CRC. SPI and UART.
 struct HostTelegram {
   std::vector<std::uint8_t> bytes;
   std::optional<int> listen;  ///< SerialPort::telegram
@@ -66,10 +65,10 @@ struct DriverError {
   const char* during = "";  ///< "initialise", "exchange" ...
 };
 
-/// As the bench hears of it.
+/// In the bench's format.
 ProgramError program_error(const DriverError& error);
 
-/// The program and what the bench sees of it. Not copied, and must outlive the CPU that runs it.
+/// The program and the bench's view of it. Not copied; must outlive the CPU that runs it.
 class UserProgram {
  public:
   explicit UserProgram(ProgramOptions options, const HostPort& port = {}) : options_(std::move(options)), host_(port) {}
@@ -78,11 +77,11 @@ class UserProgram {
 
   /// For NativeCpu: `NativeCpu cpu(bus, timing, program.entry());`
   NativeCpu::Program entry();
-  /// Carried out in order, each as soon as the program has finished what it is at; call NativeCpu::wake afterwards, or
+  /// Executed in order, each as soon as the program has finished its present work; call NativeCpu::wake afterwards, or
   /// it waits for the next exchange. Allowed before the program runs.
   void post(const DriverCommand& command) { commands_.push_back(command); }
 
-  /// Told of every driver error, besides the log.
+  /// Called for every driver error, in addition to the log.
   std::function<void(const DriverError&)> on_error;
 
   const ProgramCounters& counters() const { return counters_; }
@@ -94,7 +93,7 @@ class UserProgram {
   /// Zeros without DPV1.
   AcyclicCounters acyclic_counters() const { return acyclic_ ? acyclic_->counters() : AcyclicCounters(); }
   bool initialised() const { return counters_.initialisations != 0; }
-  /// The lengths of the last configuration that the master sent; absent before.
+  /// The lengths of the master's last configuration; absent before.
   std::optional<std::uint8_t> input_length() const { return input_length_; }
 
  private:
@@ -136,7 +135,7 @@ class UserProgram {
   HostPort host_;
   std::deque<DriverCommand> commands_;
   Cpu* cpu_ = nullptr;
-  std::unique_ptr<DriverPort> port_;  ///< of these two one
+  std::unique_ptr<DriverPort> port_;  ///< one of these two is set
   std::unique_ptr<SerialPort> serial_;
   dsdpv1_device device_{};
   std::unique_ptr<AcyclicServer> acyclic_;

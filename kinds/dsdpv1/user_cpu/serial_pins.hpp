@@ -1,5 +1,5 @@
 #pragma once
-// The serial ports of a DSDPV1-RSU, as a user CPU has them: its pins, and the controllers at them.
+// The serial ports of a DSDPV1-RSU for a user CPU: its pins, and the controllers on them.
 #include <functional>
 #include <memory>
 
@@ -16,14 +16,14 @@ class UartSender;
 
 class SerialPins : public UserSide {
  public:
-  /// XSS, SCK, MOSI, RXD. Calls come in order of time. A chip without them: nothing.
+  /// Sets XSS, SCK, MOSI, RXD. Calls come in order of time. Does nothing for a chip without them.
   virtual void set_serial(Tick /*at*/, dsdpv1::Pin /*pin*/, bool /*level*/) {}
-  /// MISO as it is strictly before what is set at `at`; true where nobody drives it.
+  /// MISO strictly before a change set at `at`; true while it is not driven.
   virtual bool miso(Tick /*at*/) { return true; }
-  /// Told of each change of TXD, in order of time, not later than anybody acts at that tick.
+  /// Called at each change of TXD, in order of time, before any agent acts at that tick.
   std::function<void(Tick at, bool level)> on_txd;
 
-  /// The CPU's controllers: on these pins, each edge in its turn, unless whoever has a socket knows better.
+  /// The CPU's controllers: on these pins, with one turn per edge, unless an adapter to a socket overrides it.
   virtual std::unique_ptr<SpiMaster> make_spi_master(const SpiTiming& timing);
   virtual std::unique_ptr<UartSender> make_uart_sender(const UartTiming& timing);
 };

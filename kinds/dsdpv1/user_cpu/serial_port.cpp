@@ -10,7 +10,7 @@ namespace {
 
 SerialPort& self(void* ctx) { return *static_cast<SerialPort*>(ctx); }
 
-constexpr std::size_t kFaultAt = 2;         ///< byte of a telegram that goes wrong
+constexpr std::size_t kFaultAt = 2;         ///< the byte of a telegram that is disturbed
 constexpr std::int64_t kTalkOverBits = 20;  ///< from a telegram's end into its reply, which has begun by then (UA4)
 
 }  // namespace
@@ -76,7 +76,7 @@ void SerialPort::telegram_over_spi(std::vector<std::uint8_t> bytes, int listen) 
   frame(bytes.data(), received.data(), bytes.size());
 }
 
-/// None comes any more when the chip's longest silence within a telegram and one and a half characters have passed.
+/// A reply has ended when the chip's longest silence within a telegram and one and a half characters have passed.
 void SerialPort::telegram_over_uart(const std::vector<std::uint8_t>& bytes, std::optional<int> listen) {
   constexpr Tick kHalfCharacterBits = 11, kMore = 3;
   constexpr std::size_t kLongest = 512;

@@ -1,6 +1,6 @@
 #pragma once
-// The driver's SPI and UART ports on a simulated CPU: what a device maker writes for their MCU, with counters and, on
-// request, faults.
+// The driver's SPI and UART ports on a simulated CPU, which a device maker writes for their MCU; with counters and
+// optional faults.
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -29,9 +29,9 @@ struct UartPort {
   std::uint16_t interval = 0, tsdr = 0;  ///< dsdpv1_uart's
 };
 
-/// Over which port a program reaches the chip.
+/// The port through which a program reaches the chip.
 struct HostPort {
-  std::variant<std::monostate, SpiPort, UartPort> port;  ///< the first: the parallel one
+  std::variant<std::monostate, SpiPort, UartPort> port;  ///< std::monostate: the parallel one
   std::uint8_t address = 1;                              ///< ADR of the chip
   bool block_crc = false;                                ///< dsdpv1_spi's and dsdpv1_uart's
 };
@@ -41,18 +41,18 @@ enum class TelegramFault : std::uint8_t { kFlippedBit, kCut, kWrongParity, kBrea
 /// Must not move while the driver uses it.
 class SerialPort {
  public:
-  /// `cpu` lives longer.
+  /// `cpu` must outlive it.
   SerialPort(Cpu& cpu, const HostPort& port);
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
   ~SerialPort();
 
   dsdpv1_error open(dsdpv1_device& device, const dsdpv1_judge& judge);
-  /// Over SPI from the claim's frame to the release's; over the UART none are counted.
+  /// SPI: from the claim's frame to the release's; UART: none are counted.
   const HoldCounters& counters() const { return claims_.counters(); }
-  /// The next `times` telegrams of the CPU go wrong. `pause`: of TelegramFault::kPause.
+  /// Disturbs the CPU's next `times` telegrams. `pause`: for TelegramFault::kPause.
   void spoil(TelegramFault fault, int times, Tick pause);
-  /// Sends these bytes and their CRC, whatever they are; see `listen` of a scenario's host_telegram.
+  /// Sends any bytes and their CRC; see `listen` of a scenario's host_telegram.
   void telegram(std::vector<std::uint8_t> bytes, std::optional<int> listen);
 
  private:
@@ -68,8 +68,8 @@ class SerialPort {
   Cpu& cpu_;
   SerialPins& pins_;  ///< outlives the CPU
   HostPort port_;
-  std::unique_ptr<SpiMaster> spi_master_;    ///< of an SPI port
-  std::unique_ptr<UartSender> uart_sender_;  ///< of a UART port
+  std::unique_ptr<SpiMaster> spi_master_;    ///< for an SPI port
+  std::unique_ptr<UartSender> uart_sender_;  ///< for a UART port
   UartReceiver receiver_{{}};
   dsdpv1_spi spi_{};
   dsdpv1_uart uart_{};

@@ -10,7 +10,7 @@
 
 namespace dsdpv1::user_cpu {
 
-/// What goes wrong in a frame.
+/// Faults to inject into a frame.
 struct SpiFault {
   std::optional<std::size_t> flipped_bit;  ///< of MOSI, from 0
   std::optional<std::size_t> cut_after;    ///< bits after which XSS rises
@@ -18,7 +18,7 @@ struct SpiFault {
 
 class SpiMaster : public Transfer {
  public:
-  /// A frame, not before `at` nor before the gap is over. Bytes that a fault cuts off come in as FF.
+  /// Begins a frame, not before `at` nor before the gap has passed. Bytes cut off by a fault are received as FF.
   void begin(Tick at, std::vector<std::uint8_t> out, const SpiFault& fault = {});
   virtual const std::vector<std::uint8_t>& received() const = 0;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Something on a serial port that takes its time, edge by edge, while the program that began it waits.
+// An operation on a serial port that proceeds edge by edge, while the program that began it waits.
 #include "bus/time.hpp"
 
 namespace dsdpv1::user_cpu {
@@ -9,11 +9,11 @@ using bus::Tick;
 class Transfer {
  public:
   virtual ~Transfer() = default;
-  /// The tick of its next action, `bus::kNever` when there is none; may move while it waits for the chip.
+  /// The tick of its next action, `bus::kNever` without one; may change while it waits for the chip.
   virtual Tick next() const = 0;
   /// Acts at `now`, which is `next()`.
   virtual void run(Tick now) = 0;
-  /// It is over, since its last action.
+  /// True after its last action.
   virtual bool done() const = 0;
 };
 

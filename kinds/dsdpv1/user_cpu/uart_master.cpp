@@ -69,7 +69,7 @@ bool UartReceiver::level_at(Tick at) const {
   return level;
 }
 
-/// Characters whose stop bit's middle is before `now` have come.
+/// Collects the characters whose stop bit's middle is before `now`.
 void UartReceiver::hear(Tick now) {
   while (!edges_.empty() && sample_tick(kCells - 1) <= now) take_character();
 }

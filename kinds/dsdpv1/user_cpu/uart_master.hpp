@@ -11,11 +11,11 @@
 
 namespace dsdpv1::user_cpu {
 
-/// What goes wrong in a telegram; with break_at it ends there.
+/// Errors to inject into a telegram; break_at truncates it.
 struct UartFault : UartFaults {
-  std::optional<std::size_t> flipped_bit;  ///< of the data, from 0, least significant first; the parity fits it
+  std::optional<std::size_t> flipped_bit;  ///< of the data, from 0, least significant first; the parity is adapted
   std::optional<std::size_t> cut_after;    ///< characters
-  std::optional<Tick> talk_over;           ///< one more character, FF, so long after the last stop bit
+  std::optional<Tick> talk_over;           ///< sends one more character, FF, so long after the last stop bit
 };
 
 /// Sends on RXD.
@@ -24,7 +24,7 @@ class UartSender : public Transfer {
   void begin(Tick at, std::vector<std::uint8_t> bytes, const UartFault& fault = {});
 
  private:
-  /// Done when the last stop bit is over.
+  /// Complete when the last stop bit has ended.
   virtual void send(Tick at, std::vector<std::uint8_t> bytes, const UartFaults& faults) = 0;
 };
 
@@ -47,7 +47,7 @@ class PinUartSender : public UartSender {
   bool level_ = true;
 };
 
-/// Hears TXD at all times; a character whose parity or stop bit is wrong is left out and counted.
+/// Receives TXD at all times; a character with a wrong parity or stop bit is dropped and counted.
 class UartReceiver : public Transfer {
  public:
   explicit UartReceiver(const UartTiming& timing) : timing_(timing) {}
@@ -79,8 +79,8 @@ class UartReceiver : public Transfer {
   void take(Tick now);
 
   UartTiming timing_;
-  std::deque<Edge> edges_;            ///< since the begin of the character that comes
-  std::deque<Character> characters_;  ///< that nobody has asked for
+  std::deque<Edge> edges_;            ///< since the begin of the present character
+  std::deque<Character> characters_;  ///< not fetched yet
   std::uint64_t errors_ = 0;
   std::vector<std::uint8_t> bytes_;
   std::size_t n_ = 0;
