@@ -14,10 +14,10 @@ constexpr const char* kSchema = "dsdpv1-sim rtl-random";
 bool is_random(const StimulusResult& result) { return result.replayed.empty(); }
 
 void case_fields(Fields& out, const StimulusResult& result) {
-  out.field("number", result.cases, "which one, from 1");
-  out.field("seed", result.case_seed, "that it alone is made from");
-  out.field("stimulus", result.stimulus, "the file that it was written to, made shorter");
-  out.field("actions", result.actions, "that it has there");
+  out.field("number", result.cases, "its number, from 1");
+  out.field("seed", result.case_seed, "from which alone it is generated");
+  out.field("stimulus", result.stimulus, "the file of the shortened case");
+  out.field("actions", result.actions, "in that file");
 }
 
 void difference_fields(Fields& out, const Difference& difference) {
@@ -62,21 +62,21 @@ void coverage_fields(Fields& out, const StimulusResult& result) {
 void stimulus_fields(Fields& out, const StimulusResult& result) {
   const bool random = is_random(result);
   out.constant("schema", kSchema, "what this file is");
-  out.constant("version", "1.1", "of what it holds");
-  out.word("verdict", result.difference ? "different" : "same", {"same", "different"}, "of model and RTL");
+  out.constant("version", "1.1", "of the contents");
+  out.word("verdict", result.difference ? "different" : "same", {"same", "different"}, "model and RTL");
   out.field("rtl", only_if(!result.rtl.empty(), result.rtl), "the folder of `--rtl`; null: the reference RTL");
   out.field("fault", only_if(result.fault != 0, result.fault), "the number of `--fault`; null: none");
-  out.field("seed", result.seed, "of the random cases, and of what the reference RTL begins with");
+  out.field("seed", result.seed, "of the random cases, and of the reference RTL's initial values");
   out.field("replayed", only_if(!random, result.replayed), "the stimulus of `--replay`; null: random cases");
   out.field("cases", only_if(random, result.cases),
             "random cases, up to and including the one that differs; null: `--replay`");
-  out.field("cycles", result.counts.cycles, "that were compared and are the same");
-  out.field("pin_changes", result.counts.pin_changes, "likewise");
-  out.field("dpram_images", result.counts.dpram_images, "likewise");
+  out.field("cycles", result.counts.cycles, "compared and equal");
+  out.field("pin_changes", result.counts.pin_changes, "also");
+  out.field("dpram_images", result.counts.dpram_images, "also");
   out.object_or_null("case", random && result.difference ? &result : nullptr, case_fields,
                      "the random case that differs; null: none, or `--replay`");
   out.object_or_null("difference", result.difference, difference_fields,
-                     "the first one of what the stimulus file says; null: none");
+                     "the first difference when the stimulus file is played; null: none");
   out.object("coverage", result, coverage_fields, "what occurred");
 }
 

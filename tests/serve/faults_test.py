@@ -185,7 +185,7 @@ def junk_by_pty(serve):
     close_and_open_again(serve, fd)
 
 
-@fault("sends and does not read", "wait, as above. What it does not read is kept up to 1 MB; then one line says so, and the rest is thrown away",
+@fault("sends and does not read", "wait, as above. Unread bytes are kept up to 1 MB; then one line reports that, and the rest is discarded",
        [CONNECTED, WAITS, HUNG_UP, TURN])
 def slow_host(serve):
     with host(serve) as slow, host(serve) as other:
@@ -272,7 +272,7 @@ def silent_host(serve):
             check(read_to_the_end(silent) == "reset", "the silent one was not told")
 
 
-@fault("is killed in the middle of its telegrams (RST)", "wait; what was taken of it (2040 bytes at most) still goes on the line, its answers are for nobody",
+@fault("is killed in the middle of its telegrams (RST)", "wait; its bytes already accepted (2040 at most) are still sent on the line, their answers are discarded",
        [CONNECTED, WAITS, HUNG_UP, TURN])
 def killed_host(serve):
     with host(serve) as killed, host(serve) as other:

@@ -151,7 +151,7 @@ def thousands(number):
     return "{:,}".format(number).replace(",", " ")
 
 
-HEAD = """| flood | for | bytes offered | of them sent on the line | memory after 1 minute | at the end | at most | simulated time given up | behind real time at most | SIGINT until the end |
+HEAD = """| flood | for | bytes offered | of them sent on the line | memory after 1 minute | at the end | at most | simulated time given up | lag at most | SIGINT until the end |
 |---|---|---|---|---|---|---|---|---|---|"""
 
 
