@@ -319,7 +319,7 @@ class Page(unittest.TestCase):
         self.assertIn("No profile was made: perf is not installed.", text)
         self.assertIn("| `speed` | 11 | at least 10 x real time | met | 11..11 |", text)
         self.assertIn("1 of 1 goals are met.", text)
-        self.assertNotIn("What bounds the others", text)
+        self.assertNotIn("The others have these bounds", text)
         self.assertIn("the machine was busy", text)
 
     def test_a_goal_that_is_missed_has_its_limit_on_the_page(self):
