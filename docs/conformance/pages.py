@@ -8,16 +8,16 @@ ORIGIN = "<!-- Generated from docs/conformance/*.yaml by docs/conformance/genera
 
 CONFORMANCE = """# Conformance, clause by clause
 
-What the two documents say of this chip, in one line each, and how it is answered: the ruling of [chip.md](../docs/chip.md), or of
-[chip_rsu.md](../docs/chip_rsu.md), that settles how the line is read, the file of the model and of the reference RTL in which it is found first, the tests that assert it, and what they gave in the last recorded run. The
-documents are Chinese; the lines are our own words, and the documents stand above them.
+Each line is one statement of the two documents about this chip. It names the ruling of [chip.md](../docs/chip.md) or
+[chip_rsu.md](../docs/chip_rsu.md) that interprets it, its first file in the model and in the reference RTL, the tests that assert it, and their results in the last recorded run. The
+documents are Chinese; the lines are our words, and the documents take precedence.
 
-*Clause*: section, table (T) or figure (F) of the document, and behind the dash which of its statements; of tables the cell, bit or row. Clauses of the
-manual begin with M and the chapter. *Last run*: how many tests passed, of how many; a suite counts with each of its tests. A clause that cannot have
-a test gives its reason instead. Where no file of the RTL is named, the line speaks to the user or the master: then the model's file is that of the driver,
+*Clause*: section, table (T) or figure (F) of the document, and after the dash the statement; in tables the cell, bit or row. Clauses of the
+manual begin with M and the chapter. *Last run*: the number of tests passed, of how many; a suite counts with each of its tests. A clause that cannot have
+a test gives its reason instead. If no file of the RTL is named, the clause concerns the user or the master; the model's file is then that of the driver,
 the checks or the bus.
 
-The data are in `docs/conformance/`; how a clause, a ruling or a run's results get there is in [CONTRIBUTING.md](../CONTRIBUTING.md).
+The data are in `docs/conformance/`; [CONTRIBUTING.md](../CONTRIBUTING.md) explains how to add a clause, a ruling or a run's results.
 """
 
 
@@ -65,7 +65,7 @@ def part_text(root, part, run):
 
 
 def counts(owners, run):
-    """How many there are, with tests, with a reason, with neither; of those with tests: all passed, one failed, not run."""
+    """Numbers: total, with tests, with a reason, with neither; of those with tests: all passed, one failed, not run."""
     tested = [owner for owner in owners if owner.tests]
     found = [run.of(owner.tests) for owner in tested]
     good = sum(result is not None and result.passed == result.total for result in found)
@@ -90,7 +90,7 @@ def missing(data):
     bare = check.untested(data)
     reasoned = [clause for document in data.documents for clause in document.clauses if clause.reason]
     text += "Neither a test nor a reason: " + (", ".join(clause.name for clause in bare) or "none") + ".\n\n"
-    text += "With a reason why there can be none:\n\n" + head("clause", "reason")
+    text += "With a reason:\n\n" + head("clause", "reason")
     return text + "".join(row(clause.name, clause.reason) for clause in reasoned)
 
 
@@ -100,7 +100,7 @@ def rulings(root, data, run):
         for clause in document.clauses:
             for name in clause.rulings:
                 cited.get(name, []).append(clause.name)
-    text = "\n## The rulings\n\nWhat each says is in [chip.md](../docs/chip.md), R, SP and UA in [chip_rsu.md](../docs/chip_rsu.md). Without a clause: the documents are silent there.\n\n"
+    text = "\n## The rulings\n\n[chip.md](../docs/chip.md) has their texts; R, SP and UA are in [chip_rsu.md](../docs/chip_rsu.md). If no clause is named, the documents are silent.\n\n"
     text += head("ruling", "clauses", "model", "RTL", "tests", "last run")
     for ruling in data.rulings.values():
         text += row(ruling.name, ", ".join(cited[ruling.name]) or "-", files(root, "model", ruling.model),

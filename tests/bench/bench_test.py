@@ -320,7 +320,7 @@ class Page(unittest.TestCase):
         self.assertIn("| `speed` | 11 | at least 10 x real time | met | 11..11 |", text)
         self.assertIn("1 of 1 goals are met.", text)
         self.assertNotIn("The others have these bounds", text)
-        self.assertIn("the machine was busy", text)
+        self.assertIn("The machine was busy", text)
 
     def test_a_goal_that_is_missed_has_its_limit_on_the_page(self):
         missed = table.Outcome(rows.Row("slow", 10, "x", "What.", None, (), limit="Because."), [9.0])
