@@ -10,12 +10,12 @@ namespace dsdpv1::bus {
 
 /// One baud rate. Bit times are whole ticks at every rate (ruling S2: the chip's 48 MHz divided by a whole number).
 struct Baud {
-  std::string_view name;  ///< as GSD files and scenarios write it: "12M" ... "9.6k"
+  std::string_view name;  ///< as in GSD files and scenarios: "12M" ... "9.6k"
   Tick bit;               ///< ticks of one bit
   int slot_bits;          ///< T_SL, bit times
   int max_tsdr_bits;      ///< latest answer of a slave, bit times (ruling S3)
   int set_bits;           ///< T_SET, bit times from an event to the reaction of a master
-  int quiet_bits;         ///< T_QUI, bit times a repeater needs to fall silent
+  int quiet_bits;         ///< T_QUI, bit times that a repeater needs to fall silent
 };
 
 constexpr int kBaudCount = 10;
@@ -39,7 +39,7 @@ constexpr std::array<Baud, kBaudCount> kBauds = {{
 /// `index` 0..9; throws std::out_of_range for others.
 constexpr const Baud& baud(int index) { return kBauds.at(static_cast<std::size_t>(index)); }
 
-/// The index of a name of the table, nullopt for any other text.
+/// The index of a name in the table, nullopt for any other text.
 constexpr std::optional<int> baud_index(std::string_view name) {
   for (int i = 0; i < kBaudCount; ++i)
     if (baud(i).name == name) return i;

@@ -18,7 +18,7 @@ void PlanQueue::build(std::size_t leaves) {
   for (std::size_t node = leaves - 1; node > 0; --node) winners_[node] = better(node);
 }
 
-// Above a node whose winner is another place that plans what it did, nothing changes.
+// A node whose winner is another place with an unchanged plan does not change.
 void PlanQueue::set(std::size_t place, Tick at) {
   if (std::exchange(plans_[place], at) == at) return;
   for (std::size_t node = (leaves_ + place) / 2; node > 0; node /= 2) {
@@ -38,7 +38,7 @@ std::size_t PlanQueue::first_due(std::size_t from, Tick now) const {
   if (plan_of(1) > now || from >= size_) return kNone;
   if (from == 0) return first_due_below(1, now);
   std::size_t node = leaves_ + from;
-  for (; plan_of(node) > now; ++node) {  // the next to the right, of the greatest node that begins there
+  for (; plan_of(node) > now; ++node) {  // the next to the right, using the greatest node that begins there
     while (node % 2 == 1) node /= 2;
     if (node == 0) return kNone;
   }

@@ -1,7 +1,7 @@
 #pragma once
-// When each of several parties wants to act next, as a tournament: each inner node holds the winner of its two, the one
-// who acts first, so a change, the earliest of all and the next in order cost the logarithm of their number. The
-// parties are places 0, 1, ...: the order in which they were added, and in which those of the same tick act.
+// The next action times of several agents, as a tournament: each inner node holds the earlier of its two children, so a
+// change and a search for the earliest or the next in order have logarithmic cost. Agents are places 0, 1, ... in the
+// order of addition, which is also the order at equal ticks.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,23 +10,23 @@
 
 namespace dsdpv1::bus {
 
-/// Needs memory in `add` only.
+/// Allocates in `add` only.
 class PlanQueue {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   PlanQueue() { build(1); }
 
-  /// The new last place, which plans nothing yet.
+  /// Adds a last place without a plan.
   std::size_t add();
   void set(std::size_t place, Tick at);
   Tick at(std::size_t place) const { return plans_[place]; }
 
-  /// The earliest of all, kNever when nothing is planned.
+  /// The earliest plan, kNever without one.
   Tick earliest() const { return plan_of(1); }
-  /// The earliest of all but `place`, kNever when they plan nothing.
+  /// The earliest plan of all places except `place`, kNever without one.
   Tick earliest_other(std::size_t place) const;
-  /// The first place from `from` on, at most one after the last, that is due at `now` or before; else kNone.
+  /// The first place from `from` on (at most one after the last) that is due at `now` or before; else kNone.
   std::size_t first_due(std::size_t from, Tick now) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace dsdpv1::bus {
 namespace {
 
-/// Of a well-formed sequence.
+/// Requires a well-formed sequence.
 unsigned code_point(std::string_view sequence) {
   const auto first = static_cast<unsigned char>(sequence[0]);
   if (sequence.size() == 1) return first;
@@ -22,7 +22,7 @@ bool is_within(unsigned code, unsigned first, unsigned last) { return code >= fi
 
 bool is_control(unsigned code) { return code < 0x20 || is_within(code, 0x7F, 0x9F); }
 
-/// Separators of lines and paragraphs, and what Unicode's bidirectional algorithm takes orders from.
+/// Line and paragraph separators, and the controls of Unicode's bidirectional algorithm.
 bool is_order(unsigned code) {
   return is_within(code, 0x2028, 0x202E) || is_within(code, 0x2066, 0x2069) || is_within(code, 0x200E, 0x200F) ||
          code == 0x061C;
@@ -37,7 +37,7 @@ std::string escaped(unsigned code) {
   }
 }
 
-/// Appends the character at `at` and returns how many bytes it has.
+/// Appends the character at `at` and returns its size in bytes.
 std::size_t add(std::string_view text, std::size_t at, std::string& result) {
   const std::size_t size = utf8_sequence(text, at);
   if (size == 0) {

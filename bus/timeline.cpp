@@ -43,7 +43,7 @@ void Timeline::leave(std::size_t place) {
   asked_by_ = PlanQueue::kNone;
 }
 
-/// Asks those who have announced something, all but `except`, which is in the middle of its turn.
+/// Queries the agents that have announced a change, except `except`, which is in the middle of its turn.
 void Timeline::hear_news(const Agent* except) {
   std::size_t kept = 0;
   for (const std::size_t place : news_) {

@@ -1,11 +1,11 @@
 #pragma once
-// The order in which the parties of a bench act: masters, chips, user CPUs and scripts are agents; the timeline lets
-// them act in order of time, and at equal times in the order in which they were added (chips first, so that an output
-// of cycle n is seen by everybody who looks at the tick of cycle n).
+// The order of actions in a bench: masters, chips, user CPUs and scripts are agents. The timeline runs them in order of
+// time, and at equal times in the order of addition (chips first, so that an output of cycle n is visible to every
+// agent at the tick of cycle n).
 //
-// Nobody is polled: the timeline knows when each agent wants to act, and an agent whose plan changes announces it. In
-// one step everybody due at that tick has one turn, in order, as its plan is when its turn comes: who becomes due
-// through an earlier one acts in the same step, who becomes due through a later one in the next step at the same tick.
+// Agents are not polled: the timeline knows when each one acts next, and an agent whose plan changes announces it. In
+// one step every agent due at that tick has one turn, in order, according to its plan at that time. An agent made due
+// by an earlier one acts in the same step, one made due by a later one in the next step at the same tick.
 #include <cstddef>
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace dsdpv1::bus {
 
 class Timeline;
 
-/// Somebody who acts at points of simulated time. It may end before its timeline and after it.
+/// A participant that acts at points in simulated time. It may be destroyed before or after its timeline.
 class Agent {
  public:
   Agent() = default;
@@ -24,17 +24,16 @@ class Agent {
   Agent(const Agent&) = delete;
   Agent& operator=(const Agent&) = delete;
 
-  /// The tick of the next action, `kNever` when nothing is planned. May move earlier when others act on the agent.
+  /// The tick of the next action, `kNever` without a plan. May become earlier when others act on the agent.
   virtual Tick next() const = 0;
-  /// Acts at `now`, which is never before `next()` and never less than at an earlier call.
+  /// Acts at `now`, which is never before `next()` or an earlier call's.
   virtual void run(Tick now) = 0;
 
  protected:
-  /// `next()` may have become another: to be called by everything but `run` that changes what it depends on. Before or
-  /// after the change: the timeline does not ask at once, but when the agent that acts has had its turn. Costs little,
-  /// and nothing outside of a timeline.
+  /// Call this before or after any change, except in run(), that may alter next(): the timeline queries it after the
+  /// present agent's turn. Cheap, and without effect outside a timeline.
   void announce();
-  /// The same by one who knows: `next()` is `plan` now.
+  /// As announce(), if the caller knows the new value of next().
   void announce(Tick plan);
 
  private:
@@ -50,25 +49,25 @@ class Timeline {
   Timeline(const Timeline&) = delete;
   Timeline& operator=(const Timeline&) = delete;
 
-  /// An agent has one timeline (std::logic_error).
+  /// Throws std::logic_error if the agent already belongs to a timeline.
   void add(Agent& agent);
 
   /// The tick of the earliest planned action of any agent.
   Tick next();
-  /// The tick of the first turn of anybody but `agent`, which has its turn, at most the one after the limit of the
-  /// step: as long as it does nothing to others, nothing happens before that.
+  /// The tick of the first turn of any other agent while `agent` has its turn, at most one after the limit of the step:
+  /// nothing happens before it unless `agent` acts on others.
   Tick quiet_until(const Agent& agent);
-  /// It is quiet up to and including `tick`, where `agent` would act next: the step goes on to that tick, and this is
-  /// its turn there. False: it has to wait for it.
+  /// Extends the present turn of `agent` to `tick`, where it would act next, if no other agent is due up to and
+  /// including `tick`. Returns false if it has to wait for its turn.
   bool go_on(const Agent& agent, Tick tick);
   /// Runs every action due up to and including `until`; `now()` is then `until`.
   void run_until(Tick until);
-  /// Runs the actions of one tick, the earliest, if it is not after `limit`. False when there is none.
+  /// Runs the actions of one tick, the earliest, if it is not after `limit`. Returns false without one.
   bool step(Tick limit);
   Tick now() const { return now_; }
 
-  /// Each step asks every agent, and throws std::logic_error when one plans something else than it has announced: that
-  /// would be a silent fault. Always so in a debug build.
+  /// Each step queries every agent and throws std::logic_error if a plan differs from the announced one: that would be
+  /// a silent fault. Always on in a debug build.
   void check_announcements() { checks_ = true; }
 
  private:
@@ -84,14 +83,14 @@ class Timeline {
   void leave(std::size_t place);
   void compare(std::size_t place) const;
 
-  std::vector<Entry> agents_;  ///< null: it has ended
+  std::vector<Entry> agents_;  ///< null: destroyed
   PlanQueue plans_;
-  std::vector<std::size_t> news_;  ///< who has announced something that was not asked for yet
+  std::vector<std::size_t> news_;  ///< agents whose announcement has not been queried yet
   Tick now_ = 0;
-  Tick limit_ = kNever;  ///< of the step under way
-  // What `quiet_until` has found out stands until somebody else's plan is another.
+  Tick limit_ = kNever;  ///< of the present step
+  // The result of `quiet_until`, valid until another agent's plan changes.
   std::size_t asked_by_ = PlanQueue::kNone;
-  Tick others_at_ = kNever;  ///< when all but that place have their next turn
+  Tick others_at_ = kNever;  ///< the next turn of all other places
   bool checks_ = false;
 };
 

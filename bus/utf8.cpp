@@ -6,7 +6,7 @@
 namespace dsdpv1::bus {
 namespace {
 
-/// The well-formed sequences of Unicode, by their first byte; the bytes behind the second are 80..BF.
+/// The well-formed sequences of Unicode, by their first byte; bytes after the second are 80..BF.
 struct Utf8Form {
   unsigned char first_low, first_high, size;
   unsigned char second_low, second_high;

@@ -4,7 +4,7 @@
 
 namespace dsdpv1::bus {
 
-/// Bytes of the well-formed UTF-8 sequence that begins at `at`, 0 when it is none.
+/// Size in bytes of the well-formed UTF-8 sequence at `at`, 0 without one.
 std::size_t utf8_sequence(std::string_view text, std::size_t at);
 
 }  // namespace dsdpv1::bus

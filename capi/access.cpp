@@ -1,4 +1,4 @@
-// Accesses of the host bus as a whole: the edges of tb's own user CPUs, one after the other.
+// Complete accesses of the host bus: the same edges as those of tb's user CPUs.
 #include <algorithm>
 
 #include "capi/chip.hpp"
@@ -36,7 +36,7 @@ AccessTiming timing_of(const dpsim_access_timing* given) {
           own.data_setup,    own.data_hold, own.address_hold, own.cs_trail,  own.recovery};
 }
 
-/// Whether the chip has the pins of HostAccess, with their numbers.
+/// Whether the chip has the pins of HostAccess, with the same numbers.
 bool has_host_bus(const tb::PinTable& pins) {
   const auto is = [&pins](dsdpv1::Pin pin) {
     return number(pin) < pins.size() && std::string(pins[number(pin)].name) == name(pin);
@@ -45,7 +45,7 @@ bool has_host_bus(const tb::PinTable& pins) {
   return is(Pin::kCsr) && is(Pin::kRd) && is(Pin::kWr) && is(Pin::kA) && is(Pin::kDIn) && is(Pin::kDOut);
 }
 
-/// What was sampled; of a write nothing.
+/// Returns the sampled value; for a write, none.
 tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& access, std::uint64_t* end) {
   if (!has_host_bus(chip.kind.chip.pins()))
     capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");

@@ -135,7 +135,7 @@ dpsim_status dpsim_bus_next(dpsim_bus* bus, uint64_t* tick) {
         need(bus, "bus");
         need(tick, "tick");
         capi::need_outside(bus->clock);
-        // A command that was given now is still planned for a time that is over.
+        // A command given now is still planned for a time in the past.
         *tick = capi::tick_out(std::max(bus->timeline.next(), bus->timeline.now()));
       });
 }

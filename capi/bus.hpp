@@ -1,5 +1,5 @@
 #pragma once
-// A segment with all that is on it, behind the header's handle.
+// A segment with its stations, as the object of the header's handle.
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -27,10 +27,10 @@ struct Station {
   Kind kind = Kind::kChip;
 };
 
-/// What the header calls heard.
+/// Converts a telegram to the header's struct.
 dpsim_heard heard_of(const bus::WireTelegram& telegram);
 
-/// An event that names nothing yet.
+/// An event with default members.
 dpsim_event event_of(dpsim_event_type type, bus::Tick at);
 
 }  // namespace dsdpv1::capi
@@ -41,13 +41,13 @@ struct dpsim_bus {
   dpsim_bus(const dpsim_bus&) = delete;
   dpsim_bus& operator=(const dpsim_bus&) = delete;
 
-  /// Up to and including `tick`, which is not before now.
+  /// Runs up to and including `tick`, which is not before now.
   void run(bus::Tick tick);
   std::uint16_t next_station() const { return static_cast<std::uint16_t>(stations.size()); }
   void add_station(const capi::Station& station) { stations.push_back(station); }
-  /// Chips come first; whoever is no chip comes after the monitor.
+  /// Stations are ordered: chips, monitor, all others.
   void end_chips();
-  /// After a call in which changes were told: throws when one could not be kept.
+  /// After a call that reported changes: throws if one could not be kept.
   void check_changes();
   void tell(const dpsim_event& event) {
     if (event_fn == nullptr) return;
@@ -62,8 +62,8 @@ struct dpsim_bus {
   std::vector<capi::Station> stations;
   std::vector<std::unique_ptr<dpsim_chip>> chips;
   capi::Changes changes{clock};
-  std::unique_ptr<capi::LineTap> tap;     ///< null as long as chips may be added
-  std::unique_ptr<bus::Monitor> monitor;  ///< likewise
+  std::unique_ptr<capi::LineTap> tap;     ///< null while chips may be added
+  std::unique_ptr<bus::Monitor> monitor;  ///< null while chips may be added
   std::vector<std::unique_ptr<tb::ScenarioMasters>> scenarios;
   std::vector<std::unique_ptr<dpsim_master>> masters;
 

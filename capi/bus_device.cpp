@@ -37,7 +37,7 @@ std::uint8_t BusDevice::peek(std::uint16_t address) const {
   return chip_.peek(address);
 }
 
-/// Inside of a callback it is not to be moved.
+/// It must not be advanced inside a callback.
 void BusDevice::catch_up() const {
   if (!bus_.clock.calling) chip_.sync(now());
 }

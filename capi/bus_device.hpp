@@ -1,5 +1,5 @@
 #pragma once
-// A chip of a bus as a device: whoever moves it moves the bus.
+// A chip of a bus as a device: advancing it advances the bus.
 #include <vector>
 
 #include "capi/bus.hpp"
@@ -35,9 +35,9 @@ class BusDevice : public tb::PinDevice, private tb::ChipListener {
   void catch_up() const;
 
   dpsim_bus& bus_;
-  mutable tb::PinChip chip_;  ///< it leaves undone what nobody sees
-  const tb::PinMask inputs_;  ///< those that the caller sets
-  tb::PinMask told_ = 0;      ///< to `changes_`
+  mutable tb::PinChip chip_;  ///< skips unobservable work
+  const tb::PinMask inputs_;  ///< those set by the caller
+  tb::PinMask told_ = 0;      ///< reported to `changes_`
   tb::PinSink changes_;
   profibus::EventSink events_;
 };

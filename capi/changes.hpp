@@ -1,5 +1,5 @@
 #pragma once
-// Changes of pins on their way out: told at once, or kept until they are taken.
+// Changes of pins on their way to the caller: reported at once, or kept until they are taken.
 #include <algorithm>
 #include <cstddef>
 #include <new>
@@ -12,9 +12,9 @@ namespace dsdpv1::capi {
 
 class Changes {
  public:
-  /// `clock` of the object that they are told for.
+  /// `clock` of the object that reports them.
   explicit Changes(Clock& clock) : clock_(clock) {}
-  /// `fn` NULL: they are kept.
+  /// `fn` NULL: changes are kept.
   void tell(dpsim_change_fn fn, void* user) {
     fn_ = fn;
     user_ = user;
@@ -24,9 +24,9 @@ class Changes {
     const Callback inside(clock_);
     fn_(user_, &change);
   }
-  /// Whether they are told, not kept.
+  /// True if they are reported, not kept.
   bool are_told() const { return fn_ != nullptr; }
-  /// Tells one, in a call that is Running.
+  /// Reports one, in a call that is Running.
   void tell_running(const dpsim_change& change) { fn_(user_, &change); }
   /// Moves the oldest, at most `capacity`, to `changes`.
   std::size_t take(dpsim_change* changes, std::size_t capacity) {
@@ -36,13 +36,13 @@ class Changes {
     if (taken_ >= kept_.size() - taken_) forget_taken();
     return count;
   }
-  /// Those that are kept are of a time that is none any more.
+  /// Drops kept changes, whose time no longer applies.
   void forget() {
     kept_.clear();
     taken_ = 0;
     lost_ = false;
   }
-  /// After a call in which changes were added: throws std::bad_alloc when one could not be kept.
+  /// After a call that added changes: throws std::bad_alloc if one could not be kept.
   void check() {
     if (!lost_) return;
     lost_ = false;
@@ -50,7 +50,7 @@ class Changes {
   }
 
  private:
-  // It is called from inside of the core, through which no exception may go.
+  // Called from inside the core, through which no exception may pass.
   void keep(const dpsim_change& change) noexcept {
     try {
       kept_.push_back(change);

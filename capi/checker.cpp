@@ -21,7 +21,7 @@ struct dpsim_checker {
     checks->on_violation([this](const checks::Violation& violation) { tell(violation); });
   }
   void tell(const checks::Violation& violation);
-  /// The present tick moves on.
+  /// Advances the present tick.
   Tick at(std::uint64_t tick) {
     if (finished) fail(DPSIM_ERR_STATE, "the checker is finished");
     return clock.now = capi::tick_from(tick, clock.now);

@@ -41,9 +41,9 @@ void ChipEvents::add(const profibus::Event& event) const {
 
 namespace {
 
-constexpr std::size_t kTooLong = 1 << 20;  // longer than any run that a core takes
+constexpr std::size_t kTooLong = 1 << 20;  // longer than any run accepted by a core
 
-/// The pin's row of the table; throws for a number that there is not.
+/// The pin's row of the table; throws for an unknown number.
 const tb::PinInfo& pin_of(const capi::Kind& kind, std::uint16_t number) {
   const tb::PinTable& pins = kind.chip.pins();
   if (number >= pins.size())
@@ -59,7 +59,7 @@ void check_address(const dpsim_chip& chip, std::uint16_t address) {
   capi::need_range("address", address, 0, chip.kind.chip.cells() - 1);
 }
 
-/// The changes of the line that the characters are, those after `heard`.
+/// Applies the changes of the line for these characters, those after `heard`.
 void spell_out(dpsim_chip& chip, const bus::CharacterRun& run, Tick heard) {
   const tb::PinNumber line = chip.line_pin();
   bus::for_each_change(run, [&](Tick at, bool level) {
@@ -133,8 +133,7 @@ void dpsim_chip::watch(tb::PinMask pins) {
   device_->watch(sink_, pins);
 }
 
-// From the core straight on to the caller's function, which nothing comes after: all that this library adds to a
-// change.
+// Passes a change from the core directly to the caller's function; this is all that the library adds to a change.
 void dpsim_chip::tell(void* self, Tick at, PinNumber pin, Level level) {
   auto* own = static_cast<dpsim_chip*>(self);
   own->told_.tick = static_cast<std::uint64_t>(at);
@@ -168,7 +167,7 @@ Tick dpsim_chip::hear(const bus::CharacterRun& run) {
   return device_->now();
 }
 
-/// In a callback: of the line before what changes at its own tick.
+/// In a callback: the line's level before changes at the present tick.
 Level dpsim_chip::heard_level() const {
   const Tick before = device_->now() - 1;
   return before < heard_->start || heard_->level(before) ? 1 : 0;

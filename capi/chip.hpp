@@ -1,5 +1,5 @@
 #pragma once
-// A chip behind the header's handle, alone or on a bus.
+// A chip as the object of the header's handle, alone or on a bus.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace dsdpv1::capi {
 
-/// Events of a chip on their way out.
+/// Events of a chip on their way to the caller.
 class ChipEvents {
  public:
   ChipEvents(const Kind& kind, std::uint16_t station, Clock& clock) : kind_(kind), station_(station), clock_(clock) {}
@@ -33,7 +33,7 @@ class ChipEvents {
   void* user_ = nullptr;
 };
 
-/// What the header says of a chip by its options; throws for names and values that there are not.
+/// Converts the header's options; throws for unknown names and values.
 ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std::string& usual_name);
 
 }  // namespace dsdpv1::capi
@@ -46,21 +46,21 @@ struct dpsim_chip {
   using PinNumber = tb::PinNumber;
   static constexpr Tick kNotHeard = -1;
 
-  /// Alone: the core and nothing round it.
+  /// Without a bus: only the core.
   dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan);
-  /// The next station of a bus, whose user is the caller.
+  /// The next station of a bus, with the caller as its user.
   dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan, dpsim_bus& its_bus);
   dpsim_chip(const dpsim_chip&) = delete;
   dpsim_chip& operator=(const dpsim_chip&) = delete;
 
-  // All values are right, and no tick is before clock.now.
+  // All values are valid, and no tick is before clock.now.
   void set(Tick at, PinNumber pin, Level level) {
     if ((watched_ & tb::mask_of(pin)) == 0) return device_->set(at, pin, level);
     set_watched(at, pin, level);
   }
   void advance(Tick to) { device_->advance(to); }
-  /// Hears characters as a whole, from their start on: the tick up to which it needs none of their changes, kNotHeard:
-  /// it needs all. Of a chip alone.
+  /// Receives characters as a whole, from their start on: returns the tick up to which it needs none of their changes;
+  /// kNotHeard: it needs all. For a chip without a bus.
   Tick hear(const dsdpv1::bus::CharacterRun& run);
   Level level(PinNumber pin) const {
     if (heard_ != nullptr && pin == line_pin()) return heard_level();
@@ -69,14 +69,14 @@ struct dpsim_chip {
   void watch(tb::PinMask pins);
   tb::PinDevice& device() { return *device_; }
   const tb::PinDevice& device() const { return *device_; }
-  /// The input that is the line when the chip is on a bus.
+  /// The input that receives the line if the chip is on a bus.
   PinNumber line_pin() const { return kind.chip.board_pins().rxd; }
 
-  /// Throws unless the pin is an input and has such a level.
+  /// Throws unless the pin is an input and can have this level.
   void check(std::uint16_t pin, Level level) const {
     if (pin >= levels_.size() || !levels_[pin].has(level)) refuse(pin, level);
   }
-  /// Sets such a pin at a time that is not over; else throws.
+  /// Sets such a pin at a time that is not in the past; else throws.
   void set_checked(std::uint64_t tick, std::uint16_t pin, Level level) {
     check(pin, level);
     const Tick at = capi::tick_from(tick, clock.now);
@@ -99,7 +99,7 @@ struct dpsim_chip {
  private:
   struct Levels {
     Level low = 0;
-    std::uint16_t count = 0;  ///< from `low` on; 0: it is not to be set
+    std::uint16_t count = 0;  ///< from `low` on; 0: it cannot be set
     bool has(Level level) const { return static_cast<std::uint16_t>(level - low) < count; }
   };
   dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, std::unique_ptr<tb::PinDevice> device);
@@ -115,5 +115,5 @@ struct dpsim_chip {
   tb::PinMask watched_ = 0;
   tb::PinSink sink_;
   dpsim_change told_{};
-  const dsdpv1::bus::CharacterRun* heard_ = nullptr;  ///< while it is
+  const dsdpv1::bus::CharacterRun* heard_ = nullptr;  ///< during the call
 };

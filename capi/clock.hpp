@@ -1,5 +1,5 @@
 #pragma once
-// Ticks of the header and of the library, which has them signed; the time of an object, and its callbacks.
+// Converts ticks of the header to those of the library, which are signed; an object's time and callback state.
 #include <cstdint>
 #include <utility>
 
@@ -11,11 +11,11 @@ namespace dsdpv1::capi {
 using bus::Tick;
 
 struct Clock {
-  Tick now = 0;          ///< to which the object was brought by the last call
-  bool calling = false;  ///< it is inside of a callback, where it must not be run or changed
+  Tick now = 0;          ///< to which the last call advanced the object
+  bool calling = false;  ///< inside a callback, where the object must not be run or changed
 };
 
-/// Around each callback of an object.
+/// Used around each callback of an object.
 class Callback {
  public:
   explicit Callback(Clock& clock) : clock_(clock), before_(std::exchange(clock.calling, true)) {}
@@ -29,12 +29,12 @@ class Callback {
 };
 
 [[noreturn]] void refuse_inside();
-/// At the beginning of each call that runs or changes an object.
+/// Called at the beginning of each call that runs or changes an object.
 inline void need_outside(const Clock& clock) {
   if (clock.calling) refuse_inside();
 }
 
-/// In the place of need_outside: all that is told within this call is a callback, which needs no Callback of its own.
+/// Replaces need_outside: everything reported within this call is a callback and needs no Callback.
 class Running {
  public:
   explicit Running(Clock& clock) : clock_(clock) {
@@ -50,10 +50,10 @@ class Running {
 };
 
 [[noreturn]] void refuse_tick(std::uint64_t tick, Tick now);
-/// One that is not before `now`.
+/// A tick that is not before `now`.
 inline Tick tick_from(std::uint64_t tick, Tick now) {
   const auto past = static_cast<std::uint64_t>(now);
-  if (tick - past > DPSIM_LAST_TICK - past) refuse_tick(tick, now);  // what is before it wraps
+  if (tick - past > DPSIM_LAST_TICK - past) refuse_tick(tick, now);  // earlier ticks wrap
   return static_cast<Tick>(tick);
 }
 inline Tick tick_in(std::uint64_t tick) { return tick_from(tick, 0); }

@@ -25,7 +25,7 @@ dpsim_status keep(dpsim_status status, const char* function, const char* text) {
   return status;
 }
 
-/// Files and texts say by themselves where they are wrong. What they quote steers no terminal and is one line.
+/// Errors about files and texts already contain their place. Quoted text is made one line without control effects.
 dpsim_status keep_input(std::string text) {
   has_no_memory = false;
   message() = std::move(text);

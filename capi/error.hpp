@@ -1,5 +1,5 @@
 #pragma once
-// How a call of the C API fails: with an exception inside of the library, and at its edge with a code and a message.
+// Failure of a C API call: an exception inside the library, a code and a message at its boundary.
 #include <cstddef>
 #include <exception>
 #include <stdexcept>
@@ -18,7 +18,7 @@ class Error : public std::runtime_error {
 /// Turns the exception that is being handled into its status, and keeps "function: what is wrong" for this thread.
 dpsim_status note_error(const char* function) noexcept;
 
-/// The body of a function of the API: whatever it throws ends here.
+/// The body of a function of the API: catches all exceptions.
 template <class Body>
 dpsim_status guarded(const char* function, const Body& body) noexcept {
   try {
@@ -30,11 +30,11 @@ dpsim_status guarded(const char* function, const Body& body) noexcept {
 }
 
 [[noreturn]] void fail(dpsim_status status, const std::string& text);
-/// A pointer that must not be NULL; `name` as the header calls it.
+/// A pointer that must not be NULL; `name` is its name in the header.
 inline void need(const void* pointer, const char* name) {
   if (pointer == nullptr) fail(DPSIM_ERR_ARGUMENT, std::string(name) + " is NULL");
 }
-/// A buffer of `count` elements, NULL only when there are none.
+/// A buffer of `count` elements, NULL only if `count` is 0.
 inline void need_buffer(const void* pointer, std::size_t count, const char* name) {
   if (count != 0) need(pointer, name);
 }

@@ -20,7 +20,7 @@ using capi::need;
 struct dpsim_gsd {
   bus::Gsd gsd;
   std::vector<bus::GsdDiagnostic> remarks;
-  std::string text;  ///< of the last call that gave one
+  std::string text;  ///< of the last call that returned one
 };
 
 namespace {

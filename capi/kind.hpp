@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of chips that the library has.
+// The kinds of chips in the library.
 #include <deque>
 #include <memory>
 #include <string>
@@ -12,13 +12,13 @@
 
 namespace dsdpv1::capi {
 
-/// A chip to be made.
+/// A chip to be created.
 struct ChipPlan {
   std::string name;
-  std::unique_ptr<tb::OwnSettings> settings;  ///< of ChipKind::make_chip_settings
+  std::unique_ptr<tb::OwnSettings> settings;  ///< from ChipKind::make_chip_settings
   tb::Engine engine = tb::Engine::kSkip;
 
-  /// Good as long as the plan.
+  /// Valid as long as the plan.
   tb::ChipRequest request() const { return {name, *settings, engine}; }
 };
 
@@ -26,13 +26,13 @@ struct Kind {
   explicit Kind(const tb::ChipKind& its_chip);
 
   const tb::ChipKind& chip;
-  const std::vector<tb::Level> reset_levels;  ///< before the first call of a chip fresh from power-on, by pin
+  const std::vector<tb::Level> reset_levels;  ///< before the first call of a chip at power-on, by pin
   const std::vector<Parameter> parameters;
 };
 
 /// The first one is the default.
 const std::deque<Kind>& kinds();
-/// Throws for a kind that there is not; NULL and "" are the first one.
+/// Throws for an unknown kind; NULL and "" are the first one.
 const Kind& kind_of(const char* name);
 const Kind* find_kind(const char* name);
 

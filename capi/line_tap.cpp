@@ -11,7 +11,7 @@ LineTap::LineTap(bus::Segment& segment, Changes& changes, std::function<void()> 
   segment.attach("line", this);
 }
 
-// A telegram under way is told by its changes from here on.
+// A telegram in progress is reported by its changes from here on.
 void LineTap::watch(bus::Tick now, std::uint32_t what) {
   segment_.cut_run(now);
   watched_ = what;

@@ -1,5 +1,5 @@
 #pragma once
-// What the caller hears of the line and of the drivers on it.
+// Reports the line and its drivers to the caller.
 #include <functional>
 #include <optional>
 
@@ -11,15 +11,15 @@ namespace dsdpv1::capi {
 
 class LineTap : public bus::Listener {
  public:
-  /// Listens as a station of its own. Both must outlive it. `on_activity` is told of each change and each telegram on
-  /// the line before anybody that is attached later.
+  /// Attaches as a separate station. Both must outlive it. Calls `on_activity` for each change and each telegram on the
+  /// line before any station attached later.
   LineTap(bus::Segment& segment, Changes& changes, std::function<void()> on_activity);
 
-  /// A set of DPSIM_WATCH_...; at `now`, to which the bus has come.
+  /// A set of DPSIM_WATCH_...; `now` is the bus's present tick.
   void watch(bus::Tick now, std::uint32_t what);
   /// The level of the line at `now`.
   bool level(bus::Tick now) const;
-  /// A driver on the segment, as `bus::Segment::on_drive` tells it.
+  /// A driver on the segment, see `bus::Segment::on_drive`.
   void driven(std::uint16_t station, bus::Tick at, bool enabled, bool level);
 
   void line_changed(bus::Tick at, bool level) override;
@@ -38,7 +38,7 @@ class LineTap : public bus::Listener {
   std::function<void()> on_activity_;
   std::uint32_t watched_ = 0;
   std::vector<Driver> drivers_;           ///< by station
-  std::optional<bus::CharacterRun> run_;  ///< on the line, none of its levels is driven
+  std::optional<bus::CharacterRun> run_;  ///< on the line, without driven levels
   bus::Bytes bytes_;                      ///< of `run_`
 };
 

@@ -1,4 +1,4 @@
-// What masters of both classes have in common.
+// Shared by masters of both classes.
 #include "capi/master.hpp"
 
 #include <utility>
@@ -123,7 +123,7 @@ bus::AcyclicCallback acyclic_done(dpsim_master& master, std::uint32_t id, std::u
 
 namespace {
 
-/// 0 stands for what the rate makes of it, -1 for 0.
+/// 0 means the default for the rate, -1 means 0.
 std::optional<int> optional_of(const char* name, int value, int low, int high) {
   if (value != 0 && value != -1) capi::need_range(name, value, low, high);
   if (value == 0) return std::nullopt;
@@ -136,7 +136,7 @@ std::optional<int> positive(const char* name, int value, int low, int high) {
   return value;
 }
 
-// Ranges as scenarios have them.
+// Ranges as in scenarios.
 bus::BusParameters parameters_of(const dpsim_master_options& options) {
   bus::BusParameters bus;
   bus.slot_bits = positive("slot_bits", options.slot_bits, 37, 16383);

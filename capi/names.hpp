@@ -1,4 +1,4 @@
-// The functions and objects of C stand outside of every namespace: here they get our names without the common prefix.
+// C functions and objects are outside every namespace: here they get names without the common prefix.
 #pragma once
 
 namespace dsdpv1 {

@@ -13,7 +13,7 @@ namespace {
 
 using tb::keys::Field;
 
-/// "[7, 2, 4]", as the keys have the default of a list.
+/// "[7, 2, 4]", the default of a list in the keys.
 std::vector<std::int64_t> numbers_of(std::string list) {
   std::replace_if(
       list.begin(), list.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');

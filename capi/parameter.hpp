@@ -1,5 +1,5 @@
 #pragma once
-// The parameters of a kind of chip as numbers, from the keys that scenarios have for it.
+// The parameters of a kind of chip as numbers, derived from its keys in scenarios.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,17 +14,17 @@ namespace dsdpv1::capi {
 struct Kind;
 
 struct Parameter {
-  std::string name;              ///< the key; of a list each number for itself: "uart_gaps[3]"
+  std::string name;              ///< the key; each number of a list separately: "uart_gaps[3]"
   const tb::keys::Field* field;  ///< the key
   std::optional<std::size_t> element;
   tb::keys::Range range;
   std::int64_t default_value;
 };
 
-/// All integers, and those of lists of them, but for straps: their levels are set at the pins.
+/// All integers and integers in lists, except straps: their levels are set at the pins.
 std::vector<Parameter> parameters_of(const tb::ChipKind& chip);
 
-/// Throws for a name that there is not and for a value out of range.
+/// Throws for an unknown name or a value out of range.
 void set_parameters(const dpsim_parameter* values, std::size_t count, const Kind& kind, tb::OwnSettings& settings);
 
 }  // namespace dsdpv1::capi

@@ -1,4 +1,4 @@
-// What kinds, pins, parameters and reasons there are, by number.
+// Kinds, pins, parameters and reasons by number.
 #include "capi/error.hpp"
 #include "capi/kind.hpp"
 #include "capi/names.hpp"

@@ -1,4 +1,4 @@
-// Scenarios: the bench behind a handle.
+// Scenarios: the bench as the object of a handle.
 #include "dsdpv1/run.h"
 #include "capi/names.hpp"
 
@@ -36,7 +36,7 @@ namespace {
 
 std::string text_of(const char* text) { return text == nullptr ? "" : text; }
 
-// It needs libdw, which programs with this library need not have.
+// It needs libdw, which programs that use this library need not have.
 void refuse_boards(const Scenario& scenario) {
   const tb::ChipKind& kind = *scenario.kind;
   for (const tb::scenario::Slave& slave : scenario.slaves)
@@ -119,8 +119,7 @@ dpsim_status dpsim_run_create(const dpsim_run_options* options, dpsim_run** run)
         const dpsim_run_options given = capi::options_of(options, "options");
         auto made = std::make_unique<dpsim_run>(capi::load_scenario(given), options_of(given));
         refuse_boards(made->scenario);
-        // Whatever the bench finds wrong with the scenario and its files it says now; the files of the run it makes
-        // later.
+        // Faults of the scenario and its files are found now; the files of the run are made later.
         tb::RunOptions trial = made->options;
         trial.log = trial.wave.path = trial.capture.path = "";
         const tb::Bench bench(made->scenario, trial, tb::make_pin_execution());

@@ -1,5 +1,5 @@
 #pragma once
-// What the caller hears of a run, or has kept of it.
+// Reports a run to the caller, or keeps what the caller asked for.
 #include <deque>
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ namespace dsdpv1::capi {
 
 class RunWatch : public tb::Observer, private bus::Listener {
  public:
-  /// Of a run of `scenario`, which must outlive it.
+  /// For a run of `scenario`, which must outlive it.
   explicit RunWatch(const tb::scenario::Scenario& scenario);
 
   // --- Before the run.
@@ -24,13 +24,13 @@ class RunWatch : public tb::Observer, private bus::Listener {
   /// A set of DPSIM_KEEP_...
   void keep(std::uint32_t what) { kept_ = what; }
   bool wants_pins() const { return change_fn_ != nullptr || (kept_ & DPSIM_KEEP_CHANGES) != 0; }
-  /// To the line, as a station of its own.
+  /// Attaches to the line as a separate station.
   void listen(bus::Segment& segment);
 
   // --- After it.
   Changes& changes() { return changes_; }
   const std::vector<dpsim_heard>& telegrams() const { return telegrams_; }
-  /// Throws when a change could not be kept.
+  /// Throws if a change could not be kept.
   void check() { changes_.check(); }
 
   /// The slave's number.

@@ -1,4 +1,4 @@
-// The masters of a scenario on a bus of the caller's.
+// The masters of a scenario on the caller's bus.
 #include "capi/scenario.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ bool is_acyclic(ActionKind service) {
   return service == ActionKind::kC1Read || service == ActionKind::kC1Write || service >= ActionKind::kC2Connect;
 }
 
-/// Error_Decode and the error codes, which a negative answer has in the place of data.
+/// Error_Decode and the error codes, which a negative answer has instead of data.
 std::uint32_t codes_of(const tb::Reply& reply) {
   if (reply.outcome != bus::AcyclicOutcome::kNegative || reply.data.size() != 3) return 0;
   return std::uint32_t{reply.data[0]} << 16U | std::uint32_t{reply.data[1]} << 8U | reply.data[2];
@@ -66,7 +66,7 @@ void tell_reply(const dpsim_master& master, ActionKind service, const tb::Reply&
   master.bus.tell(event);
 }
 
-/// Handles of all of them, the script after them: it acts on what they have done.
+/// Makes handles of all, then starts the script, which acts on their results.
 std::vector<dpsim_master*> take(dpsim_bus& bus, tb::ScenarioMasters& own, bus::StationId first) {
   std::vector<dpsim_master*> handles;
   const auto add = [&](std::uint8_t address, auto& master) {
@@ -104,7 +104,7 @@ dpsim_status dpsim_bus_add_scenario(dpsim_bus* bus, const dpsim_scenario_options
           capi::fail(DPSIM_ERR_SPACE, "the scenario has " + std::to_string(needed) + " masters, capacity is " +
                                           std::to_string(capacity));
         }
-        {  // whatever is wrong is found before anybody is on the bus, which nobody can leave again
+        {  // find all faults before any station is on the bus, because none can leave it
           bus::Segment segment;
           const bus::Timeline timeline;
           const tb::ScenarioMasters trial(scenario, segment, timeline);

@@ -1,5 +1,5 @@
 #pragma once
-// A scenario as the header's options name it.
+// The scenario named in the header's options.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace dsdpv1::capi {
 
-/// NULL only when there are none.
+/// NULL only if there are none.
 std::vector<tb::scenario::Setting> settings_of(const char* const* settings, std::uint32_t count);
 
-/// Of options with path, text and settings. Throws InputError for a scenario that is wrong.
+/// For options with path, text and settings. Throws InputError for a wrong scenario.
 template <class Options>
 tb::scenario::Scenario load_scenario(const Options& options) {
   need(options.path, "path");

@@ -1,4 +1,4 @@
-// The model beside somebody's chip on the same inputs: the first difference of their outputs.
+// Compares the model with a DUT on the same inputs: finds the first difference of their outputs.
 #include "capi/names.hpp"
 #include "dsdpv1/chip.h"
 
@@ -23,8 +23,8 @@ cosim::RtlTiming timing_of(const capi::Kind& kind, const capi::ChipPlan& plan) {
 
 }  // namespace
 
-/// Changes of both sides come in order of time. A tick is over, and what it has ended with is compared, when something
-/// later comes.
+/// Changes of both sides come in order of time. A tick ends, and its final levels are compared, when a later change
+/// arrives.
 struct dpsim_scoreboard {
  public:
   dpsim_scoreboard(const capi::Kind& kind, const capi::ChipPlan& plan, const dpsim_scoreboard_options& options)
@@ -69,11 +69,11 @@ struct dpsim_scoreboard {
   }
 
  private:
-  /// Of both sides. That of an input never changes here.
+  /// Levels of both sides. For an input they never differ.
   struct Levels {
     Level model = 0, dut = 0;
-    bool moved = false;        ///< the model's, since they were alike
-    Tick since = bus::kNever;  ///< they are different
+    bool moved = false;        ///< the model's level has changed since they were equal
+    Tick since = bus::kNever;  ///< start of the difference
     bool differ() const { return model != dut && model != tb::kLevelX; }
   };
 
@@ -116,7 +116,7 @@ struct dpsim_scoreboard {
     end_tick(to);
   }
 
-  /// All levels stay up to `next`.
+  /// All levels are stable up to `next`.
   void end_tick(Tick next) {
     if (next > begin_ && next > now_ && !found()) {
       now_ = std::max(now_, begin_);
@@ -125,7 +125,7 @@ struct dpsim_scoreboard {
     now_ = std::max(now_, next);
   }
 
-  /// Of several that have been different for too long the one counts that was the first.
+  /// If several have differed for too long, the earliest counts.
   void compare(std::size_t pin, Tick next) {
     Levels& levels = pins_[pin];
     if (!levels.differ()) {
@@ -154,11 +154,11 @@ struct dpsim_scoreboard {
   dpsim_chip chip_;
   const cosim::RtlTiming timing_;
   const Tick tolerance_, warm_up_;
-  Tick now_ = 0;  ///< the tick that is not over
+  Tick now_ = 0;  ///< the present tick
   Tick begin_;    ///< of the comparison; kNever: RESET is high
   std::vector<Levels> pins_;
   Level register_ = tb::kLevelZ, settled_ = tb::kLevelZ;  ///< RtlTiming::delayed of the DUT: now, and before this tick
-  cosim::DelayedOutput pad_;                              ///< its pin; needs memory, so not in the model's callbacks
+  cosim::DelayedOutput pad_;                              ///< its pin; allocates, so not in the model's callbacks
   dpsim_scoreboard_result result_{};
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Structs of the header that begin with their size, as their caller has been compiled with it.
+// Structs of the header that begin with their size, as compiled by the caller.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace dsdpv1::capi {
 
-/// The size of the first version of a struct; where one has grown, its specialisation says what it began with.
+/// The size of the first version of a struct; specialised for structs that have grown.
 template <class T>
 inline constexpr std::uint32_t kFirstSize = sizeof(T);
 
@@ -20,7 +20,7 @@ void check_size(const T& given, const char* name) {
                            std::to_string(sizeof(T)) + " here");
 }
 
-/// What the caller has filled; NULL stands for one with nothing but defaults.
+/// The caller's struct; NULL means all defaults.
 template <class T>
 T options_of(const T* given, const char* name) {
   T options{};
@@ -30,7 +30,7 @@ T options_of(const T* given, const char* name) {
   return options;
 }
 
-/// Fills the caller's struct as far as the caller knows it.
+/// Fills the caller's struct up to its size.
 template <class T>
 void give(T filled, T* result, const char* name) {
   need(result, name);

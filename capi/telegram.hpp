@@ -1,5 +1,5 @@
 #pragma once
-// Telegrams as the header and as the bus has them.
+// Converts telegrams between the header's and the bus's format.
 #include "bus/telegram/telegram.hpp"
 #include "dsdpv1/telegram.h"
 

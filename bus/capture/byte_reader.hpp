@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of either byte order out of a binary file.
+// Reads numbers of either byte order from a binary file.
 #include <cstdint>
 #include <istream>
 #include <string>
@@ -19,12 +19,12 @@ inline std::uint64_t number_in(std::string_view bytes, bool big_endian) {
   return value;
 }
 
-/// A binary stream that knows where it is.
+/// A binary stream that tracks its position.
 class ByteReader {
  public:
   explicit ByteReader(std::istream& in) : in_(in) {}
 
-  /// False at the end of the file; throws CaptureError when it comes before the last of them.
+  /// Returns false at the end of the file; throws CaptureError if the file ends within the bytes.
   bool read(std::size_t size, std::string& to) {
     to.resize(size);
     in_.read(to.data(), static_cast<std::streamsize>(size));
@@ -33,7 +33,7 @@ class ByteReader {
     if (count != size && count != 0) fail_short();
     return count == size;
   }
-  /// The end of the file is not allowed here.
+  /// The file must not end here.
   void need(std::size_t size, std::string& to) {
     if (size != 0 && !read(size, to)) fail_short();
     if (size == 0) to.clear();

@@ -76,7 +76,7 @@ void Collector::finish() {
   open_.reset();
 }
 
-/// Those up to its end; later ones are of the telegram that is on the line now.
+/// Takes the flags up to the telegram's end; later ones belong to the present telegram.
 void Collector::take_flags() {
   const auto later = std::stable_partition(
       flags_.begin(), flags_.end(), [this](const Flag& flag) { return flag.at <= open_->end; });

@@ -1,5 +1,5 @@
 #pragma once
-// Captured telegrams out of what a monitor tells of the line.
+// Makes captured telegrams from the monitor's reports.
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,8 +9,7 @@
 
 namespace dsdpv1::bus::capture {
 
-/// Holds a telegram until the next one begins: what was flagged meanwhile, and the characters after a wrong byte, are
-/// its own.
+/// Keeps a telegram until the next one begins: flags raised meanwhile, and characters after a wrong byte, belong to it.
 class Collector {
  public:
   explicit Collector(TakeTelegram take) : take_(std::move(take)) {}
@@ -18,11 +17,11 @@ class Collector {
   void telegram(const WireTelegram& telegram);
   void flagged(const Flag& flag);
   void skipped(const ReceivedCharacter& character, int baud);
-  /// The last one is taken.
+  /// Passes on the last telegram.
   void finish();
 
-  static constexpr std::size_t kMostRemarks = 16;  ///< of one telegram; what is beyond is left out
-  static constexpr std::size_t kMostBytes = 4096;  ///< of one telegram: noise without an end goes into several
+  static constexpr std::size_t kMostRemarks = 16;  ///< per telegram; further ones are dropped
+  static constexpr std::size_t kMostBytes = 4096;  ///< per telegram: endless noise is split into several
 
  private:
   void begin(const WireTelegram& telegram);
@@ -31,7 +30,7 @@ class Collector {
 
   TakeTelegram take_;
   std::optional<CapturedTelegram> open_;
-  std::vector<Flag> flags_;  ///< not yet given to a telegram
+  std::vector<Flag> flags_;  ///< not assigned to a telegram yet
 };
 
 }  // namespace dsdpv1::bus::capture

@@ -55,7 +55,7 @@ bool is_row(const std::vector<std::string>& cells) {
       cells.begin(), cells.end(), [](const std::string& cell) { return decimal(cell).has_value(); });
 }
 
-/// What the first column says of its unit; 0 when it is no time.
+/// The unit named in the first column's heading; 0 if it is not a time.
 double seconds_of(const std::string& heading) {
   const std::string name = lower_case(heading);
   const auto has = [&name](const char* part) { return name.find(part) != std::string::npos; };
@@ -87,7 +87,7 @@ class Table {
     throw CaptureError(fmt::format("line {}: {}", number_, what));
   }
 
-  /// False at the end.
+  /// Returns false at the end.
   bool next(std::string& line) {
     line.clear();
     ++number_;
@@ -113,7 +113,7 @@ class Table {
     if (name.find("channels") != std::string::npos) names_ = cells_of(value);
   }
 
-  /// The first line of the table, headings or not.
+  /// The first line of the table, which may be headings.
   void begin(const std::vector<std::string>& cells) {
     const bool row_already = is_row(cells);
     time_unit_ = row_already ? (clock_ ? 0 : 1) : seconds_of(cells[0]);
@@ -158,7 +158,7 @@ class Table {
     if (!time || !(std::abs(*time) * time_unit_ < kLongestTime))
       fail(fmt::format("time {}, allowed is a number", cells[0].substr(0, 40)));
     const Tick at = std::llround(*time * time_unit_ * static_cast<double>(kTicksPerSecond));
-    if (!zero_) zero_ = std::min<Tick>(at, 0);  // a trigger may be after the first change
+    if (!zero_) zero_ = std::min<Tick>(at, 0);  // a trigger may come after the first change
     return at - *zero_;
   }
 
@@ -170,7 +170,7 @@ class Table {
   std::vector<std::size_t> chosen_;
   bool begun_ = false;
   std::size_t columns_ = 0, first_ = 0;
-  double time_unit_ = 0;  ///< seconds of a unit in the first column; 0: samples of the clock
+  double time_unit_ = 0;  ///< seconds per unit of the first column; 0: samples of the clock
   bool counted_ = false;  ///< the first column is the number of the sample
   std::uint64_t sample_ = 0;
   std::optional<Tick> zero_;

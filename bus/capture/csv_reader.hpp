@@ -1,6 +1,6 @@
 #pragma once
-// Levels out of the tables that logic analysers export: a time and levels a line (Saleae Logic), or the levels of one
-// sample a line (sigrok).
+// Reads levels from tables exported by logic analysers: a time and levels per line (Saleae Logic), or the levels of one
+// sample per line (sigrok).
 #include <cstdint>
 #include <iosfwd>
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace dsdpv1::bus::capture {
 
-/// Whether a file that begins so is such a table, and no hexadecimal text.
+/// Whether a file with this beginning is such a table and not hexadecimal text.
 bool begins_as_csv(std::string_view beginning);
 
-/// Gives `taker` the signals that it wants, a line at a time: the samples a second, where the table says so.
-/// Throws CaptureError, "line N: ..." where a line is wrong.
+/// Passes the chosen signals to `taker`, a line at a time; returns the samples per second if the table gives them.
+/// Throws CaptureError, "line N: ..." for a wrong line.
 std::optional<std::uint64_t> read_csv_levels(std::istream& in, LevelTaker& taker);
 /// The telegrams of one signal.
 LogicSource read_csv(std::istream& in, const LogicSettings& settings, const TakeTelegram& take);

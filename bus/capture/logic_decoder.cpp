@@ -16,7 +16,7 @@
 namespace dsdpv1::bus::capture {
 namespace {
 
-/// Without its scope.
+/// The name without its scope.
 std::string leaf(const std::string& name) { return lower_case(name.substr(name.rfind('.') + 1)); }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -58,7 +58,7 @@ std::size_t choose_signal(const std::vector<std::string>& names, const std::stri
   throw CaptureError("several signals, name that of the line with --signal, allowed are " + listed(names));
 }
 
-/// A segment at one rate with nobody but the monitor on it.
+/// A segment at one rate, with only the monitor on it.
 class LogicDecoder::Line {
  public:
   Line(int baud, bool inverted, TakeTelegram take)
@@ -111,7 +111,7 @@ void LogicDecoder::change(const Change& change) {
 
 void LogicDecoder::finish(Tick end) {
   if (!line_) decide(end);
-  // A telegram that ends with the recording is heard in the middle of its last stop bit.
+  // A telegram that ends with the recording is decoded in the middle of its last stop bit.
   line_->finish(end + bus::baud(*baud_).bit * kCharacterBits);
 }
 
@@ -122,8 +122,8 @@ void LogicDecoder::decide(Tick end) {
   waiting_ = {};
 }
 
-/// How many bytes of right telegrams the beginning has; those with an FCS say more than a token or SC, which any noise
-/// holds.
+/// The number of bytes in valid telegrams at the beginning; those with an FCS count more than a token or SC, which
+/// occur in any noise.
 std::uint64_t LogicDecoder::worth(int baud, Tick end, bool inverted) const {
   constexpr std::uint64_t kWithFcs = 100;
   std::uint64_t sum = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Telegrams out of the levels of the line, as a logic analyser or a simulator records them.
+// Decodes telegrams from the levels of the line, as recorded by a logic analyser or a simulator.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,21 +11,21 @@
 namespace dsdpv1::bus::capture {
 
 struct LogicSettings {
-  std::optional<int> baud = {};  ///< index of the table in bus/baud.hpp; absent: the rate is found
+  std::optional<int> baud = {};  ///< index of the table in bus/baud.hpp; absent: detect the rate
   bool inverted = false;         ///< idle is low
-  std::string signal = {};       ///< which of several; empty: see choose_signal
-  /// Told of each change of the line, idle high; may be null.
+  std::string signal = {};       ///< the line among several signals; empty: see choose_signal
+  /// Called for each change of the line, idle high; may be null.
   std::function<void(Tick at, bool level)> on_change = {};
 };
 
-/// What was read, for the user.
+/// The source that was read, for the user.
 struct LogicSource {
   std::string signal;
   int baud = 0;
 };
 
-/// The signal that is the line: the only one, or the one that is wanted; else the first whose name is, in this order,
-/// line, PBRXD, PBTXD or holds rxd, or txd. Throws CaptureError with the names. Names of scopes are before a dot.
+/// Chooses the signal of the line: the only one, or the wanted one; else the first whose name is, in this order, line,
+/// PBRXD, PBTXD or contains rxd, or txd. Throws CaptureError with the names. Names of scopes come before a dot.
 std::size_t choose_signal(const std::vector<std::string>& names, const std::string& wanted);
 
 class LogicDecoder {
@@ -37,12 +37,12 @@ class LogicDecoder {
 
   /// The line has this level from `at` on; in order of time. The same level again is allowed.
   void level(Tick at, bool level);
-  /// The recording ends. Throws CaptureError when the rate cannot be found.
+  /// End of the recording. Throws CaptureError if the rate cannot be found.
   void finish(Tick end);
   /// The rate, once it is known.
   std::optional<int> baud() const { return baud_; }
 
-  /// The rate is judged by so many changes at the beginning, which are kept until then.
+  /// The rate is detected from this many changes at the beginning, which are kept until then.
   static constexpr std::size_t kTrialChanges = 100'000;
 
  private:

@@ -1,4 +1,4 @@
-// For names and headings in files of captures, which are found in any case.
+// For names and headings in capture files, whose case varies.
 #pragma once
 
 #include <cctype>
@@ -6,7 +6,7 @@
 
 namespace dsdpv1::bus::capture {
 
-/// ASCII's letters; all other bytes stay.
+/// Converts ASCII letters; all other bytes stay.
 inline std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;

@@ -1,5 +1,5 @@
 #pragma once
-// Times of packets as ticks.
+// Converts times of packets to ticks.
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -12,8 +12,8 @@ namespace dsdpv1::bus::capture {
 /// The clock of a capture: whole seconds since 1970 and a part of a second.
 class PacketClock {
  public:
-  /// `units` of which a second has `per_second`, since 1970 and `offset_s`. Throws CaptureError for a time that is
-  /// years from that of the first packet.
+  /// `units` since 1970 and `offset_s`, of `per_second` each. Throws CaptureError for a time that is years from that of
+  /// the first packet.
   Tick at(std::uint64_t units, std::uint64_t per_second, std::int64_t offset_s = 0) {
     constexpr std::int64_t kDay = 24 * 3600, kMostApart = 20LL * 365 * kDay, kFarthest = 1LL << 40U;
     const std::uint64_t whole = units / per_second;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kMicroseconds = 0xA1B2C3D4, kNanoseconds = 0xA1B23C4D;
 constexpr std::size_t kHeader = 24, kPacketHeader = 16;
-constexpr std::uint64_t kLongestPacket = 262'144;  // as libpcap
+constexpr std::uint64_t kLongestPacket = 262'144;  // as in libpcap
 
 bool is_magic(std::uint64_t magic) { return magic == kMicroseconds || magic == kNanoseconds; }
 

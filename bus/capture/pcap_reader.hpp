@@ -1,5 +1,5 @@
 #pragma once
-// Telegrams out of pcap and pcapng files, of either byte order.
+// Reads telegrams from pcap and pcapng files of either byte order.
 #include <iosfwd>
 #include <string_view>
 
@@ -7,12 +7,13 @@
 
 namespace dsdpv1::bus::capture {
 
-/// Whether a file that begins so (4 bytes at least) is a pcapng or a pcap file.
+/// Whether a file with this beginning (at least 4 bytes) is a pcapng or a pcap file.
 bool begins_as_pcapng(std::string_view beginning);
 bool begins_as_pcap(std::string_view beginning);
 
-/// Tells one packet after the other and keeps none. Its time counts from 1970 when the first packet is of that day, as
-/// those of simulations are; else from the first packet. Throws CaptureError, after what stood before the fault was
+/// Passes on the packets one by one and keeps none. Time counts from 1970 if the first packet is of that day, as in
+/// captures of simulations; else from the first packet. Throws CaptureError, after the telegrams before the fault were
+/// passed on.
 /// told.
 void read_pcapng(std::istream& in, const TakeTelegram& take);
 void read_pcap(std::istream& in, const TakeTelegram& take);

@@ -6,7 +6,7 @@ namespace dsdpv1::bus::capture::pcapng {
 
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kInterface = 1, kOldPacket = 2, kSimplePacket = 3, kPacket = 6;
 constexpr std::uint32_t kByteOrder = 0x1A2B3C4D;
-/// Type and length in front of a block's body, the length again behind it.
+/// Type and length before a block's body, the length again after it.
 constexpr std::uint32_t kBlockFrame = 12;
 
 namespace option {

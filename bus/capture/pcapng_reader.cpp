@@ -1,4 +1,4 @@
-// pcapng: blocks, among them sections, their interfaces and the packets of those.
+// pcapng: blocks, which include sections with their interfaces and packets.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Interface {
   std::optional<int> baud;
 };
 
-/// The table's rate of so many bit/s, within what rounding makes.
+/// The rate in the table for this many bit/s, allowing for rounding.
 std::optional<int> baud_of(std::uint64_t speed) {
   for (int i = 0; i < kBaudCount; ++i) {
     const double exact = static_cast<double>(kTicksPerSecond) / static_cast<double>(bus::baud(i).bit);
@@ -52,7 +52,7 @@ class Reader {
     std::string front;
     while (in_.read(8, front)) {
       const std::string_view type = std::string_view(front).substr(0, 4);
-      if (number_in(type, false) == pcapng::kSection)  // reads the same in both orders
+      if (number_in(type, false) == pcapng::kSection)  // reads the same in both byte orders
         section(front);
       else
         block(static_cast<std::uint32_t>(number(type)), length_of(front));
@@ -75,7 +75,7 @@ class Reader {
     const std::uint64_t length = length_of(front);
     if (length < pcapng::kBlockFrame + 16)
       throw CaptureError("a section header that is too short, allowed is a pcapng file");
-    in_.need(length - pcapng::kBlockFrame, body_);  // the order is read, the length again follows
+    in_.need(length - pcapng::kBlockFrame, body_);  // the byte order is already read; the length follows again
   }
 
   std::uint64_t length_of(const std::string& front) const {
@@ -87,7 +87,7 @@ class Reader {
 
   void block(std::uint32_t type, std::uint64_t length) {
     in_.need(length - 8, body_);
-    body_.resize(body_.size() - 4);  // without the length again
+    body_.resize(body_.size() - 4);  // without the repeated length
     switch (type) {
       case pcapng::kInterface: return interface();
       case pcapng::kPacket: return packet(static_cast<std::size_t>(least(20).field(0)));
@@ -141,7 +141,7 @@ class Reader {
     take_(telegram);
   }
 
-  /// Without a time.
+  /// Has no time.
   void simple_packet() {
     const Interface& interface = interface_of(0);
     CapturedTelegram telegram;

@@ -9,7 +9,7 @@
 namespace dsdpv1::bus::capture {
 namespace {
 
-/// The body of a block, and what goes round it.
+/// The body of a block, and its frame.
 class Block {
  public:
   explicit Block(std::uint32_t type) : type_(type) {}
@@ -75,7 +75,7 @@ std::uint32_t PcapngWriter::interface_of(int baud) {
   if (number) return *number;
   const auto speed = static_cast<std::uint64_t>((kTicksPerSecond + bus::baud(baud).bit / 2) / bus::baud(baud).bit);
   Block block(pcapng::kInterface);
-  block.u16(link_).u16(0).u32(0);  // no limit of a packet's length
+  block.u16(link_).u16(0).u32(0);  // no limit for packet lengths
   block.option(pcapng::option::kName, "profibus");
   block.option(pcapng::option::kDescription, fmt::format("PROFIBUS DP at {}, {} bit/s", bus::baud(baud).name, speed));
   block.u16(pcapng::option::kSpeed).u16(8).u64(speed);

@@ -1,5 +1,5 @@
 #pragma once
-// Telegrams as a pcapng file (draft-ietf-opsawg-pcapng), little endian, for Wireshark and the like.
+// Writes telegrams to a pcapng file (draft-ietf-opsawg-pcapng), little endian, for Wireshark and similar tools.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace dsdpv1::bus::capture {
 
-/// Bytes of the file, in order. They hang on the telegrams alone: nothing of the machine and of today is in them.
+/// Receives the bytes of the file, in order. They depend only on the telegrams, not on the machine or the date.
 using WriteBytes = std::function<void(std::string_view)>;
 
 struct PcapngHeader {
   std::uint16_t link = 257;
-  std::string application;  ///< that writes the file
+  std::string application;  ///< the program that writes the file
   int baud = 0;             ///< of the first interface
 };
 
@@ -25,8 +25,8 @@ class PcapngWriter {
  public:
   /// Writes the section header and an interface.
   PcapngWriter(const PcapngHeader& header, WriteBytes write);
-  /// A packet at the time of the telegram's start, nanoseconds since the start of the run. An interface for each rate,
-  /// written before its first telegram. Where the end is not that of the characters at this rate, a comment says so.
+  /// Writes a packet at the telegram's start, in nanoseconds since the start of the run. Each rate has an interface,
+  /// written before its first telegram. If the end does not match the characters at this rate, a comment says so.
   void telegram(const CapturedTelegram& telegram);
 
  private:

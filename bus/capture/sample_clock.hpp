@@ -1,5 +1,5 @@
 #pragma once
-// Times of samples that were taken at a fixed rate.
+// Times of samples taken at a fixed rate.
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@ namespace dsdpv1::bus::capture {
 class SampleClock {
  public:
   explicit SampleClock(std::uint64_t per_second) : per_second_(per_second) {}
-  /// From the absolute number, so nothing drifts.
+  /// Computed from the absolute number, so nothing drifts.
   Tick at(std::uint64_t sample) const {
     const auto part = static_cast<double>(sample % per_second_) / static_cast<double>(per_second_);
     return static_cast<Tick>(sample / per_second_) * kTicksPerSecond +
@@ -24,7 +24,7 @@ class SampleClock {
   std::uint64_t per_second_;
 };
 
-/// "24000000", "24 MHz", "500 kHz"; nothing for another text.
+/// "24000000", "24 MHz", "500 kHz"; nullopt for another text.
 std::optional<std::uint64_t> sample_rate(const std::string& text);
 
 }  // namespace dsdpv1::bus::capture

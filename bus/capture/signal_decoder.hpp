@@ -1,5 +1,5 @@
 #pragma once
-// Telegrams out of one signal of a recording.
+// Decodes telegrams from one signal of a recording.
 #include "bus/capture/level_taker.hpp"
 #include "bus/capture/logic_decoder.hpp"
 
@@ -17,7 +17,7 @@ class SignalDecoder : public LevelTaker {
   }
   void level(Tick at, std::size_t /*which*/, bool level) override { decoder_.level(at, level); }
   void finish(Tick end) override { decoder_.finish(end); }
-  /// Behind the end.
+  /// Valid after the end.
   LogicSource source() const { return {name_, *decoder_.baud()}; }
 
  private:

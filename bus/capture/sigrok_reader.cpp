@@ -26,7 +26,7 @@ std::string metadata_of(ZipArchive& archive) {
   return text;
 }
 
-/// "key=value" of the first device.
+/// "key=value" for the first device.
 std::map<std::string, std::string> device_of(const std::string& metadata) {
   std::map<std::string, std::string> device;
   std::istringstream lines(metadata);
@@ -41,7 +41,7 @@ std::map<std::string, std::string> device_of(const std::string& metadata) {
 }
 
 struct Session {
-  std::string member;  ///< of the samples; in pieces it is followed by -1, -2, ...
+  std::string member;  ///< file of the samples; if split, followed by -1, -2, ...
   std::uint64_t rate = 1;
   SampleClock clock{1};
   std::size_t unit = 1;  ///< bytes of a sample
@@ -73,7 +73,7 @@ Session session_of(const std::map<std::string, std::string>& device) {
   return session;
 }
 
-/// Tells the levels of some bits of the samples, which may begin in one piece and end in the next.
+/// Extracts the levels of some bits of the samples, which may begin in one piece and end in the next.
 class Samples {
  public:
   Samples(const Session& session, std::vector<std::size_t> bits, LevelTaker& taker)

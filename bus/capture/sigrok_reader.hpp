@@ -1,5 +1,5 @@
 #pragma once
-// Levels out of sessions of sigrok (.sr): a ZIP archive of samples.
+// Reads levels from sessions of sigrok (.sr): a ZIP archive of samples.
 #include <string>
 #include <string_view>
 
@@ -12,7 +12,7 @@ inline bool begins_as_zip(std::string_view beginning) {
   return beginning.substr(0, 4) == std::string_view("PK\x03\x04", 4);
 }
 
-/// Gives `taker` the channels that it wants; returns the samples a second. `archive`: all of the file. Its samples are
+/// Passes the requested channels to `taker`; returns the sample rate in Hz. `archive`: the whole file. Its samples are
 /// unpacked piece by piece. Throws CaptureError.
 std::uint64_t read_sigrok_levels(const std::string& archive, LevelTaker& taker);
 /// The telegrams of one channel.

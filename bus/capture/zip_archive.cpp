@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kWithCase = 1;
 
-/// minizip's way to a file, here of bytes in memory.
+/// minizip's file access, redirected to bytes in memory.
 voidpf open_bytes(voidpf bytes, const void* /*name*/, int /*mode*/) {
   auto& text = *static_cast<std::string*>(bytes);
-  return fmemopen(text.data(), text.size(), "rb");  // is only read
+  return fmemopen(text.data(), text.size(), "rb");  // read only
 }
 
 void check(bool good) {
@@ -45,7 +45,7 @@ bool ZipArchive::read(const std::string& member, const TakeBytes& take) {
   while ((size = unzReadCurrentFile(file_.get(), piece.data(), piece.size())) > 0)
     take(piece.data(), static_cast<std::size_t>(size));
   const bool whole = size == 0 && unztell64(file_.get()) == info.uncompressed_size;
-  check(unzCloseCurrentFile(file_.get()) == UNZ_OK && whole);  // it looks at the CRC
+  check(unzCloseCurrentFile(file_.get()) == UNZ_OK && whole);  // verifies the CRC
   return true;
 }
 

@@ -10,10 +10,10 @@ class ZipArchive {
  public:
   using TakeBytes = std::function<void(const char* bytes, std::size_t size)>;
 
-  /// `bytes`: all of the archive, which must outlive this. Throws CaptureError.
+  /// `bytes`: the whole archive, which must outlive this. Throws CaptureError.
   explicit ZipArchive(const std::string& bytes);
 
-  /// False when there is no such member. Throws CaptureError for one that is damaged, when all of it has been given.
+  /// Returns false if there is no such member. Throws CaptureError for a damaged one, after all of it was passed on.
   bool read(const std::string& member, const TakeBytes& take);
 
  private:

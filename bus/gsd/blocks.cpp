@@ -1,4 +1,4 @@
-// The contents of blocks and the keywords outside of them.
+// The contents of blocks and the keywords outside blocks.
 #include <algorithm>
 #include <array>
 
@@ -9,7 +9,7 @@
 namespace dsdpv1::bus::gsd {
 namespace {
 
-constexpr std::int64_t kMaxNumber = 0xFFFF;  // of PrmText, ExtUserPrmData and module references
+constexpr std::int64_t kMaxNumber = 0xFFFF;  // for PrmText, ExtUserPrmData and module references
 constexpr std::int64_t kMaxText = 0xFFFFFFFF;
 constexpr std::size_t kMaxCfg = 244;  // one Chk_Cfg
 
@@ -50,7 +50,7 @@ std::optional<int> Parser::offset(const Statement& statement) {
   return std::nullopt;
 }
 
-// ---- outside of blocks
+// ---- outside blocks
 
 void Parser::in_top(const Statement& statement) {
   if (read_prm_block(gsd.prm, statement, statement.key)) return;
@@ -217,7 +217,7 @@ void Parser::in_parameter(const Statement& statement) {
   } else if (statement.equals || typed_) {
     keep(gsd.keywords, statement);
   } else {
-    typed_ = true;  // told once, not again at the end of the block
+    typed_ = true;  // reported once, not again at the end of the block
     diagnostics_.error(statement.line,
                        fmt::format("{} is no data type, Bit(n), BitArea(a-b), Unsigned8, Unsigned16, Unsigned32, "
                                    "Signed8, Signed16 and Signed32 are allowed",

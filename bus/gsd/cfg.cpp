@@ -28,7 +28,7 @@ std::size_t vendor_bytes(unsigned head) {
   return length == 15 ? 0 : length;
 }
 
-/// Table A.4: an output length stands before an input length. `id.size` bytes are known to be there.
+/// Table A.4: an output length precedes an input length. `id.size` bytes are known to be present.
 CfgIdentifier special(const Bytes& cfg, std::size_t position, std::size_t size) {
   CfgIdentifier id;
   id.position = position;

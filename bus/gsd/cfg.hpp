@@ -11,7 +11,7 @@ namespace dsdpv1::bus {
 /// One direction of an identifier.
 struct CfgDirection {
   int count = 0;       ///< bytes or words, 1..64; 0 = no data in this direction
-  bool words = false;  ///< two bytes a unit
+  bool words = false;  ///< two bytes per unit
   bool whole = false;  ///< consistent over the whole module, else over one unit
   int bytes() const { return words ? 2 * count : count; }
 };
@@ -20,7 +20,7 @@ struct CfgIdentifier {
   std::size_t position = 0;  ///< of its first byte
   std::size_t size = 1;      ///< bytes: the head, its length bytes and the vendor's bytes
   bool special = false;
-  CfgDirection input, output;  ///< seen from the master: input is what the slave sends
+  CfgDirection input, output;  ///< as seen by the master: input is sent by the slave
   Bytes vendor;                ///< manufacturer specific bytes
   bool empty() const { return input.count == 0 && output.count == 0; }
 };
@@ -28,15 +28,15 @@ struct CfgIdentifier {
 struct CfgLengths {
   int input = 0, output = 0;  ///< bytes, sum over all identifiers read
   std::vector<CfgIdentifier> identifiers;
-  std::string error;  ///< empty, or why the bytes are no whole list of identifiers
+  std::string error;  ///< empty, or why the bytes are not a complete list of identifiers
   bool ok() const { return error.empty(); }
 };
 
-/// Decodes a configuration. An empty one is right and has the lengths 0. A special identifier whose vendor length is 15
-/// has no vendor bytes behind it (EN 50170).
+/// Decodes a configuration. An empty one is valid with lengths 0. A special identifier whose vendor length is 15 has no
+/// vendor bytes after it (EN 50170).
 CfgLengths cfg_lengths(const Bytes& cfg);
 
-/// An identifier in words: "input 4 bytes, consistent as a whole", "empty slot".
+/// An identifier as text: "input 4 bytes, consistent as a whole", "empty slot".
 std::string describe(const CfgIdentifier& identifier);
 
 }  // namespace dsdpv1::bus

@@ -1,4 +1,5 @@
-// The second pass over a GSD: settings into their members, references between blocks, what is missing.
+// The second pass over a GSD: moves settings to their members, resolves references between blocks, reports what is
+// missing.
 #include <algorithm>
 #include <iterator>
 
@@ -93,8 +94,7 @@ class Completion {
     }
   }
 
-  /// User_Prm_Data counts only when no Ext_User_Prm_Data keyword is there: files carry both for old masters and new
-  /// ones.
+  /// User_Prm_Data counts only without Ext_User_Prm_Data keywords: files contain both, for old and new masters.
   void fill_old_user_prm() {
     const auto length = number("user_prm_data_len");
     const auto& data = settings_.user_prm_data;
@@ -159,7 +159,7 @@ class Completion {
                                                         : fmt::format("0 to {}", *length - 1)));
   }
 
-  /// "1, 2, 3 are defined": what a reference may name.
+  /// "1, 2, 3 are defined": the possible targets of a reference.
   template <typename Map>
   static std::string defined(const Map& map, std::string_view what) {
     constexpr std::size_t kShown = 8;

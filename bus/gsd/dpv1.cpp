@@ -1,4 +1,4 @@
-// DPV1 as a GSD file allows it.
+// DPV1 as permitted by a GSD file.
 #include "bus/gsd/setup.hpp"
 
 namespace dsdpv1::bus {

@@ -1,4 +1,4 @@
-// What a GSD file is made of: 8-bit text, in practice ASCII, Latin-1, UTF-8 with or without a byte order mark, with the
+// The encoding of GSD files: 8-bit text, in practice ASCII, Latin-1, UTF-8 with or without a byte order mark, with the
 // end marks of old editors.
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
 #pragma once
-// PROFIBUS GSD files (electronic data sheets), revisions 1 to 5, as vendors write them. docs/gsd.md lists what is
-// accepted.
+// PROFIBUS GSD files (electronic data sheets), revisions 1 to 5, as vendors write them. docs/gsd.md lists the accepted
+// deviations.
 //
 //   std::ifstream in(path);
 //   GsdResult result = parse_gsd(in, path);
 //   if (!result.gsd) for (const auto& d : result.diagnostics) std::cerr << to_string(d) << '\n';
 //
-// What a master makes of the file (Set_Prm, Chk_Cfg, limits) is in bus/gsd/setup.hpp, the printed report in
-// bus/gsd/report.hpp.
+// bus/gsd/setup.hpp derives a master's data from the file (Set_Prm, Chk_Cfg, limits), bus/gsd/report.hpp prints the
+// report.
 #include <array>
 #include <cstdint>
 #include <iosfwd>
@@ -27,10 +27,10 @@ struct GsdDiagnostic {
   enum class Level : std::uint8_t { kWarning, kError };
   Level level = Level::kError;
   std::string file;
-  int line = 0;      ///< 1..; 0 when the remark belongs to no line
+  int line = 0;      ///< 1..; 0 if the remark belongs to no line
   std::string text;  ///< what is wrong, what is allowed
 };
-/// "file:line: text" for an error, "file:line: warning: text" for a warning; without the line when it is 0.
+/// "file:line: text" for an error, "file:line: warning: text" for a warning; without the line if it is 0.
 std::string to_string(const GsdDiagnostic& diagnostic);
 
 /// An inclusive range; a single allowed value is a range of one.
@@ -38,7 +38,7 @@ struct GsdRange {
   std::int64_t low = 0, high = 0;
 };
 
-/// The data types of ExtUserPrmData. Several bytes are sent with the most significant first.
+/// The data types of ExtUserPrmData. Values of several bytes are sent most significant byte first.
 enum class GsdType : std::uint8_t {
   kBit,
   kBitArea,
@@ -49,11 +49,11 @@ enum class GsdType : std::uint8_t {
   kSigned16,
   kSigned32
 };
-/// Bytes that a parameter of this type occupies: 1, 2 or 4.
+/// Size of a parameter of this type in bytes: 1, 2 or 4.
 int size_of(GsdType type);
-/// The GSD's own word: "Unsigned16".
+/// The GSD's word: "Unsigned16".
 std::string_view name(GsdType type);
-/// All values that the type can hold; `bits` is the width of a BitArea and ignored for other types.
+/// All values of the type; `bits` is the width of a BitArea and ignored for other types.
 GsdRange range_of(GsdType type, int bits);
 
 /// ExtUserPrmData ... EndExtUserPrmData: one parameter that the user of a master may change.
@@ -81,17 +81,17 @@ struct GsdPrmRef {
   int parameter = 0;
   int line = 0;
 };
-/// User parameters of the station or of one module; refs are laid over the constants.
+/// User parameters of the station or of one module; refs overwrite the constants.
 struct GsdPrmBlock {
   std::optional<int> length;  ///< bytes: Ext_Module_Prm_Data_Len, for the station User_Prm_Data_Len of revision 0
   std::vector<GsdPrmConst> constants;
   std::vector<GsdPrmRef> refs;
 };
 
-/// A keyword that has no member of its own here: vendor's, F_, X_ and Unit_Diag keywords, kept as written.
+/// A keyword without a member here: vendor's, F_, X_ and Unit_Diag keywords, kept as written.
 struct GsdKeyword {
   std::string keyword;  ///< with its index: "Unit_Diag_Bit(17)"
-  std::string value;    ///< as written behind '=', without comment
+  std::string value;    ///< as written after '=', without comment
   int line = 0;
 };
 
@@ -100,7 +100,7 @@ struct GsdModule {
   Bytes cfg;                     ///< identifier bytes for Chk_Cfg, 1..244
   std::optional<int> reference;  ///< module reference number (revision 3 and later)
   GsdPrmBlock prm;
-  GsdPrmBlock f_prm;  ///< PROFIsafe F_ parameters, behind `prm` in Set_Prm; F_Par_CRC is not computed here
+  GsdPrmBlock f_prm;  ///< PROFIsafe F_ parameters, after `prm` in Set_Prm; F_Par_CRC is not computed here
   bool preset = false;
   std::string info_text;
   std::vector<GsdKeyword> keywords;
@@ -127,7 +127,7 @@ std::string_view gsd_baud_name(int index);
 
 struct Gsd {
   std::string file;
-  int revision = 0;  ///< GSD_Revision; 0 when the file does not say
+  int revision = 0;  ///< GSD_Revision; 0 if the file does not give it
   std::string vendor, model, device_revision, hardware_release, software_release, order_number, implementation,
       info_text;
   std::string slave_family;  ///< as written: "3@TdF@Temperature"
@@ -160,12 +160,12 @@ struct Gsd {
 };
 
 struct GsdResult {
-  std::optional<Gsd> gsd;                  ///< absent when there was an error
+  std::optional<Gsd> gsd;                  ///< absent after an error
   std::vector<GsdDiagnostic> diagnostics;  ///< in the order of lines, at most 200
 };
 
-/// Reads a whole GSD file. `file` is the name used in diagnostics. Never throws on account of the content. Latin-1 text
-/// is turned into UTF-8.
+/// Reads a whole GSD file. `file` is the name used in diagnostics. Never throws because of the content. Latin-1 text is
+/// converted to UTF-8.
 GsdResult parse_gsd(std::istream& in, const std::string& file);
 
 }  // namespace dsdpv1::bus

@@ -148,7 +148,7 @@ constexpr std::array<std::string_view, 11> kRates = {"9.6", "19.2", "31.25", "45
 constexpr std::array<std::string_view, 7> kTimes = {
     "MaxTsdr_", "Trdy_", "Tqui_", "Tset_", "Tsdi_", "Transmission_Delay_", "Reaction_Delay_"};
 
-/// Names of keywords made of a baud rate; they live as long as the program because Keyword only views its name.
+/// Names of keywords that contain a baud rate; valid as long as the program, because Keyword only views its name.
 const std::vector<std::string>& rate_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;
@@ -186,7 +186,7 @@ struct Slip {
   std::string_view written, meant;
 };
 
-/// Slips seen in real files. Those that end with '_' stand for a family with a baud rate behind it.
+/// Slips seen in real files. A name that ends with '_' means a family, with a baud rate after it.
 constexpr Slip kSlips[] = {
     {"maxtcdr_", "maxtsdr_"},
     {"max_tsdr_", "maxtsdr_"},

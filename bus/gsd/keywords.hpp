@@ -1,6 +1,6 @@
 #pragma once
-// The keywords outside of blocks, their types and ranges (PROFIBUS GSD specification, revisions 1 to 5). Internal to
-// the GSD reader.
+// The keywords outside blocks, their types and ranges (PROFIBUS GSD specification, revisions 1 to 5). Internal to the
+// GSD reader.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,14 +21,14 @@ struct Keyword {
   std::int64_t low, high;
 };
 
-/// The keyword with this name, case ignored; nullptr when there is none.
+/// The keyword with this name, ignoring case; nullptr without one.
 const Keyword* find_keyword(std::string_view name);
 
-/// What a misspelt name stands for: known slips of real files, underscores forgotten or added. nullptr when nothing
-/// fits.
+/// The keyword meant by a misspelt name: known slips of real files, missing or extra underscores. nullptr if none
+/// matches.
 const Keyword* guess_keyword(std::string_view name);
 
-/// Vendor and profile keywords (F_, X_, Unit_Diag...) that are kept without a remark.
+/// Vendor and profile keywords (F_, X_, Unit_Diag...), kept without a remark.
 bool is_kept_silently(std::string_view key);
 
 }  // namespace dsdpv1::bus::gsd

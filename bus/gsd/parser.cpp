@@ -1,4 +1,4 @@
-// Blocks of a GSD file and how they nest. What stands inside of them is read in gsd_blocks.cpp.
+// Blocks of a GSD file and their nesting. bus/gsd/blocks.cpp reads their contents.
 #include "bus/gsd/parser.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ struct BlockKind {
   std::string_view name, end;
   std::string_view key, end_key;  ///< in lower case without underscores
   Scope scope;
-  bool nests;  ///< may stand inside a Module or UnitDiagType
+  bool nests;  ///< may be nested in a Module or UnitDiagType
 };
 
 namespace {

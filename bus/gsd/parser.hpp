@@ -1,5 +1,5 @@
 #pragma once
-// Statements to a Gsd: blocks, their contents and the keywords outside of them. Internal to the GSD reader.
+// Converts statements to a Gsd: blocks, their contents and the keywords outside blocks. Internal to the GSD reader.
 #include <map>
 #include <set>
 #include <string>
@@ -12,12 +12,12 @@
 
 namespace dsdpv1::bus::gsd {
 
-/// Values of the keywords outside of blocks, by their names in lower case.
+/// Values of the keywords outside blocks, by their names in lower case.
 struct Settings {
   std::map<std::string, std::int64_t> numbers;
   std::map<std::string, std::string> texts;
   std::optional<GsdPrmConst> user_prm_data;  ///< User_Prm_Data of revision 0
-  std::set<std::string> seen;                ///< also those whose value was refused
+  std::set<std::string> seen;                ///< including those whose value was rejected
 };
 
 enum class Scope : std::uint8_t { kTop, kModule, kPrmText, kParameter, kSlots, kKept };
@@ -27,7 +27,7 @@ class Parser {
  public:
   explicit Parser(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
   void read(const Line& line);
-  /// Reports what is still open and the missing header.
+  /// Reports open blocks and a missing header.
   void finish();
 
   Gsd gsd;
@@ -37,7 +37,7 @@ class Parser {
   struct Open {
     const BlockKind* kind;
     int line;
-    bool skipped;  ///< its head was wrong: read to its end without a meaning, so that one fault gives one message
+    bool skipped;  ///< its head was wrong: its contents are ignored, so that one fault causes one message
   };
 
   void read_header(const Statement& statement);
@@ -81,7 +81,8 @@ class Parser {
   int prm_text_ = 0;
 };
 
-/// Second pass, when everything is known: members of the Gsd from the settings, references between blocks, limits.
+/// Second pass, when all blocks are known: fills members of the Gsd from the settings, resolves references between
+/// blocks, checks limits.
 void complete(Gsd& gsd, const Settings& settings, Diagnostics& diagnostics);
 
 }  // namespace dsdpv1::bus::gsd

@@ -15,7 +15,7 @@ namespace {
 
 using detail::hex;
 
-/// A report of many short lines; empty values are left out.
+/// A report of many short lines; omits empty values.
 class TextReport {
  public:
   TextReport(const Gsd& gsd, std::ostream& out) : gsd_(gsd), out_(out) {}
@@ -149,7 +149,7 @@ int fail(const std::vector<GsdDiagnostic>& diagnostics, std::ostream& err) {
   return 2;
 }
 
-/// Nobody chose these modules: what they break is a remark about the file.
+/// These modules are the file's presets, so their violations are remarks about the file.
 void soften(GsdSetup& setup) {
   if (setup.modules.empty()) setup.diagnostics.clear();
   for (GsdDiagnostic& diagnostic : setup.diagnostics) diagnostic.level = GsdDiagnostic::Level::kWarning;

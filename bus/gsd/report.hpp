@@ -1,5 +1,5 @@
 #pragma once
-// What a master makes of a GSD file, for people and for programs: `dsdpv1-sim gsd FILE [--module NAME|N ...] [--json]`.
+// A GSD file as seen by a master, as text or JSON: `dsdpv1-sim gsd FILE [--module NAME|N ...] [--json]`.
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -11,9 +11,9 @@ namespace dsdpv1::bus {
 
 enum class GsdFormat : std::uint8_t { kText, kJson };
 
-/// Prints ident, names, baud rates, limits, features, modules with their Chk_Cfg and Set_Prm, and the whole Set_Prm and
-/// Chk_Cfg of `setup` byte by byte; `remarks` are those of the file, the setup brings its own. `setup` must be made
-/// from `gsd`.
+/// Prints ident, names, baud rates, limits, features, modules with their Chk_Cfg and Set_Prm, and the complete Set_Prm
+/// and Chk_Cfg of `setup` byte by byte; `remarks` are those about the file, in addition to the setup's. `setup` must be
+/// made from `gsd`.
 void print_gsd_report(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks,
                       std::ostream& out, GsdFormat format);
 
@@ -22,9 +22,9 @@ struct GsdCommand {
   GsdFormat format = GsdFormat::kText;
 };
 
-/// The command itself: `in` is what `path` holds; prints the report to `out`. Returns 0, or 2 after errors in the file
-/// or the choice; then they stand one a line in `err` and `out` is untouched. Limits that the file's own presets break
-/// are warnings.
+/// The command: `in` is the content of `path`; prints the report to `out`. Returns 0, or 2 after errors in the file or
+/// the choice, which are written to `err`, one per line, and leave `out` untouched. Limits violated by the file's
+/// presets are warnings.
 int gsd_command(std::istream& in, const std::string& path, const GsdCommand& command, std::ostream& out,
                 std::ostream& err);
 

@@ -9,11 +9,10 @@
 namespace dsdpv1::bus::gsd {
 namespace {
 
-constexpr std::size_t kHead = 7;       // Set_Prm in front of the user parameters
+constexpr std::size_t kHead = 7;       // bytes of Set_Prm before the user parameters
 constexpr std::size_t kDpv1Bytes = 3;  // DPV1_Status_1..3, the first user parameters of a DPV1 slave
 
-/// User parameters whose meaning the standard knows: the first of a DPV1 slave, all three when DPV1_Enable is set in
-/// it.
+/// The number of user parameters defined by the standard: the first of a DPV1 slave, or three if it sets DPV1_Enable.
 std::size_t dpv1_bytes(const Gsd& gsd, const Bytes& set_prm) {
   if (!gsd.dpv1 || set_prm.size() == kHead) return 0;
   const bool enabled = (set_prm[kHead] & 0x80U) != 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What the text and the JSON report have in common. Internal to the GSD report.
+// Shared by the text and the JSON report. Internal to the GSD report.
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,9 +14,9 @@ struct Explained {
   std::string words;
 };
 
-/// Feature keywords with their values, by the GSD's own names.
+/// Feature keywords with their values, under the GSD's names.
 std::vector<std::pair<std::string, bool>> features(const Gsd& gsd);
-/// Limits that the file gives, by the GSD's own names.
+/// Limits in the file, under the GSD's names.
 std::vector<std::pair<std::string, int>> limits(const Gsd& gsd);
 
 /// "bits 0-1", empty for whole bytes.
@@ -24,11 +24,11 @@ std::string bits(const GsdParameter& parameter);
 /// "Filter = 2 (60 Hz)".
 std::string describe(const GsdPrmField& field);
 
-/// A Set_Prm as `set_prm_bytes` makes it, byte by byte and field by field; `owner` names the module of a field.
+/// Explains a Set_Prm from `set_prm_bytes`, byte by byte and field by field; `owner` names the module of a field.
 std::vector<Explained> explain_set_prm(const Gsd& gsd, const Bytes& set_prm, const GsdSetup& setup);
 std::vector<Explained> explain_chk_cfg(const Bytes& chk_cfg);
 
-/// The setup of one module alone, without its limits checked.
+/// The setup of a single module, without limit checks.
 GsdSetup alone(const Gsd& gsd, std::size_t module);
 
 void print_text(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks, std::ostream& out);

@@ -72,7 +72,7 @@ Json parameter(const GsdPrmField& field) {
           {"changeable", known.changeable}, {"visible", known.visible}};
 }
 
-/// `module`: only the parameters of this position of the choice, nullopt those of the station.
+/// `module`: only the parameters at this position of the choice, nullopt those of the station.
 Json parameters(const GsdSetup& setup, std::optional<std::size_t> module) {
   Json list = Json::array();
   for (const GsdPrmField& field : setup.fields)
@@ -118,7 +118,7 @@ Json telegram(const Bytes& data, const std::vector<Explained>& words) {
   return {{"bytes", detail::hex(data)}, {"length", data.size()}, {"explained", explained}};
 }
 
-/// Null when no module is preset or chosen.
+/// Null if no module is preset or chosen.
 Json selection(const Gsd& gsd, const GsdSetup& setup) {
   if (setup.modules.empty()) return {};
   Json names = Json::array();

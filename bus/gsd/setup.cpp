@@ -45,7 +45,7 @@ Modules candidates(const Gsd& gsd, const std::string& name) {
   return matching(gsd, [&](std::size_t i) { return static_cast<std::int64_t>(i) + 1 == *number; });
 }
 
-/// A few names to choose from, for messages.
+/// Some names to choose from, for messages.
 std::string some_modules(const Gsd& gsd) {
   constexpr std::size_t kShown = 6;
   std::string list;
@@ -54,7 +54,7 @@ std::string some_modules(const Gsd& gsd) {
   return gsd.modules.size() > kShown ? list + ", ..." : list;
 }
 
-/// Lays parameters over bytes and remembers what stands where.
+/// Writes parameters into bytes and records the field at each place.
 class PrmBuilder {
  public:
   PrmBuilder(const Gsd& gsd, const std::vector<GsdOverride>& overrides) : gsd_(gsd), overrides_(overrides) {}
@@ -137,7 +137,7 @@ class PrmBuilder {
     return list;
   }
 
-  /// Several bytes most significant first; bits leave the rest of their byte alone.
+  /// Stores bytes most significant first; bits leave the rest of their byte unchanged.
   void store(const GsdParameter& parameter, std::size_t at, std::int64_t value) {
     const auto bits = static_cast<std::uint64_t>(value);
     if (parameter.type == GsdType::kBit || parameter.type == GsdType::kBitArea) {
@@ -259,7 +259,7 @@ class Limits {
   GsdSetup& setup_;
 };
 
-/// The modules of a choice; what is not found is reported.
+/// The modules of a choice; reports those not found.
 Modules chosen_modules(const Gsd& gsd, const std::vector<std::string>& names, std::vector<GsdDiagnostic>& diagnostics) {
   Modules modules;
   for (const std::string& module_name : names) {

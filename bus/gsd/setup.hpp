@@ -1,6 +1,6 @@
 #pragma once
-// From a GSD file and a choice of modules to what a class-1 master sends: Set_Prm, Chk_Cfg, the lengths of the data
-// exchange.
+// Derives from a GSD file and a choice of modules what a class-1 master sends: Set_Prm, Chk_Cfg, the lengths of the
+// data exchange.
 //
 //   GsdSetup setup = set_up(gsd, {{"8 bytes in", "3"}, {}});
 //   if (!setup.ok()) ...                                     // setup.diagnostics says why
@@ -18,28 +18,28 @@
 
 namespace dsdpv1::bus {
 
-/// Another value than the file's default for one ExtUserPrmData.
+/// A value for one ExtUserPrmData that replaces the file's default.
 struct GsdOverride {
   std::optional<std::size_t> module;  ///< position in the choice, 0..; nullopt: a parameter of the station
   std::string parameter;              ///< name, or number of the ExtUserPrmData
   std::string value;                  ///< a number, or a text of its PrmText
 };
 
-/// Modules by name or number, in the order of their slots. The number is the module reference number, in files without
-/// them the position in the file, 1... Empty: the modules that the file presets.
+/// Modules by name or number, in the order of their slots. The number is the module reference number, or in files
+/// without them the position in the file, from 1. Empty: the modules that the file presets.
 struct GsdChoice {
   std::vector<std::string> modules;
   std::vector<GsdOverride> overrides;
 };
 
-/// What stands at one place of the user parameters.
+/// A field of the user parameters.
 struct GsdPrmField {
   std::size_t position = 0;                 ///< byte in the user parameters
   std::size_t size = 1;                     ///< bytes
   std::optional<std::size_t> module;        ///< position in the choice; nullopt: the station
   const GsdParameter* parameter = nullptr;  ///< in the Gsd; nullptr: constant bytes
   std::int64_t value = 0;                   ///< of the parameter
-  std::string text;                         ///< the PrmText of the value, empty when there is none
+  std::string text;                         ///< the PrmText of the value, empty without one
 };
 
 struct GsdUserPrm {
@@ -50,7 +50,7 @@ struct GsdUserPrm {
 
 struct GsdSetup {
   std::vector<std::size_t> modules;  ///< indices into Gsd::modules
-  Bytes user_prm;  ///< Set_Prm behind its first seven bytes, DPV1 bytes included as the file gives them
+  Bytes user_prm;                    ///< Set_Prm after its first seven bytes, including DPV1 bytes as given by the file
   std::vector<GsdPrmField> fields;
   Bytes chk_cfg;
   CfgLengths lengths;
@@ -58,7 +58,7 @@ struct GsdSetup {
   bool ok() const;  ///< no error among the diagnostics
 };
 
-/// The seven bytes in front of the user parameters (table 19).
+/// The seven bytes before the user parameters (table 19).
 struct SetPrmHead {
   bool lock = true, unlock = false, sync = false, freeze = false;
   std::uint8_t wd_fact_1 = 10;  ///< unit 10 ms, with WD_Base 1 ms
@@ -67,32 +67,32 @@ struct SetPrmHead {
   std::uint8_t group = 0;
 };
 
-/// The modules that a master takes without being told: the presets of the slots, else of the modules, else the only
-/// module of a fixed station.
+/// The modules that a master uses by default: the presets of the slots, else of the modules, else the only module of a
+/// fixed station.
 std::vector<std::size_t> preset_modules(const Gsd& gsd);
 
-/// The module that `name` means (see GsdChoice); spaces at the ends and case do not count unless several names differ
-/// only in them. nullopt with the reason in `why` when there is none or several.
+/// The module meant by `name` (see GsdChoice); spaces at the ends and case are ignored unless several names differ only
+/// in them. nullopt, with the reason in `why`, if none or several match.
 std::optional<std::size_t> find_module(const Gsd& gsd, const std::string& name, std::string& why);
 
-/// Bytes that a block of parameters occupies: its length, where the file gives none the end of its last byte.
+/// Size of a block of parameters in bytes: the length given by the file, else the end of its last byte.
 std::size_t prm_length(const Gsd& gsd, const GsdPrmBlock& block);
 
-/// User parameters of the station and behind them those of the modules.
+/// User parameters of the station, followed by those of the modules.
 GsdUserPrm set_prm_user_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules,
                               const std::vector<GsdOverride>& overrides);
 
-/// The identifiers of the modules, one behind the other.
+/// The identifiers of the modules, concatenated.
 Bytes chk_cfg_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules);
 
-/// A whole Set_Prm: 7 bytes and the user parameters.
+/// A complete Set_Prm: 7 bytes and the user parameters.
 Bytes set_prm_bytes(std::uint16_t ident, const SetPrmHead& head, const Bytes& user_prm);
 
-/// Asks a slave for DPV1: DPV1_Enable in its Set_Prm (three bytes more, table 25) and the time that C1 waits for
-/// answers, as the file says. Returns why the file does not allow it (then nothing is changed), empty when all is well.
+/// Requests DPV1 from a slave: sets DPV1_Enable in its Set_Prm (three more bytes, table 25) and the C1 response timeout
+/// of the file. Returns why the file does not allow it, leaving `parameters` unchanged, or an empty text.
 std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters);
 
-/// Everything together, with the limits of the file and of the protocol checked: modules allowed in their slots, their
+/// Builds everything and checks the limits of the file and of the protocol: modules allowed in their slots, their
 /// number (Max_Module, 1 in a fixed station without it), Max_Input_Len, Max_Output_Len, Max_Data_Len, 244 bytes of
 /// Chk_Cfg, 237 of user parameters.
 GsdSetup set_up(const Gsd& gsd, const GsdChoice& choice);

@@ -27,7 +27,7 @@ std::optional<std::string> take_index(std::string_view& rest) {
   return index;
 }
 
-/// -1 for what is no digit.
+/// -1 unless `c` is a digit.
 int digit_value(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   const int letter = std::tolower(static_cast<unsigned char>(c));
@@ -113,7 +113,7 @@ std::optional<std::string> Values::string() {
   }
   std::string result;
   while (at_string()) {
-    const std::size_t end = rest_.find('"', 1);  // logical lines hold closed strings only
+    const std::size_t end = rest_.find('"', 1);  // strings in logical lines are always closed
     result += rest_.substr(1, end - 1);
     rest_ = trim(rest_.substr(end + 1));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// One logical line of a GSD file taken apart, and the reader of its values. Internal to the GSD reader.
+// Splits one logical line of a GSD file and reads its values. Internal to the GSD reader.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ namespace dsdpv1::bus::gsd {
 
 /// `Keyword(index) = value`; every part may be missing.
 struct Statement {
-  std::string keyword;  ///< as written; empty when the line begins with none
+  std::string keyword;  ///< as written; empty if the line begins with none
   std::string key;      ///< the keyword in lower case
   std::optional<std::string> index;
   bool equals = false;
@@ -37,15 +37,15 @@ class Values {
   bool at_string() const { return !rest_.empty() && rest_.front() == '"'; }
   /// A number between `low` and `high`.
   std::optional<std::int64_t> number(std::int64_t low, std::int64_t high);
-  /// A quoted string; several in a row are one, as some vendors wrap long texts.
+  /// A quoted string; adjacent ones are joined, because some vendors wrap long texts.
   std::optional<std::string> string();
-  /// A quoted string, or with a warning the bare rest of the line.
+  /// A quoted string, or the unquoted rest of the line with a warning.
   std::string text();
-  /// All that is left as bytes 0..255 with commas between them; an empty list is an error.
+  /// The rest as bytes 0..255 separated by commas; an empty list is an error.
   std::optional<Bytes> bytes();
   /// `low-high`, `value` and lists of both.
   std::optional<std::vector<GsdRange>> ranges();
-  /// Warns when something is left.
+  /// Warns if anything is left.
   void finish();
 
  private:
@@ -53,7 +53,7 @@ class Values {
   /// The longest piece that may be a number: sign, digits, letters.
   std::string_view take_word();
   std::optional<std::int64_t> fail(std::string_view found, std::int64_t low, std::int64_t high);
-  /// Between two values of a list. False at its end.
+  /// Between two values of a list. Returns false at its end.
   bool separator();
 
   const Statement& statement_;

@@ -44,7 +44,7 @@ class Splitter {
   }
 
  private:
-  /// One logical line: a physical one and those that its `\` reaches.
+  /// One logical line: a physical one and its continuations by `\`.
   void read_line() {
     Line line{static_cast<int>(next_) + 1, {}};
     in_string_ = false;
@@ -61,7 +61,7 @@ class Splitter {
     if (!line.text.empty()) lines_.push_back(std::move(line));
   }
 
-  /// Adds a physical line without its comment. True when it ends with `\`.
+  /// Adds a physical line without its comment. Returns true if it ends with `\`.
   bool append(std::string& text, std::string_view physical, int number) {
     std::string_view code = trim(strip_comment(physical, number));
     if (!ends_with(code, '\\')) {
@@ -74,7 +74,7 @@ class Splitter {
     return true;
   }
 
-  /// Cuts the comment off and keeps track of being inside a string.
+  /// Removes the comment and tracks whether the position is inside a string.
   std::string_view strip_comment(std::string_view physical, int number) {
     for (std::size_t i = 0; i < physical.size(); ++i) {
       if (physical[i] == '"') in_string_ = !in_string_;
@@ -88,13 +88,14 @@ class Splitter {
     return physical;
   }
 
-  /// Once a file: who writes one such comment writes many.
+  /// Reported once per file: one such comment is rarely alone.
   void report_slashes(int number) {
     if (!slashes_reported_) diagnostics_.warning(number, "// is taken for a comment, ; begins a comment in a GSD file");
     slashes_reported_ = true;
   }
 
-  /// After a `\`: skips lines of comment only. A blank line or a new statement shows that the `\` was a slip.
+  /// After a `\`: skips lines that contain only a comment. A blank line or a new statement shows that the `\` was a
+  /// slip.
   bool continuation_follows() {
     if (in_string_) return next_ < physical_.size();
     while (next_ < physical_.size() && trim(physical_[next_]).substr(0, 1) == ";") ++next_;
@@ -114,8 +115,7 @@ class Splitter {
 
 bool begins_module(const std::string& text) { return lower(text.substr(0, 6)) == "module"; }
 
-/// A single number behind a Module whose list ends with a comma is its reference number, unless one follows that as
-/// well.
+/// A single number after a Module whose list ends with a comma is its reference number, unless another one follows.
 bool is_reference_number(const std::string& before, const std::vector<Line>& lines, std::size_t at) {
   const bool single = lines[at].text.find(',') == std::string::npos;
   const bool another = at + 1 < lines.size() && is_number_list(lines[at + 1].text);
@@ -128,7 +128,7 @@ bool is_wrapped(const std::string& before, const std::vector<Line>& lines, std::
   return ends_with(before, ',') && !is_reference_number(before, lines, at);
 }
 
-/// Joins values that were wrapped without `\`, as a word processor or a careless editor leaves them.
+/// Joins values wrapped without `\`, as left by a word processor or a careless editor.
 std::vector<Line> join_wrapped(const std::vector<Line>& lines, Diagnostics& diagnostics) {
   std::vector<Line> result;
   for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// From the bytes of a GSD file to logical lines: encoding, comments, continuation, values wrapped over lines. Internal
-// to the GSD reader.
+// Converts the bytes of a GSD file to logical lines: encoding, comments, continuation, values wrapped over lines.
+// Internal to the GSD reader.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +16,7 @@ class Diagnostics {
   void error(int line, std::string text) { add(GsdDiagnostic::Level::kError, line, std::move(text)); }
   void warning(int line, std::string text) { add(GsdDiagnostic::Level::kWarning, line, std::move(text)); }
   bool failed() const { return failed_; }
-  /// Takes the remarks out, ordered by line.
+  /// Returns the remarks, ordered by line.
   std::vector<GsdDiagnostic> take();
 
  private:
@@ -34,14 +34,14 @@ struct Line {
 std::string_view trim(std::string_view text);
 std::string lower(std::string_view text);
 
-/// "UTF-8 text of the whole file"; reports bytes that no text file has. Empty when it is no text.
+/// The whole file as UTF-8 text; reports bytes that no text file has. Empty if it is not text.
 std::string decode(std::string bytes, Diagnostics& diagnostics);
 
-/// Splits decoded text into logical lines. Reports unclosed strings (error) and the habits that the standard does not
-/// know (warning): `//` comments, values on the line behind a '=' or a comma.
+/// Splits decoded text into logical lines. Reports unclosed strings (error) and non-standard habits (warning): `//`
+/// comments, values on the line after a '=' or a comma.
 std::vector<Line> logical_lines(const std::string& text, Diagnostics& diagnostics);
 
-/// True for a text of numbers and commas only, as a wrapped list and a module reference number are.
+/// True for a text of numbers and commas only: a wrapped list or a module reference number.
 bool is_number_list(std::string_view text);
 
 }  // namespace dsdpv1::bus::gsd

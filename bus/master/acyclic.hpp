@@ -1,6 +1,6 @@
 #pragma once
-// Acyclic services of DPV1 as a master sees them (datasheet 7.2, 7.3; rulings V1, V2): requests, their PDUs, and what
-// came of them. C1 and C2 have the same PDUs for reading and writing.
+// Acyclic services of DPV1 as seen by a master (datasheet 7.2, 7.3; rulings V1, V2): requests, their PDUs and their
+// results. C1 and C2 have the same PDUs for reading and writing.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ constexpr Tick kTimeUnit10ms =
 struct AcyclicRequest {
   std::uint8_t function = function_num::kRead;  ///< kRead, kWrite, kTransport (C2 only)
   std::uint8_t slot = 0, index = 0;
-  std::uint8_t length = 0;  ///< kRead: bytes asked for; a slave refuses more than 240. Others: that of `data`
+  std::uint8_t length = 0;  ///< kRead: bytes requested; a slave refuses more than 240. Others: length of `data`
   Bytes data = {};          ///< kWrite, kTransport: at most 240 bytes
 };
 
@@ -34,7 +34,7 @@ AcyclicRequest transport_request(std::uint8_t slot, std::uint8_t index, const By
 Bytes pdu_of(const AcyclicRequest& request);
 
 enum class AcyclicOutcome : std::uint8_t {
-  kPositive,     ///< the slave's user has answered; `data` holds what was read or transported
+  kPositive,     ///< the slave's user has answered; `data` holds the bytes read or transported
   kNegative,     ///< answered with Error_Decode, Error_Code_1 and 2
   kTimeout,      ///< acknowledged, but no answer within the response time
   kRefused,      ///< the data link layer refused: UE, RR (one is open already), RS (SAP not enabled); see `refusal`
@@ -51,7 +51,7 @@ struct AcyclicResult {
   Bytes data = {};                                                    ///< kPositive
   std::uint8_t error_decode = 0, error_code_1 = 0, error_code_2 = 0;  ///< kNegative (tables 28, 29)
   std::uint8_t refusal = 0;  ///< kRefused: the function code of the answer, fc::kUe, kRr or kRs
-  std::string reason = {};   ///< kLost, kWrongAnswer: in words
+  std::string reason = {};   ///< kLost, kWrongAnswer: as text
   Tick queued_at = 0, sent_at = 0,
        done_at = 0;  ///< sent_at: end of the request's acknowledgement, 0 when it was not sent
   int polls = 0;     ///< without the one that fetched the answer
@@ -63,17 +63,17 @@ std::string describe(const AcyclicResult& result);
 
 using AcyclicCallback = std::function<void(const AcyclicResult&)>;
 
-/// Holds an answer PDU against the request: fills outcome (kPositive, kNegative, kWrongAnswer), data, codes and reason
-/// of `result`, whose `request` says what was asked.
+/// Compares an answer PDU with the request in `result`, and fills its outcome (kPositive, kNegative, kWrongAnswer),
+/// data, codes and reason.
 void judge_answer(const Bytes& pdu, AcyclicResult& result);
 
-/// The refusal in an answer of the data link layer (UE, RR, RS); nullopt when it is none.
+/// The refusal in an answer of the data link layer (UE, RR, RS); nullopt if it is not one.
 std::optional<std::uint8_t> refusal_of(const Telegram& answer);
 
-/// An operation that waits for its turn or for its answer.
+/// An operation that waits to be sent or answered.
 struct AcyclicOperation {
   AcyclicOperation(Tick now, AcyclicRequest request, AcyclicCallback when_done);
-  /// Tells its user what came of it; the rest of `result` is filled already.
+  /// Reports the outcome to its user; the rest of `result` is already filled.
   void finish(Tick now, AcyclicOutcome outcome);
 
   AcyclicResult result;

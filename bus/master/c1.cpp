@@ -36,7 +36,7 @@ void C1Client::done(Tick now, const FdlResult& result) {
 void C1Client::requested(Tick now, const FdlResult& result) {
   if (const auto refusal = refusal_of(result.answer)) {
     current().refusal = *refusal;
-    // RR: the answer to an earlier request, given up by this master before, is still to be fetched.
+    // RR: the slave still holds the answer to an earlier request, abandoned by this master.
     stale_ = *refusal == fc::kRr;
     return finish(now, AcyclicOutcome::kRefused);
   }
@@ -46,7 +46,7 @@ void C1Client::requested(Tick now, const FdlResult& result) {
 }
 
 void C1Client::polled(Tick now, const Telegram& answer) {
-  if (!acknowledged_) {  // fetched what an earlier request left behind; without anything the next request will tell
+  if (!acknowledged_) {  // fetched the answer to an earlier request; if there was none, the next request will show it
     stale_ = false;
     return;
   }

@@ -1,6 +1,6 @@
 #pragma once
-// MSAC_C1 of a class-1 master towards one slave (7.2, rulings V1, V8, V9): a queue of reads and writes, one of them at
-// work. No I/O; the master asks for the next telegram after each pass of the cyclic exchange.
+// MSAC_C1 of a class-1 master for one slave (7.2, rulings V1, V8, V9): a queue of reads and writes, one of them in
+// progress. No I/O; the master asks for the next telegram after each pass of the cyclic exchange.
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -18,19 +18,19 @@ class C1Client {
   C1Client(std::uint8_t slave, std::uint8_t master, Tick response_timeout)
       : slave_(slave), master_(master), response_timeout_(response_timeout) {}
 
-  /// Queues an operation; it is sent when the slave is in data exchange and all earlier ones are done.
+  /// Queues an operation; it is sent when the slave is in data exchange and all earlier ones are complete.
   void push(Tick now, AcyclicRequest request, AcyclicCallback done);
-  /// Whether a telegram is to be sent now: the request of the next operation, a poll for the one at work. Ends the one
-  /// at work, and calls back, when its time is over. Only to be asked in data exchange.
+  /// Whether a telegram is due: the request of the next operation, or a poll for the present one. Ends the present one,
+  /// with its callback, when its time has expired. Only call it in data exchange.
   bool due(Tick now);
   /// The telegram that is due; SRD low, SAP 51 to 51.
   Telegram next_request();
-  /// What came back to it. FdlOutcome::kAborted: the telegram is sent again.
+  /// The result of that telegram. FdlOutcome::kAborted: it is sent again.
   void done(Tick now, const FdlResult& result);
-  /// The operation at work is lost; those that wait go on waiting.
+  /// The present operation is lost; queued ones stay queued.
   void leave(Tick now, const std::string& reason);
 
-  /// Operations that wait or are at work.
+  /// Operations queued or in progress.
   std::size_t open() const { return operations_.size(); }
 
  private:
@@ -42,11 +42,11 @@ class C1Client {
   std::uint8_t slave_, master_;
   Tick response_timeout_;
   std::deque<AcyclicOperation> operations_;
-  bool at_work_ = false;       ///< the request of the operation in front has been sent
-  bool acknowledged_ = false;  ///< ... and acknowledged: it waits for its answer
-  bool stale_ = false;  ///< the slave may still hold the answer to an operation given up: a poll fetches it before the
+  bool at_work_ = false;       ///< the request of the first operation has been sent
+  bool acknowledged_ = false;  ///< ... and acknowledged: waiting for its answer
+  bool stale_ = false;  ///< the slave may still hold the answer to an abandoned operation: a poll fetches it before the
                         ///< next request
-  bool polling_ = false;  ///< the telegram under way is a poll
+  bool polling_ = false;  ///< the present telegram is a poll
 };
 
 }  // namespace dsdpv1::bus

@@ -1,4 +1,4 @@
-// The commands of the bench to a class-1 master.
+// The bench's commands to a class-1 master.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void Master1::stop() {
 }
 
 void Master1::change_baud(int index) {
-  bus::baud(index);  // throws when there is no such rate
+  bus::baud(index);  // throws for an unknown rate
   new_baud_ = index;
   announce();
 }

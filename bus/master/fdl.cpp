@@ -108,13 +108,13 @@ Tick MasterFdl::next() const {
 
 void MasterFdl::run(Tick now) {
   if (state_ == State::kSending) {
-    receiver_.run(now);  // hears itself only while it sends a token
+    receiver_.run(now);  // receives its own characters only while it sends a token
     sender_.run(now);
     if (!sender_.busy()) sent();
     return;
   }
   receiver_.run(now);
-  if (state_ == State::kResponding && now >= slot_end_) return send(now);  // also into the talk of another
+  if (state_ == State::kResponding && now >= slot_end_) return send(now);  // even while another station sends
   if (state_ != State::kIdle && !receiver_.receiving() && now >= next()) deadline(now);
 }
 
@@ -123,7 +123,7 @@ void MasterFdl::deadline(Tick now) {
     case State::kWaitBus: return send(now);
     case State::kAwaitActivity:
     case State::kWaitAnswer: return no_answer(now);
-    case State::kReceiving: {  // the answer broke off
+    case State::kReceiving: {  // the answer was cut off
       if (const auto decoded = decoder_.finish()) result_.raw = decoded->bytes;
       return wrong_answer(now);
     }
@@ -133,12 +133,12 @@ void MasterFdl::deadline(Tick now) {
 }
 
 void MasterFdl::line_changed(Tick at, bool level) {
-  if (state_ == State::kSending && !reads_back()) return;  // it would hear itself
+  if (state_ == State::kSending && !reads_back()) return;  // it would receive itself
   if (receiver_.line_changed(at, level)) plan_changed();
 }
 
 bool MasterFdl::run_begins(const CharacterRun& run) {
-  if (state_ == State::kSending) return !reads_back();  // it would hear itself
+  if (state_ == State::kSending) return !reads_back();  // it would receive itself
   if (!receiver_.set_run(run)) return false;
   plan_changed();
   return true;
@@ -206,7 +206,7 @@ void MasterFdl::character(const ReceivedCharacter& received) {
   if (const auto decoded = decoder_.feed(received.byte)) take(*decoded);
 }
 
-/// The awaited answer as a whole: one right telegram.
+/// Takes the awaited answer as a whole: one valid telegram.
 bool MasterFdl::take_run(const CharacterRun& run) {
   if (state_ != State::kWaitAnswer || decoder_.begun() || !is_telegram(run.bytes, run.size)) return false;
   state_ = State::kReceiving;
@@ -262,8 +262,8 @@ void MasterFdl::wrong_answer(Tick now) {
 }
 
 void MasterFdl::retry_or(FdlOutcome outcome, Tick now) {
-  // FDL status is not repeated: it looks for stations that are mostly not there.
-  const bool token = request_.telegram.kind == TelegramKind::kSd4;  // repeated by the ring
+  // FDL status is not repeated: it looks for stations that usually do not exist.
+  const bool token = request_.telegram.kind == TelegramKind::kSd4;  // the ring repeats it
   const bool repeat = !request_.raw && !token && request_.telegram.function() != fc::kFdlStatus;
   if (repeat && result_.retries < parameters_.retries(baud_)) {
     ++result_.retries;

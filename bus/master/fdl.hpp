@@ -1,5 +1,5 @@
 #pragma once
-// Data link layer of a master: one request at a time with its answer, times, repetitions and FCB.
+// Data link layer of a master: one request at a time, with its answer, times, repetitions and FCB.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -17,23 +17,23 @@ namespace dsdpv1::bus {
 
 enum class FdlOutcome : std::uint8_t {
   kSent,       ///< a telegram without answer has been sent
-  kAnswered,   ///< by a right telegram; it may be a refusal (UE, RR, RS)
-  kNoAnswer,   ///< nothing within the slot time, also not to the repetitions
-  kBadAnswer,  ///< the last attempt was answered by something wrong
-  kAborted,    ///< the master was stopped, or has lost the token before the request was done
+  kAnswered,   ///< by a valid telegram; it may be a refusal (UE, RR, RS)
+  kNoAnswer,   ///< nothing within the slot time, not even to the repetitions
+  kBadAnswer,  ///< the last attempt got an invalid answer
+  kAborted,    ///< the master was stopped or lost the token before the end of the request
 };
 
 struct FdlResult {
   FdlOutcome outcome = FdlOutcome::kNoAnswer;
-  Telegram request = {};                    ///< with FCB and FCV as sent; empty for raw bytes that are no telegram
+  Telegram request = {};                    ///< with FCB and FCV as sent; empty for raw bytes that are not a telegram
   Telegram answer = {};                     ///< with kAnswered
-  Bytes raw = {};                           ///< bytes of the last answer, right or wrong
+  Bytes raw = {};                           ///< bytes of the last answer, valid or not
   Tick request_start = 0, request_end = 0;  ///< of the last attempt
   Tick answer_start = 0, answer_end = 0;    ///< with an answer
   int retries = 0;                          ///< repetitions sent
   int timeouts = 0;                         ///< attempts without any answer
   int errors = 0;                           ///< attempts with a wrong answer
-  bool read_back = true;                    ///< of a token: the line carried what was sent; else somebody else talks
+  bool read_back = true;  ///< for a token: the line carried the bytes sent; else another station is sending
 
   bool answered() const { return outcome == FdlOutcome::kAnswered; }
   bool short_acknowledge() const { return answered() && answer.kind == TelegramKind::kSc; }
@@ -42,10 +42,10 @@ struct FdlResult {
 struct FdlRequest {
   /// FC holds bit 6 and the function; FCB and FCV are added for SDA, SRD and MSRD.
   Telegram telegram = {};
-  /// Sent instead of `telegram`, as it is and without repetition.
+  /// Sent instead of `telegram`, unchanged and without repetition.
   std::optional<std::vector<Character>> raw = {};
   bool wants_answer = true;  ///< for `raw`
-  /// For a token: kSent only when its receiver (anybody) is heard within the slot time, else kNoAnswer.
+  /// For a token: kSent only if its receiver (or any station) is heard within the slot time, else kNoAnswer.
   bool await_activity = false;
 };
 
@@ -56,12 +56,12 @@ class MasterFdl : public Listener {
   MasterFdl(const MasterFdl&) = delete;
   MasterFdl& operator=(const MasterFdl&) = delete;
 
-  /// 0..9. Only while idle. What another station sends meanwhile is heard from `now` on at the new rate.
+  /// 0..9. Only while idle. Characters of other stations are received at the new rate from `now` on.
   void set_baud(Tick now, int index);
   bool idle() const { return state_ == State::kIdle; }
   /// Sends as soon as the idle times allow. Only while idle.
   void start(Tick now, FdlRequest request);
-  /// Falls silent at once; a request under way ends with kAborted.
+  /// Falls silent at once; a running request ends with kAborted.
   void abort(Tick now);
   /// The next request to `address` starts a new series (FCB = 1, FCV = 0).
   void restart_series(std::uint8_t address) { series_.at(address) = {}; }
@@ -73,7 +73,7 @@ class MasterFdl : public Listener {
     ready_at_ = std::max(ready_at_, at);
     plan_changed();
   }
-  /// End of the last character heard or sent.
+  /// End of the last character received or sent.
   Tick last_activity() const { return last_activity_; }
 
   Tick next() const;
@@ -82,28 +82,28 @@ class MasterFdl : public Listener {
   bool run_begins(const CharacterRun& run) override;
   void run_cut(Tick at, bool level) override;
 
-  /// Called once for every `start`; the layer is idle again by then.
+  /// Called once for every `start`, when the layer is idle again.
   std::function<void(const FdlResult&)> on_done;
-  /// Telegrams of others that are no answers to this station. With it set, a request or a token of another master that
-  /// comes instead of the answer ends the request with kAborted: two masters have the token.
+  /// Called for telegrams of other stations that are not answers to this one. If set, a request or a token of another
+  /// master instead of the answer ends the request with kAborted: two masters have the token.
   std::function<void(const HeardTelegram&)> on_heard;
-  /// Another call than `run` may have changed `next()`.
+  /// Called when a call other than `run` may have changed `next()`.
   std::function<void()> on_plan;
 
  private:
   enum class State : std::uint8_t {
     kIdle,
-    kWaitBus,  ///< until the line was idle long enough
+    kWaitBus,  ///< until the line has been idle long enough
     kSending,
     kWaitAnswer,     ///< until the first character or the end of the slot time
-    kAwaitActivity,  ///< after a token: the same for anybody
+    kAwaitActivity,  ///< after a token: the same, for any station
     kReceiving,
-    kResponding,  ///< until min_TSDR is over; then kSending
-    kDraining,    ///< behind a wrong answer, until the line was idle for T_SYN
+    kResponding,  ///< until min_TSDR has passed; then kSending
+    kDraining,    ///< after a wrong answer, until the line has been idle for T_SYN
   };
   struct Series {
     bool started = false;
-    bool fcb = true;  ///< of the next request
+    bool fcb = true;  ///< for the next request
   };
   Tick bits(Tick count) const { return count * bit_; }
   Tick earliest_start() const;
@@ -141,7 +141,7 @@ class MasterFdl : public Listener {
   State state_ = State::kIdle;
   FdlRequest request_;
   Bytes bytes_;  ///< of the telegram as sent
-  Bytes echo_;   ///< of a token, as heard while it was sent
+  Bytes echo_;   ///< of a token, as received while it was sent
   bool responding_ = false;
   bool wants_answer_ = false;
   FdlResult result_;

@@ -10,7 +10,7 @@ namespace dsdpv1::bus {
 
 namespace {
 
-/// High or low priority of the data link layer; a telegram that is none is low.
+/// High or low priority of the data link layer; bytes that are not a telegram count as low.
 bool is_high(const FdlRequest& request) {
   const std::uint8_t function = request.telegram.function();
   return function == fc::kSrdHigh || function == fc::kSdnHigh || function == fc::kSdaHigh;
@@ -100,7 +100,7 @@ void Master1::begin_operation() {
   }
 }
 
-/// Begins the next request. False when there is none to begin before `due_`.
+/// Begins the next request. Returns false if none can begin before `due_`.
 bool Master1::start_next() {
   if (new_baud_) {
     baud_ = *std::exchange(new_baud_, std::nullopt);
@@ -151,7 +151,7 @@ bool Master1::listen() {
 }
 
 bool Master1::start_claim() {
-  // EN 50170: a master that finds the bus dead claims the token by passing it to itself twice.
+  // EN 50170: a master that finds a dead bus claims the token by passing it to itself twice.
   if (!config_.bus.token || claims_ == 2) {
     begin_cycle();
     return true;
@@ -181,7 +181,7 @@ bool Master1::start_slave() {
   return true;
 }
 
-/// One acyclic telegram a slave and cycle, whatever waits: the cyclic exchange keeps its rhythm.
+/// One acyclic telegram per slave and cycle, however many wait: the cyclic exchange keeps its rhythm.
 bool Master1::start_acyclic() {
   while (acyclic_position_ < slaves_.size()) {
     Slave& slave = *slaves_[acyclic_position_++];
@@ -193,7 +193,7 @@ bool Master1::start_acyclic() {
   return true;
 }
 
-/// One offline slave a cycle, so that those that are there do not wait for many slot times.
+/// One offline slave per cycle, so that present ones do not wait for many slot times.
 bool Master1::start_poll_slot() {
   phase_ = Phase::kGap;
   for (std::size_t i = 0; i < slaves_.size(); ++i) {
@@ -207,7 +207,7 @@ bool Master1::start_poll_slot() {
 
 bool Master1::start_gap_poll() {
   phase_ = Phase::kToken;
-  if (ring_) return true;  // its GAP
+  if (ring_) return true;  // the ring's GAP does it
   const auto factor = static_cast<std::uint64_t>(std::max(config_.bus.gap_factor, 0));
   if (factor == 0 || cycles_ % factor != 0) return true;
   for (int i = 0; i <= config_.bus.highest_address; ++i) {
@@ -225,7 +225,7 @@ bool Master1::start_gap_poll() {
 bool Master1::start_token() {
   phase_ = Phase::kWait;
   ++cycles_;
-  // A cycle without any request must take some time, too.
+  // A cycle without any request must also take some time.
   const Tick least = std::max(min_slave_interval_us() * kTicksPerUs, kSynBits * bus::baud(baud_).bit);
   due_ = cycle_start_ + least;
   if (ring_) {

@@ -1,12 +1,12 @@
 #pragma once
-// A DP master class 1: brings up its slaves, exchanges data cyclically, answers commands of the bench. Layers:
-// master_fdl (one request with its repetitions), master_slave and master_c1 (one slave), token_ring (several masters),
-// and here the order of things: commands, slaves, acyclic telegrams, poll slot, token.
+// A DP master class 1: brings up its slaves, exchanges data cyclically, executes the bench's commands. Layers: fdl.hpp
+// (one request with its repetitions), slave.hpp and c1.hpp (one slave), token_ring.hpp (several masters), and here the
+// order: commands, slaves, acyclic telegrams, poll slot, token.
 //
-// With BusParameters::ring the master shares the token: it goes on with its cycle at each token as far as the time to
-// hold it allows (the cyclic exchange counts as high priority, acyclic telegrams and the poll slot as low), passes it
-// on when a cycle is over, and leaves the search for new stations to the ring's GAP. Without, it is alone and passes
-// the token to itself.
+// With BusParameters::ring the master shares the token: it continues its cycle at each token as far as the token hold
+// time allows (the cyclic exchange counts as high priority, acyclic telegrams and the poll slot as low), passes the
+// token when a cycle is complete, and leaves the search for new stations to the ring's GAP. Without, it is the only
+// master and passes the token to itself.
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -34,7 +34,7 @@ struct MasterConfig {
   BusParameters bus = {};
 };
 
-/// What the FDL status polls have found at an address.
+/// Result of the FDL status polls of an address.
 enum class LiveState : std::uint8_t { kUnknown, kAbsent, kPassive, kActive };
 
 using AnswerCallback = std::function<void(const FdlResult&)>;
@@ -46,38 +46,38 @@ class Master1 : public Agent {
   Master1(const Master1&) = delete;
   Master1& operator=(const Master1&) = delete;
 
-  /// Throws std::invalid_argument on values out of range or an address used already. Before `start` or in operation.
+  /// Throws std::invalid_argument for values out of range or an address already used. Before `start` or in operation.
   void add_slave(const SlaveParameters& parameters);
 
-  // --- Operation. Everything takes effect between two requests, at the timeline's present time at the earliest.
-  /// Listens for the timeout T_TO = (6 + 2 x address) x T_SL, claims the token, begins; in a ring that runs already it
-  /// waits to be let in. All slaves are brought up anew.
+  // --- Operation. All calls take effect between two requests, at the timeline's present time at the earliest.
+  // Listens for the timeout T_TO = (6 + 2 x address) x T_SL, claims the token and begins; in a running ring it waits to
+  // be admitted. Brings up all slaves from the start.
   void start();
-  /// Falls silent at once, also inside a telegram: a dead master.
+  /// Falls silent at once, even inside a telegram, as if it had died.
   void stop();
   bool running() const { return running_; }
-  /// Operate is the mode after construction. Clear: empty outputs for fail-safe slaves, zeros for the others; both are
-  /// announced by Global_Control to all.
+  /// Operate is the initial mode. Clear: empty outputs for fail-safe slaves, zeros for the others; Global_Control
+  /// announces both to all.
   void operate() { set_mode(false); }
   void clear() { set_mode(true); }
   bool clearing() const { return clear_; }
-  /// All later telegrams at another rate; the states of the slaves are kept.
+  /// Sends all later telegrams at another rate; the states of the slaves are kept.
   void change_baud(int index);
   int baud() const { return baud_; }
 
   // --- One slave. `address` must have been added, else std::out_of_range.
-  /// As many bytes as the slave's output_length, else std::invalid_argument.
+  // Exactly output_length bytes, else std::invalid_argument.
   void set_outputs(std::uint8_t address, const Bytes& outputs);
-  /// Set_Prm with Unlock; then the slave is left alone until `activate`.
+  /// Sends Set_Prm with Unlock and then ignores the slave until `activate`.
   void release(std::uint8_t address);
-  /// Brings a slave up (anew).
+  /// Brings a slave up (again).
   void activate(std::uint8_t address);
   const SlaveView& slave(std::uint8_t address) const;
   const SlaveParameters& parameters(std::uint8_t address) const;
   std::vector<std::uint8_t> slave_addresses() const;
 
-  // --- Requests out of the cycle, carried out in the order of the calls; the callback gets the result.
-  /// SDN to `da` (127 = all); `group` 0 = all groups.
+  // --- Acyclic requests, executed in the order of the calls; the callback gets the result.
+  // SDN to `da` (127 = all); `group` 0 = all groups.
   void global_control(std::uint8_t command, std::uint8_t group = 0, std::uint8_t da = kBroadcast,
                       AnswerCallback done = {});
   void read_inputs(std::uint8_t address, AnswerCallback done = {});
@@ -89,22 +89,23 @@ class Master1 : public Agent {
                          AnswerCallback done = {});
   /// Any request; FC holds bit 6 and the function, FCB and FCV are added.
   void request(const Telegram& telegram, AnswerCallback done = {});
-  /// Any bytes, with faults, once. The series (FCB) of the station addressed starts anew behind it.
+  /// Any bytes, with faults, once. Afterwards the addressed station's series (FCB) restarts.
   void send_raw(const Bytes& bytes, const WireFaults& faults = {}, bool wants_answer = true, AnswerCallback done = {});
 
-  // --- Acyclic, class 1 (MSAC_C1). Queued for the slave, `address` as above; carried out while it is in data exchange:
-  // after each pass of the cyclic exchange every slave gets at most one acyclic telegram, the request or one poll, so
-  // that a cycle grows by one short message a slave at most and a poll comes once a cycle. The time for an answer is
-  // SlaveParameters::c1_response_timeout.
-  /// DS_Read of `length` bytes. Reads and writes are sent also to a slave not parameterised for DPV1, to see it refuse.
+  // --- Acyclic, class 1 (MSAC_C1). Queued for the slave, `address` as above; executed while it is in data exchange:
+  // after each pass of the cyclic exchange every slave gets at most one acyclic telegram, the request or one poll. So a
+  // cycle grows by at most one short message per slave, and a poll comes once per cycle.
+  // SlaveParameters::c1_response_timeout limits the time for an answer.
+  // DS_Read of `length` bytes. Reads and writes are also sent to a slave not parameterised for DPV1, to test its
+  // refusal.
   void c1_read(std::uint8_t address, std::uint8_t slot, std::uint8_t index, std::uint8_t length,
                AcyclicCallback done = {});
   /// DS_Write; more than 240 bytes: std::invalid_argument.
   void c1_write(std::uint8_t address, std::uint8_t slot, std::uint8_t index, const Bytes& data,
                 AcyclicCallback done = {});
-  /// Any request PDU header, also a wrong one.
+  /// Any request PDU header, even an invalid one.
   void c1_request(std::uint8_t address, const AcyclicRequest& request, AcyclicCallback done = {});
-  /// Operations that wait or are at work.
+  /// Operations queued or in progress.
   std::size_t c1_open(std::uint8_t address) const;
 
   /// The master's part in the ring; nullptr without BusParameters::ring.
@@ -112,7 +113,7 @@ class Master1 : public Agent {
   const TokenRing* ring() const { return ring_.get(); }
 
   LiveState live(std::uint8_t address) const { return live_.at(address); }
-  /// Least time from the start of one cycle to the next: that of the bus parameters, else the greatest of the slaves'.
+  /// Minimum time from the start of one cycle to the next: from the bus parameters, else the greatest of the slaves'.
   std::int64_t min_slave_interval_us() const;
   std::uint64_t cycles() const { return cycles_; }
   /// Start to start of the last complete cycle, 0 before.
@@ -120,16 +121,16 @@ class Master1 : public Agent {
 
   std::function<void(Tick at, std::uint8_t address, SlaveState from, SlaveState to)> on_state;
   std::function<void(Tick at, std::uint8_t address)> on_inputs, on_diagnosis;
-  /// Every finished C1 operation, behind its own callback.
+  /// Called for every finished C1 operation, after its own callback.
   std::function<void(Tick at, std::uint8_t address, const AcyclicResult&)> on_acyclic;
-  /// Every finished request, those of the cycle included.
+  /// Called for every finished request, including cyclic ones.
   std::function<void(Tick at, const FdlResult&)> on_answer;
 
   Tick next() const override;
   void run(Tick now) override;
 
  private:
-  /// What the bus is used for next in the cycle.
+  /// The next use of the bus in the cycle.
   enum class Phase : std::uint8_t { kListen, kClaim, kSlaves, kAcyclic, kPollSlot, kGap, kToken, kWait };
   struct Command {
     FdlRequest request;
@@ -170,7 +171,7 @@ class Master1 : public Agent {
 
   MasterConfig config_;
   MasterFdl fdl_;
-  std::unique_ptr<TokenRing> ring_;  ///< none when alone
+  std::unique_ptr<TokenRing> ring_;  ///< none for a single master
   std::vector<std::unique_ptr<Slave>> slaves_;
   std::deque<Command> commands_;
   AnswerCallback current_done_;

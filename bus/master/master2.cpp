@@ -33,7 +33,7 @@ void Master2::stop() {
 }
 
 void Master2::change_baud(int index) {
-  bus::baud(index);  // throws when there is no such rate
+  bus::baud(index);  // throws for an unknown rate
   new_baud_ = index;
 }
 
@@ -99,7 +99,7 @@ void Master2::run(Tick now) {
   }
 }
 
-/// Begins the next request. False when there is none to begin.
+/// Begins the next request. Returns false if there is none.
 bool Master2::start_next() {
   if (new_baud_) {
     baud_ = *std::exchange(new_baud_, std::nullopt);

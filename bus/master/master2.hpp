@@ -1,7 +1,7 @@
 #pragma once
-// A DP master class 2: any number of acyclic connections (MSAC_C2), beside class-1 masters on the same segment. Takes
-// part in the token ring always. At each token every connection may send one telegram (low priority), the one that
-// waited longest first, as long as the time to hold the token lasts.
+// A DP master class 2: any number of acyclic connections (MSAC_C2), beside class-1 masters on the same segment. Always
+// takes part in the token ring. At each token every connection may send one telegram (low priority), longest waiting
+// first, as long as the token hold time lasts.
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -22,29 +22,29 @@ using ConnectionId = std::size_t;  ///< 0, 1, ... in the order of `add_connectio
 class Master2 : public Agent {
  public:
   /// Attaches to the segment, which must outlive it; add it to the timeline. Silent until `start`. `config.personality`
-  /// and `config.bus.ring` are not looked at. Throws std::invalid_argument for an address above 125.
+  /// and `config.bus.ring` are ignored. Throws std::invalid_argument for an address above 125.
   Master2(Segment& segment, const MasterConfig& config);
   Master2(const Master2&) = delete;
   Master2& operator=(const Master2&) = delete;
 
-  // --- Operation. Everything takes effect between two requests, at the timeline's present time at the earliest.
-  /// Learns the ring and waits to be let in, or claims the token of a dead bus.
+  // --- Operation. All calls take effect between two requests, at the timeline's present time at the earliest.
+  // Learns the ring and waits to be admitted, or claims the token of a dead bus.
   void start();
-  /// Falls silent at once: a dead master. Its connections are closed on this side without a word on the wire.
+  /// Falls silent at once, as if it had died. Its connections are closed on this side without a telegram.
   void stop();
   bool running() const { return running_; }
-  /// All later telegrams at another rate, 0..9 (std::out_of_range).
+  /// Sends all later telegrams at another rate, 0..9 (std::out_of_range).
   void change_baud(int index);
   int baud() const { return baud_; }
 
   // --- Connections. `id` must exist, else std::out_of_range.
-  /// Only makes it known; throws std::invalid_argument for values out of range.
+  // Adds a connection without opening it; throws std::invalid_argument for values out of range.
   ConnectionId add_connection(const ConnectionParameters& parameters);
   std::size_t connections() const { return connections_.size(); }
   const Connection& connection(ConnectionId id) const { return *connections_.at(id); }
-  /// Initiate. Nothing happens unless it is closed.
+  /// Initiate. Does nothing unless it is closed.
   void connect(ConnectionId id) { connections_.at(id)->open(); }
-  /// DS_Read, DS_Write, DS_Transport: one after the other in each connection. Throw std::logic_error when it is closed,
+  /// DS_Read, DS_Write, DS_Transport: in sequence in each connection. Throw std::logic_error if it is closed,
   /// std::invalid_argument for more than 240 bytes of data.
   void read(ConnectionId id, std::uint8_t slot, std::uint8_t index, std::uint8_t length, AcyclicCallback done = {});
   void write(ConnectionId id, std::uint8_t slot, std::uint8_t index, const Bytes& data, AcyclicCallback done = {});
@@ -54,7 +54,7 @@ class Master2 : public Agent {
 
   // --- Faults.
   void set_behaviour(ConnectionId id, Behaviour behaviour) { connections_.at(id)->set_behaviour(behaviour); }
-  /// Any bytes to any SAP of the connection's slave, at the next chance.
+  /// Sends any bytes to any SAP of the connection's slave, at the next opportunity.
   void inject(ConnectionId id, RawAcyclic raw) { connections_.at(id)->inject(std::move(raw)); }
 
   TokenRing& ring() { return ring_; }
@@ -62,9 +62,9 @@ class Master2 : public Agent {
 
   std::function<void(Tick at, ConnectionId id, ConnectionState from, ConnectionState to)> on_state;
   std::function<void(Tick at, ConnectionId id, const ConnectionEnd&)> on_end;
-  /// Every finished operation, behind its own callback.
+  /// Called for every finished operation, after its own callback.
   std::function<void(Tick at, ConnectionId id, const AcyclicResult&)> on_acyclic;
-  /// Every finished request, those of the ring included.
+  /// Called for every finished request, including those of the ring.
   std::function<void(Tick at, const FdlResult&)> on_answer;
 
   Tick next() const override;
@@ -80,12 +80,12 @@ class Master2 : public Agent {
   MasterFdl fdl_;
   TokenRing ring_;
   std::vector<std::unique_ptr<Connection>> connections_;
-  Connection* asking_ = nullptr;  ///< whose telegram is under way
+  Connection* asking_ = nullptr;  ///< the connection whose telegram is being sent
   int baud_;
   std::optional<int> new_baud_;
   bool running_ = false, start_requested_ = false, stop_requested_ = false;
   std::size_t position_ = 0;  ///< the connection whose turn is next
-  std::size_t turns_ = 0;     ///< connections still to be asked with this token
+  std::size_t turns_ = 0;     ///< connections left for this token
   bool had_token_ = false;
   Tick now_ = 0;
 };

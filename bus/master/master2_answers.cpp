@@ -1,4 +1,4 @@
-// MSAC_C2 of a class-2 master: what the slave's answers mean for a connection.
+// MSAC_C2 of a class-2 master: the effect of the slave's answers on a connection.
 #include <fmt/format.h>
 
 #include <string>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kAbortSize = 3;      // 58, subnet, instance and reason; some slaves send a detail
 constexpr std::size_t kImmediateSize = 4;  // 56, SAP, Send_Timeout
-constexpr std::size_t kInitiateSize = 8;   // 57 and its fixed part, Add_Addr behind it
+constexpr std::size_t kInitiateSize = 8;   // 57 and its fixed part, followed by Add_Addr
 constexpr std::size_t kNegativeSize = 4;   // fn, Error_Decode, Error_Code_1, Error_Code_2
 constexpr std::uint8_t kLastChannelSap = 0x30;
 constexpr std::uint8_t kInitiateError = function_num::kInitiate | function_num::kError;
@@ -21,7 +21,7 @@ bool is(const Bytes& pdu, std::uint8_t function, std::size_t least) {
   return pdu.size() >= least && pdu[0] == function;
 }
 
-/// Whether a PDU is a service that exists, so that it only came at the wrong time.
+/// Whether a PDU is an existing service, so that only its time was wrong.
 bool is_known(const Bytes& pdu) { return !pdu.empty() && std::string(function_name(pdu[0])) != "unknown function"; }
 
 std::string abort_words(const char* by, const ConnectionEnd& end, bool detail = true) {
@@ -134,7 +134,7 @@ void Connection::refused(Tick now, std::uint8_t refusal) {
     return end(now, ended(ConnectionEnd::By::kRefused, "Initiate refused by the data link layer, no free channel"));
   if (refusal != fc::kRr)
     return end(now, ended(ConnectionEnd::By::kNoChannel, "the slave does not know the channel any more"));
-  last_answer_ = now;  // RR to Idle: something else is open there
+  last_answer_ = now;  // RR to Idle: another request is open there
   if (asked_ != Asked::kRequest) return;
   current().refusal = refusal;
   finish_operation(now, AcyclicOutcome::kRefused);
@@ -165,7 +165,7 @@ void Connection::answered(Tick now, const Bytes& pdu) {
     case ConnectionState::kBusy: return service_answer(now, pdu);
     default: break;
   }
-  if (asked_ == Asked::kPoll) return wrong_answer(now, pdu, 0);  // nobody had asked anything
+  if (asked_ == Asked::kPoll) return wrong_answer(now, pdu, 0);  // nothing was requested
   acknowledged(now);
   service_answer(now, pdu);
 }

@@ -9,7 +9,7 @@ namespace dsdpv1::bus {
 
 namespace {
 
-constexpr std::size_t kInitiateFixed = 12;  // of the request, in front of Add_Addr
+constexpr std::size_t kInitiateFixed = 12;  // of the request, before Add_Addr
 constexpr std::size_t kMaxInitiate = kMaxData - kInitiateFixed;
 
 std::uint8_t high(unsigned value) { return static_cast<std::uint8_t>(value >> 8); }
@@ -61,7 +61,7 @@ Tick Connection::response_timeout() const {
   return (units != 0 ? units : 2 * int{parameters_.send_timeout}) * kTimeUnit10ms;
 }
 
-// --- what the user of the master wants -------------------------------------------------------------------------------
+// --- calls of the master's user --------------------------------------------------------------------------------------
 
 void Connection::open() {
   if (state_ != ConnectionState::kClosed) return;
@@ -84,7 +84,7 @@ void Connection::abort(Tick now, const AbortReason& reason) {
   go(ConnectionState::kAborting);
 }
 
-// --- which telegram --------------------------------------------------------------------------------------------------
+// --- the next telegram -----------------------------------------------------------------------------------------------
 
 bool Connection::due(Tick now) {
   if (!raw_.empty()) return true;

@@ -25,19 +25,19 @@ enum class ConnectionState : std::uint8_t {
   kClosed,
   kInitiating,  ///< Initiate is to be sent, or was acknowledged with E5: SAP 49 is polled for the immediate answer
   kConnecting,  ///< the channel is known: polled for the initiate answer
-  kOpen,        ///< nothing at work; Idle keeps the slave's I timer from ending
+  kOpen,        ///< nothing in progress; Idle keeps the slave's I timer from ending
   kBusy,        ///< a request or Idle waits for its answer: polls
   kAborting,    ///< the abort PDU is to be sent
 };
 /// "CLOSED", "INITIATING", ...
 const char* name(ConnectionState state);
 
-/// One end of the long form of Add_Addr (V10): its type and address bytes as EN 50170 has them.
+/// One end of the long form of Add_Addr (V10): its type and address bytes as in EN 50170.
 struct AddressEnd {
   std::uint8_t type = 0;
   Bytes address = {};  ///< at most 255 bytes, together with the other end at most 227
 };
-/// Add_Addr as devices on the market send it: source and destination API.
+/// Add_Addr in the form used by devices on the market: source and destination API.
 Bytes short_add_addr(std::uint8_t source_api, std::uint8_t destination_api);
 /// `S_Type, S_Len, D_Type, D_Len, S_Addr, D_Addr`.
 Bytes long_add_addr(const AddressEnd& source, const AddressEnd& destination);
@@ -50,7 +50,7 @@ struct ConnectionParameters {
   Bytes profile_features = {0x00, 0x00};  ///< Profile_Features_Supported
   std::uint16_t profile_ident = 0;        ///< Profile_Ident_Number
   Bytes add_addr = {0x00, 0x00};          ///< see short_add_addr, long_add_addr; any bytes
-  std::int64_t poll_interval_us = 0;      ///< least time between two polls; 0: at every token
+  std::int64_t poll_interval_us = 0;      ///< minimum time between two polls; 0: at every token
   std::optional<ConnectionState> silent_from;  ///< a fault: on entering this state it falls silent (Behaviour::kSilent)
 };
 
@@ -58,14 +58,14 @@ struct ConnectionParameters {
 enum class Behaviour : std::uint8_t {
   kNormal,
   kSilent,    ///< sends nothing on this connection: the slave's F or I timer ends
-  kPollOnly,  ///< polls also when open, sends neither requests nor Idle: the slave's I timer ends
+  kPollOnly,  ///< also polls when open, sends neither requests nor Idle: the slave's I timer ends
 };
 
 /// How a connection ended.
 struct ConnectionEnd {
   enum class By : std::uint8_t {
     kSlaveAbort,  ///< abort PDU of the slave
-    kMaster,      ///< abort by this side, asked for or on account of a wrong answer or of time
+    kMaster,      ///< abort by this side: requested, or because of a wrong answer or a timeout
     kRefused,     ///< Initiate refused: RS (no channel), or D7 with codes
     kNoChannel,   ///< the slave does not know the channel any more: RS
     kNoAnswer,    ///< the station does not answer
@@ -89,11 +89,11 @@ struct AbortReason {
   std::uint8_t code() const { return static_cast<std::uint8_t>(unsigned{instance} << 4 | (reason & 0x0FU)); }
 };
 
-/// A PDU sent as it is, at the next chance and whatever the state: a request while one is open, a wrong SSAP, nonsense.
-/// Its answer changes nothing but when it is the slave's abort.
+/// A PDU sent unchanged, at the next opportunity in any state: a request while one is open, a wrong SSAP, nonsense. Its
+/// answer is ignored unless it is the slave's abort.
 struct RawAcyclic {
   Bytes pdu = {};                         ///< empty: a poll
-  std::optional<std::uint8_t> dsap = {};  ///< without: the channel's SAP, 49 when there is none
+  std::optional<std::uint8_t> dsap = {};  ///< absent: the channel's SAP, 49 without a channel
   std::uint8_t ssap = sap::kMs2Master;
   bool sdn = false;
   std::function<void(const FdlResult&)> done = {};
@@ -101,10 +101,10 @@ struct RawAcyclic {
 
 class Connection {
  public:
-  /// Throws std::invalid_argument when a value is out of its range.
+  /// Throws std::invalid_argument for a value out of range.
   Connection(const ConnectionParameters& parameters, std::uint8_t master);
 
-  /// What the slave has granted; complete from kOpen on.
+  /// Values granted by the slave; complete from kOpen on.
   struct Granted {
     std::optional<std::uint8_t> sap = {};  ///< of the channel, 0 to 48; from kConnecting on
     std::uint16_t send_timeout = 0;        ///< unit 10 ms
@@ -117,23 +117,23 @@ class Connection {
   const Granted& granted() const { return granted_; }
   std::size_t open_operations() const { return operations_.size(); }
 
-  // --- What the user of the master wants.
-  /// Begins with Initiate; only when closed.
+  // --- Calls of the master's user.
+  // Begins with Initiate; only when closed.
   void open();
   /// Waits for the connection to be open and for earlier operations. Closed: throws std::logic_error.
   void push(Tick now, AcyclicRequest request, AcyclicCallback done);
-  /// Before the channel is known it ends without a word.
+  /// Before the channel is known the connection ends without a telegram.
   void abort(Tick now, const AbortReason& reason);
   void inject(RawAcyclic raw) { raw_.push_back(std::move(raw)); }
   void set_behaviour(Behaviour behaviour) { behaviour_ = behaviour; }
 
-  // --- For the master station.
-  /// Whether a telegram is to be sent at `now`.
+  // --- Calls of the master station.
+  // Whether a telegram is due at `now`.
   bool due(Tick now);
   Telegram next_request(Tick now);
-  /// Its result. FdlOutcome::kAborted: the telegram is sent again.
+  /// The result of that telegram. FdlOutcome::kAborted: it is sent again.
   void done(Tick now, const FdlResult& result);
-  /// Falls back to kClosed without a word on the wire.
+  /// Returns to kClosed without a telegram.
   void stop(Tick now);
 
   std::function<void(ConnectionState from, ConnectionState to)> on_state;
@@ -177,9 +177,9 @@ class Connection {
   Asked asked_ = Asked::kInitiate;
   ConnectionState asked_in_ = ConnectionState::kClosed;
   bool acknowledged_initiate_ = false;  ///< kInitiating: by E5, SAP 49 is polled
-  bool at_work_ = false;                ///< the operation in front has been sent
+  bool at_work_ = false;                ///< the first operation has been sent
   bool idle_at_work_ = false;           ///< kBusy with Idle
-  Tick waiting_from_ = 0;               ///< of what is awaited in kInitiating, kConnecting and kBusy
+  Tick waiting_from_ = 0;               ///< begin of the wait in kInitiating, kConnecting and kBusy
   Tick last_answer_ = 0, next_poll_ = 0;
 };
 

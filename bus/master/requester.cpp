@@ -76,7 +76,7 @@ void Requester::await_answer(Timeline& timeline, const ExchangeOptions& options)
   if (!exchange_.silent()) timeline.run_until(std::max(timeline.now(), exchange_.answer_end()));
 }
 
-/// Runs until so many characters have come, or `limit` has passed and none is under way.
+/// Runs until so many characters have come, or `limit` has passed with none in progress.
 void Requester::receive_until(Timeline& timeline, Tick limit, std::size_t characters) {
   while (exchange_.characters.size() < characters) {
     if (timeline.step(limit)) continue;
@@ -89,7 +89,7 @@ void Requester::receive_until(Timeline& timeline, Tick limit, std::size_t charac
 }
 
 void Requester::line_changed(Tick at, bool level) {
-  if (sender_.busy()) return;  // it would hear itself
+  if (sender_.busy()) return;  // it would receive itself
   if (receiver_.line_changed(at, level)) announce();
 }
 
@@ -114,7 +114,7 @@ void Requester::character(const ReceivedCharacter& received) {
   if (!listening_) return;
   exchange_.characters.push_back(received);
   exchange_.raw.push_back(received.byte);
-  if (decided_) return;  // what follows a wrong answer is only kept in `raw`
+  if (decided_) return;  // after a wrong answer, further characters are only kept in `raw`
   if (auto decoded = decoder_.feed(received.byte)) {
     exchange_.decoded = std::move(*decoded);
     decided_ = true;

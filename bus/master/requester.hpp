@@ -1,6 +1,5 @@
 #pragma once
-// A scripted requester for conformance tests: sends any bytes at an exact time and reports what comes back, character
-// by character.
+// A scripted requester for conformance tests: sends any bytes at an exact time and reports the characters received.
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,16 +23,16 @@ struct ExchangeOptions {
 struct Exchange {
   Tick request_start = 0, request_end = 0;
   Tick bit = 0;                                    ///< ticks of a bit at the requester's rate
-  std::vector<ReceivedCharacter> characters = {};  ///< of the answer, right or wrong
+  std::vector<ReceivedCharacter> characters = {};  ///< of the answer, valid or not
   Bytes raw = {};                                  ///< their bytes
-  Decoded decoded = {DecodeError::kTruncated};     ///< the answer; kTruncated also when there was none
+  Decoded decoded = {DecodeError::kTruncated};     ///< the answer; kTruncated also without one
 
   bool silent() const { return characters.empty(); }
-  /// One right telegram without character errors.
+  /// One valid telegram without character errors.
   bool answered() const;
   bool short_acknowledge() const { return answered() && decoded.telegram.kind == TelegramKind::kSc; }
   const Telegram& answer() const { return decoded.telegram; }
-  /// The following only when not silent.
+  /// The following are only valid if not silent.
   Tick answer_start() const { return characters.front().start; }
   Tick answer_end() const { return characters.back().end; }
   /// From the end of the request's last stop bit to the answer's start bit, ticks.
@@ -43,7 +42,7 @@ struct Exchange {
 
 class Requester : public Listener, public Agent {
  public:
-  /// Attaches to the segment, which must outlive it; add it to the timeline that `send` is given.
+  /// Attaches to the segment, which must outlive it; add it to the timeline passed to `send`.
   explicit Requester(Segment& segment, const std::string& name = "requester");
   Requester(const Requester&) = delete;
   Requester& operator=(const Requester&) = delete;
@@ -51,14 +50,14 @@ class Requester : public Listener, public Agent {
   /// 0..9, default 0; `ppm` is the error of the sender's clock (positive: slow).
   void set_baud(int index, std::int64_t ppm = 0);
   Tick bit() const { return bit_; }
-  /// End of the last character sent or heard.
+  /// End of the last character sent or received.
   Tick last_activity() const { return last_activity_; }
 
-  /// Sends, then runs the timeline until the answer is complete (or broke off: T_SYN of silence) or the slot time has
-  /// elapsed. Throws std::invalid_argument when `options.at` is in the past.
+  /// Sends, then runs the timeline until the answer is complete (or cut off: T_SYN of silence) or the slot time has
+  /// passed. Throws std::invalid_argument if `options.at` is in the past.
   Exchange send(Timeline& timeline, const Bytes& bytes, const ExchangeOptions& options = {});
   Exchange send(Timeline& timeline, const Telegram& telegram, const ExchangeOptions& options = {});
-  /// Raw bit patterns; `options.faults` are not applied.
+  /// Sends raw bit patterns; `options.faults` are not applied.
   Exchange send(Timeline& timeline, const std::vector<Character>& characters, const ExchangeOptions& options = {});
 
   void line_changed(Tick at, bool level) override;

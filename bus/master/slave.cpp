@@ -81,7 +81,7 @@ Telegram SlaveHandler::service(std::uint8_t sap, const Bytes& data) const {
 }
 
 Telegram SlaveHandler::data_exchange() const {
-  // EN 50170: in Clear a fail-safe slave gets no data at all, any other zeros.
+  // EN 50170: in Clear a fail-safe slave gets no data, other slaves get zeros.
   Bytes data = view_.outputs;
   if (clear_) data.assign(parameters_.fail_safe ? 0 : data.size(), 0);
   return framed(make_telegram(parameters_.address, master_, fc::kRequest | fc::kSrdHigh, data));
@@ -217,7 +217,7 @@ void SlaveHandler::prm_answer(const FdlResult& result) {
 }
 
 void SlaveHandler::cfg_answer(const FdlResult& result) {
-  // A slave whose user still judges the parameters refuses Chk_Cfg with RS (S7, S13): its diagnosis tells.
+  // A slave whose user still judges the parameters refuses Chk_Cfg with RS (S7, S13): its diagnosis shows that.
   cfg_refused_ = !result.short_acknowledge();
   if (!cfg_refused_) return go(SlaveState::kAwaitReady);
   refused(result.answer);
@@ -275,7 +275,7 @@ void SlaveHandler::operating_diagnosis(const Telegram& answer) {
   const std::string wrong = fault();
   if (!wrong.empty()) return restart(wrong);
   if ((view_.diagnosis[0] & kNotReady) != 0) return restart("Station_Not_Ready");
-  diagnosis_due_ = (view_.diagnosis[1] & kStatDiag) != 0;  // EN 50170: fetched until the slave takes Stat_Diag back
+  diagnosis_due_ = (view_.diagnosis[1] & kStatDiag) != 0;  // EN 50170: fetched until the slave clears Stat_Diag
 }
 
 }  // namespace dsdpv1::bus

@@ -1,5 +1,5 @@
 #pragma once
-// What a class-1 master does with one slave: which request is next, and what its answer means. No I/O, no time.
+// A class-1 master's handling of one slave: the next request, and the effect of its answer. No I/O, no time.
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -10,7 +10,7 @@
 namespace dsdpv1::bus {
 
 enum class SlaveState : std::uint8_t {
-  kOffline,   ///< does not answer; tried once a cycle at most
+  kOffline,   ///< does not answer; tried at most once per cycle
   kDiagnose,  ///< Slave_Diag before the parameters
   kClear,     ///< Global_Control Clear before the parameters (Personality::kClassic)
   kSetPrm,
@@ -18,7 +18,7 @@ enum class SlaveState : std::uint8_t {
   kAwaitReady,  ///< Slave_Diag until the slave is ready for data exchange
   kDataExchange,
   kReleasing,  ///< Set_Prm with Unlock is to be sent
-  kReleased,   ///< left alone
+  kReleased,   ///< ignored
 };
 /// "OFFLINE", "DIAGNOSE", ...
 const char* name(SlaveState state);
@@ -29,11 +29,11 @@ struct SlaveCounters {
   std::uint64_t refusals = 0;                           ///< answers UE, RR, RS
 };
 
-/// What the master knows of a slave.
+/// The master's knowledge of a slave.
 struct SlaveView {
   SlaveState state = SlaveState::kOffline;
-  std::string reason = {};       ///< why the last bring-up failed or data exchange ended; empty when all is well
-  std::string step_reason = {};  ///< why it went into `state`; empty when that was a step forward
+  std::string reason = {};       ///< why the last bring-up failed or data exchange ended; else empty
+  std::string step_reason = {};  ///< why it entered `state`; empty for a step forward
   Bytes inputs = {};             ///< of the last data exchange
   Bytes outputs = {};            ///< sent in Operate
   Bytes diagnosis = {};          ///< data of the last Slave_Diag answer
@@ -42,28 +42,28 @@ struct SlaveView {
 
 class SlaveHandler {
  public:
-  /// Throws std::invalid_argument when a value of `parameters` is out of its range.
+  /// Throws std::invalid_argument for a value of `parameters` out of range.
   SlaveHandler(SlaveParameters parameters, std::uint8_t master, Personality personality);
 
   const SlaveParameters& parameters() const { return parameters_; }
   const SlaveView& view() const { return view_; }
   bool offline() const { return view_.state == SlaveState::kOffline; }
 
-  /// The request that is due; not in kReleased. FCB and FCV are the data link layer's.
+  /// The request that is due; not in kReleased. The data link layer adds FCB and FCV.
   Telegram next_request();
-  /// What came back to the last `next_request`. Only counted when `release` or `restart` came between.
+  /// The result of the last `next_request`. Only counted if `release` or `restart` came in between.
   void done(const FdlResult& result);
 
-  /// As many bytes as output_length, else std::invalid_argument.
+  /// Exactly output_length bytes, else std::invalid_argument.
   void set_outputs(const Bytes& outputs);
   void set_clear(bool clear) { clear_ = clear; }
   void release();
-  /// Begins anew with Slave_Diag; for a released slave too.
+  /// Restarts with Slave_Diag, also for a released slave.
   void restart(const std::string& reason);
 
   std::function<void(SlaveState from, SlaveState to)> on_state;
   std::function<void()> on_inputs;     ///< inputs differ from the earlier ones
-  std::function<void()> on_diagnosis;  ///< an answer to Slave_Diag
+  std::function<void()> on_diagnosis;  ///< called for an answer to Slave_Diag
 
  private:
   Telegram due_request() const;

@@ -1,5 +1,5 @@
 #pragma once
-// What a master hears while it does not await an answer: whole, right telegrams of others.
+// Collects complete, valid telegrams of other stations while a master does not await an answer.
 #include <optional>
 
 #include "bus/telegram/telegram.hpp"
@@ -15,12 +15,12 @@ struct HeardTelegram {
 
 class TelegramListener {
  public:
-  /// Ticks of a bit; forgets a telegram begun.
+  /// Sets the ticks per bit; drops a telegram in progress.
   void set_bit(Tick bit);
-  /// Forgets a telegram begun.
+  /// Drops a telegram in progress.
   void reset();
-  /// A result when the character completes a right telegram. Behind a wrong one, or a wrong character, nothing counts
-  /// until the line was idle for T_SYN.
+  /// Returns a result if the character completes a valid telegram. After an invalid telegram or character everything is
+  /// ignored until the line has been idle for T_SYN.
   std::optional<HeardTelegram> feed(const ReceivedCharacter& received);
 
  private:

@@ -7,7 +7,7 @@ namespace dsdpv1::bus {
 
 namespace {
 
-/// Station type, bits 5 and 4 of the FC of an answer (EN 50170): what FDL status tells of an active station.
+/// Station type, bits 5 and 4 of the FC of an answer (EN 50170): the state of an active station in FDL status.
 constexpr unsigned kTypeMask = 0x30, kNotReady = 0x10, kReady = 0x20, kInRing = 0x30;
 
 }  // namespace
@@ -71,7 +71,7 @@ void TokenRing::listen_anew(Tick now, const char* why) {
 // --- the token is elsewhere ------------------------------------------------------------------------------------------
 
 Tick TokenRing::timeout() const {
-  // EN 50170: T_TO = 6 T_SL + 2 n T_SL, so that the master with the lowest address is the first.
+  // EN 50170: T_TO = 6 T_SL + 2 n T_SL, so the master with the lowest address comes first.
   return std::max(quiet_from_, fdl_.last_activity()) + bits((6 + 2 * Tick{address_}) * parameters_.slot(baud_));
 }
 
@@ -91,7 +91,7 @@ bool TokenRing::act(Tick now) {
   }
 }
 
-/// A master that was in the ring still has its LAS and goes on with it; one that was not begins a ring of its own.
+/// A master that was in the ring keeps its LAS and continues with it; otherwise it begins a new ring.
 bool TokenRing::claim(Tick now) {
   if (now < timeout()) return false;
   ++statistics_.claims;
@@ -123,8 +123,8 @@ void TokenRing::release(Tick now) {
   go(now, gap ? RingState::kGapPoll : RingState::kPassToken, "nothing more to send");
 }
 
-/// One address of the GAP, from the own address to the next station, each token; the next round begins G x T_TR after
-/// the end of one.
+/// One address of the GAP, from the own address to the next station, at each token; the next round begins G x T_TR
+/// after the end of the last.
 bool TokenRing::next_gap_address(Tick now) {
   if (parameters_.gap_factor <= 0 || now >= hold_until_) return false;
   if (!gap_running_) {
@@ -200,14 +200,14 @@ void TokenRing::token_sent(Tick now, const FdlResult& result) {
   attempts_ = 0;
 }
 
-// --- what is heard ---------------------------------------------------------------------------------------------------
+// --- reception -------------------------------------------------------------------------------------------------------
 
 void TokenRing::heard(const HeardTelegram& heard) {
   if (state_ == RingState::kOff || state_ == RingState::kOut) return;
   const Telegram& telegram = heard.telegram;
   if (telegram.is_response()) return;
   if (state_ != RingState::kListenToken && state_ != RingState::kActiveIdle) {
-    // Two masters have the token: this one gives up its own (EN 50170: back to Active_Idle).
+    // Two masters have the token: this one drops its token (EN 50170: back to Active_Idle).
     ++statistics_.tokens_given_up;
     quiet_from_ = heard.end;
     go(heard.end, RingState::kActiveIdle, "another master has the token, too");
@@ -239,7 +239,7 @@ void TokenRing::token_heard(const HeardTelegram& heard) {
   stations_.token_passed(sa, da);
 }
 
-/// EN 50170: from the previous station at once; from another only when it is repeated.
+/// EN 50170: accepted from the previous station at once; from another only if repeated.
 void TokenRing::token_for_us(const HeardTelegram& heard) {
   const std::uint8_t sa = heard.telegram.sa;
   if (sa != stations_.previous_of(address_) && stranger_ != sa) {

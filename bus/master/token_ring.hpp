@@ -1,7 +1,7 @@
 #pragma once
-// The token among several masters (EN 50170 part 2, FDL state machine of a master): learning the ring, entering it,
-// using, passing and recovering the token, looking after the GAP. Sits on a MasterFdl and shares it with the master
-// station, which sends its own requests while `holds_token`.
+// The token among several masters (EN 50170 part 2, FDL state machine of a master): learns and enters the ring, uses,
+// passes and recovers the token, polls the GAP. Uses a MasterFdl and shares it with the master station, which sends its
+// own requests while `holds_token`.
 #include <cstdint>
 #include <functional>
 
@@ -14,8 +14,8 @@ namespace dsdpv1::bus {
 
 enum class RingState : std::uint8_t {
   kOff,          ///< silent, deaf
-  kListenToken,  ///< learns the LAS; answers FDL status with "not ready", when it is valid with "ready"
-  kClaimToken,   ///< the bus is dead: the token to itself twice
+  kListenToken,  ///< learns the LAS; answers FDL status with "not ready", with "ready" once the LAS is valid
+  kClaimToken,   ///< the bus is dead: passes the token to itself twice
   kActiveIdle,   ///< in the ring, without the token
   kUseToken,     ///< the master station sends
   kGapPoll,      ///< FDL status to one address of the GAP
@@ -27,7 +27,7 @@ const char* name(RingState state);
 
 struct RingStatistics {
   RotationStatistics rotations = {};   ///< T_RR, from receipt to receipt
-  std::uint64_t token_retries = 0;     ///< tokens repeated because nobody was heard
+  std::uint64_t token_retries = 0;     ///< tokens repeated because no station was heard
   std::uint64_t stations_dropped = 0;  ///< taken out of the LAS because they did not take the token
   std::uint64_t stations_found = 0;    ///< by the GAP poll
   std::uint64_t claims = 0;            ///< tokens claimed after T_TO
@@ -35,41 +35,41 @@ struct RingStatistics {
 };
 
 constexpr int kTokenAttempts = 3;  ///< EN 50170: the token is sent three times before the next station counts as gone
-constexpr int kClaimTokens = 2;    ///< tokens to itself that begin a ring
+constexpr int kClaimTokens = 2;    ///< tokens to itself that start a ring
 constexpr int kDuplicateLimit =
-    2;  ///< tokens with the own address as SA, heard while listening, until it leaves for good
+    2;  ///< tokens with the own address as SA, heard while listening, until it leaves permanently
 
 class TokenRing {
  public:
-  /// `address` 0..126. The layer must outlive it; its on_heard becomes the ring's.
+  /// `address` 0..126. The layer must outlive it; the ring uses its on_heard.
   TokenRing(MasterFdl& fdl, std::uint8_t address, const BusParameters& parameters);
   TokenRing(const TokenRing&) = delete;
   TokenRing& operator=(const TokenRing&) = delete;
 
   /// Goes to kListenToken; does nothing unless off or out.
   void start(Tick now);
-  /// Silent at once; the layer is left to the caller.
+  /// Silent at once; does not stop the layer.
   void stop(Tick now);
   void set_baud(int index);
 
   RingState state() const { return state_; }
-  /// In kActiveIdle, kUseToken, kGapPoll and kPassToken.
+  /// True in kActiveIdle, kUseToken, kGapPoll and kPassToken.
   bool in_ring() const;
   bool holds_token() const { return state_ == RingState::kUseToken; }
   const ActiveStations& stations() const { return stations_; }
   const RingStatistics& statistics() const { return statistics_; }
 
-  /// EN 50170, 4.1.1: the first high-priority message of a token always, others while T_TH = T_TR - T_RR is not over.
-  /// Only while it holds the token.
+  /// EN 50170, 4.1.1: the first high-priority message of a token always, others while T_TH = T_TR - T_RR has not
+  /// passed. Only while it holds the token.
   bool may_begin(Tick now, bool high) const { return now < hold_until_ || (high && !high_sent_); }
   /// The master station has begun a message.
   void begun(bool high) { high_sent_ = high_sent_ || high; }
-  /// The master station has nothing more to send: GAP poll when it is due, then the token is passed.
+  /// The master station has nothing more to send: polls the GAP if due, then passes the token.
   void release(Tick now);
 
-  /// With the layer idle: begins the ring's own telegram that is due. False when there is none.
+  /// With the layer idle: begins the ring's own telegram if one is due. Returns false without one.
   bool act(Tick now);
-  /// Whether the layer's request under way is the ring's; then its result goes to `done`.
+  /// Whether the layer's present request is the ring's; then its result goes to `done`.
   bool asking() const { return asking_; }
   void done(Tick now, const FdlResult& result);
   /// T_TO while the token is elsewhere; else kNever.

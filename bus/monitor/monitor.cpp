@@ -77,15 +77,15 @@ Tick Monitor::next() const {
 Tick Monitor::idle_at() const { return active_ ? *last_end_ + bits(kSynBits) : kNever; }
 
 Tick Monitor::slot_end() const {
-  // The slot time ends with the first character of an answer.
+  // The first character of an answer ends the slot time.
   if (!pending_ || decoder_.begun()) return kNever;
   return pending_->end + slot();
 }
 
 Tick Monitor::slot() const { return bits(slot_bits_.value_or(bus::baud(baud_).slot_bits)); }
 
-// What is wrong is flagged when it is, so a run may only be heard at its end when nothing is: a telegram, behind no
-// broken one. Who wants characters gets each in time.
+// Faults are flagged when they occur, so a run may only be taken at its end if it cannot cause any: a telegram that
+// does not follow a broken one. With on_character each character is reported in time.
 bool Monitor::run_begins(const CharacterRun& run) {
   if (skipping_ || decoder_.begun() || !is_telegram(run.bytes, run.size) ||
       !receiver_.set_run(run, on_character != nullptr))
@@ -114,7 +114,7 @@ void Monitor::character(const ReceivedCharacter& received) {
   if (auto decoded = decoder_.feed(received.byte)) finish_telegram(std::move(*decoded));
 }
 
-/// A right telegram, at which nothing can be flagged before its end.
+/// A valid telegram, which can cause no flag before its end.
 bool Monitor::take_run(const CharacterRun& run) {
   if (on_character) return false;
   idle_before(run.start);
@@ -163,7 +163,7 @@ void Monitor::classify(WireTelegram& telegram) {
   if (telegram.decoded.error != DecodeError::kNone) {
     flag(FlagKind::kTelegramError, telegram.end, describe(telegram.decoded.error));
     skipping_ = telegram.decoded.error != DecodeError::kTruncated;
-    pending_.reset();  // answered, though wrongly
+    pending_.reset();  // answered, although wrongly
     return;
   }
   if (telegram.decoded.telegram.is_response())

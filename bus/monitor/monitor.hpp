@@ -1,5 +1,5 @@
 #pragma once
-// A listener that decodes everything on the wire, with times, and flags what must not be there.
+// A listener that decodes everything on the wire, with times, and flags violations.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -24,7 +24,7 @@ enum class FlagKind : std::uint8_t {
   kCharacterError,    ///< wrong parity or stop bit
   kTelegramError,     ///< see DecodeError
   kUnanswered,        ///< no answer within the slot time
-  kUnexpectedAnswer,  ///< an answer that nobody asked for, or by the wrong station
+  kUnexpectedAnswer,  ///< an answer that was not requested, or from the wrong station
   kGlitch,            ///< a low level shorter than half a bit
   kTwoMasters,        ///< a master sends while another has the token
 };
@@ -34,8 +34,8 @@ const char* name(FlagKind kind);
 
 struct Flag {
   FlagKind kind{};
-  Tick at = 0;       ///< where it was found
-  std::string text;  ///< in words, with the measured value
+  Tick at = 0;       ///< place of detection
+  std::string text;  ///< as text, with the measured value
 };
 
 struct WireTelegram {
@@ -45,7 +45,7 @@ struct WireTelegram {
   Decoded decoded;  ///< with the bytes
   bool character_errors = false;
   std::optional<Tick> tsdr = {};  ///< answers to a request: from the end of the request to the start bit
-  std::uint8_t station = 255;     ///< who answered; for SC the station that was asked; 255 = not an answer
+  std::uint8_t station = 255;     ///< the answering station; for SC the station that was asked; 255 = not an answer
 
   bool right() const { return decoded.error == DecodeError::kNone && !character_errors; }
   /// TSDR in bit times, with fraction. Only with a `tsdr`.
@@ -55,7 +55,7 @@ struct WireTelegram {
 /// TSDR of one station, in ticks.
 struct StationStatistics {
   std::uint64_t requests = 0;  ///< to this station, repetitions included
-  std::uint64_t answers = 0;   ///< right ones
+  std::uint64_t answers = 0;   ///< valid ones
   std::uint64_t unanswered = 0;
   Tick tsdr_min = kNever, tsdr_max = 0, tsdr_sum = 0;
 
@@ -64,14 +64,14 @@ struct StationStatistics {
 };
 
 struct MonitorStatistics {
-  std::uint64_t telegrams = 0;  ///< right ones
+  std::uint64_t telegrams = 0;  ///< valid ones
   std::uint64_t wrong = 0;
-  std::array<std::uint64_t, 5> by_kind = {};         ///< right ones by TelegramKind
+  std::array<std::uint64_t, 5> by_kind = {};         ///< valid ones by TelegramKind
   std::array<std::uint64_t, kFlagKinds> flags = {};  ///< by FlagKind
   std::map<std::uint8_t, StationStatistics> stations = {};
 };
 
-/// Limits against which answers are held, in bit times. The defaults are those of the baud rate.
+/// Limits for answers, in bit times. The defaults are those of the baud rate.
 struct TsdrLimits {
   int min_bits = kMinTsdrBits;
   std::optional<int> max_bits = {};
@@ -79,13 +79,13 @@ struct TsdrLimits {
 
 class Monitor : public Listener, public Agent {
  public:
-  /// Attaches to the segment and hears of its collisions (an on_collision set before is called as well). The segment,
-  /// the monitor and the timeline it is added to must live equally long.
+  /// Attaches to the segment and its collisions (also calls an on_collision set before). The segment, the monitor and
+  /// its timeline must live equally long.
   explicit Monitor(Segment& segment);
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
-  /// The rate of the wire from now on, 0..9; a telegram begun is forgotten. Default 0 (12 Mbit/s).
+  /// The rate of the wire from now on, 0..9; a telegram in progress is dropped. Default 0 (12 Mbit/s).
   void set_baud(int index);
   int baud() const { return baud_; }
   /// For answers of one station (Set_Prm may have changed min_TSDR), or of all others.
@@ -96,14 +96,15 @@ class Monitor : public Listener, public Agent {
     slot_bits_ = bits;
     announce();
   }
-  /// Idle time between characters that is still no gap, 1/1000 bit. Default 1000 (ruling S10).
+  /// Largest idle time between characters that is not flagged as a gap, 1/1000 bit. Default 1000 (ruling S10).
   void set_gap_tolerance(int millibits) { gap_tolerance_ = millibits; }
 
   std::function<void(const WireTelegram&)> on_telegram;
   std::function<void(const Flag&)> on_flag;
-  /// Each character, before what comes of it; null: nobody wants to know.
+  /// Called for each character, before its effects; null: not reported.
   std::function<void(const ReceivedCharacter&)> on_character;
-  /// A character after a wrong telegram, before the line was idle for T_SYN: it is taken for a part of it.
+  /// Called for a character after an invalid telegram, before the line has been idle for T_SYN: it counts as part of
+  /// that telegram.
   std::function<void(const ReceivedCharacter&)> on_skipped;
 
   const MonitorStatistics& statistics() const { return statistics_; }
@@ -157,18 +158,17 @@ class Monitor : public Listener, public Agent {
   TsdrLimits limits_;
   std::map<std::uint8_t, TsdrLimits> station_limits_;
 
-  WireTelegram current_;            ///< of the telegram begun
-  bool skipping_ = false;           ///< behind a wrong telegram: until the line was idle for T_SYN
-  bool active_ = false;             ///< the line was not idle for T_SYN since last_end_
+  WireTelegram current_;            ///< of the telegram in progress
+  bool skipping_ = false;           ///< after an invalid telegram: until the line has been idle for T_SYN
+  bool active_ = false;             ///< the line has not been idle for T_SYN since last_end_
   std::optional<Tick> last_end_;    ///< end of the last character, none before the first
-  std::optional<Tick> quiet_from_;  ///< end of the activity before the telegram begun
-  std::optional<Pending> pending_;  ///< the request that waits for its answer
+  std::optional<Tick> quiet_from_;  ///< end of the activity before the telegram in progress
+  std::optional<Pending> pending_;  ///< the request that awaits its answer
   TokenWatch token_;
   MonitorStatistics statistics_;
 };
 
-/// One line for a log: start time in ns, baud rate, TSDR, the telegram in words, or what is wrong with it and its
-/// bytes.
+/// One line for a log: start time in ns, baud rate, TSDR, the telegram as text, or its fault and its bytes.
 std::string format_line(const WireTelegram& telegram);
 std::string format_line(const Flag& flag);
 

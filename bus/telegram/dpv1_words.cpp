@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint8_t kDpv1Decode = 0x80;  // table 28: the only value
 
-/// One row of table 29: sixteen codes of a class; nullptr is reserved, behind `user_from` they are the user's.
+/// One row of table 29: sixteen codes of a class; nullptr is reserved, codes from `user_from` on belong to the user.
 struct ErrorClass {
   const char* name;
   std::array<const char*, 10> codes;

@@ -1,6 +1,6 @@
 #pragma once
-// The words of DPV1: services, error codes (tables 28 and 29), abort reasons (EN 50170 part 8, as vendors' manuals list
-// them).
+// Texts of DPV1: services, error codes (tables 28 and 29), abort reasons (EN 50170 part 8, as listed in vendors'
+// manuals).
 #include <cstdint>
 #include <string>
 
@@ -12,16 +12,16 @@ constexpr std::uint8_t kIdle = 0x48, kTransport = 0x51, kImmediate = 0x56, kInit
                        kRead = 0x5E, kWrite = 0x5F, kError = 0x80;
 }
 
-/// "DS_Read", "Initiate", ...; bit 7 is not looked at; "unknown function" for others.
+/// "DS_Read", "Initiate", ...; ignores bit 7; "unknown function" for others.
 const char* function_name(std::uint8_t function);
 
-/// Error_Code_1: "access: invalid index"; "user specific ..." and "reserved ..." where the table says so.
+/// Error_Code_1: "access: invalid index"; "user specific ..." and "reserved ..." according to the table.
 std::string error_code_words(std::uint8_t error_code_1);
-/// A negative answer: "access: invalid index"; Error_Decode is named when it is not 0x80, Error_Code_2 when it is not
-/// 0.
+/// A negative answer: "access: invalid index"; names Error_Decode if it is not 0x80, Error_Code_2 if it is not 0.
 std::string error_words(std::uint8_t error_decode, std::uint8_t error_code_1, std::uint8_t error_code_2);
 
-/// Who aborts a connection, and why (byte 2 of the abort PDU: instance in bits 5 and 4, reason in bits 3 to 0).
+/// The instance that aborts a connection, and its reason (byte 2 of the abort PDU: instance in bits 5 and 4, reason in
+/// bits 3 to 0).
 namespace abort_instance {
 constexpr std::uint8_t kFdl = 0, kMsac2 = 1, kUser = 2;
 }

@@ -1,4 +1,4 @@
-// The frame round the data: delimiters, addresses, function codes, SAPs, and which service a telegram belongs to.
+// The frame around the data: delimiters, addresses, function codes, SAPs, and the service of a telegram.
 #include "bus/telegram/explain.hpp"
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ const char* service_name(std::uint8_t slave_sap) {
   }
 }
 
-/// The slave's SAP, which decides on the service: DSAP of a request, SSAP of an answer.
+/// The slave's SAP, which determines the service: DSAP of a request, SSAP of an answer.
 std::optional<std::uint8_t> slave_sap(const Telegram& t) { return t.is_request() ? t.dsap : t.ssap; }
 
 bool is_data_transfer(const Telegram& t) {
@@ -105,7 +105,7 @@ DataWords data_words(const Telegram& t, std::optional<bool> dpv1 = {}) {
   return t.is_request() ? request_words(t, *sap) : response_words(t, *sap, dpv1);
 }
 
-/// Whether the summary of the data says something that the name of the service does not.
+/// Whether the summary of the data adds to the name of the service.
 bool has_essentials(const Telegram& t) {
   if (!t.data.empty()) return true;
   if (!slave_sap(t)) return is_data_transfer(t);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint8_t kWholeConsistency = 0x80, kWords = 0x40, kSpecialOut = 0x80, kSpecialIn = 0x40;
 
-/// Walks over the identifiers, adds up the lengths.
+/// Iterates over the identifiers and adds up the lengths.
 class CfgReader {
  public:
   explicit CfgReader(const Bytes& data) : data_(data) {}

@@ -1,5 +1,5 @@
 #pragma once
-// Inside of explain: the data of each service. One summary and one text for each byte of the data.
+// Internal to explain: the data of each service. One summary and one text for each byte of the data.
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +19,9 @@ DataWords global_control_words(const Bytes& data);
 DataWords set_slave_address_words(const Bytes& data);
 /// Chk_Cfg request and Get_Cfg answer.
 DataWords cfg_words(const Bytes& data);
-/// `dpv1`: whether the slave is parameterised for DPV1; unset: unknown, device related blocks are then read both ways.
+/// `dpv1`: whether the slave is parameterised for DPV1; unset: unknown, device related blocks are read both ways.
 DataWords diag_words(const Bytes& data, std::optional<bool> dpv1);
-/// What a Set_Prm that locks its slave says about DPV1; nothing for any other telegram.
+/// The DPV1 setting in a Set_Prm that locks its slave; nullopt for any other telegram.
 std::optional<bool> dpv1_enabled(const Telegram& telegram);
 /// C1 and C2 PDUs, requests and answers.
 DataWords dpv1_words(const Bytes& data, bool response);
@@ -30,8 +30,8 @@ DataWords plain_words(const std::string& what, const Bytes& data);
 
 /// "Group_Ident: group 1, 3".
 std::string group_words(const char* name, std::uint8_t byte, const char* zero);
-/// The names of the bits set, least significant first: "Prm_Req, WD_On"; "none" when there are none. `names` has 8
-/// entries, an empty one is shown as "bit n".
+/// The names of the set bits, least significant first: "Prm_Req, WD_On"; "none" without any. `names` has 8 entries, an
+/// empty one is shown as "bit n".
 std::string bit_names(std::uint8_t byte, const char* const (&names)[8]);
 std::string hex(const Bytes& bytes);
 

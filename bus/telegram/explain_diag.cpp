@@ -70,7 +70,7 @@ const char* specifier_words(std::uint8_t byte) {
   return kWords[byte & 3U];
 }
 
-/// Two bits a module, the first module lowest.
+/// Two bits per module, the first module lowest.
 std::string module_status_words(std::uint8_t byte, std::size_t first) {
   static constexpr const char* kWords[4] = {"valid data", "invalid data (error)", "wrong module", "no module"};
   std::string text = "module status:";
@@ -79,7 +79,7 @@ std::string module_status_words(std::uint8_t byte, std::size_t first) {
   return text;
 }
 
-/// Byte `i` of a device related block as DPV1 has it: a status or an alarm of a slot. `type` is that of byte 1.
+/// Byte `i` of a device related block in DPV1: a status or an alarm of a slot. `type` is that of byte 1.
 std::string dpv1_block_words(std::uint8_t type, std::size_t i, std::uint8_t byte) {
   const bool status = (type & 0x80U) != 0;
   const unsigned number = type & 0x7FU;
@@ -98,7 +98,7 @@ std::string dpv1_block_words(std::uint8_t type, std::size_t i, std::uint8_t byte
   }
 }
 
-/// Walks over the blocks behind the standard diagnosis.
+/// Iterates over the blocks after the standard diagnosis.
 class ExtDiagReader {
  public:
   ExtDiagReader(const Bytes& data, std::optional<bool> dpv1, DataWords& words)
@@ -118,7 +118,7 @@ class ExtDiagReader {
     }
   }
 
-  /// Says the header of a block; where the block ends.
+  /// Explains the header of a block; returns the end of the block.
   std::size_t read_header(const char* kind) {
     const std::size_t length = data_[at_] & 0x3FU, begin = at_;
     const bool fits = length > 0 && begin + length <= data_.size();
@@ -131,7 +131,7 @@ class ExtDiagReader {
     while (at_ < end) say(modules_words(data_[at_], (at_ - begin - 1) * 8));
   }
 
-  /// In DPV1 a block of at least four bytes is a status or an alarm; without DPV1 its content is the manufacturer's.
+  /// In DPV1 a block of at least four bytes is a status or an alarm; without DPV1 its content is manufacturer specific.
   void read_device() {
     constexpr std::size_t kLeastDpv1 = 4;
     const std::size_t begin = at_, end = read_header("device related");
@@ -179,7 +179,7 @@ DataWords diag_words(const Bytes& data, std::optional<bool> dpv1) {
       "Station_status_3: " + bit_names(data[2], kStatus3), master_words(data[3]),
       fmt::format("Ident_Number high: 0x{:02X}", data[4]), fmt::format("Ident_Number low: 0x{:02X}", data[5])};
   ExtDiagReader(data, dpv1, words).read();
-  const auto status2 = static_cast<std::uint8_t>(data[1] & ~0x04U);  // bit 2 is always set: it says nothing
+  const auto status2 = static_cast<std::uint8_t>(data[1] & ~0x04U);  // bit 2 is always set and has no meaning
   words.summary =
       fmt::format("[{}] [{}]{}, {}, ident 0x{:02X}{:02X}", bit_names(data[0], kStatus1), bit_names(status2, kStatus2),
                   (data[2] & 0x80U) != 0 ? " [Ext_Diag_Overflow]" : "", master_words(data[3]), data[4], data[5]);

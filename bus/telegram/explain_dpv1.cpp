@@ -1,5 +1,5 @@
-// DPV1: the PDUs of C1 and C2 (rulings V1 to V6, V9 to V11, tables 26 to 32). Each PDU is a list of field names; what a
-// list does not name is data.
+// DPV1: the PDUs of C1 and C2 (rulings V1 to V6, V9 to V11, tables 26 to 32). Each PDU is a list of field names; the
+// rest is data.
 #include <fmt/format.h>
 
 #include <initializer_list>
@@ -12,7 +12,7 @@ namespace dsdpv1::bus::detail {
 namespace {
 
 constexpr std::size_t kNegative = 4;       // fn, Error_Decode, Error_Code_1, Error_Code_2
-constexpr std::size_t kRequestFixed = 12;  // Initiate in front of Add_Addr
+constexpr std::size_t kRequestFixed = 12;  // Initiate before Add_Addr
 constexpr std::size_t kResponseFixed = 8;  // its answer
 constexpr std::size_t kShortAddress = 2, kLongAddress = 4;
 
@@ -53,7 +53,7 @@ void read_data_set(DataWords& words, const Bytes& data, const char* name) {
   words.summary = fmt::format("{} slot {} index {} length {}", name, data[1], data[2], data[3]);
 }
 
-/// Add_Addr from `at` on (V10): two APIs, or types, lengths and addresses of just the lengths they say.
+/// Add_Addr from `at` on (V10): two APIs, or types, lengths and addresses of exactly these lengths.
 std::string read_address(DataWords& words, const Bytes& data, std::size_t at) {
   const std::size_t size = data.size() - at;
   if (size == kShortAddress) {
@@ -116,7 +116,7 @@ void read_immediate(DataWords& words, const Bytes& data) {
 
 void read_abort(DataWords& words, const Bytes& data) {
   name_fields(words, {"Subnet", "Instance and Reason_Code", "Additional_Detail"}, data);
-  constexpr std::size_t kLeast = 3;  // Additional_Detail is left out by some, by this chip too (V2)
+  constexpr std::size_t kLeast = 3;  // some devices, including this chip, omit Additional_Detail (V2)
   if (data.size() < kLeast) {
     words.summary = too_short("Abort", data, kLeast);
     return;

@@ -1,4 +1,4 @@
-// Set_Prm (tables 18 to 20): the seven standard bytes, the three DPV1 bytes, and user parameters in blocks where
+// Set_Prm (tables 18 to 20): the seven standard bytes, the three DPV1 bytes, and user parameters, in blocks if
 // DPV1_Status_3 says so (Prm_Structure; EN 50170 with its DPV1 extensions, IEC 61158-6).
 #include <fmt/format.h>
 
@@ -68,7 +68,7 @@ std::string status_3_words(std::uint8_t byte) {
                      others == 0 ? "" : bit_names(others, kNames));
 }
 
-/// What stands in a block after its four header bytes: names once, then names that come again and again.
+/// The fields of a block after its four header bytes: names used once, then names that repeat.
 struct BlockFields {
   const char* name;
   std::vector<const char*> once, again;
@@ -102,7 +102,7 @@ BlockFields block_fields(std::uint8_t type) {
   }
 }
 
-/// Walks over the blocks of structured user parameters.
+/// Iterates over the blocks of structured user parameters.
 class BlockReader {
  public:
   BlockReader(const Bytes& data, DataWords& words) : data_(data), words_(words) {}
@@ -116,7 +116,7 @@ class BlockReader {
  private:
   static constexpr std::size_t kHeader = 4;
 
-  /// False when the length says nothing about where the next block begins.
+  /// Returns false if the length does not give the begin of the next block.
   bool read_block() {
     const std::size_t length = data_[at_], left = data_.size() - at_;
     const char* wrong = length < kHeader ? " (at least 4 are right)"

@@ -1,4 +1,4 @@
-// Telegrams as hexadecimal text: what `dsdpv1-sim decode` reads and prints.
+// Telegrams as hexadecimal text: input and output of `dsdpv1-sim decode`.
 #include <fmt/format.h>
 
 #include <istream>
@@ -16,7 +16,7 @@ class TextDecoder {
  public:
   TextDecoder(const TelegramText& text, std::ostream& out) : text_(text), printer_(out), out_(out) {}
 
-  /// True when everything was right and there was something.
+  /// Returns true if there was a telegram and no fault.
   bool decode() {
     std::size_t at = 0;
     while (at < text_.bytes.size()) at = decode_one(at);
@@ -52,8 +52,8 @@ class TextDecoder {
     return end;
   }
 
-  /// Where to go on behind a wrong telegram. Its inside may hold any byte, so that there only a telegram with a right
-  /// FCS or one at the beginning of a line is believed; between telegrams also a token or SC.
+  /// Where to continue after an invalid telegram. Its inside may hold any byte, so only a telegram with a right FCS or
+  /// one at the beginning of a line is accepted there; between telegrams also a token or SC.
   std::size_t end_of_wrong(std::size_t at, const Decoded& decoded) const {
     const bool whole = decoded.readable || decoded.error == DecodeError::kMissingSap;
     const std::size_t limit = whole ? at + decoded.bytes.size() : end_of_stream(at);
@@ -73,7 +73,7 @@ class TextDecoder {
   }
 
   void print_wrong(std::size_t at, std::size_t end, Decoded decoded) {
-    if (decoded.bytes.size() > end - at) {  // the telegram was cut off by the next one
+    if (decoded.bytes.size() > end - at) {  // the next telegram cut it off
       decoded.bytes.resize(end - at);
       decoded.error = DecodeError::kTruncated;
       decoded.readable = false;

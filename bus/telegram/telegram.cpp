@@ -48,10 +48,10 @@ void append_header(Bytes& out, const Telegram& t) {
   out.insert(out.end(), {sd::k2, le, le, sd::k2});
 }
 
-/// Where DA is in a complete telegram.
+/// The place of DA in a complete telegram.
 std::size_t body_offset(std::uint8_t start) { return start == sd::k2 ? 4 : 1; }
 
-/// Whether every SAP byte that DA and SA announce is in front of FCS.
+/// Whether every SAP byte announced by DA and SA comes before FCS.
 bool saps_present(const std::uint8_t* bytes, std::size_t size) {
   const std::size_t body = body_offset(bytes[0]);
   const std::size_t saps = (bytes[body] >> 7) + (bytes[body + 1] >> 7);
@@ -66,7 +66,7 @@ DecodeError check_frame(const std::uint8_t* bytes, std::size_t size) {
   return saps_present(bytes, size) ? DecodeError::kNone : DecodeError::kMissingSap;
 }
 
-/// The lengths and delimiters at the front say that so many bytes are a telegram.
+/// The lengths and delimiters at the begin match a telegram of this size.
 bool header_fits(const std::uint8_t* bytes, std::size_t size) {
   switch (bytes[0]) {
     case sd::k1: return size == kSd1Size;
@@ -204,7 +204,7 @@ DecodeError TelegramDecoder::check_header() {
 }
 
 std::optional<Decoded> TelegramDecoder::feed(std::uint8_t byte) {
-  constexpr std::size_t kShort = 16;  // most are, and have one piece of memory then
+  constexpr std::size_t kShort = 16;  // most telegrams fit, and then allocate once
   if (bytes_.empty()) bytes_.reserve(kShort);
   bytes_.push_back(byte);
   const DecodeError header = check_header();

@@ -1,6 +1,6 @@
 #pragma once
-// Telegrams of the data link layer (EN 50170 / IEC 61158-4 type 3) as types, their encoding and their decoding with
-// exact reasons.
+// Telegrams of the data link layer (EN 50170 / IEC 61158-4 type 3) as types; encodes and decodes them with exact
+// reasons.
 #include <cstdint>
 #include <optional>
 
@@ -29,7 +29,7 @@ constexpr std::uint8_t kSdaLow = 3, kSdnLow = 4, kSdaHigh = 5, kSdnHigh = 6, kMs
 constexpr std::uint8_t kOk = 0, kUe = 1, kRr = 2, kRs = 3, kDl = 8, kNr = 9, kDh = 0xA, kRdl = 0xC, kRdh = 0xD;
 }  // namespace fc
 
-/// Service access points of DP and DPV1; those of the slave unless said otherwise.
+/// Service access points of DP and DPV1; the slave's unless noted.
 namespace sap {
 constexpr std::uint8_t kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59,
                        kSlaveDiag = 60, kSetPrm = 61, kChkCfg = 62;
@@ -52,14 +52,14 @@ struct Telegram {
   TelegramKind kind = TelegramKind::kSd1;
   std::uint8_t da = 0, sa = 0;                       ///< 0..127, without the extension bit; 0 in SC
   std::uint8_t fc = 0;                               ///< 0 in SD4 and SC
-  std::optional<std::uint8_t> dsap = {}, ssap = {};  ///< the extension bytes when bit 7 of DA or SA is set
-  Bytes data = {};                                   ///< behind the SAP bytes
+  std::optional<std::uint8_t> dsap = {}, ssap = {};  ///< the extension bytes, if bit 7 of DA or SA is set
+  Bytes data = {};                                   ///< after the SAP bytes
 
   /// SD1, SD2 or SD3 with bit 6 of FC set.
   bool is_request() const;
   /// SC, or SD1, SD2, SD3 with bit 6 of FC clear.
   bool is_response() const;
-  /// A request that its receiver must answer: everything but SDN, and nothing to the broadcast address.
+  /// A request that its receiver must answer: all except SDN, and none to the broadcast address.
   bool wants_answer() const;
   std::uint8_t function() const { return fc & fc::kFunction; }
 };
@@ -69,46 +69,46 @@ bool operator==(const Telegram& a, const Telegram& b);
 /// SD1 without data and SAPs, else SD2.
 Telegram make_telegram(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, const Bytes& data = {},
                        std::optional<std::uint8_t> dsap = {}, std::optional<std::uint8_t> ssap = {});
-/// SD3 instead of SD2 when exactly 8 bytes, SAP bytes included, are to be sent; else unchanged.
+/// SD3 instead of SD2 if exactly 8 bytes, SAP bytes included, are to be sent; else unchanged.
 Telegram prefer_sd3(Telegram telegram);
 Telegram make_token(std::uint8_t da, std::uint8_t sa);
 Telegram make_sc();
 
-/// The bytes on the wire. Throws std::invalid_argument when the data do not fit the kind.
+/// The bytes on the wire. Throws std::invalid_argument if the data do not fit the kind.
 Bytes encode(const Telegram& telegram);
 
 enum class DecodeError : std::uint8_t {
   kNone,
-  kStartDelimiter,        ///< the first byte is none of 10, 68, A2, DC, E5
+  kStartDelimiter,        ///< the first byte is not 10, 68, A2, DC or E5
   kLengthRange,           ///< LE below 4 or above 249
   kLengthMismatch,        ///< LE and LEr differ
   kSecondStartDelimiter,  ///< the fourth byte of SD2 is not 68
   kFcs,
   kEndDelimiter,
-  kMissingSap,  ///< bit 7 of DA or SA promises an extension byte that is not there
+  kMissingSap,  ///< bit 7 of DA or SA announces an extension byte that is missing
   kTruncated,   ///< the line fell silent (the input ended) inside the telegram
 };
 
-/// In words: "wrong FCS".
+/// As text: "wrong FCS".
 const char* describe(DecodeError error);
 
 struct Decoded {
   DecodeError error = DecodeError::kNone;
-  bool readable = false;  ///< `telegram` is filled: without an error, and also when only FCS or ED are wrong
+  bool readable = false;  ///< `telegram` is filled: without an error, or if only FCS or ED are wrong
   Telegram telegram = {};
-  Bytes bytes = {};  ///< what was received
+  Bytes bytes = {};  ///< the bytes received
 };
 
-/// One right telegram and nothing else.
+/// True for exactly one valid telegram.
 bool is_telegram(const std::uint8_t* bytes, std::size_t size);
 
-/// Takes the bytes of one telegram after the other.
+/// Decodes consecutive telegrams byte by byte.
 class TelegramDecoder {
  public:
-  /// A result when `byte` completes a telegram or makes it wrong. Length errors show as soon as the byte is there; FCS,
-  /// ED and SAPs are judged when the telegram is complete, in this order.
+  /// Returns a result if `byte` completes a telegram or makes it invalid. Length errors are found at their byte; FCS,
+  /// ED and SAPs are checked at the end, in this order.
   std::optional<Decoded> feed(std::uint8_t byte);
-  /// The end of the input or an idle line: kTruncated when a telegram was begun.
+  /// The end of the input or an idle line: kTruncated inside a telegram.
   std::optional<Decoded> finish();
   bool begun() const { return !bytes_.empty(); }
   const Bytes& bytes() const { return bytes_; }
@@ -118,10 +118,10 @@ class TelegramDecoder {
   Decoded take(DecodeError error);
 
   Bytes bytes_;
-  std::size_t expected_ = 0;  ///< length of the telegram as far as the header tells, 0 = not known
+  std::size_t expected_ = 0;  ///< length of the telegram according to its header, 0 = unknown
 };
 
-/// The first telegram of `bytes`; kTruncated when they end inside of it.
+/// The first telegram of `bytes`; kTruncated if they end inside it.
 Decoded decode(const Bytes& bytes);
 
 /// The sum of DA..data modulo 256.

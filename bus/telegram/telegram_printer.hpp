@@ -1,5 +1,5 @@
 #pragma once
-// Telegrams byte by byte as `dsdpv1-sim decode` prints them.
+// Prints telegrams byte by byte for `dsdpv1-sim decode`.
 #include <array>
 #include <iosfwd>
 #include <optional>
@@ -16,14 +16,14 @@ class TelegramPrinter {
   explicit TelegramPrinter(std::ostream& out) : out_(out) {}
 
   // `where` as in "line 5, 1361750.000 ns".
-  /// A right one. Remembers what a Set_Prm says about DPV1, so that later diagnoses are read as they are meant.
+  // A valid one. Remembers the DPV1 setting of a Set_Prm, so that later diagnoses are read accordingly.
   void right(const std::string& where, const Decoded& decoded);
-  /// `all`: the bytes from the telegram's first to where the next one may begin; those that it does not have are said
-  /// to be not decoded.
+  /// `all`: the bytes from the telegram's first to the possible begin of the next one; those not in `decoded` are shown
+  /// as not decoded.
   void wrong(const std::string& where, const std::string& why, const Decoded& decoded, const Bytes& all);
   void garbage(const std::string& where, const Bytes& bytes);
 
-  /// There was something, and all of it was right.
+  /// There was a telegram, and all were valid.
   bool all_right() const { return right_ && count_ > 0; }
 
  private:

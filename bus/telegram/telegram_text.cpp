@@ -14,19 +14,19 @@
 namespace dsdpv1::bus {
 namespace {
 
-// What a stream may make us keep: `decode` tells nothing before it has read all. 64 MB are 48 s of a full bus at 12
-// Mbit/s.
+// Limits the memory used for a stream: `decode` reports nothing before it has read everything. 64 MB are 48 s of a full
+// bus at 12 Mbit/s.
 constexpr std::size_t kLongestLine = 16U << 20U, kMostBytes = 64U << 20U;
 
 bool is_separator(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0 || c == ','; }
 
-/// A word as an error line quotes it.
+/// A word as quoted in an error line.
 std::string shortened(const std::string& word) {
   constexpr std::size_t kMost = 40;
   return word.size() <= kMost ? printable(word) : printable(word.substr(0, kMost)) + "...";
 }
 
-/// Appends the bytes of one word; what is wrong with it, or empty.
+/// Appends the bytes of one word; returns its fault, or an empty text.
 std::string add_word(std::string word, int line, TelegramText& text) {
   const std::string shown = shortened(word);
   if (word.size() > 2 && word[0] == '0' && (word[1] == 'x' || word[1] == 'X')) word.erase(0, 2);
@@ -57,13 +57,13 @@ std::string add_words(const std::string& content, int line, TelegramText& text) 
   return {};
 }
 
-/// A line of the log: its time, what kind of thing it tells, and the bytes when that is a telegram.
+/// A line of the log: its time, its kind, and the bytes of a telegram.
 struct LogLine {
   std::string at_ns, kind, bytes;
   std::size_t whole_length = 0;  ///< 0: all bytes are there
 };
 
-/// "... (44 bytes)" at the end of bytes that the log has cut is taken off.
+/// Removes "... (44 bytes)" at the end of bytes that the log has cut.
 void take_off_cut(LogLine& line) {
   const std::size_t cut = line.bytes.find(" ... (");
   if (cut == std::string::npos) return;
@@ -77,7 +77,7 @@ bool is_time(const std::string& word) {
          word.find_first_not_of("0123456789.") == std::string::npos;
 }
 
-/// "   1361750.083 ns  bus          telegram  2 -> 5 ...  68 05"; nothing for a line that no log has.
+/// "   1361750.083 ns  bus          telegram  2 -> 5 ...  68 05"; nullopt for a line that is not of a log.
 std::optional<LogLine> text_log_line(const std::string& content) {
   std::istringstream words(content);
   LogLine line;
@@ -90,7 +90,7 @@ std::optional<LogLine> text_log_line(const std::string& content) {
   return line;
 }
 
-/// A JSON line; what is wrong with it in `error`.
+/// A JSON line; its fault in `error`.
 std::optional<LogLine> json_log_line(const std::string& content, std::string& error) {
   const auto json = nlohmann::json::parse(content, nullptr, false);
   const auto text = [&json](const char* key) {
@@ -124,7 +124,7 @@ std::string add_line(const std::string& content, int line, TelegramText& text) {
   return add_words(content.substr(0, content.find_first_of("#;")), line, text);
 }
 
-/// As std::getline, but a line that is too long ends one character beyond what is allowed.
+/// As std::getline, but ends a too long line one character after the limit.
 bool get_line(std::istream& in, std::string& line) {
   line.clear();
   for (char c = 0; in.get(c);) {

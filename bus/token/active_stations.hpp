@@ -1,5 +1,5 @@
 #pragma once
-// The list of active stations (LAS) of a master and how it is learnt from the tokens of others (EN 50170 part 2, FDL).
+// The list of active stations (LAS) of a master, learnt from the tokens of others (EN 50170 part 2, FDL).
 #include <bitset>
 #include <cstdint>
 #include <vector>
@@ -14,11 +14,11 @@ class ActiveStations {
   void add(std::uint8_t address) { stations_.set(address); }
   void remove(std::uint8_t address) { stations_.reset(address); }
   bool contains(std::uint8_t address) const { return stations_.test(address); }
-  /// NS: the next in the order of addresses, behind the highest the lowest; `address` itself when there is no other.
+  /// NS: the next in the order of addresses, after the highest the lowest; `address` if there is no other.
   std::uint8_t next_after(std::uint8_t address) const;
-  /// PS, likewise downwards.
+  /// PS: the same downwards.
   std::uint8_t previous_of(std::uint8_t address) const;
-  /// A token from `sa` to `da`: both are in the ring, and nobody between them.
+  /// A token from `sa` to `da`: both are in the ring, and no station between them.
   void token_passed(std::uint8_t sa, std::uint8_t da);
   std::vector<std::uint8_t> addresses() const;
 
@@ -28,11 +28,11 @@ class ActiveStations {
   std::bitset<kBroadcast + 1> stations_;
 };
 
-/// Whether a token from `sa` to `da` goes past `address`. To itself: past everybody else.
+/// Whether a token from `sa` to `da` skips `address`. A token to itself skips all others.
 bool token_skips(std::uint8_t sa, std::uint8_t da, std::uint8_t address);
 
-/// Learns the LAS: it is valid when two rotations of the token in succession were the same. A rotation ends with the
-/// token that goes to the same or a lower address.
+/// Learns the LAS: it is valid after two equal rotations of the token in succession. A rotation ends with the token
+/// that goes to the same or a lower address.
 class StationLearner {
  public:
   void reset() { *this = StationLearner(); }

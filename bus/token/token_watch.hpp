@@ -1,5 +1,5 @@
 #pragma once
-// The token as a listener sees it: who has it, how long it takes to come round, who talks without it.
+// The token as observed by a listener: its holder, its rotation time, and masters that send without it.
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -13,16 +13,16 @@ namespace dsdpv1::bus {
 
 class TokenWatch {
  public:
-  /// A token or a request on the wire: its times, and the idle time in front of it. Requests are held against the token
-  /// only since one has gone from one master to another: a single master may send what it likes. After 6 x `slot` of
-  /// silence anybody may have claimed the token (EN 50170: T_TO), and who passed the token may repeat it while its
-  /// receiver is silent. Returns what is wrong, in words.
+  /// A token or a request on the wire: its times, and the idle time before it. Requests are checked only after the
+  /// token has passed between two masters: a single master may send anything. After 6 x `slot` of silence any master
+  /// may have claimed the token (EN 50170: T_TO), and the previous holder may repeat it while its receiver is silent.
+  /// Returns the violation as text.
   std::optional<std::string> hear(const Telegram& telegram, Tick end, Tick quiet, Tick slot);
 
-  /// T_RR by the master's address: from the end of a token to it to the end of the next; repeated tokens do not count,
-  /// nor the time that a master was out of the ring.
+  /// T_RR by the master's address: from the end of a token to it to the end of the next; repeated tokens and the time
+  /// outside the ring do not count.
   const std::map<std::uint8_t, RotationStatistics>& rotations() const { return rotations_; }
-  /// Who has the token as far as is known.
+  /// The holder of the token, if known.
   std::optional<std::uint8_t> holder() const { return holder_; }
 
  private:
@@ -31,7 +31,7 @@ class TokenWatch {
 
   std::optional<std::uint8_t> holder_, passer_;
   bool holder_heard_ = false;  ///< since it got the token
-  bool several_ = false;       ///< a token has gone from one master to another
+  bool several_ = false;       ///< the token has passed between two masters
   std::map<std::uint8_t, Tick> received_;
   std::map<std::uint8_t, RotationStatistics> rotations_;
 };

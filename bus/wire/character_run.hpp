@@ -1,5 +1,5 @@
 #pragma once
-// Characters told as a whole: who sends them tells them before, and who hears them so needs none of their levels.
+// A series of characters as one object: announced by the sender, so that listeners do not need its levels.
 #include <cstddef>
 #include <cstdint>
 
@@ -14,10 +14,10 @@ bool even_parity(std::uint8_t byte);
 /// The levels of a character in the order of sending, the start bit lowest.
 std::uint16_t frame_of(std::uint8_t byte);
 
-/// Right characters without a gap.
+/// Valid characters without a gap.
 struct CharacterRun {
   Tick start = 0;  ///< falling edge of the first start bit
-  Tick bit = 0;    ///< ticks of a bit
+  Tick bit = 0;    ///< ticks per bit
   const std::uint8_t* bytes = nullptr;
   std::size_t size = 0;
 
@@ -28,7 +28,7 @@ struct CharacterRun {
   bool level(Tick at) const;
 };
 
-/// Calls `change(at, level)` for each change of the line that a run is, falling and rising in turn.
+/// Calls `change(at, level)` for each change of the line in the run, falling and rising in turn.
 template <class Change>
 void for_each_change(const CharacterRun& run, Change change) {
   bool level = true;
@@ -42,17 +42,18 @@ void for_each_change(const CharacterRun& run, Change change) {
   }
 }
 
-/// Who the telegram in these characters is for, as a kind of receiver reads it: a station (0 to 126), kBroadcast,
-/// kForNobody (an acknowledgement, a token), or kNoTelegram: it is no right telegram.
+/// The addressee of the telegram in these characters, as read by a kind of receiver: a station (0 to 126), kBroadcast,
+/// kForNobody (an acknowledgement, a token), or kNoTelegram: not a valid telegram.
 using RunReader = int (*)(const std::uint8_t* bytes, std::size_t size);
 constexpr int kNoTelegram = -1, kForNobody = 128;
 
-/// Runs that a listener acts on. Others are counted for it, as long as each is a right telegram as `reader` reads it.
+/// Selects the runs that a listener must receive. Others are counted for it, as long as `reader` finds a valid
+/// telegram.
 struct RunFilter {
-  RunReader reader = nullptr;  ///< nullptr: it acts on every run
-  Tick from = 0;               ///< it acts on those that begin before, too ...
-  Tick bit = 0;                ///< ... on those of another bit time ...
-  std::uint8_t address = 0;    ///< ... and on those for this station and for all
+  RunReader reader = nullptr;  ///< nullptr: all runs
+  Tick from = 0;               ///< runs that begin before ...
+  Tick bit = 0;                ///< ... runs of another bit time ...
+  std::uint8_t address = 0;    ///< ... and runs for this station and for all
 };
 
 }  // namespace dsdpv1::bus

@@ -7,7 +7,7 @@ namespace dsdpv1::bus {
 
 namespace {
 
-constexpr Tick kGapBits = 2;  // by which runs are apart for any receiver, however it rounds them
+constexpr Tick kGapBits = 2;  // separates runs for any receiver, however it rounds them
 
 }  // namespace
 
@@ -79,7 +79,7 @@ bool Segment::driven_level() const {
 void Segment::settle(Tick at) {
   level_ = driven_level();
   if (level_ != noted_ && !telling_)
-    tell_all(at);  // else the outer call tells until everybody has heard the last level
+    tell_all(at);  // else the outer call reports until all listeners have the last level
 }
 
 void Segment::tell_all(Tick at) {
@@ -136,7 +136,7 @@ bool Segment::tell(Station& station, Tick at, bool level) {
 
 // --- runs ------------------------------------------------------------------------------------------------------------
 
-// An idle line that nobody else touches, and somebody who hears of the cut.
+// The line is idle, only this station drives it, and a listener exists for the cut.
 bool Segment::may_send_run(StationId station) const {
   const bool alone = drivers_.size() == 1 && drivers_.front() == station;
   return alone && stations_[station].listener != nullptr && level_ && !forced_ && !telling_ && !run_;
@@ -156,7 +156,7 @@ bool Segment::send_run(StationId station, const CharacterRun& run) {
   return !run_->driven;
 }
 
-/// True: the station's filter keeps the run from it for now.
+/// Returns true if the station's filter skips the run for now.
 bool Segment::offer(StationId station, Offer& offer) {
   Station& one = stations_[station];
   if (passes(one, offer)) {
@@ -194,7 +194,7 @@ void Segment::tell_passed(Station& station) {
   station.listener->run_begins(last_run_);
 }
 
-// Who was in the run has missed no change of it.
+// Listeners that took the run have missed no change of it.
 void Segment::end_run() {
   if (run_->driven)
     for (Station& station : stations_)

@@ -14,23 +14,23 @@
 
 namespace dsdpv1::bus {
 
-/// Hears the line. Called at the tick of the change, in the order of attachment; the new level is already that of the
-/// segment.
+/// Receives the line. Called at the tick of the change, in the order of attachment; the segment already has the new
+/// level.
 class Listener {
  public:
   virtual ~Listener() = default;
   virtual void line_changed(Tick at, bool level) = 0;
-  /// A run begins now, of another station or the listener's own; its bytes are there for the call only. True: the
-  /// listener does not want its changes; it is told nothing until the end of the run, or until run_cut.
+  /// A run begins now, of another station or the listener's own; its bytes are valid during the call only. Return true
+  /// to skip its changes: the listener is not called until the end of the run, or until run_cut.
   virtual bool run_begins(const CharacterRun& /*run*/) { return false; }
-  /// What changed up to `at` has changed, the line is at `level` now, and what comes behind it is told.
+  /// Changes up to `at` have happened, the line is now at `level`, and later changes are reported.
   virtual void run_cut(Tick /*at*/, bool /*level*/) {}
-  /// Since it was told something last there were so many runs for stations that its filter has kept from it, besides
-  /// the last one, which is told next, by run_begins: late, and it has to be taken.
+  /// Since its last call the listener's filter has skipped so many runs for stations, not counting the last run, which
+  /// is passed next by run_begins: late, and it must be taken.
   virtual void runs_passed(std::uint64_t /*for_stations*/) {}
 };
 
-/// A time, from `from` on and before `until`, in which a listener need not hear a change at once.
+/// A time, from `from` on and before `until`, in which a listener may receive changes late.
 struct Deafness {
   Tick from = kNever, until = kNever;
 
@@ -49,47 +49,46 @@ class Segment {
  public:
   /// `listener` may be null for a station that only sends. Both must outlive the segment's use.
   StationId attach(std::string name, Listener* listener);
-  /// What a station's driver does from `at` on: enabled (RTS) and the level that it drives when enabled.
-  /// While two drivers fight, low wins, so that no receiver sees an undisturbed telegram.
+  /// Sets a station's driver from `at` on: enabled (RTS) and its level when enabled. While two drivers conflict, low
+  /// wins, so that no receiver sees an undisturbed telegram.
   void drive(StationId station, Tick at, bool enabled, bool level);
-  /// The station's listener is told a change within this time late: before the next one that it hears at once, or by
-  /// `hear`. For receivers that know where in a character they are; replaces what was said before.
+  /// The station's listener receives changes within this time late: before the next one reported at once, or by `hear`.
+  /// For receivers that know their position in a character; replaces an earlier setting.
   void set_deafness(StationId station, const Deafness& deafness) { stations_[station].deafness = deafness; }
-  /// The station's listener is told of a run that its filter keeps from it late: before the next thing that it is told,
-  /// or by `hear`. Replaces what was said before.
+  /// The station's listener receives runs skipped by its filter late: before its next call, or by `hear`. Replaces an
+  /// earlier setting.
   void set_filter(StationId station, const RunFilter& filter) { stations_[station].filter = filter; }
-  /// From now on, run.start, `station` sends this run, its driver enabled. True: nobody needs its changes, so that
-  /// nothing is driven until its end, or until the station's listener hears run_cut; the bytes have to stay until then.
-  /// False: they are to be driven;
-  /// listeners that have taken the run are not told.
+  /// Sends this run from now on, run.start, with the driver of `station` enabled. True: no listener needs its changes,
+  /// so nothing is driven until its end, or until the station's listener gets run_cut; the bytes must stay valid until
+  /// then. False: drive the changes; listeners that have taken the run are not called.
   bool send_run(StationId station, const CharacterRun& run);
-  /// Everybody hears changes again from `at` on; nothing when no run is sent.
+  /// All listeners receive changes again from `at` on; does nothing without a run.
   void cut_run(Tick at);
-  /// Tells a listener what it has not heard yet, each change and run with its own tick.
+  /// Reports everything pending to a listener, each change and run with its own tick.
   void hear(StationId station) {
     hear_runs(station);
     if (stations_[station].next_change < changes_.size()) tell_missed(station);
   }
 
-  /// Tells it the runs only.
+  /// Reports the runs only.
   void hear_runs(StationId station) {
     if (stations_[station].passes) tell_passed(stations_[station]);
   }
 
   /// A fault on the wire: forces the level (short circuit, glitch) until called with nullopt.
   void force(Tick at, std::optional<bool> level);
-  /// A station unplugged hears an idle line and its driver does not reach the wire.
+  /// An unplugged station receives an idle line and does not drive the wire.
   void plug(StationId station, Tick at, bool plugged);
 
   bool level() const { return level_; }
-  /// The level just before `at`, be it that somebody has driven at `at` already; nobody has later.
+  /// The level just before `at`, even if a station has already driven at `at`; no station may have driven later.
   bool level_before(Tick at) const;
-  /// What this station hears: the segment's level, or idle while it is unplugged.
+  /// The level that this station receives: the segment's, or idle while it is unplugged.
   bool level_at(StationId station) const;
-  /// How many have been attached: the next one's StationId.
+  /// Number of attached stations: the next one's StationId.
   std::size_t stations() const { return stations_.size(); }
   std::function<void(const Collision&)> on_collision;
-  /// Each call of `drive`, before anybody hears of it; of a run that all take there is none but at its ends.
+  /// Called for each call of `drive`, before the listeners; a run that all take has calls only at its ends.
   std::function<void(StationId, Tick at, bool enabled, bool level)> on_drive;
 
  private:
@@ -97,14 +96,14 @@ class Segment {
     std::string name;
     Listener* listener = nullptr;
     bool enabled = false, drives = true, plugged = true;
-    bool heard = true;      ///< the level that the listener was told last
-    std::uint64_t run = 0;  ///< the number of the run that it has taken last
+    bool heard = true;      ///< the level last reported to the listener
+    std::uint64_t run = 0;  ///< the number of the last run that it took
     Deafness deafness = {};
-    std::size_t next_change = 0;  ///< in changes_, the first that it has not heard
+    std::size_t next_change = 0;  ///< in changes_, the first not reported yet
     RunFilter filter = {};
-    bool passes = false;  ///< its filter has kept last_run_ from it
+    bool passes = false;  ///< its filter has skipped last_run_
     bool last_for_station = false;
-    std::uint64_t passed_for_stations = 0;  ///< before that one
+    std::uint64_t passed_for_stations = 0;  ///< before last_run_
   };
   struct Change {
     Tick at;
@@ -114,9 +113,9 @@ class Segment {
   struct Run {
     CharacterRun characters = {};
     StationId sender = 0;
-    bool driven = false;  ///< somebody wants the changes
+    bool driven = false;  ///< a listener needs the changes
   };
-  /// A run that a sender offers, and whom its reader found it to be for.
+  /// A run offered by a sender, and its addressee according to the reader.
   struct Offer {
     const CharacterRun& run;
     bool after_gap = false;
@@ -142,22 +141,22 @@ class Segment {
   void forget_changes();
   void report_collision(Tick at, StationId newcomer);
 
-  // What the deaf have missed, in order; all hear it before it grows beyond this.
+  // Changes not yet reported to deaf listeners, in order; reported before there are more than this.
   static constexpr std::size_t kMostMissed = 4096;
   static constexpr std::size_t kLongestKept = 256;  ///< no telegram is longer
 
   std::vector<Station> stations_;
-  std::vector<StationId> drivers_;  ///< that are on the wire
+  std::vector<StationId> drivers_;  ///< on the wire
   std::vector<Change> changes_;
   std::optional<bool> forced_;
   std::optional<Run> run_;
   std::uint64_t run_count_ = 0;  ///< the number of the last run
   CharacterRun last_run_;
-  std::array<std::uint8_t, kLongestKept> last_bytes_ = {};  ///< those of last_run_, where somebody passes it
+  std::array<std::uint8_t, kLongestKept> last_bytes_ = {};  ///< bytes of last_run_, if a listener skips it
   bool level_ = true, noted_ = true;
   Tick noted_at_ = 0;         ///< the last change ...
   bool before_noted_ = true;  ///< ... and the level before all changes at that tick
-  bool telling_ = false;      ///< a listener that drives the line while it is being told must not be told out of order
+  bool telling_ = false;  ///< a listener that drives the line while being called must not cause reports out of order
 };
 
 }  // namespace dsdpv1::bus

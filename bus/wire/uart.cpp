@@ -93,7 +93,7 @@ void UartSender::send(Tick start, const Bytes& bytes) {
   begin(start, static_cast<std::int64_t>(bytes.size()) * kCharacterBits * kMillibits);
 }
 
-/// The driver's edges round so many bits, which are a run if there is one.
+/// The driver's edges around the bits, which are sent as a run if possible.
 void UartSender::begin(Tick start, std::int64_t millibits) {
   run_state_ = run_.empty() ? Run::kNone : Run::kOffered;
   position_ = 0;
@@ -102,7 +102,7 @@ void UartSender::begin(Tick start, std::int64_t millibits) {
   edges_.assign({{start - lead_, true, true}, {end_ + trail_, false, true}});
 }
 
-/// Between the driver's edges those of the characters.
+/// Inserts the characters' edges between the driver's.
 void UartSender::spell_out(const std::vector<Character>& characters) {
   const Edge released = edges_.back();
   edges_.pop_back();
@@ -223,7 +223,7 @@ void UartReceiver::end_run(Tick before) {
   if (!whole || !on_run || !on_run(run_)) report_run(before - 1);
 }
 
-/// Those that are complete at `until`.
+/// Reports the characters complete at `until`.
 void UartReceiver::report_run(Tick until) {
   while (reported_ < run_.size && complete_at(reported_) <= until) {
     const std::size_t index = reported_++;

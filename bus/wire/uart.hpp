@@ -1,6 +1,6 @@
 #pragma once
-// Characters of the wire: start bit, eight data bits LSB first, even parity, stop bit (EN 50170). Written apart from
-// the chip's receiver, so that one checks the other. Lengths inside a character are in 1/1000 bit ("millibits").
+// Characters of the wire: start bit, eight data bits LSB first, even parity, stop bit (EN 50170). Independent of the
+// chip's receiver, so that one checks the other. Lengths inside a character are in 1/1000 bit ("millibits").
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -22,7 +22,7 @@ struct Glitch {
 /// One character as it is sent, whole or deliberately broken.
 struct Character {
   std::uint16_t bits = 0;          ///< levels in the order of sending, bit 0 first
-  int bit_count = kCharacterBits;  ///< how many of them are sent, 1..16; afterwards the line is idle
+  int bit_count = kCharacterBits;  ///< number of bits sent, 1..16; afterwards the line is idle
   int gap_millibits = 0;           ///< idle time before the first bit
   std::optional<Glitch> glitch = {};
 
@@ -35,7 +35,7 @@ struct Character {
   std::uint8_t byte() const { return static_cast<std::uint8_t>(bits >> 1); }
 };
 
-/// What is broken in a telegram on the wire; nothing by default. Positions count bytes from 0; those behind the end
+/// Faults to inject into a telegram on the wire; none by default. Positions count bytes from 0; those after the end
 /// have no effect.
 struct WireFaults {
   std::optional<std::size_t> wrong_parity_at = {};
@@ -50,7 +50,7 @@ struct WireFaults {
 
 std::vector<Character> characters(const Bytes& bytes, const WireFaults& faults = {});
 
-/// Sends characters back to back; right ones as a run where everybody on the segment takes it. Edges are rounded from
+/// Sends characters back to back; valid ones as a run if all stations on the segment take it. Edges are rounded from
 /// the exact time since the first start bit, so nothing drifts.
 class UartSender {
  public:
@@ -63,11 +63,11 @@ class UartSender {
   void set_driver_times(Tick lead, Tick trail);
   /// The first start bit falls at `start` (not before now + lead). Not while busy.
   void send(Tick start, const std::vector<Character>& characters);
-  /// The same with right characters.
+  /// As above, with valid characters.
   void send(Tick start, const Bytes& bytes);
-  /// The station's listener hears that: the rest is sent by changes. Moves `next()`.
+  /// Call when the station's listener gets run_cut: the rest is sent by changes. Changes `next()`.
   void run_cut(Tick at);
-  /// Releases the line at once and forgets the rest.
+  /// Releases the line at once and drops the rest.
   void abort(Tick now);
 
   bool busy() const { return position_ < edges_.size(); }
@@ -84,7 +84,7 @@ class UartSender {
   enum class Run : std::uint8_t {
     kNone,      ///< sent by edges
     kOffered,   ///< at the first start bit
-    kUnderWay,  ///< taken
+    kUnderWay,  ///< taken by the listeners
   };
   Tick exact(std::int64_t millibits) const;
   void begin(Tick start, std::int64_t millibits);
@@ -99,7 +99,7 @@ class UartSender {
   StationId station_;
   Tick bit_ = baud(0).bit, lead_ = 0, trail_ = 0, start_ = 0, end_ = 0;
   std::int64_t ppm_ = 0;
-  std::vector<Edge> edges_;  ///< the driver's and, but for a run, those of the characters
+  std::vector<Edge> edges_;  ///< of the driver and, without a run, of the characters
   std::size_t position_ = 0;
   Bytes run_;  ///< the characters, when they may be sent as a run
   Run run_state_ = Run::kNone;
@@ -118,25 +118,25 @@ struct ReceivedCharacter {
 class UartReceiver {
  public:
   void set_bit(Tick bit) { bit_ = bit; }
-  /// Forgets a character begun; the line has this level now.
+  /// Drops a character in progress; the line has this level now.
   void reset(bool level);
-  /// Whether `next()` is another now: a character has begun or ended.
+  /// Returns whether `next()` has changed: a character has begun or ended.
   bool line_changed(Tick at, bool level);
-  /// In the place of the changes of a run, which begins now; false: the changes are wanted. Its characters are reported
-  /// in the middle of the last one's stop bit, `each` in the middle of its own.
+  /// Replaces the changes of a run that begins now; false: the changes are needed. Its characters are reported in the
+  /// middle of the last one's stop bit, or with `each` in the middle of their own.
   bool set_run(const CharacterRun& run, bool each = false);
-  /// What comes behind `at` is told by line_changed.
+  /// Changes after `at` are reported by line_changed.
   void cut_run(Tick at);
-  /// The middle of the stop bit of a character begun, where it is reported.
+  /// The middle of the stop bit of a character in progress, where it is reported.
   Tick next() const { return in_run_ ? next_report() : receiving_ ? sample_at(kCharacterBits - 1) : kNever; }
   void run(Tick now);
   bool receiving() const { return receiving_ || in_run_; }
 
-  /// A character, right or wrong, in the middle of its stop bit.
+  /// Called for a character, valid or not, in the middle of its stop bit.
   std::function<void(const ReceivedCharacter&)> on_character;
-  /// A run that nobody has cut, there as well. False, or without it: its characters are reported one by one.
+  /// Called at the same place for a run that was not cut. If unset or false, its characters are reported one by one.
   std::function<bool(const CharacterRun&)> on_run;
-  /// A start bit that was high again in its middle; `at` is its falling edge.
+  /// Called for a start bit that was high again in its middle; `at` is its falling edge.
   std::function<void(Tick at)> on_false_start;
 
  private:
