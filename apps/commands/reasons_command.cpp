@@ -89,15 +89,10 @@ void print_table(std::string& text, const std::string& head, const std::vector<t
     text += fmt::format("| `{}` | {} | {} | {} |\n", each.code, each.severity, each.text, each.advice);
 }
 
-/// Those of the monitor and of the checks stand beside those of the kind of chip.
-std::vector<tb::CodeTable> all_tables(const tb::ChipKind& kind) {
+/// Those of the monitor stand beside those of the kind of chip; those of the checks have a page of their own.
+std::vector<tb::CodeTable> tables_of(const tb::ChipKind& kind) {
   std::vector<tb::CodeTable> tables = kind.codes();
   tables.push_back({"The bus", "What the bus monitor saw on the line.", bus_codes()});
-  if (!kind.rules().empty())
-    tables.push_back({"The checks",
-                      "What the checks on the user's side found broken, see [checks.md](checks.md). They fail a run "
-                      "unless its checks are off or only reported.",
-                      check_codes(kind)});
   return tables;
 }
 
@@ -109,14 +104,19 @@ std::string as_markdown(const tb::ChipKind& kind) {
       "them. **info**: something was carried out; **refusal**: something that the master or the user asked for was "
       "not; **violation**: a rule was\n"
       "broken, and a scenario that does not allow it fails.\n";
-  for (const tb::CodeTable& table : all_tables(kind))
+  for (const tb::CodeTable& table : tables_of(kind))
     print_table(text, fmt::format("\n## {}\n\n{}\n", table.title, table.introduction), table.codes);
-  return text;
+  return text +
+         "\n## The checks\n\nThe ids of the checks on the user's side are codes, too, each of them a violation. "
+         "[checks.md](checks.md#the-checks) has the rule of each and\n"
+         "what to do. They fail a run unless its checks are off or only reported.\n";
 }
 
 std::vector<tb::CodeText> all_codes(const tb::ChipKind& kind) {
   std::vector<tb::CodeText> all;
-  for (const tb::CodeTable& table : all_tables(kind)) all.insert(all.end(), table.codes.begin(), table.codes.end());
+  for (const tb::CodeTable& table : tables_of(kind)) all.insert(all.end(), table.codes.begin(), table.codes.end());
+  const std::vector<tb::CodeText> checks = check_codes(kind);
+  all.insert(all.end(), checks.begin(), checks.end());
   return all;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <vector>
 
 #include "io/input/units.hpp"
@@ -34,6 +35,12 @@ std::string link(const Object& object) {
   std::string anchor = object.name;
   for (char& c : anchor) c = c == ' ' ? '-' : c;
   return fmt::format("[{}](#{})", object.name, anchor);
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 std::string items(const Field& field) { return fmt::format("{} to {}", field.type.range.min, field.type.range.max); }
@@ -89,6 +96,36 @@ std::string row(const Field& field) {
                      word_notes(field));
 }
 
+bool is_check(const Field& field) {
+  for (const ChipKind* kind : chip_kinds())
+    for (const checks::Rule& rule : kind->rules())
+      if (field.name == rule.id) return true;
+  return false;
+}
+
+/// The checks that have the keys `object`, in one row: checks.md says what they are.
+std::string row_of_checks(const std::vector<const Field*>& fields, const Object& object) {
+  std::string names;
+  for (const Field* field : fields)
+    if (is_check(*field) && field->type.object == &object)
+      names += fmt::format("{}[`{}`](checks.md#{})", names.empty() ? "" : ", ", field->name, lower_case(field->name));
+  return fmt::format("| {} | {} |  | Its limit, or whether it is made. |\n", names, link(object));
+}
+
+std::string rows(const std::vector<const Field*>& fields) {
+  std::string text;
+  std::vector<const Object*> told;
+  for (const Field* field : fields) {
+    if (!is_check(*field)) {
+      text += row(*field);
+    } else if (std::find(told.begin(), told.end(), field->type.object) == told.end()) {
+      told.push_back(field->type.object);
+      text += row_of_checks(fields, *field->type.object);
+    }
+  }
+  return text;
+}
+
 std::string group_notes(const Object& object) {
   std::string text;
   const auto add = [&text](const char* rule, const std::vector<std::string>& group) {
@@ -119,9 +156,10 @@ std::string section(const Object& object) {
   std::string text = fmt::format("\n## {}\n\n{}\n", object.name, object.doc);
   if (!object.selector.empty()) text += choice_table(object.selector, object.choices);
   text += "\n| key | allowed | default | meaning |\n|---|---|---|---|\n";
+  std::vector<const Field*> fields;
   for (const Field& field : object.fields)
-    if (field.name != object.selector) text += row(field);
-  return text + group_notes(object);
+    if (field.name != object.selector) fields.push_back(&field);
+  return text + rows(fields) + group_notes(object);
 }
 
 /// All objects below `object`, each once, in the order of their first mention.
@@ -141,13 +179,13 @@ bool has(const Object& object, const std::string& key) {
 
 /// Keys of `own` that `usual` has not; empty: none.
 std::string keys_besides(const Object& usual, const Object& own, const char* kind) {
-  std::string rows;
+  std::vector<const Field*> fields;
   for (const Field& field : own.fields)
-    if (!has(usual, field.name)) rows += row(field);
-  if (rows.empty()) return {};
+    if (!has(usual, field.name)) fields.push_back(&field);
+  if (fields.empty()) return {};
   return fmt::format(
       "\n## {} of {}\n\nThe keys that it has besides.\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n{}",
-      own.name, kind, rows);
+      own.name, kind, rows(fields));
 }
 
 std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
@@ -158,12 +196,12 @@ std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
     if (!known) choices.push_back(order.choice);
   }
   if (choices.empty()) return {};
-  std::string rows;
+  std::vector<const Field*> fields;
   for (const Field& field : action_keys(kind).fields)
-    if (!has(action_keys(usual), field.name)) rows += row(field);
+    if (!has(action_keys(usual), field.name)) fields.push_back(&field);
   return fmt::format("\n## actions of {}\n\nThe actions and their keys that it has besides.\n{}", kind.name(),
                      choice_table("do", choices)) +
-         (rows.empty() ? "" : "\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows);
+         (fields.empty() ? "" : "\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows(fields));
 }
 
 /// What scenarios with chips of another kind may say besides.

@@ -3,6 +3,7 @@
 
     check_docs.py links            relative links and their anchors exist
     check_docs.py files            files named in backquotes exist
+    check_docs.py mentions         pages of docs/ that sources name, in comments, texts and help, exist, and so do their headings
     check_docs.py table            the tables of docs/README.md name every document of docs/
     check_docs.py trust            the figures of README.md are those of docs/
     check_docs.py snippets         code after a comment "from FILE" is in that file
@@ -87,6 +88,31 @@ def check_files(root):
             if any(any(place.glob(name.rstrip("/"))) for place in places) or ("/" not in name and name in names):
                 continue
             yield fault(root, path, text, word.start(), f"there is no {name}")
+
+
+# ------------------------------------------------------------------------------------------------------------ mentions
+MENTION = re.compile(r"(?<![\w./])docs/([\w/]+\.md)(?:#([\w\-]+))?")
+SOURCES = {".c", ".cmake", ".cpp", ".h", ".hpp", ".inc", ".in", ".lua", ".py", ".rdl", ".sh", ".sv", ".svh", ".toml", ".txt", ".yaml", ""}
+
+
+def sources(root):
+    """The project's own; those that try this program name pages that are not there."""
+    for top in sorted(root.glob("[a-zA-Z]*")):
+        for path in [top] if top.is_file() else top.rglob("*") if top.name not in ("build", "out", "traces") else ():
+            if path.suffix in SOURCES and path.is_file() and not path.name.startswith(("check_docs", "small_project")):
+                yield path
+
+
+def check_mentions(root):
+    headings = {path.relative_to(root / "docs").as_posix(): set(anchors(path.read_text(encoding="utf-8"))) for path in (root / "docs").rglob("*.md")}
+    for path in sources(root):
+        text = path.read_bytes().decode("utf-8", "replace")
+        for mention in MENTION.finditer(text):
+            page, anchor = mention.groups()
+            if page not in headings:
+                yield fault(root, path, text, mention.start(), f"there is no docs/{page}")
+            elif anchor and anchor not in headings[page]:
+                yield fault(root, path, text, mention.start(), f"no heading of docs/{page} has the anchor #{anchor}")
 
 
 # -------------------------------------------------------------------------------------------------------- docs/README.md
@@ -296,11 +322,11 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "table", "trust", "snippets", "packages", "picture", "sweep", "regress", "update"])
+    parser.add_argument("what", choices=["links", "files", "mentions", "table", "trust", "snippets", "packages", "picture", "sweep", "regress", "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
     with_sim = {"picture": check_picture, "sweep": check_sweep, "regress": check_regress, "update": update}
-    without = {"links": check_links, "files": check_files, "table": check_table, "trust": check_trust,
+    without = {"links": check_links, "files": check_files, "mentions": check_mentions, "table": check_table, "trust": check_trust,
                "snippets": check_snippets, "packages": check_packages}
     if arguments.what in with_sim:
         if arguments.sim is None:

@@ -22,7 +22,7 @@ RIGHT = {
     "packages.txt": "# all\n\n# to build\n[tools]\ncmake\ng++\n",
     "run": "#!/bin/sh\nprintf 'demo\\ttools\\nsim\\ttools\\n'\n",
     "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
-    "model/core.cpp": "",
+    "model/core.cpp": "// docs/chip.md#its-rulings, P1; docs/tutorials/one.md; not mydocs/two.md\n",
     "examples/one.cpp": "// one\nint main() {}\n",
 }
 
@@ -37,7 +37,7 @@ class Project(small_project.SmallProject):
 
     def faults(self):
         found = []
-        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_table, check_docs.check_trust, check_docs.check_snippets,
+        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_mentions, check_docs.check_table, check_docs.check_trust, check_docs.check_snippets,
                       check_docs.check_packages):
             found += check(self.root)
         return found
@@ -53,6 +53,14 @@ class Project(small_project.SmallProject):
     def test_a_link_to_nowhere(self):
         self.change("README.md", "docs/chip.md#its-rulings", "docs/chips.md")
         self.expect("README.md:2: the link docs/chips.md leads nowhere")
+
+    def test_a_page_that_a_source_names_and_is_not_there(self):
+        self.change("model/core.cpp", "tutorials/one.md", "two.md")
+        self.expect("model/core.cpp:1: there is no docs/two.md")
+
+    def test_an_anchor_in_a_source_that_no_heading_has(self):
+        self.change("model/core.cpp", "#its-rulings", "#rulings")
+        self.expect("model/core.cpp:1: no heading of docs/chip.md has the anchor #rulings")
 
     def test_an_anchor_that_no_heading_has(self):
         self.change("README.md", "#its-rulings", "#rulings")
