@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Draws docs/img/power_on_12m.svg from the waves of the demo.
+"""Draws docs/img/power_on_12m.svg and docs/img/handshake.svg from the waves of the demo.
 
     ./run sim run scenarios/power_on_12m.yaml -q --wave out/power_on_12m.vcd
-    docs/img/draw_wave.py out/power_on_12m.vcd docs/img/power_on_12m.svg
+    docs/img/draw_wave.py out/power_on_12m.vcd docs/img/power_on_12m.svg docs/img/handshake.svg
 
-Two windows, found by the telegrams in the waves: from Set_Prm to the answer of the first data exchange, and the user's
-judgement of Set_Prm in detail. Python's standard library only. The tests draw it again and compare (tests/docs).
+The first has two windows, found by the telegrams in the waves: from Set_Prm to the answer of the first data exchange, and the
+user's judgement of Set_Prm in detail. The second is the hold after Set_Prm for which the user waits longest, as the chip is in the
+DPRAM. Python's standard library only. The tests draw them again and compare (tests/docs).
 """
 import sys
 from xml.sax.saxutils import escape
 
-US = 1_000_000  # the waves count picoseconds
+US, NS = 1_000_000, 1_000  # the waves count picoseconds
 LEFT, WIDTH, ROW, HIGH = 78, 1000, 24, 13
 PINS = ["PBRXD", "PBRTS", "PBTXD", "INTR0", "R_REQ", "R_STA", "L_REQ", "L_STA"]
 LAMPS = ["BR", "PBF", "READY"]
@@ -91,10 +92,11 @@ def short(words):
 
 
 class Panel:
-    """One window of time: title, telegrams, state, pins and a time axis, drawn from y downwards."""
+    """One window of time: title, strips of boxes (telegrams and states, unless others are given), pins and a time axis, drawn from y downwards."""
 
-    def __init__(self, vcd, begin, end, title, tick, pins):
-        self.vcd, self.begin, self.end, self.title, self.tick, self.pins = vcd, begin, end, title, tick, pins
+    def __init__(self, vcd, begin, end, title, tick, pins, strips=None, zero=0, unit=(US, "µs")):
+        self.vcd, self.begin, self.end, self.title, self.tick, self.pins, self.zero, self.unit = vcd, begin, end, title, tick, pins, zero, unit
+        self.strips = strips or [("bus", self.telegrams()), ("DP state", self.states())]
         self.out = []
 
     def x(self, time):
@@ -107,20 +109,21 @@ class Panel:
     def draw(self, y):
         self.text(8, y + 14, self.title, "title")
         top = y + 26
-        self.grid(top, top + ROW * (len(self.pins) + 2))
-        self.strip("bus", top, self.telegrams())
-        self.strip("DP state", top + ROW, self.states())
-        for row, pin in enumerate(self.pins):
-            self.pin(pin, top + ROW * (row + 2))
-        return top + ROW * (len(self.pins) + 2) + 30
+        rows = len(self.strips) + len(self.pins)
+        self.grid(top, top + ROW * rows)
+        for row, (name, boxes) in enumerate(self.strips):
+            self.strip(name, top + ROW * row, boxes)
+        for row, pin in enumerate(self.pins, len(self.strips)):
+            self.pin(pin, top + ROW * row)
+        return top + ROW * rows + 30
 
     def grid(self, top, bottom):
-        time = -(-self.begin // self.tick) * self.tick
+        time = self.zero - (self.zero - self.begin) // self.tick * self.tick
         while time <= self.end:
             self.out.append(f'<path class="grid" d="M{self.x(time):.1f} {top}V{bottom + 4}"/>')
-            self.text(self.x(time), bottom + 17, f"{time / US:g}", "axis", "middle")
+            self.text(self.x(time), bottom + 17, f"{(time - self.zero) / self.unit[0]:g}", "axis", "middle")
             time += self.tick
-        self.text(LEFT - 16, bottom + 17, "time / µs", "axis", "end")
+        self.text(LEFT - 16, bottom + 17, f"time / {self.unit[1]}", "axis", "end")
 
     def telegrams(self):
         for begin, end, words in self.vcd.telegrams:
@@ -166,17 +169,41 @@ rect { stroke: #57606a; stroke-width: .6 } .request { fill: #ddf4ff } .answer { 
 """
 
 
-def main(waves, picture):
-    with open(waves, encoding="utf-8") as lines:
-        vcd = Vcd(lines, "demo")
+def power_on(vcd):
     set_prm, exchange = vcd.find("Set_Prm"), vcd.find("inputs")
     judged = next(at for at, state in vcd.changes["dp_state"] if state == "WAIT_CFG")
-    panels = [
+    return [
         Panel(vcd, set_prm[0] - MARGIN, exchange[1] + MARGIN,
               "From Set_Prm to the answer of the first data exchange", 10 * US, PINS + LAMPS),
         Panel(vcd, set_prm[1] - US, judged + 2 * US,
               "In detail: Set_Prm ends, the chip acknowledges, interrupts the user, who fetches the parameters and sends "
               "the verdict", US, PINS)]
+
+
+def spans(vcd, pin, level):
+    """From when to when it has the level."""
+    changes = vcd.changes[pin]
+    return [(at, end) for (at, value), (end, _) in zip(changes, changes[1:]) if value == level]
+
+
+def handshake(vcd):
+    def granted(asked):
+        return next(at for at, _ in spans(vcd, "R_STA", "1") if at > asked)
+
+    holds = [hold for hold in spans(vcd, "R_REQ", "1") if hold[0] > vcd.find("Set_Prm")[1]]
+    asked, released = max(holds, key=lambda hold: granted(hold[0]) - hold[0])
+    begin, end, held = asked - 350 * NS, released + 300 * NS, granted(asked)
+    window = asked + 3 * 125_000 // 6  # 3 cycles of 48 MHz (H2)
+    has = [(*hold, "the user", "request") for hold in spans(vcd, "R_STA", "1")] + [(*access, "the chip", "answer") for access in spans(vcd, "L_REQ", "1")]
+    does = [(asked, window, "3 cycles", "state"), (window, held, "looks at L_REQ, L_STA", "state")]
+    does += [(*access, " ".join(vcd.level("user", access[0]).split("_")[:2]), "request")
+             for access in spans(vcd, "CSR", "0")]
+    strips = [(name, [box for box in boxes if box[1] > begin and box[0] < end]) for name, boxes in (("DPRAM", has), ("user", does))]
+    pins = ["R_REQ", "R_STA", "L_REQ", "L_STA", "CSR", "RD", "WR"]
+    return [Panel(vcd, begin, end, "The user asks while the chip is in the DPRAM, waits, accesses three cells, and lets the chip in", 100 * NS, pins, strips, asked, (NS, "ns"))]
+
+
+def write(picture, panels, title):
     y, parts = 8, []
     for panel in panels:
         y = panel.draw(y)
@@ -184,12 +211,19 @@ def main(waves, picture):
     size = f'width="{LEFT + WIDTH + 16}" height="{y}"'
     with open(picture, "w", encoding="utf-8") as svg:
         svg.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {LEFT + WIDTH + 16} {y}" {size}>\n'
-                  "<title>Pins of the chip in scenarios/power_on_12m.yaml; drawn by docs/img/draw_wave.py</title>\n"
+                  f"<title>{title}; drawn by docs/img/draw_wave.py</title>\n"
                   f'<style>{STYLE}</style>\n<rect {size} style="fill:#fff;stroke:none"/>\n'
                   + "\n".join(parts) + "\n</svg>\n")
 
 
+def main(waves, whole, hold):
+    with open(waves, encoding="utf-8") as lines:
+        vcd = Vcd(lines, "demo")
+    write(whole, power_on(vcd), "Pins of the chip in scenarios/power_on_12m.yaml")
+    write(hold, handshake(vcd), "A hold of the DPRAM in scenarios/power_on_12m.yaml")
+
+
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        raise SystemExit("usage: draw_wave.py WAVES.vcd PICTURE.svg")
+    if len(sys.argv) != 4:
+        raise SystemExit("usage: draw_wave.py WAVES.vcd POWER_ON.svg HANDSHAKE.svg")
     main(*sys.argv[1:])

@@ -8,7 +8,8 @@
     check_docs.py trust            the figures of README.md are those of docs/
     check_docs.py snippets         code after a comment "from FILE" is in that file
     check_docs.py packages         the tables of docs/install.md are those of packages.txt and ./run deps --commands, and so is README.md's number
-    check_docs.py picture SIM      docs/img/power_on_12m.svg is drawn from what dsdpv1-sim writes
+    check_docs.py house            docs/img/house.svg is drawn from the table of arrows in docs/architecture.md
+    check_docs.py picture SIM      docs/img/power_on_12m.svg and handshake.svg are drawn from what dsdpv1-sim writes
     check_docs.py update SIM       writes the figures of README.md, the pictures and the tables again
 
 --root FOLDER: another project than the one this file is in. Python's standard library only.
@@ -21,7 +22,8 @@ import sys
 import tempfile
 
 SCENARIO = "scenarios/power_on_12m.yaml"
-PICTURE = "docs/img/power_on_12m.svg"
+PICTURES = ["docs/img/power_on_12m.svg", "docs/img/handshake.svg"]  # as draw_wave.py takes them
+HOUSE = ["docs/architecture.md", "docs/img/house.svg"]
 FENCE = re.compile(r"^```.*?^```", re.M | re.S)
 # Folders in which a file may be named from, besides the root and the document's own.
 ROOMS = ["model", "tb", "docs"]
@@ -181,19 +183,33 @@ def simulate(root, sim, *arguments):
                           stdout=subprocess.PIPE).stdout
 
 
-def draw(root, sim, picture):
-    with tempfile.TemporaryDirectory() as folder:
-        waves = f"{folder}/waves.vcd"
-        simulate(root, sim, "-q", "--wave", waves)
-        subprocess.run([sys.executable, root / "docs/img/draw_wave.py", waves, picture], check=True)
+def draw(root, sim, folder):
+    """The pictures of one run, into a folder."""
+    with tempfile.TemporaryDirectory() as waves:
+        simulate(root, sim, "-q", "--wave", f"{waves}/waves.vcd")
+        subprocess.run([sys.executable, root / "docs/img/draw_wave.py", f"{waves}/waves.vcd", *(folder / name for name in PICTURES)], check=True)
+
+
+def draw_house(root, picture):
+    subprocess.run([sys.executable, root / "docs/img/draw_house.py", root / HOUSE[0], picture], check=True)
+
+
+def stale(root, folder, names):
+    return [f"{name}:1: stale; ./run generate draws it again" for name in names if (folder / name).read_bytes() != (root / name).read_bytes()]
 
 
 def check_picture(root, sim):
     with tempfile.TemporaryDirectory() as folder:
-        fresh = pathlib.Path(folder, "fresh.svg")
-        draw(root, sim, fresh)
-        if fresh.read_bytes() != (root / PICTURE).read_bytes():
-            yield f"{PICTURE}:1: stale; ./run generate draws it anew"
+        pathlib.Path(folder, "docs/img").mkdir(parents=True)
+        draw(root, sim, pathlib.Path(folder))
+        return stale(root, pathlib.Path(folder), PICTURES)
+
+
+def check_house(root):
+    with tempfile.TemporaryDirectory() as folder:
+        pathlib.Path(folder, "docs/img").mkdir(parents=True)
+        draw_house(root, pathlib.Path(folder, HOUSE[1]))
+        return stale(root, pathlib.Path(folder), HOUSE[1:])
 
 
 # --------------------------------------------------------------------------------------------------------------- sweep
@@ -311,7 +327,8 @@ def update_packages(root):
 
 def update(root, sim):
     update_trust(root)
-    draw(root, sim, root / PICTURE)
+    draw(root, sim, root)
+    draw_house(root, root / HOUSE[1])
     update_sweep(root, sim)
     update_regress(root, sim)
     update_packages(root)
@@ -322,12 +339,12 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "mentions", "table", "trust", "snippets", "packages", "picture", "sweep", "regress", "update"])
+    parser.add_argument("what", choices=["links", "files", "mentions", "table", "trust", "snippets", "packages", "house", "picture", "sweep", "regress", "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
     with_sim = {"picture": check_picture, "sweep": check_sweep, "regress": check_regress, "update": update}
     without = {"links": check_links, "files": check_files, "mentions": check_mentions, "table": check_table, "trust": check_trust,
-               "snippets": check_snippets, "packages": check_packages}
+               "snippets": check_snippets, "packages": check_packages, "house": check_house}
     if arguments.what in with_sim:
         if arguments.sim is None:
             parser.error(f"{arguments.what} needs the path of dsdpv1-sim")
