@@ -1,5 +1,5 @@
 #pragma once
-// FNV-1a, 64 bits: tells contents apart, no protection against intent.
+// FNV-1a, 64 bits: tells contents apart; not a protection against intent.
 #include <cstdint>
 #include <string_view>
 

@@ -1,11 +1,11 @@
 #pragma once
-// What every reader of input files throws: one line that says where, what is wrong and what is allowed.
+// The error of all readers of input files: one line with the place, the fault and the allowed values.
 #include <stdexcept>
 #include <string>
 
 namespace dsdpv1::tb {
 
-/// "file:line: text", or "file: text" when `line` is 0, or "text" when there is no file (command line). Lines count
+/// "file:line: text", or "file: text" when `line` is 0, or "text" without a file (command line). Lines count
 /// from 1.
 class InputError : public std::runtime_error {
  public:

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kAbsent = "no such file";
 
-/// 0, or what errno said. At most `most` bytes and one more, which shows that there would be more.
+/// 0, or errno. Reads at most `most` bytes and one more, which shows that there is more.
 int read_all(int fd, std::size_t most, std::string& text) {
   std::array<char, 65536> piece{};
   while (text.size() <= most) {

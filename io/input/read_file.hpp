@@ -5,8 +5,8 @@
 
 namespace dsdpv1::tb {
 
-/// What a file is, as "allowed is ..." goes on, and how much of it is read at most: far beyond every right one, so that
-/// a wrong name (/dev/zero, an image of a disk) ends in one line and not in a full memory.
+/// The kind of a file, for the error's "allowed is ...", and its largest size in MB. The limit is far beyond every
+/// right file, so that a wrong name (/dev/zero, an image of a disk) gives one line and does not fill the memory.
 struct FileKind {
   const char* what;
   std::size_t most_mb;
@@ -23,20 +23,20 @@ constexpr FileKind kSavedRunFile{"what run --save-at writes", 128};  // holds th
 
 struct ReadFile {
   std::string text;
-  std::string wrong;  ///< empty, or why there is no text: "no such file", "is larger than 4 MB"
+  std::string wrong;  ///< empty, or the reason why there is no text: "no such file", "is larger than 4 MB"
 };
 
-/// What errno says of a file: "no such file", "is a folder", "cannot be read (Permission denied)".
+/// The meaning of errno for a file: "no such file", "is a folder", "cannot be read (Permission denied)".
 std::string what_is_wrong(int error);
 
 /// All that is in `path`: a file, a device or a FIFO (`<(...)` of a shell), up to `most_mb` times 2^20 bytes.
 ReadFile try_read_file(const std::string& path, std::size_t most_mb);
-/// From now on who reads `path`, where there is no such file, gets this text.
+/// From now on readers of `path` get this text if there is no such file.
 void provide_file(const std::string& path, std::string text);
-/// The file beside `path`, of the same ending, that was probably meant where `path` is not there; empty when none is
+/// The file beside `path`, with the same ending, that was probably meant if `path` does not exist; empty when none is
 /// near.
 std::string nearest_file(const std::string& path);
-/// As try_read_file; throws InputError with one line when there is anything wrong.
+/// Like try_read_file, but throws InputError with one line.
 std::string read_file(const std::string& path, const FileKind& kind);
 
 }  // namespace dsdpv1::tb

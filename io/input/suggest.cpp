@@ -26,7 +26,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
 
 std::string nearest(const std::string& wrong, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t least = wrong.size() / 2 + 1;  // more than half of the word changed is no typing error
+  std::size_t least = wrong.size() / 2 + 1;  // a typing error changes at most half of the word
   for (const std::string& word : known) {
     const std::size_t d = distance(wrong, word);
     if (d < least) {

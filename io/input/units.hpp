@@ -12,7 +12,7 @@ namespace dsdpv1::tb {
 /// "-12", "0x1F": decimal, or hexadecimal with 0x, at most 15 digits; nullopt for anything else.
 std::optional<std::int64_t> parse_integer(const std::string& text);
 
-/// What a time may look like, for error messages.
+/// The forms of a time, for error messages.
 extern const char* const kTimeForm;
 
 /// "250ns", "1.5ms", "20us", "2s", "48cycles" (of 48 MHz) as ticks, rounded once to the nearest; nullopt for anything
@@ -31,7 +31,7 @@ std::string moment_text(bus::Tick ticks);
 /// Ticks of a cycle of 48 MHz.
 constexpr bus::Tick kTicksPerCycle = 250;
 
-/// Where a time stands among the cycles of 48 MHz: "cycle 84797 + 122 ticks (1766.604 us)".
+/// A time as a cycle of 48 MHz: "cycle 84797 + 122 ticks (1766.604 us)".
 std::string cycle_text(bus::Tick at);
 
 /// "01 a0 FF*10": hexadecimal bytes, `*n` repeats one n times; nullopt for anything else. Blank text is no bytes.

@@ -17,7 +17,7 @@ namespace {
   throw InputError(source.file, line_of(node), text);
 }
 
-/// What stands in the file, short enough for an error line.
+/// The text in the file, short enough for an error line.
 std::string shown(const YAML::Node& node) {
   if (node.IsSequence()) return "a list";
   if (node.IsMap()) return "a mapping";
@@ -200,7 +200,7 @@ bus::Bytes read_bytes(const Field& field, const YAML::Node& node, const Source& 
     bytes = read_byte_list(field, node, source);
   } else {
     const std::string& text = scalar(field, node, source, bytes_form(field));
-    // 10 alone could be meant in decimal: one plain number must be quoted, or stand in a list.
+    // 10 alone could be meant in decimal: one plain number must be quoted, or be in a list.
     const bool plain_number = node.Tag() == "?" && parse_integer(text).has_value();
     const std::optional<bus::Bytes> parsed = plain_number ? std::nullopt : parse_bytes(text);
     if (!parsed) fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), bytes_form(field)));

@@ -33,12 +33,12 @@ struct Word {
 
 struct Object;
 
-/// What a value may be.
+/// The type of a value.
 struct Type {
   Kind kind = Kind::kText;
   Range range;
   std::string unit;                ///< of an integer or number, for people
-  std::vector<Word> words;         ///< of a kWord; of a kList: a word in the place of a list
+  std::vector<Word> words;         ///< of a kWord; of a kList: words that replace a list
   Kind element = Kind::kObject;    ///< of a kList
   Range each;                      ///< of the elements of a kList of integers
   const Object* object = nullptr;  ///< of a kObject, or of the elements of a kList; outlives the Type
@@ -64,16 +64,16 @@ struct Choice {
   std::vector<std::string> required, optional;
 };
 
-/// A key that stands in a mapping of the scenario, or that the command line has put there.
+/// A key in a mapping of the scenario, from the file or the command line.
 struct Given {
   std::string key;
   int line = 0;
-  std::string option;  ///< of the command line, "--set user_cpu.cycle=40us"; empty: it stands in the file
+  std::string option;  ///< of the command line, "--set user_cpu.cycle=40us"; empty: from the file
 };
 
-/// Tag of what the command line has put into a scenario's YAML, followed by the option.
+/// Tag of nodes that the command line has put into a scenario's YAML, followed by the option.
 constexpr const char* kOptionTag = "!option ";
-/// The option that has put the node there; empty for what stands in the file.
+/// The option that has put the node there; empty for nodes of the file.
 std::string option_of(const YAML::Node& node);
 
 struct Object {
@@ -92,19 +92,19 @@ struct Object {
   std::vector<std::vector<std::string>> at_most_one;   ///< no two fields of a group together
   std::vector<std::vector<std::string>> at_least_one;  ///< at least one field of each group must be there
   SetLine set_line;
-  NoteKey note_key;  ///< null: nobody wants to know which keys are there
+  NoteKey note_key;  ///< null: keys are not noted
 
   const Field* find(const std::string& key) const;
 };
 
-/// A name or path in a scenario together with the line that it stands on, for checks that come later.
+/// A name or path in a scenario with its line, for later checks.
 struct Name {
   std::string text;
   int line = 0;
   bool empty() const { return text.empty(); }
 };
 
-// Reading of one value; each throws InputError with what is allowed.
+// Reading of one value; each throws InputError with the allowed values.
 std::int64_t read_integer(const Field& field, const YAML::Node& node, const Source& source);
 double read_number(const Field& field, const YAML::Node& node, const Source& source);
 bool read_boolean(const Field& field, const YAML::Node& node, const Source& source);
@@ -119,7 +119,7 @@ bool is_word_of(const Field& field, const YAML::Node& node);
 void check_list(const Field& field, const YAML::Node& node, const Source& source);
 int line_of(const YAML::Node& node);
 
-/// Structs with a member `given` keep which keys their mapping has.
+/// Structs with a member `given` store the keys of their mapping.
 template <class T, class = void>
 struct KeepsKeys : std::false_type {};
 template <class T>
@@ -234,7 +234,7 @@ class ObjectOf : public Object {
   /// A path, relative to the folder of the scenario.
   Field& file(const char* key, Name T::*member, const char* text) { return named(key, member, Kind::kFile, text); }
 
-  /// At most `most` characters, 0: as many as you like.
+  /// At most `most` characters, 0: any number.
   template <class B>
   Field& text(const char* key, std::string B::*member, const char* text, std::int64_t most = 0) {
     Field& field = add(key, Kind::kText, text);
@@ -298,7 +298,7 @@ class ObjectOf : public Object {
                    });
   }
 
-  /// A list, or `word` in its place, which makes `flag` false.
+  /// A list, or instead `word`, which makes `flag` false.
   template <class U>
   Field& list_or(const char* key, std::vector<U> T::*member, const ObjectOf<U>& described, Range items,
                  const Word& word, bool T::*flag, const char* text) {
@@ -342,7 +342,7 @@ class ObjectOf : public Object {
     });
   }
 
-  /// Fields move while others are added, so the reader gets its own copy of what it has to know.
+  /// Fields move while others are added, so the reader gets a copy of the data that it needs.
   template <class Read>
   Field& on_read(Field& field, Read read) {
     field.read = [self = field, read = std::move(read)](void* owner, const YAML::Node& node, const Source& source) {

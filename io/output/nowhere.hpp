@@ -6,7 +6,7 @@
 
 namespace dsdpv1::tb {
 
-/// What is written to `descriptor` from now on is lost. False, with errno, when that cannot be had.
+/// Discards all later output to `descriptor`. Returns false, with errno, when that fails.
 inline bool send_nowhere(int descriptor) {
   const Descriptor nowhere(::open("/dev/null", O_WRONLY | O_CLOEXEC));
   return nowhere && ::dup2(nowhere.get(), descriptor) >= 0;

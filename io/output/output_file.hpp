@@ -16,26 +16,26 @@ class OutputFile {
   explicit OutputFile(const std::string& path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  /// Without a commit nothing is left behind.
+  /// Without a commit no file remains.
   ~OutputFile() = default;
 
   /// The first error (a full disk) is kept; after it nothing more is written.
   void write(std::string_view text) {
     if (error_ == 0 && std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) keep_error();
   }
-  /// What was written so far is in the file with the temporary name.
+  /// Puts all output so far into the file with the temporary name.
   void flush();
-  /// What is written from now on goes nowhere: in a process that shares the file with another, whose it is. Throws
-  /// InputError when there is no nowhere.
+  /// Discards later output: for a process that shares the file with its owner. Throws InputError when /dev/null cannot
+  /// be opened.
   void mute();
-  /// Whether something could not be written: a run need not go on.
+  /// Whether a write has failed: then a run need not continue.
   bool failed() const { return error_ != 0; }
-  /// Throws InputError when something could not be written.
+  /// Throws InputError when a write has failed.
   void check() const;
-  /// Closes and gives the file its name; throws InputError when something could not be written.
+  /// Closes and gives the file its name; throws InputError when a write has failed.
   void commit();
   const std::string& path() const { return part_.path(); }
-  /// Where it grows: the temporary name, or the device itself.
+  /// The path of the growing file: the temporary name, or the device itself.
   const std::string& grows_at() const { return part_.direct() ? part_.path() : part_.part(); }
 
  private:

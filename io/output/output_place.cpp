@@ -16,10 +16,10 @@
 namespace dsdpv1::tb {
 namespace {
 
-constexpr int kMostLinks = 40;  // as the kernel
+constexpr int kMostLinks = 40;  // the kernel's limit
 
-/// N of /dev/fd/N and /proc/self/fd/N. To open such a name again would begin at the start of a file that others write
-/// at its end.
+/// N of /dev/fd/N and /proc/self/fd/N. Opening such a name again would start at the beginning of a file that others
+/// append to.
 std::optional<int> named_descriptor(const std::string& path) {
   for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"}) {
     if (path.compare(0, folder.size(), folder) != 0) continue;

@@ -18,8 +18,7 @@ namespace {
 
 constexpr mode_t kPermissions = 0777;
 
-/// Names of open temporary files; lock-free, for handlers. A name for which there is no slot is removed by its owner
-/// only.
+/// Names of open temporary files; lock-free, for handlers. Only its owner removes a name without a slot.
 std::array<std::atomic<const char*>, 64> slots{};
 
 int take_slot(const char* name) {
@@ -30,7 +29,7 @@ int take_slot(const char* name) {
   return -1;
 }
 
-/// So much of a name that `more` characters fit after it, cut between characters of UTF-8.
+/// The beginning of a name that leaves room for `more` characters, cut between characters of UTF-8.
 std::string cut(std::string name, std::size_t more) {
   if (name.size() + more <= NAME_MAX) return name;
   name.resize(NAME_MAX - more);
@@ -45,7 +44,7 @@ std::string part_name(const std::string& target, int attempt) {
   return folder_of(target) + "/" + cut(name_of(target), ending.size() + PartFile::kRoom) + ending;
 }
 
-/// Without "./" in front, which nobody has written.
+/// Without "./" in front, which the user did not write.
 std::string as_written(const std::string& name, const std::string& target) {
   return target.find('/') == std::string::npos ? name.substr(2) : name;
 }
@@ -66,7 +65,7 @@ NewFile create(const OutputPlace& place) {
 }
 
 void keep_owner_and_mode(int descriptor, const struct stat& replaced) {
-  // Only root may give files away, and a group may not be ours: then the file belongs to whoever has written it.
+  // Only root may give files away, and a group may not be ours: then the file belongs to its writer.
   const bool same = ::fchown(descriptor, replaced.st_uid, replaced.st_gid) == 0;
   ::fchmod(descriptor, replaced.st_mode & (same ? 07777 : kPermissions));
 }
@@ -83,7 +82,7 @@ std::unique_ptr<NameToRemove> open_place(const OutputPlace& place, int& descript
     descriptor = open_directly(place);
     return std::make_unique<NameToRemove>("");
   }
-  const SignalsHeld held;  // between the making of the file and the note of its name
+  const SignalsHeld held;  // between creating the file and noting its name
   NewFile made = create(place);
   descriptor = made.descriptor;
   auto part = std::make_unique<NameToRemove>(std::move(made.name));

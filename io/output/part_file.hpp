@@ -1,5 +1,6 @@
 #pragma once
-// The temporary file of an output: beside its place, so that renaming is atomic, under a name that no other run uses.
+// The temporary file of an output: beside its place, so that renaming is atomic, under a name that is unique to this
+// run.
 #include <memory>
 #include <string>
 
@@ -32,7 +33,7 @@ class PartFile {
 
   /// Creates `NAME.PID.part`, or opens the device or FIFO itself; throws InputError.
   explicit PartFile(const std::string& path);
-  /// What was not placed is removed.
+  /// Removes a file that was not placed.
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
@@ -43,9 +44,9 @@ class PartFile {
   void place();
 
   const std::string& path() const { return place_.wanted; }
-  /// Where it grows.
+  /// The path of the growing file.
   const std::string& part() const { return part_->text(); }
-  /// A device, a FIFO or a descriptor of this process: there is no temporary file.
+  /// A device, a FIFO or a descriptor of this process, without a temporary file.
   bool direct() const { return place_.direct; }
 
  private:

@@ -3,7 +3,7 @@
 
 namespace dsdpv1::tb {
 
-/// No signal comes in while it lives, or until `release`; what has come meanwhile comes then.
+/// Blocks signals while it lives, or until `release`; pending ones are delivered then.
 class SignalsHeld {
  public:
   SignalsHeld() {

@@ -10,7 +10,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-/// Who shares the channel may have made it one that does not wait.
+/// Another process that shares the channel may have made it non-blocking.
 void wait_for_room() {
   pollfd out{STDOUT_FILENO, POLLOUT, 0};
   ::poll(&out, 1, -1);

@@ -1,5 +1,5 @@
 #pragma once
-// Standard output that keeps its first error, so that a full disk or a reader that has gone away is seen at the end.
+// Standard output that keeps its first error, so that a full disk or a closed pipe is reported at the end.
 #include <array>
 #include <streambuf>
 
@@ -7,13 +7,13 @@ namespace dsdpv1::tb {
 
 class StandardOutput : public std::streambuf {
  public:
-  /// Takes the place of std::cout's buffer, until the program ends.
+  /// Replaces std::cout's buffer until the program ends.
   StandardOutput();
   ~StandardOutput() override;
   StandardOutput(const StandardOutput&) = delete;
   StandardOutput& operator=(const StandardOutput&) = delete;
 
-  /// Writes what is left; 0, or the first error (errno). EPIPE: the reader has gone away.
+  /// Writes the rest; returns 0 or the first error (errno). EPIPE: the reader has closed the pipe.
   int finish();
 
  protected:
@@ -21,7 +21,7 @@ class StandardOutput : public std::streambuf {
   int sync() override;
 
  private:
-  /// False after an error; what comes then is thrown away.
+  /// False after an error; later output is discarded.
   bool write_out();
 
   std::array<char, 1U << 14U> text_{};
@@ -29,8 +29,8 @@ class StandardOutput : public std::streambuf {
   int error_ = 0;
 };
 
-/// Puts something that can neither be read nor written in the place of standard channels that are closed. Otherwise the
-/// first file that is opened would get their number, and what the program says would go into it.
+/// Replaces closed standard channels by descriptors that can neither be read nor written. Otherwise the first opened
+/// file would get their number, and the program's messages would go into it.
 void fill_closed_channels();
 
 }  // namespace dsdpv1::tb

@@ -5,7 +5,7 @@
 
 namespace dsdpv1::tb {
 
-/// Replaces what is there. Throws InputError when it cannot be written.
+/// Replaces an existing file. Throws InputError when it cannot be written.
 void write_file(const std::string& path, std::string_view text);
 
 }  // namespace dsdpv1::tb

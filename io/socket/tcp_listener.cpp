@@ -52,8 +52,8 @@ int listen_at(const std::string& who, const sockaddr_in& address, const TcpOptio
   return listener.release();
 }
 
-/// A host whose computer has vanished would have the port for ever: it is asked after 30 s of silence and given up a
-/// minute later.
+/// A host whose computer has vanished would keep the port indefinitely. So it is probed after 30 s of silence and
+/// dropped a minute later.
 void notice_when_gone(int fd) {
   const int on = 1, idle_s = 30, interval_s = 10, tries = 6;
   ::setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);

@@ -16,9 +16,9 @@
 namespace dsdpv1::tb {
 namespace {
 
-constexpr std::size_t kPipeBuffer = std::size_t{1} << 16U;  // what a pipe holds
+constexpr std::size_t kPipeBuffer = std::size_t{1} << 16U;  // capacity of a pipe
 
-/// What the parent does on a signal, and at its end, is not the child's business.
+/// Drops the parent's handlers of signals and of its end.
 [[noreturn]] void tell_and_end(const std::function<void(std::FILE*)>& tell, int to) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int each : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(each, SIG_DFL);

@@ -1,6 +1,6 @@
 #pragma once
-// What a function writes that is called in a process of its own: for a library that ends the program, or worse, when a
-// file is damaged. At most a buffer and a pipe of it are in memory.
+// The output of a function that is called in a separate process: for a library that ends the program, or worse, when a
+// file is damaged. At most a buffer and a pipe of the output are in memory.
 #include <sys/types.h>
 
 #include <cstdio>
@@ -15,9 +15,9 @@ namespace dsdpv1::tb {
 
 class ChildStream {
  public:
-  /// Throws std::system_error when there can be no other process.
+  /// Throws std::system_error when no process can be created.
   explicit ChildStream(const std::function<void(std::FILE*)>& tell);
-  /// Ends the process where it is.
+  /// Kills the process.
   ~ChildStream();
   ChildStream(const ChildStream&) = delete;
   ChildStream& operator=(const ChildStream&) = delete;

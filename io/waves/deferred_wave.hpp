@@ -46,7 +46,7 @@ class DeferredWave : public WaveWriter {
   std::string path_, date_;
   std::vector<std::function<void(WaveWriter&)>> declarations_;
   Signal declared_ = 0;
-  std::vector<Signal> signals_;  ///< of the writer, by this one's
+  std::vector<Signal> signals_;  ///< the writer's, by signal of this class
   std::unique_ptr<WaveWriter> writer_;
 };
 

@@ -7,7 +7,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-constexpr std::streamoff kVariables = 40;  // where the header's block counts them, after its tag and length
+constexpr std::streamoff kVariables = 40;  // offset of their count in the header's block, after its tag and length
 
 std::uint64_t big_endian(std::istream& in) {
   std::uint64_t value = 0;
@@ -15,8 +15,8 @@ std::uint64_t big_endian(std::istream& in) {
   return value;
 }
 
-/// LZ4 makes 255 bytes of one at most, and names may be compressed by it twice; zlib makes some 1032. fstapi would take
-/// memory for whatever is said, and write all of it.
+/// LZ4 expands a byte to 255 bytes at most, and names may be compressed by it twice; zlib expands it to some 1032.
+/// fstapi would allocate any claimed size and write all of it.
 constexpr std::uint64_t kMostUnpackedOfByte = 255 * 255;
 
 bool is_names(int tag) { return tag == FST_BL_HIER || tag == FST_BL_HIER_LZ4 || tag == FST_BL_HIER_LZ4DUO; }
@@ -39,7 +39,7 @@ std::uint64_t variables(std::istream& in) {
 
 }  // namespace
 
-/// Each is a tag and its length, which counts itself. The first that is not finished has the tag "skip".
+/// Each block begins with a tag and a length that includes itself. The first unfinished block has the tag "skip".
 FstBlocks fst_blocks(const std::string& path) {
   FstBlocks blocks;
   std::ifstream in(path, std::ios::binary | std::ios::ate);

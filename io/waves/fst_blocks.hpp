@@ -8,10 +8,10 @@ namespace dsdpv1::tb {
 struct FstBlocks {
   unsigned changes = 0;
   bool header = false, geometry = false, names = false;
-  std::uint64_t unpacked = 0;   ///< all of it is compressed once more: how large it is in truth; 0: it is not
-  bool damaged = false;         ///< names are said to be larger than their block can be when it is unpacked
+  std::uint64_t unpacked = 0;   ///< real size of a file that is compressed as a whole; 0: it is not
+  bool damaged = false;         ///< the claimed size of names is larger than their block can unpack to
   bool whole = false;           ///< the last block ends where the file does
-  std::uint64_t variables = 0;  ///< that the header speaks of
+  std::uint64_t variables = 0;  ///< claimed by the header
   bool complete() const { return whole && (unpacked != 0 || (changes != 0 && geometry && names)); }
 };
 

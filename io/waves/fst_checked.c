@@ -1,5 +1,5 @@
-/* GTKWave's fstapi as Verilator carries it along, with input and output that keep errors (fst_io.h). Somebody else's
- * code: compiled without this project's warnings. */
+/* GTKWave's fstapi in Verilator's copy, with input and output that keep errors (fst_io.h). It is third-party code:
+ * compiled without this project's warnings. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,11 +21,11 @@
 #define ftruncate(descriptor, length) fst_io_truncate(descriptor, length)
 #define unlink(name) fst_io_remove(name)
 #define mmap(address, length, protection, flags, descriptor, offset) fst_io_map(length, descriptor)
-/* It ends the program when a file is damaged: a process that was made to read it (child_stream.hpp), in which nothing
- * is to happen that happens at the end of this one. */
+/* It ends the program when a file is damaged. The program is then a child process made for reading (child_stream.hpp),
+ * which must not run the parent's exit handlers. */
 #define exit(status) _exit(status)
-/* The table of times is compressed with the level that the values have: 9 takes as long as everything else that is
- * written, for a file that is 6 % smaller. */
+/* The table of times is compressed with the level of the values. Level 9 would take as long as all other writing, for a
+ * file that is 6 % smaller. */
 #define compress2(to, to_size, from, from_size, level) \
   compress2(to, to_size, from, from_size, (level) > 4 ? 4 : (level))
 

@@ -14,9 +14,9 @@ class FstFile {
  public:
   using Handle = std::uint32_t;
 
-  /// Throws InputError when it cannot be created, or is a device or FIFO: FST is not written from front to back.
+  /// Throws InputError when it cannot be created, or is a device or FIFO: FST is not written sequentially.
   FstFile(const std::string& path, const std::string& date);
-  /// What is not finished is removed.
+  /// Removes an unfinished file.
   ~FstFile();
   FstFile(const FstFile&) = delete;
   FstFile& operator=(const FstFile&) = delete;
@@ -31,10 +31,10 @@ class FstFile {
   void set(Handle variable, const char* levels);
   void say(Handle variable, std::string_view word);
 
-  /// What was written up to now, `time`, is in the temporary file, and recover finds it there.
+  /// Puts all changes up to now, `time`, into the temporary file, where recover finds them.
   void save(std::uint64_t time);
   bool failed() const { return error_ != 0; }
-  /// Throws InputError when something could not be written.
+  /// Throws InputError when a write has failed.
   void check() const;
   /// Gives the complete file its name; throws InputError.
   void finish();
@@ -54,7 +54,7 @@ class FstFile {
   void* context_;
   std::optional<std::uint64_t> time_;
   unsigned changes_ = 0;     ///< of the block
-  unsigned steps_ = 0;       ///< changes of time in it, more than one of which fstapi wants
+  unsigned steps_ = 0;       ///< changes of time in it; fstapi needs more than one
   bool ends_block_ = false;  ///< at the next change of time
 };
 

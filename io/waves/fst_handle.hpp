@@ -1,5 +1,5 @@
 #pragma once
-// fstapi's reader, closed at the end. Only where a crash of it is provided for: see ChildStream.
+// fstapi's reader, closed at the end. Only for code that survives its crash: see ChildStream.
 #include <fstapi.h>
 
 #include <memory>

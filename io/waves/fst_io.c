@@ -26,7 +26,7 @@ int fst_io_take_error(void) {
   return error;
 }
 
-/* Only what is written matters: a reader looks for files that may not be there. */
+/* Only errors of writing matter: a reader probes for files that may not exist. */
 static FILE* create(const char* name, const char* mode) {
   const int given = next_descriptor;
   next_descriptor = -1;
@@ -53,7 +53,7 @@ int fst_io_close(FILE* file) {
   return result;
 }
 
-/* A file is written by one thread, so that no lock is needed for each change of time, which are a few bytes. */
+/* One thread writes a file, so the few bytes of each change of time need no lock. */
 size_t fst_io_write(const void* data, size_t size, size_t count, FILE* file) {
   const size_t written = fwrite_unlocked(data, size, count, file);
   keep(written != count && size != 0);
@@ -86,7 +86,7 @@ int fst_io_truncate(int descriptor, off_t length) {
   return result;
 }
 
-/* fstapi removes a file before it creates it; the one that is given is there on purpose. */
+/* fstapi removes a file before it creates it; the given one must stay. */
 int fst_io_remove(const char* name) { return next_descriptor >= 0 ? 0 : unlink(name); }
 
 static int in_memory(int descriptor) { return fcntl(descriptor, F_GET_SEALS) >= 0; }

@@ -11,7 +11,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-/// Of a file that is compressed as a whole (GHDL; vvp -fst-space): it is unpacked in memory.
+/// Limit for a file that is compressed as a whole (GHDL; vvp -fst-space), which is unpacked in memory.
 constexpr std::uint64_t kMostUnpacked = std::uint64_t{1} << 30U;
 
 // ------------------------------------------------------------------------------------ in the process that has fstapi
@@ -22,14 +22,14 @@ struct Heading {
 
 enum class Entry : std::uint8_t { kScope, kUpscope, kVariable, kEnd };
 
-/// Of the hierarchy; its name follows.
+/// An entry of the hierarchy; its name follows.
 struct HierarchyRecord {
   Entry entry;
   WaveKind kind;
   std::uint32_t width, handle, name;
 };
 
-/// Of the changes; the value follows.
+/// A change; the value follows.
 struct ChangeRecord {
   std::uint64_t time;
   std::uint32_t handle, length;
@@ -73,7 +73,7 @@ void tell_declarations(const std::string& path, std::FILE* to) {
   put_hierarchy(to, {Entry::kEnd, {}, 0, fstReaderGetMaxHandle(reader.get()), 0}, "");
 }
 
-/// Writes changes as fstapi hands them out, and between them where the simulator recorded nothing.
+/// Writes the changes that fstapi delivers, and marks the times at which the simulator recorded nothing.
 class Teller {
  public:
   Teller(void* reader, std::FILE* to)
@@ -156,7 +156,7 @@ void FstReader::read_declarations() {
   }
 }
 
-/// One of the hierarchy; false at its end.
+/// Reads an entry of the hierarchy; false at its end.
 bool FstReader::read_entry(ChildStream& told, WaveScopes& scopes) {
   HierarchyRecord record{};
   if (!told.read(record)) damaged();

@@ -1,6 +1,6 @@
 #pragma once
-// FST by fstapi, which reads in a process of its own: it ends the program when a file is damaged, and it hands its
-// changes out, where a reader is asked for them.
+// Reads FST with fstapi in a separate process. fstapi ends the program when a file is damaged, and it pushes its
+// changes, while a WaveReader is asked for them.
 #include <optional>
 
 #include "io/waves/child_stream.hpp"

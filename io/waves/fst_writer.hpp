@@ -32,8 +32,8 @@ class FstWriter : public WaveWriter {
 
   FstFile file_;
   std::vector<int> widths_;  // by handle - 1
-  bus::Tick now_ = -1;       ///< of the last change or save
-  bus::Tick moved_to_ = -1;  ///< where the file is
+  bus::Tick now_ = -1;       ///< time of the last change or save
+  bus::Tick moved_to_ = -1;  ///< time in the file
 };
 
 }  // namespace dsdpv1::tb

@@ -54,7 +54,7 @@ class Part {
       output = writer.words(name);
   }
 
-  /// The change to come; absent: the part is over.
+  /// The next change; absent: the part is over.
   const std::optional<WaveEvent>& next() const { return next_; }
   std::uint64_t begin() const { return reader_->begin(); }
   std::uint64_t end() const { return reader_->end(); }
@@ -62,7 +62,7 @@ class Part {
     if (next_->kind == WaveEvent::Kind::kChange) write(writer, next_->time, next_->signal, next_->value);
     advance();
   }
-  /// Passes over all changes before `begin` and writes there what they have led to.
+  /// Skips all changes before `begin` and writes the resulting values there.
   void skip_to(std::uint64_t begin, WaveWriter& writer) {
     for (; next_ && next_->time < begin; advance())
       if (next_->kind == WaveEvent::Kind::kChange) early_.at(next_->signal) = std::string(next_->value);
@@ -87,11 +87,11 @@ class Part {
   WavePart what_;
   std::unique_ptr<WaveReader> reader_;
   std::vector<std::optional<WaveWriter::Signal>> outputs_;  ///< by signal of the part
-  std::vector<std::optional<std::string>> early_;           ///< likewise: the last value before the beginning
+  std::vector<std::optional<std::string>> early_;           ///< the same: the last value before the beginning
   std::optional<WaveEvent> next_;
 };
 
-/// Scopes as a tree, each with what is declared in it, both in the order in which they were met.
+/// Scopes as a tree, each with its declarations, both in order of first appearance.
 class Scope {
  public:
   void add(const std::string& path, Part& part, const WaveVariable& variable) {
@@ -123,7 +123,7 @@ class Scope {
   std::map<std::string, std::size_t> places_;
 };
 
-/// The part with the earliest change, of several the first; null when all are over.
+/// The part with the earliest change, the first of several; null when all are over.
 Part* earliest(const std::vector<std::unique_ptr<Part>>& parts) {
   Part* found = nullptr;
   for (const std::unique_ptr<Part>& part : parts)

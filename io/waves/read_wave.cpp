@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* kAllowed = ", allowed is a wave, VCD or FST";
 
-/// By its first byte: the tag of the header, 0, or 254 of one that is compressed as a whole. Nothing is read of a FIFO,
-/// which gives its bytes once.
+/// Decides by the first byte: 0, the header's tag, or 254 for a file that is compressed as a whole. A FIFO is not read,
+/// because it gives its bytes only once.
 bool is_fst(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) throw InputError(path, 0, what_is_wrong(errno) + kAllowed);

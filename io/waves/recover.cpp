@@ -26,13 +26,13 @@ std::string beginning(const std::string& path, std::size_t length) {
   return text;
 }
 
-/// How much of a VCD file belongs to whole times, and the last of them.
+/// The part of a VCD file with complete times, and the last of them.
 struct Whole {
   std::uintmax_t bytes = 0;
   std::uint64_t time = 0;
 };
 
-/// The changes after the last time may not all be there, so it is the first that is left out; its line ends the wave.
+/// The changes after the last time may be incomplete, so they are dropped; the line of that time ends the wave.
 Whole whole_times(const std::string& part) {
   Whole whole;
   std::uintmax_t at = 0;

@@ -1,4 +1,4 @@
-// A complete FST file from what is readable of one.
+// Rebuilds a complete FST file from a readable part.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ bool readable(const std::string& path) {
   return child > 0 && ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// A file under construction, and its variables by the handles of the one that is read.
+/// A file under construction, and its variables by the handles of the file being read.
 struct Copy {
   Copy(const std::string& path, const std::string& date) : file(path, date) {}
   FstFile file;

@@ -14,16 +14,16 @@
 namespace dsdpv1::tb {
 namespace {
 
-/// 2^31 ps for 200 points of the screen, some 10 ms in a window: GTKWave knows no "all of it", as Surfer does.
+/// 2^31 ps for 200 points of the screen, some 10 ms in a window: GTKWave has no "zoom to all", unlike Surfer.
 constexpr double kZoom = -31;
 
-/// One signal as the viewers name it.
+/// The viewers' name of a signal.
 struct Shown {
   std::string path;   ///< "demo.A"
   std::string range;  ///< "[10:0]"; empty: a single wire, or words
 };
 
-/// A scope, or signals of one that belong together; and what stands in it.
+/// A scope, or a group of its signals, with its content.
 struct Section {
   std::string title;
   bool is_scope = true;
@@ -40,7 +40,7 @@ Shown shown(const WaveDeclarations& declared, const WaveVariable& variable) {
           width > 1 ? fmt::format("[{}:0]", width - 1) : ""};
 }
 
-/// Those of `variables` that the group names, in its order; they are taken out.
+/// Removes and returns those of `variables` that the group names, in its order.
 Section take(const SignalGroup& group, const WaveDeclarations& declared, Variables& variables) {
   Section section{group.title, false};
   for (const std::string& name : group.signals) {
@@ -76,7 +76,7 @@ Section station(const WaveDeclarations& declared, std::size_t scope, const std::
     if (!taken.signals.empty()) section.inner.push_back(std::move(taken));
   }
   for (const WaveVariable* each : rest) section.signals.push_back(shown(declared, *each));
-  if (!section.inner.empty() && !section.signals.empty()) {  // what is in no group comes after the groups
+  if (!section.inner.empty() && !section.signals.empty()) {  // signals without a group come after the groups
     section.inner.push_back({"states", false, std::move(section.signals)});
     section.signals.clear();
   }
@@ -90,7 +90,7 @@ Section station(const WaveDeclarations& declared, std::size_t scope, const std::
   return section;
 }
 
-/// A scope that is a clock alone comes first, the others as they are declared.
+/// A scope with only a clock comes first, the others in order of declaration.
 std::vector<Section> sections_of(const WaveDeclarations& declared, const std::vector<SignalGroup>& groups) {
   std::vector<Section> sections;
   for (std::size_t i = 0; i < declared.scopes.size(); ++i) {
@@ -103,7 +103,7 @@ std::vector<Section> sections_of(const WaveDeclarations& declared, const std::ve
   return sections;
 }
 
-/// A scope is a group, which can be folded; what belongs together in it has a comment in front.
+/// A scope is a group, which can be folded; a comment precedes each group of signals in it.
 std::string gtkwave_text(const Section& section) {
   constexpr const char *kWire = "@28", *kHexadecimal = "@22";
   std::string text = fmt::format("{}\n-{}\n", section.is_scope ? "@800200" : "@200", section.title);
@@ -113,7 +113,7 @@ std::string gtkwave_text(const Section& section) {
   return section.is_scope ? text + fmt::format("@1000200\n-{}\n", section.title) : text;
 }
 
-/// Its commands know no groups but those of whole scopes: a divider begins each.
+/// Its commands have groups only for whole scopes, so a divider begins each.
 std::string surfer_text(const Section& section, const std::string& prefix) {
   const std::string title = prefix + section.title;
   std::string text;

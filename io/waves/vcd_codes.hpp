@@ -9,7 +9,7 @@
 
 namespace dsdpv1::tb {
 
-/// Codes of up to three characters, which are nearly all, are places of a table, which is as long as they need.
+/// Codes of up to three characters, which are nearly all, are indices of a table that grows as needed.
 class VcdCodes {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;

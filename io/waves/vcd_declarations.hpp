@@ -1,5 +1,5 @@
 #pragma once
-// What stands in a VCD file before its first change (IEEE 1364-2005, 18.2).
+// The part of a VCD file before its first change (IEEE 1364-2005, 18.2).
 #include "io/waves/vcd_codes.hpp"
 #include "io/waves/vcd_text.hpp"
 #include "io/waves/wave_name.hpp"
@@ -15,7 +15,7 @@ class VcdDeclarations {
   void read();
 
  private:
-  /// The next word, which is not the end of the file.
+  /// The next word; the end of the file is an error.
   std::string word();
   /// The words up to $end, one blank between two.
   std::string rest();

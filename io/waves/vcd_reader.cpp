@@ -10,7 +10,7 @@
 namespace dsdpv1::tb {
 
 VcdReader::VcdReader(const std::string& path) : text_(path) {
-  declarations_.exponent = -9;  // where nothing is said
+  declarations_.exponent = -9;  // the default
   VcdDeclarations(text_, declarations_, codes_).read();
   selected_.assign(declarations_.signals.size(), true);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Value Change Dump, IEEE 1364-2005 clause 18, with what simulators add: strings, reals as words, VHDL's nine values.
+// Value Change Dump, IEEE 1364-2005 clause 18, with simulators' extensions: strings, reals as words, VHDL's nine
+// values.
 #include "io/waves/vcd_codes.hpp"
 #include "io/waves/vcd_text.hpp"
 #include "io/waves/wave_reader.hpp"
@@ -34,8 +35,8 @@ class VcdReader : public WaveReader {
   WaveDeclarations declarations_;
   VcdCodes codes_;
   std::vector<bool> selected_;
-  std::string value_;   ///< of the present event, as the text has it
-  std::string levels_;  ///< ... of bits, as they are told
+  std::string value_;   ///< of the present event, in the file's text
+  std::string levels_;  ///< ... of bits, as reported
   std::optional<std::uint64_t> begin_;
   std::uint64_t now_ = 0;
 };

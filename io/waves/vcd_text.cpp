@@ -30,7 +30,7 @@ VcdText::VcdText(const std::string& path) : path_(path), file_(::open(path.c_str
   if (!file_) throw InputError(path, 0, what_is_wrong(errno) + ", allowed is a wave, VCD or FST");
   struct stat status {};
   if (::fstat(file_.get(), &status) == 0) size_ = static_cast<std::uint64_t>(status.st_size);
-  // Room for all of a short file and its end; what has no size, a pipe, may be long.
+  // Room for all of a short file and its end; a pipe has no size and may be long.
   room_ =
       size_ == 0 ? kMostRoom : static_cast<std::size_t>(std::clamp<std::uint64_t>(size_ + 1, kLeastRoom, kMostRoom));
   buffer_.reset(new char[room_ + 1]);
@@ -38,7 +38,7 @@ VcdText::VcdText(const std::string& path) : path_(path), file_(::open(path.c_str
   fill();
 }
 
-/// Keeps what has not been taken and reads on after it; a zero byte ends all.
+/// Keeps the unread rest and reads more after it; a zero byte ends the buffer.
 void VcdText::fill() {
   const auto rest = static_cast<std::size_t>(end_ - at_);
   std::memmove(buffer_.get(), at_, rest);

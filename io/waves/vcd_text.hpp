@@ -16,8 +16,8 @@ class VcdText {
   /// Throws InputError when it cannot be read.
   explicit VcdText(const std::string& path);
 
-  /// The next word between blanks, until the next call; empty at the end of the file. Throws InputError where the file
-  /// ends within a line, and at a word that is longer than any right one.
+  /// The next word between blanks, until the next call; empty at the end of the file. Throws InputError when the file
+  /// ends within a line, and for a word longer than any right one.
   std::string_view token() {
     skip_blanks();
     if (end_ - at_ < kLongest && !whole_) fill();
@@ -31,7 +31,7 @@ class VcdText {
   double share() const;
 
  private:
-  static constexpr std::ptrdiff_t kLongest = 0x12'0000;  ///< a value of kMostWaveWidth and some more
+  static constexpr std::ptrdiff_t kLongest = 0x12'0000;  ///< a value of kMostWaveWidth with some margin
   static const std::array<bool, 256> kBlank;             ///< and the zero byte after the last one
 
   void skip_blanks() {
@@ -46,7 +46,7 @@ class VcdText {
 
   std::string path_;
   Descriptor file_;
-  std::size_t room_ = 0;            ///< bytes of the buffer, without the zero behind them
+  std::size_t room_ = 0;            ///< bytes of the buffer, without the zero after them
   std::unique_ptr<char[]> buffer_;  ///< not filled before it is needed
   const char *at_, *end_;
   bool whole_ = false;  ///< all of the file is in the buffer

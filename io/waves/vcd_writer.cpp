@@ -11,8 +11,8 @@
 namespace dsdpv1::tb {
 namespace {
 
-// Readers that do not know `string` variables (sigrok) skip their values, and take the short name behind for something
-// of its own: it must not look like a change, a time ('#') or a command ('$').
+// Readers that do not know `string` variables (sigrok) skip their values, and read the short name after them
+// separately. So it must not look like a change, a time ('#') or a command ('$').
 constexpr char kWordsBegin = '~', kFirst = '%', kLast = '}';
 
 /// The short name of a signal, in the characters % to }; those of words begin with ~.

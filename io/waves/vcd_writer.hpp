@@ -35,7 +35,7 @@ class VcdWriter : public WaveWriter {
   Picoseconds in_order(bus::Tick at);
 
   OutputFile file_;
-  static constexpr int kWords = 0;  ///< in the place of a width
+  static constexpr int kWords = 0;  ///< instead of a width
   std::vector<int> widths_;
   std::vector<std::string> names_;  ///< in the file
   bus::Tick now_ = 0;

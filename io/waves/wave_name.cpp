@@ -33,7 +33,7 @@ WaveName parse_wave_name(std::string_view text, std::uint32_t width) {
   const bool escaped = !text.empty() && text.front() == '\\';
   if (escaped) text.remove_prefix(1);
   const std::size_t blank = text.find(' '), bracket = text.rfind('[');
-  const bool apart = blank != std::string_view::npos;  // of an escaped name only a range that stands apart is one
+  const bool apart = blank != std::string_view::npos;  // after an escaped name a range needs a blank
   if (text.empty() || text.back() != ']' || bracket == std::string_view::npos || (escaped && !apart))
     return {std::string(text), std::nullopt};
   const std::string_view inside = text.substr(bracket + 1, text.size() - bracket - 2);

@@ -16,8 +16,8 @@ struct WaveName {
   std::optional<std::pair<int, int>> range;
 };
 
-/// The parts of a name as a file has it, of a signal that is `width` wide. A single index is a range of its own where
-/// the signal is one bit wide, else it belongs to the name (a word of an array).
+/// The parts of a name in a file, for a signal that is `width` wide. A single index is a range if the signal is one bit
+/// wide; otherwise it belongs to the name (a word of an array).
 WaveName parse_wave_name(std::string_view text, std::uint32_t width);
 
 /// The scopes of a file while it is read: simulators open the same one again and again.

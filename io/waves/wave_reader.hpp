@@ -1,5 +1,5 @@
 #pragma once
-// Waves as they are read: what is declared, then the changes in order of time, one at a time. VCD and FST of any
+// Reading of waves: the declarations, then the changes in order of time, one at a time. VCD and FST of any
 // simulator; memory is needed for the declarations, not for the changes.
 #include <cstdint>
 #include <memory>
@@ -13,10 +13,10 @@ namespace dsdpv1::tb {
 
 enum class WaveKind : std::uint8_t { kBits, kReal, kText };
 
-/// What has a value: a net, whatever its names are.
+/// A net with a value, under any number of names.
 struct WaveSignal {
   WaveKind kind = WaveKind::kBits;
-  std::uint32_t width = 1;  ///< of bits: how many; else 0
+  std::uint32_t width = 1;  ///< number of bits; 0 for other values
 };
 
 /// A name of a signal.
@@ -34,7 +34,7 @@ struct WaveDeclarations {
   std::vector<WaveSignal> signals;
 };
 
-/// What is read at most: beyond it a file is refused, not half read.
+/// Limits: a larger file is refused, not half read.
 constexpr std::size_t kMostWaveVariables = 4'000'000;
 constexpr std::uint32_t kMostWaveWidth = 1U << 20U;
 constexpr std::size_t kMostWaveNames = std::size_t{1} << 30U;  ///< bytes of names of all scopes and variables
@@ -42,14 +42,14 @@ constexpr std::size_t kMostWaveNames = std::size_t{1} << 30U;  ///< bytes of nam
 struct WaveEvent {
   enum class Kind : std::uint8_t {
     kChange,
-    kOff,  ///< from now on the simulator records nothing ($dumpoff)
+    kOff,  ///< the simulator stops recording ($dumpoff)
     kOn,
   };
   Kind kind = Kind::kChange;
   std::uint64_t time = 0;  ///< never decreases
   std::uint32_t signal = 0;
-  /// Until the next event is read. Bits: as many of 0, 1, x, z as the signal is wide, the leftmost first. A real: as
-  /// the file spells it, for strtod.
+  /// Valid until the next event is read. Bits: one of 0, 1, x, z for each bit, the leftmost first. A real: the file's
+  /// text, for strtod.
   std::string_view value;
 };
 
@@ -58,9 +58,9 @@ class WaveReader {
   virtual ~WaveReader() = default;
 
   virtual const WaveDeclarations& declarations() const = 0;
-  /// Before the first event: only changes of these signals are told. Without a call all are.
+  /// Call before the first event: restricts the reported changes to these signals. The default is all.
   virtual void select(const std::vector<bool>& signals) = 0;
-  /// The next event; false at the end of the file. Throws InputError where the file is damaged.
+  /// The next event; false at the end of the file. Throws InputError when the file is damaged.
   virtual bool next(WaveEvent& event) = 0;
   /// The first time in the file, known once there was an event or the end.
   virtual std::uint64_t begin() const = 0;
@@ -70,8 +70,8 @@ class WaveReader {
   virtual double share() const = 0;
 };
 
-/// A reader by the file's content, whatever its name. `path` may be a FIFO when it is VCD. Throws InputError: no wave,
-/// or one that is damaged, cut, or larger than the limits above.
+/// A reader chosen by the file's content, not its name. `path` may be a FIFO when it is VCD. Throws InputError if the
+/// file is not a wave, is damaged or cut, or exceeds the limits above.
 std::unique_ptr<WaveReader> read_wave(const std::string& path);
 
 }  // namespace dsdpv1::tb

@@ -15,7 +15,7 @@ namespace dsdpv1::tb {
 namespace {
 
 constexpr bus::Tick kHalfCycle = bus::kTicksPerCycle / 2;
-constexpr bus::Tick kLate = bus::kTicksPerMs;  // what a trigger may be told late
+constexpr bus::Tick kLate = bus::kTicksPerMs;  // the most that a trigger may be late
 constexpr std::string_view kNotRecorded = "(not recorded)";
 
 }  // namespace
@@ -71,7 +71,7 @@ SelectedWave::Signal SelectedWave::declare(const std::string& name, bool is_word
   return static_cast<Signal>(signals_.size() - 1);
 }
 
-/// Handles of a writer follow each other.
+/// Handles of a writer are consecutive.
 void SelectedWave::declare_wires(Declared& declared, const std::string& name, int width) {
   if (!selection_.wires_only || width == 1) {
     declared.signal = writer_->wire(name, width);
@@ -109,7 +109,7 @@ void SelectedWave::say(bus::Tick at, Signal signal, std::string_view word) {
   write(at, declared);
 }
 
-/// A window that begins or ends up to `at` does so.
+/// Opens or closes windows whose begin or end is due by `at`.
 void SelectedWave::advance(bus::Tick at) {
   if (open_ && at <= end_of_window()) return;
   const bool wanted = !selection_.on_trigger || until_ >= selection_.from;
@@ -155,10 +155,10 @@ void SelectedWave::open(bus::Tick at) {
   for (const Declared& signal : signals_)
     if (signal.selected && signal.told) write_value(at, signal, signal.value);
   for (; !kept_.empty() && kept_.front().at <= end_of_window(); kept_.pop_front()) write_kept(kept_.front());
-  if (!kept_.empty()) close();  // told late: it is over
+  if (!kept_.empty()) close();  // reported late: it is over
 }
 
-/// What follows belongs to no window, and would look as if nothing happened.
+/// Later changes belong to no window; without this the signals would look constant.
 void SelectedWave::close() {
   closed_at_ = end_of_window();
   tick_to(closed_at_);

@@ -1,6 +1,6 @@
 #pragma once
-// What of a run goes into its wave: which signals, from when to when, or round what happens; and CLK, which nobody else
-// writes.
+// Selects the signals and the times of a run that go into its wave, by window or around triggers. Also writes CLK,
+// which has no other writer.
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -16,21 +16,21 @@ namespace dsdpv1::tb {
 constexpr const char* kClockScope = "clock";
 
 struct WaveSelection {
-  /// Patterns of the shell (* ? [..]) on "scope.signal"; none: every signal.
+  /// Patterns of the shell (* ? [..]) on "scope.signal"; empty: every signal.
   std::vector<std::string> signals;
   /// The window, both ends in it.
   bus::Tick from = 0, to = bus::kNever;
-  /// Windows round what is told to `trigger` in the place of a single one: up to this long before and behind.
+  /// Windows around each `trigger` instead of a single one: this long before and after it.
   bool on_trigger = false;
   bus::Tick around = 0;
-  /// Only single wires, a bus as one for each of its wires, "A[10]": for readers that know nothing else (sigrok).
+  /// Writes a bus as single wires, "A[10]": for readers that support nothing else (sigrok).
   bool wires_only = false;
   /// A signal clock.CLK: 48 MHz, rising at every cycle.
   bool clock = false;
 };
 
-/// Passes on to a writer what is selected; for its functions see WaveWriter. What a signal was before a window is its
-/// first value there; behind a window, in the same file, it is unknown.
+/// Passes the selected changes to a writer; for its functions see WaveWriter. A signal's value before a window is its
+/// first value there; after a window, in the same file, it is unknown.
 class SelectedWave {
  public:
   using Signal = WaveWriter::Signal;
@@ -49,16 +49,16 @@ class SelectedWave {
   /// With `on_trigger` and no trigger all signals are unknown from 0 to `end`.
   void finish(bus::Tick end);
 
-  /// To be called once all signals are declared: throws InputError for a pattern that fits none of them.
+  /// Call after all declarations. Throws InputError for a pattern that matches no signal.
   void check_patterns() const;
-  /// The window is another one; before it begins.
+  /// Replaces the window; call before it begins.
   void set_window(bus::Tick from, bus::Tick to) {
     selection_.from = from;
     selection_.to = to;
   }
-  /// The same, and what was told so far is forgotten.
+  /// The same, and forgets all previous changes.
   void begin_again(bus::Tick from, bus::Tick to);
-  /// Something happened at `at`, at most a millisecond before the last change.
+  /// Reports a trigger at `at`, at most a millisecond before the last change.
   void trigger(bus::Tick at);
   /// Whether anything has been written.
   bool has_window() const { return closed_at_ >= 0 || open_; }
@@ -69,11 +69,11 @@ class SelectedWave {
     std::string word;
   };
   struct Declared {
-    Signal signal = 0;  ///< of the writer; of several wires the lowest
-    int wires = 1;      ///< that it is written as
+    Signal signal = 0;  ///< the writer's handle, that of the lowest wire
+    int wires = 1;      ///< number of wires written
     bool selected = false, is_word = false;
     bool told = false;  ///< has a value
-    Value value;        ///< before the changes that are kept
+    Value value;        ///< value before the kept changes
   };
   struct Change {
     bus::Tick at = 0;
@@ -92,7 +92,7 @@ class SelectedWave {
   void close();
   void advance(bus::Tick at);
   void write_kept(Change& change);
-  /// Its value, which is new.
+  /// Writes its new value.
   void write(bus::Tick at, Declared& signal);
   void write_value(bus::Tick at, const Declared& signal, const Value& value);
   void tick_to(bus::Tick at);
@@ -104,7 +104,7 @@ class SelectedWave {
   std::vector<Declared> signals_;
   std::deque<Change> kept_;  ///< the last ones, while no window is open
   bool open_ = false;
-  bus::Tick until_ = -1;      ///< of the window that a trigger has opened
+  bus::Tick until_ = -1;      ///< end of the window that a trigger has opened
   bus::Tick closed_at_ = -1;  ///< end of the last window
   Signal clock_ = 0;
   bus::Tick next_clock_ = 0;  ///< the next change of CLK

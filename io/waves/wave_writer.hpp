@@ -13,7 +13,7 @@ namespace dsdpv1::tb {
 /// Picoseconds since the start, rounded to the nearest.
 constexpr std::uint64_t picoseconds(bus::Tick tick) { return (static_cast<std::uint64_t>(tick) * 500 + 3) / 6; }
 
-/// A time that is no whole tick: of a wave that comes from elsewhere.
+/// A time that is not a whole tick: for a wave from another program.
 struct Picoseconds {
   std::uint64_t count = 0;
 };
@@ -26,32 +26,32 @@ class WaveWriter {
 
   virtual ~WaveWriter() = default;
 
-  // Declarations, all before the first change. Names are plain words; `width` is 1 to 32 wires, any number where the
+  // Declarations, all before the first change. Names are plain words; `width` is 1 to 32 wires, any number if the
   // values are levels.
   virtual void open_scope(const std::string& name) = 0;
   virtual void close_scope() = 0;
   virtual Signal wire(const std::string& name, int width) = 0;
-  /// A signal whose values are words, like a state.
+  /// A signal whose values are words, such as a state.
   virtual Signal words(const std::string& name) = 0;
-  /// One more name, in the scope that is open, for a signal that is declared already.
+  /// Another name, in the open scope, for a declared signal.
   virtual void alias(const std::string& name, Signal of) = 0;
 
   // Changes; `at` never decreases (std::logic_error).
   virtual void set(bus::Tick at, Signal signal, int level) = 0;
   virtual void say(bus::Tick at, Signal signal, std::string_view word) = 0;
 
-  // The same for values as a WaveReader has them: `levels` are as many of 0, 1, x, z as the signal is wide. A writer
-  // gets all its times either so or as ticks.
+  // The same for a WaveReader's values: `levels` has one of 0, 1, x, z for each bit. A writer gets all its times either
+  // in ps or in ticks.
   virtual void set(Picoseconds at, Signal signal, std::string_view levels) = 0;
   virtual void say(Picoseconds at, Signal signal, std::string_view word) = 0;
   virtual void finish(Picoseconds end) = 0;
 
-  /// What was written up to `at` is in the temporary file, where `dsdpv1-sim recover` finds it. `at` is not before any
+  /// Puts all changes up to `at` into the temporary file, where `dsdpv1-sim recover` finds them. `at` is not before any
   /// change so far, and no later change is before it.
   virtual void save(bus::Tick at) = 0;
-  /// Whether something could not be written: there is no use in going on.
+  /// Whether a write has failed: then continuing is useless.
   virtual bool failed() const = 0;
-  /// Throws InputError when it has.
+  /// Throws InputError when a write has failed.
   virtual void check() const = 0;
 
   /// Finishes the file at `end` and gives it its name; throws InputError when it cannot be written. A writer that is
@@ -59,11 +59,11 @@ class WaveWriter {
   virtual void finish(bus::Tick end) = 0;
 };
 
-/// The writer for the file's ending, .vcd or .fst. `date`: of the file, in one line; empty: it has none. Throws
-/// InputError for others, when the file cannot be created, and for .fst when this program was built without it.
+/// The writer for the file's ending, .vcd or .fst. `date`: the file's date in one line; empty: none. Throws
+/// InputError for others, when the file cannot be created, and for .fst in a program built without it.
 std::unique_ptr<WaveWriter> open_wave(const std::string& path, const std::string& date = "");
 
-/// Checks the ending alone, before a run is started: the same errors.
+/// Checks only the ending, before a run is started, with the same errors.
 void check_wave_name(const std::string& path);
 
 }  // namespace dsdpv1::tb
