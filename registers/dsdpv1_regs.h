@@ -71,7 +71,7 @@
 #define DSDPV1_REG_OWNERSHIP_CHIP 0x01U  // The chip is in an access.
 #define DSDPV1_REG_OWNERSHIP_HOST 0x02U  // The host is in an access.
 #define DSDPV1_REG_U_TIMER 0x015U  // U_Timer
-#define DSDPV1_REG_U_TIMER_ENABLE 0x01U  // Enabled: the ownership ends by itself.
+#define DSDPV1_REG_U_TIMER_ENABLE 0x01U  // Enabled: the ownership ends automatically.
 #define DSDPV1_REG_UART_INTERVAL 0x019U  // Interval between characters
 #define DSDPV1_REG_UART_TSDR 0x01AU  // TSDR
 
@@ -184,16 +184,16 @@
 #define DSDPV1_REG_DP_STATE_DATA_EXCHANGE 0x03U  // DATA_EXCHANGE
 
 // Values of baud
-#define DSDPV1_REG_BAUD_RATE_12M 0x00U  // 12 MBaud
-#define DSDPV1_REG_BAUD_RATE_6M 0x01U  // 6 MBaud
-#define DSDPV1_REG_BAUD_RATE_3M 0x02U  // 3 MBaud
-#define DSDPV1_REG_BAUD_RATE_1M5 0x03U  // 1.5 MBaud
-#define DSDPV1_REG_BAUD_RATE_500K 0x04U  // 500 kBaud
-#define DSDPV1_REG_BAUD_RATE_187K5 0x05U  // 187.5 kBaud
-#define DSDPV1_REG_BAUD_RATE_93K75 0x06U  // 93.75 kBaud
-#define DSDPV1_REG_BAUD_RATE_45K45 0x07U  // 45.45 kBaud
-#define DSDPV1_REG_BAUD_RATE_19K2 0x08U  // 19.2 kBaud
-#define DSDPV1_REG_BAUD_RATE_9K6 0x09U  // 9.6 kBaud
+#define DSDPV1_REG_BAUD_RATE_12M 0x00U  // 12 Mbit/s
+#define DSDPV1_REG_BAUD_RATE_6M 0x01U  // 6 Mbit/s
+#define DSDPV1_REG_BAUD_RATE_3M 0x02U  // 3 Mbit/s
+#define DSDPV1_REG_BAUD_RATE_1M5 0x03U  // 1.5 Mbit/s
+#define DSDPV1_REG_BAUD_RATE_500K 0x04U  // 500 kbit/s
+#define DSDPV1_REG_BAUD_RATE_187K5 0x05U  // 187.5 kbit/s
+#define DSDPV1_REG_BAUD_RATE_93K75 0x06U  // 93.75 kbit/s
+#define DSDPV1_REG_BAUD_RATE_45K45 0x07U  // 45.45 kbit/s
+#define DSDPV1_REG_BAUD_RATE_19K2 0x08U  // 19.2 kbit/s
+#define DSDPV1_REG_BAUD_RATE_9K6 0x09U  // 9.6 kbit/s
 #define DSDPV1_REG_BAUD_SEARCHING 0x0FU  // The baud rate is being searched.
 
 // Values of prm_mode

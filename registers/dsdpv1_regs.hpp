@@ -8,7 +8,7 @@ namespace dsdpv1::regs {
 
 using Address = std::uint16_t;  ///< 0x000..0x7FF
 
-/// A stretch of the DPRAM, and who writes it (ruling P6); nobody's where only some modes of the DSDPV1-RSU have it.
+/// A part of the DPRAM and its writers (ruling P6); without a writer if only some modes of the DSDPV1-RSU have it.
 struct Cell {
   Address first;
   Address last;
@@ -82,7 +82,7 @@ inline constexpr Address kOwnership = 0x014;  // Ownership
 inline constexpr std::uint8_t kOwnershipChip = 0x01;  // The chip is in an access.
 inline constexpr std::uint8_t kOwnershipHost = 0x02;  // The host is in an access.
 inline constexpr Address kUTimer = 0x015;  // U_Timer
-inline constexpr std::uint8_t kUTimerEnable = 0x01;  // Enabled: the ownership ends by itself.
+inline constexpr std::uint8_t kUTimerEnable = 0x01;  // Enabled: the ownership ends automatically.
 inline constexpr Address kUartInterval = 0x019;  // Interval between characters
 inline constexpr Address kUartTsdr = 0x01A;  // TSDR
 
@@ -195,16 +195,16 @@ inline constexpr std::uint8_t kDpStateWaitCfg = 0x02;  // WAIT_CFG
 inline constexpr std::uint8_t kDpStateDataExchange = 0x03;  // DATA_EXCHANGE
 
 // Values of baud
-inline constexpr std::uint8_t kBaudRate12M = 0x00;  // 12 MBaud
-inline constexpr std::uint8_t kBaudRate6M = 0x01;  // 6 MBaud
-inline constexpr std::uint8_t kBaudRate3M = 0x02;  // 3 MBaud
-inline constexpr std::uint8_t kBaudRate1M5 = 0x03;  // 1.5 MBaud
-inline constexpr std::uint8_t kBaudRate500k = 0x04;  // 500 kBaud
-inline constexpr std::uint8_t kBaudRate187k5 = 0x05;  // 187.5 kBaud
-inline constexpr std::uint8_t kBaudRate93k75 = 0x06;  // 93.75 kBaud
-inline constexpr std::uint8_t kBaudRate45k45 = 0x07;  // 45.45 kBaud
-inline constexpr std::uint8_t kBaudRate19k2 = 0x08;  // 19.2 kBaud
-inline constexpr std::uint8_t kBaudRate9k6 = 0x09;  // 9.6 kBaud
+inline constexpr std::uint8_t kBaudRate12M = 0x00;  // 12 Mbit/s
+inline constexpr std::uint8_t kBaudRate6M = 0x01;  // 6 Mbit/s
+inline constexpr std::uint8_t kBaudRate3M = 0x02;  // 3 Mbit/s
+inline constexpr std::uint8_t kBaudRate1M5 = 0x03;  // 1.5 Mbit/s
+inline constexpr std::uint8_t kBaudRate500k = 0x04;  // 500 kbit/s
+inline constexpr std::uint8_t kBaudRate187k5 = 0x05;  // 187.5 kbit/s
+inline constexpr std::uint8_t kBaudRate93k75 = 0x06;  // 93.75 kbit/s
+inline constexpr std::uint8_t kBaudRate45k45 = 0x07;  // 45.45 kbit/s
+inline constexpr std::uint8_t kBaudRate19k2 = 0x08;  // 19.2 kbit/s
+inline constexpr std::uint8_t kBaudRate9k6 = 0x09;  // 9.6 kbit/s
 inline constexpr std::uint8_t kBaudSearching = 0x0F;  // The baud rate is being searched.
 
 // Values of prm_mode

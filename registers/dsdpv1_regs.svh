@@ -71,7 +71,7 @@ localparam logic [10:0] DSDPV1_REG_OWNERSHIP = 11'h14;  // Ownership
 localparam logic [7:0] DSDPV1_REG_OWNERSHIP_CHIP = 8'h1;  // The chip is in an access.
 localparam logic [7:0] DSDPV1_REG_OWNERSHIP_HOST = 8'h2;  // The host is in an access.
 localparam logic [10:0] DSDPV1_REG_U_TIMER = 11'h15;  // U_Timer
-localparam logic [7:0] DSDPV1_REG_U_TIMER_ENABLE = 8'h1;  // Enabled: the ownership ends by itself.
+localparam logic [7:0] DSDPV1_REG_U_TIMER_ENABLE = 8'h1;  // Enabled: the ownership ends automatically.
 localparam logic [10:0] DSDPV1_REG_UART_INTERVAL = 11'h19;  // Interval between characters
 localparam logic [10:0] DSDPV1_REG_UART_TSDR = 11'h1A;  // TSDR
 
@@ -184,16 +184,16 @@ localparam logic [7:0] DSDPV1_REG_DP_STATE_WAIT_CFG = 8'h2;  // WAIT_CFG
 localparam logic [7:0] DSDPV1_REG_DP_STATE_DATA_EXCHANGE = 8'h3;  // DATA_EXCHANGE
 
 // Values of baud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_12M = 8'h0;  // 12 MBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_6M = 8'h1;  // 6 MBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_3M = 8'h2;  // 3 MBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_1M5 = 8'h3;  // 1.5 MBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_500K = 8'h4;  // 500 kBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_187K5 = 8'h5;  // 187.5 kBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_93K75 = 8'h6;  // 93.75 kBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_45K45 = 8'h7;  // 45.45 kBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_19K2 = 8'h8;  // 19.2 kBaud
-localparam logic [7:0] DSDPV1_REG_BAUD_RATE_9K6 = 8'h9;  // 9.6 kBaud
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_12M = 8'h0;  // 12 Mbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_6M = 8'h1;  // 6 Mbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_3M = 8'h2;  // 3 Mbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_1M5 = 8'h3;  // 1.5 Mbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_500K = 8'h4;  // 500 kbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_187K5 = 8'h5;  // 187.5 kbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_93K75 = 8'h6;  // 93.75 kbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_45K45 = 8'h7;  // 45.45 kbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_19K2 = 8'h8;  // 19.2 kbit/s
+localparam logic [7:0] DSDPV1_REG_BAUD_RATE_9K6 = 8'h9;  // 9.6 kbit/s
 localparam logic [7:0] DSDPV1_REG_BAUD_SEARCHING = 8'hF;  // The baud rate is being searched.
 
 // Values of prm_mode

@@ -24,7 +24,7 @@ ORIGIN = "Generated from registers/dsdpv1.rdl by registers/generate.py. Do not e
 
 
 def licence(comment):
-    """The first lines of a file that is copied on its own."""
+    """The first lines of a file that is copied alone."""
     return [comment.format(text) for text in LICENCE]
 
 
@@ -64,7 +64,7 @@ class Cell:
     text: str
     address: int
     size: int  # bytes altogether
-    count: int  # elements, 0 when it is no array
+    count: int  # elements, 0 when it is not an array
     chip: str  # "R", "W", "R/W" or "-"
     user: str
     reset: int
@@ -230,7 +230,7 @@ def constant_groups(areas):
 
 
 def verify(areas):
-    """The map names each address once, and each constant has a name of its own."""
+    """The map names each address once, and each constant has a unique name."""
     expected = 0
     for cell in all_cells(areas):
         if cell.address != expected:
@@ -262,7 +262,7 @@ def hexadecimal(constant):
 
 
 def render_groups(areas, line):
-    """The constants as lines; line(constant) gives the code, its comment is put behind it."""
+    """The constants as lines; line(constant) gives the code, its comment follows it."""
     lines = []
     for heading, constants in constant_groups(areas):
         lines += ["", f"// {heading}"]
@@ -290,7 +290,7 @@ namespace dsdpv1::regs {{
 
 using Address = std::uint16_t;  ///< 0x000..0x7FF
 
-/// A stretch of the DPRAM, and who writes it (ruling P6); nobody's where only some modes of the DSDPV1-RSU have it.
+/// A part of the DPRAM and its writers (ruling P6); without a writer if only some modes of the DSDPV1-RSU have it.
 struct Cell {{
   Address first;
   Address last;
@@ -366,7 +366,7 @@ def cell_meaning(cell):
 
 
 def chips(part):
-    """Which of the chips has the cell or bits."""
+    """The chips that have the cell or bits."""
     return {None: "all", "rsu": "-RSU"}[part.only]
 
 
@@ -415,8 +415,8 @@ DOC_HEAD = f"""<!-- {ORIGIN} -->
 # Registers
 
 The DPRAM between the chip and the user CPU: every address from 0x000 to 0x7FF. "B010.2" is bit 2 of the byte at 0x010. The columns
-"chip" and "user" say who reads (R) and writes (W); the memory itself does not enforce it (ruling P6). Words (CRC, count) have their
-high byte first. The column "chips" says which chips have it: all, or only the DSDPV1-RSU, whose B014 to B01F are plain RAM in the modes
+"chip" and "user" show who reads (R) and writes (W); the memory itself does not enforce it (ruling P6). Words (CRC, count) have their
+high byte first. The column "chips" names the chips that have it: all, or only the DSDPV1-RSU, whose B014 to B01F are plain RAM in the modes
 that do not use them ([chip_rsu.md](chip_rsu.md)). The constants are those of `registers/dsdpv1_regs.hpp` (namespace `dsdpv1::regs`); in `registers/dsdpv1_regs.h` and
 `registers/dsdpv1_regs.svh` `kUserCommand1Init` is called `DSDPV1_REG_USER_COMMAND_1_INIT`. A field of several bits also has `k...Shift`,
 the number of its lowest bit; an array `k...Size`, its number of bytes; a byte with a largest value `k...Limit`; one that is not zero
@@ -460,7 +460,7 @@ def main():
     try:
         areas = read_map(SOURCE)
     except RDLCompileError:
-        return 2  # the compiler has said where and why
+        return 2  # the compiler has reported place and reason
     verify(areas)
     stale = {path: text for path, text in outputs(areas).items() if not is_current(path, text)}
     for path, text in stale.items():

@@ -31,7 +31,7 @@ std::string what_is_wrong(int error);
 
 /// All that is in `path`: a file, a device or a FIFO (`<(...)` of a shell), up to `most_mb` times 2^20 bytes.
 ReadFile try_read_file(const std::string& path, std::size_t most_mb);
-/// From now on readers of `path` get this text if there is no such file.
+/// From now on readers of `path` get this text if it does not exist.
 void provide_file(const std::string& path, std::string text);
 /// The file beside `path`, with the same ending, that was probably meant if `path` does not exist; empty when none is
 /// near.

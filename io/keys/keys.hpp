@@ -113,7 +113,7 @@ std::size_t read_word(const Field& field, const YAML::Node& node, const Source& 
 bus::Tick read_time(const Field& field, const YAML::Node& node, const Source& source);
 bus::Bytes read_bytes(const Field& field, const YAML::Node& node, const Source& source);
 void read_object(const Object& object, void* owner, const YAML::Node& node, const Source& source);
-/// Whether it is one of the field's words.
+/// True when it is one of the field's words.
 bool is_word_of(const Field& field, const YAML::Node& node);
 /// Checks that `node` is a list of an allowed length.
 void check_list(const Field& field, const YAML::Node& node, const Source& source);

@@ -28,7 +28,7 @@ class OutputFile {
   /// Discards later output: for a process that shares the file with its owner. Throws InputError when /dev/null cannot
   /// be opened.
   void mute();
-  /// Whether a write has failed: then a run need not continue.
+  /// True when a write has failed: then a run need not continue.
   bool failed() const { return error_ != 0; }
   /// Throws InputError when a write has failed.
   void check() const;

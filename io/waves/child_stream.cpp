@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kPipeBuffer = std::size_t{1} << 16U;  // capacity of a pipe
 
-/// Drops the parent's handlers of signals and of its end.
+/// The child drops the parent's signal handlers and skips its exit handlers.
 [[noreturn]] void tell_and_end(const std::function<void(std::FILE*)>& tell, int to) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int each : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(each, SIG_DFL);

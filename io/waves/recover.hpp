@@ -17,7 +17,7 @@ WaveFormat wave_format(const std::string& path);
 std::uint64_t recover_vcd(const std::string& part, const std::string& output);
 std::uint64_t recover_fst(const std::string& part, const std::string& output);
 
-/// Whether a newly written file is a complete FST file, from its first block to its last.
+/// True when a newly written file is a complete FST file, from its first block to its last.
 bool fst_is_complete(const std::string& path);
 
 }  // namespace dsdpv1::tb

@@ -21,7 +21,7 @@ class VcdReader : public WaveReader {
 
  private:
   void move_to(std::string_view digits);
-  /// Whether the command is an event.
+  /// True when the command is an event.
   bool command(std::string_view word, WaveEvent& event);
   bool scalar(std::string_view word, WaveEvent& event);
   bool vector(std::string_view word, WaveEvent& event);

@@ -60,7 +60,7 @@ class SelectedWave {
   void begin_again(bus::Tick from, bus::Tick to);
   /// Reports a trigger at `at`, at most a millisecond before the last change.
   void trigger(bus::Tick at);
-  /// Whether anything has been written.
+  /// True when anything has been written.
   bool has_window() const { return closed_at_ >= 0 || open_; }
 
  private:

@@ -49,7 +49,7 @@ class WaveWriter {
   /// Puts all changes up to `at` into the temporary file, where `dsdpv1-sim recover` finds them. `at` is not before any
   /// change so far, and no later change is before it.
   virtual void save(bus::Tick at) = 0;
-  /// Whether a write has failed: then continuing is useless.
+  /// True when a write has failed: then continuing is useless.
   virtual bool failed() const = 0;
   /// Throws InputError when a write has failed.
   virtual void check() const = 0;

@@ -33,7 +33,7 @@ bool on_grid(const Record& record, double period, double unit) {
   return looked > 20;
 }
 
-/// The slowest rate on whose samples all changes are; 0 when there is none.
+/// The slowest rate whose samples contain all changes; 0 when none does.
 double found_rate(const Record& record, double unit) {
   constexpr double kUnits = 8;
   for (const double rate : kRates) {
@@ -45,7 +45,7 @@ double found_rate(const Record& record, double unit) {
 
 struct Samples {
   double period = 0, jitter = 0;  ///< ns
-  bool rate_found = false;        ///< by the times alone
+  bool rate_found = false;        ///< found from the times
 };
 
 Samples samples_of(const Record& record, const Sampling& sampling) {
@@ -72,7 +72,7 @@ TimeBase time_of(const Samples& samples) {
 
 // --- verdicts
 
-/// Wires of a group are called by its name, once and behind the others.
+/// Wires of a group are listed once, by its name, after the others.
 std::string missing(const Record& record, const std::vector<Wire>& needs) {
   std::vector<std::string> names;
   std::set<std::string> groups;

@@ -1,5 +1,5 @@
 #pragma once
-// dsdpv1-sim calibrate: a capture of a real chip's pins held against the rulings and their parameters.
+// dsdpv1-sim calibrate: compares a capture of a real chip's pins with the rulings and their parameters.
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,16 +13,16 @@ enum class Verdict : std::uint8_t {
   kConfirmed,
   kContradicted,
   kNotShown,
-  kNotContradicted,  ///< of a parameter of which only a bound is seen: the default is on its right side
+  kNotContradicted,  ///< only a bound of the parameter is seen, and the default is on its right side
 };
 const char* word(Verdict verdict);
 
-/// How the capture's times are to be taken.
+/// Interpretation of the capture's times.
 struct Sampling {
-  std::optional<double> rate = {};  ///< samples a second; absent: found, else `unit`
+  std::optional<double> rate = {};  ///< samples a second; absent: found from the times, else `unit`
   double unit = 0;                  ///< ticks to which times were rounded
   double jitter_ns = 5;             ///< of an edge, and skew between channels
-  double clock_ppm = 1000;          ///< chip and analyser may differ by so much
+  double clock_ppm = 1000;          ///< largest difference of chip and analyser
 };
 
 struct ParameterResult {
@@ -49,14 +49,14 @@ struct Result {
   std::string file;
   Tick end = 0;
   double sample_ns = 0, jitter_ns = 0;
-  bool rate_found = false;  ///< by the times alone
+  bool rate_found = false;  ///< found from the times
   const WireTable* table = nullptr;
-  std::vector<std::string> wires;  ///< of them those in the capture
+  std::vector<std::string> wires;  ///< those in the capture
   Found found;
   std::vector<ParameterResult> parameters;
   std::vector<ClaimResult> claims;  ///< in the order of docs/chip.md
 
-  /// Nothing is contradicted.
+  /// True when nothing is contradicted.
   bool agrees() const;
 };
 
@@ -64,7 +64,7 @@ struct Result {
 Result calibrate(const std::string& file, const Record& record, const Sampling& sampling, std::optional<int> station,
                  const tb::ChipKind& kind);
 
-// How it is told.
+// Its report.
 std::string text(const Result& result, bool all);
 std::string json(const Result& result);
 /// A `chip` block for scenarios.

@@ -1,5 +1,5 @@
 #pragma once
-// What captures of a chip's pins can show of its rulings and parameters: ChipKind::claims().
+// The rulings and parameters that captures of a chip's pins can show: ChipKind::claims().
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,11 +17,11 @@ struct Ruling {
 /// Its place in Claims::parameters().
 enum class Parameter : std::uint8_t {};
 
-/// One that the documents mark (p).
+/// A parameter that the documents mark (p).
 struct ParameterRow {
-  const char* key;       ///< in a scenario's `chip`, an integer; unit, default and range stand there
+  const char* key;       ///< in a scenario's `chip`, an integer; its unit, default and range are there
   const char* ruling;    ///< that marks it: "H1"
-  const char* measured;  ///< from what
+  const char* measured;  ///< the pins and events measured
   std::vector<Wire> needs;
 };
 
@@ -32,27 +32,27 @@ struct Fit {
   std::string not_shown;  ///< why there is none
 };
 
-/// Why a parameter is not shown.
+/// The reason why a parameter is not shown.
 inline constexpr const char* kTooCoarse = "the samples are too far apart";
 
-/// What one capture shows.
+/// The results of one capture.
 struct Found {
   explicit Found(std::size_t parameters) : fits(parameters) {}
 
   Judge judge;
   std::vector<Fit> fits;  ///< of Claims::parameters()
   Estimate clock;         ///< cycles of the chip in a nominal cycle of the capture
-  Estimate master_clock;  ///< likewise of who sends the requests
+  Estimate master_clock;  ///< the same for the sender of the requests
   std::size_t requests = 0, answers = 0, accesses = 0, user_accesses = 0;
 
   Fit& fit(Parameter parameter) { return fits.at(static_cast<std::size_t>(parameter)); }
   const Fit& fit(Parameter parameter) const { return fits.at(static_cast<std::size_t>(parameter)); }
 };
 
-/// What is known of the capture and its chip.
+/// Known properties of the capture and its chip.
 struct Circumstances {
   TimeBase time;
-  double clock_ppm = 0;        ///< chip and analyser may differ by so much
+  double clock_ppm = 0;        ///< largest difference of chip and analyser
   std::optional<int> station;  ///< the chip's address; absent: the one that is answered
 };
 
@@ -60,7 +60,7 @@ class Claims {
  public:
   virtual ~Claims() = default;
   virtual const WireTable& wires() const = 0;
-  /// All that the documents rule, in their order.
+  /// All rulings of the documents, in their order.
   virtual const std::vector<Ruling>& rulings() const = 0;
   /// All claims, in no order.
   virtual const std::vector<const Claim*>& claims() const = 0;

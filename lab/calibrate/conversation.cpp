@@ -8,7 +8,7 @@ namespace {
 
 Tick syn(const LineTelegram& telegram) { return bus::kSynBits * bus::baud(telegram.baud).bit; }
 
-/// A telegram that the capture has only a part of at its end is none.
+/// Drops a telegram that the end of the capture cuts.
 void leave_out_cut(std::vector<LineTelegram>& telegrams, const Trace& trace, Tick end) {
   if (!telegrams.empty() && !telegrams.back().right && trace.edges.back() + syn(telegrams.back()) > end)
     telegrams.pop_back();
@@ -25,7 +25,7 @@ std::vector<LineTelegram>::const_iterator first_right(const std::vector<LineTele
       telegrams.begin(), telegrams.end(), [](const LineTelegram& telegram) { return telegram.right; });
 }
 
-/// The first edge after T_SYN of idle: what begins before it may have begun before the capture.
+/// The first edge after T_SYN of idle: a telegram before it may have begun before the capture.
 Tick first_whole(const std::vector<LineTelegram>& telegrams, const Trace& trace) {
   if (telegrams.empty()) return 0;
   const auto right = first_right(telegrams);
@@ -37,14 +37,14 @@ Tick first_whole(const std::vector<LineTelegram>& telegrams, const Trace& trace)
 }
 
 /// The capture may begin in a telegram, or between a request and its answer, and shows the rate with the first right
-/// telegram that is received: what comes before that does not count.
+/// telegram that is received: earlier telegrams do not count.
 void leave_out_begun(Conversation& all, const Trace& txd) {
   const auto right = first_right(all.received);
   all.received.erase(all.received.cbegin(), right);
   leave_out_before(all.sent, all.received.empty() ? first_whole(all.sent, txd) : all.received.front().start);
 }
 
-/// What the station hears of its own: its RXD is the line, and its answers are on it.
+/// The station's echo: its RXD is the line, and its answers are on it.
 void leave_out_own(std::vector<LineTelegram>& received, const std::vector<LineTelegram>& sent, const TimeBase& time) {
   const Tick about = time.margin() + 8 * bus::kTicksPerCycle;
   const auto own = [&](const LineTelegram& telegram) {
@@ -55,13 +55,13 @@ void leave_out_own(std::vector<LineTelegram>& received, const std::vector<LineTe
   received.erase(std::remove_if(received.begin(), received.end(), own), received.end());
 }
 
-/// What is no telegram, and begins after the request's decision (S10).
+/// Not a telegram, and begins after the request's decision (S10).
 bool comes_after(const LineTelegram& noise, const LineTelegram& request, const TimeBase& time) {
   return !noise.right &&
          noise.start > request.last_start + (bus::kCharacterBits + 1) * bus::baud(request.baud).bit - time.margin();
 }
 
-/// It comes before T_SYN, or is too short to be a request itself.
+/// Begins before T_SYN, or is too short to be a request.
 bool is_no_request(const LineTelegram& noise, const LineTelegram& request) {
   constexpr int kShorterThanAny = 5;  // characters
   const Tick bit = bus::baud(request.baud).bit;
@@ -69,8 +69,8 @@ bool is_no_request(const LineTelegram& noise, const LineTelegram& request) {
          noise.last_edge < noise.start + kShorterThanAny * bus::kCharacterBits * bit;
 }
 
-/// Until when an answer to this request may begin: the line is used again. What is no telegram does not keep the chip
-/// from answering; but what begins later than max_TSDR (S3) may be an answer to a wrong request.
+/// The latest begin of an answer to this request: the next use of the line. Characters that form no telegram do not
+/// keep the chip from answering. But an answer later than max_TSDR (S3) may belong to a wrong request.
 Tick waits_until(const Conversation& all, const TimeBase& time, std::size_t request) {
   const LineTelegram& asked = all.received[request];
   Tick latest = bus::kNever;
@@ -101,7 +101,7 @@ void pair_up(Conversation& all, const TimeBase& time) {
   for (; sent < all.sent.size(); ++sent) all.unasked.push_back(&all.sent[sent]);
 }
 
-/// Of others' telegrams only those to a station that answers on PBTXD, to all, and what is none stay.
+/// Keeps only telegrams to a station that answers on PBTXD, those to all, and characters that form no telegram.
 void keep_own(Conversation& all, std::optional<int> address) {
   std::set<int> stations;
   if (address) stations.insert(*address);
@@ -117,7 +117,7 @@ void keep_own(Conversation& all, std::optional<int> address) {
   all.exchanges.erase(std::remove_if(all.exchanges.begin(), all.exchanges.end(), other), all.exchanges.end());
 }
 
-/// A low level of less than half a bit, perhaps, which ends no idle time (S10).
+/// A low level that may be shorter than half a bit, which does not end idle time (S10).
 bool may_be_glitch(const LineTelegram& telegram, const TimeBase& time) {
   const double low = TimeBase::nominal(telegram.last_edge - telegram.start);
   return !telegram.right && low - time.doubt() < telegram.bit() / 2;
@@ -142,7 +142,7 @@ void measure_idle(Conversation& all, const TimeBase& time) {
   }
 }
 
-/// What the chip compares (S26), the FCS included.
+/// The bytes that the chip compares (S26), including the FCS.
 bool same_frame(const LineTelegram& a, const LineTelegram& b) {
   const bus::Telegram &first = a.telegram, &second = b.telegram;
   const auto fcs = [](const LineTelegram& each) { return each.bytes[each.bytes.size() - 2]; };
@@ -150,8 +150,8 @@ bool same_frame(const LineTelegram& a, const LineTelegram& b) {
          first.data.size() == second.data.size() && fcs(a) == fcs(b);
 }
 
-/// A request whose answer cannot be known from others than the one before; one that was not read, or was before the
-/// capture, may be the one before.
+/// A request whose answer depends on the one before. That may be a request that was not read, or one before the
+/// capture.
 void find_repetitions(Conversation& all) {
   const Exchange* before = nullptr;
   for (Exchange& exchange : all.exchanges) {

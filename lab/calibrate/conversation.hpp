@@ -1,5 +1,5 @@
 #pragma once
-// What masters and a station have said to each other, from the two wires between the station and its line.
+// The telegrams between masters and a station, from the two wires between the station and its line.
 #include <optional>
 #include <vector>
 
@@ -11,15 +11,15 @@ namespace dsdpv1::calibrate {
 struct Exchange {
   const LineTelegram* request = nullptr;
   const LineTelegram* answer = nullptr;  ///< nullptr: none
-  std::optional<Span> idle = {};         ///< bit times of silence on the line before it; nothing: not known
+  std::optional<Span> idle = {};         ///< bit times of silence on the line before it; absent: unknown
   bool repeats = false;                  ///< the chip may answer it from memory (S26)
-  bool same = false;                     ///< repeats, and what was answered before it was read: the same frame
+  bool same = false;                     ///< repeats, and the request answered before was read: the same frame
 
-  /// A right request to the station alone: data exchanges and other SRD, FDL status, SDN ...
+  /// A right request to the station only: data exchanges and other SRD, FDL status, SDN ...
   bool is_request() const {
     return request->right && request->telegram.is_request() && request->telegram.da != bus::kBroadcast;
   }
-  /// SRD to this SAP; nothing: to the default SAP.
+  /// SRD to this SAP; absent: to the default SAP.
   bool is_srd(std::optional<std::uint8_t> dsap) const;
   /// A right answer of this kind.
   bool acknowledged() const;
@@ -35,7 +35,7 @@ struct Conversation {
   std::vector<const LineTelegram*> unasked = {};  ///< sent without a request before them
 };
 
-/// `end`: of the capture. `address`: the station's; absent: that of who is answered.
+/// `end`: of the capture. `address`: the station's; absent: that of the answered station.
 Conversation conversation_of(const Trace& rxd, const Trace& txd, Tick end, const TimeBase& time,
                              std::optional<int> address);
 

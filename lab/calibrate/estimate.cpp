@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSigmas = 5;
 
-/// No number lies in it.
+/// The span is empty.
 bool is_empty(const Instance& instance) { return instance.span.lo > instance.span.hi; }
 
 struct End {
@@ -16,7 +16,7 @@ struct End {
   bool closes;
 };
 
-/// Where most spans overlap; of several such places the first.
+/// The place at which most spans overlap, the first of several.
 Span deepest(const std::vector<Instance>& instances) {
   std::vector<End> ends;
   for (const Instance& instance : instances) {
@@ -39,13 +39,13 @@ Span deepest(const std::vector<Instance>& instances) {
   return best;
 }
 
-/// Samples that the chip's clock drifts past those of the analyser, at least.
+/// Least number of samples by which the chip's clock drifts past the analyser's.
 double drift(const Instance& first, const Instance& last, const TimeBase& time) {
   const double off = time.scale.contains(1) ? 0 : std::min(std::abs(time.scale.lo - 1), std::abs(time.scale.hi - 1));
   return off * TimeBase::nominal(last.at - first.at) / time.period;
 }
 
-/// The mean of those that agree, with what it may be off.
+/// The mean of the agreeing instances, with its error.
 std::optional<Span> mean(const std::vector<Instance>& instances, const Span& agreed, const TimeBase& time) {
   double sum = 0, squares = 0, count = 0;
   const Instance *first = nullptr, *last = nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// One number out of many doubtful measurements of it.
+// Estimates one number from many inexact measurements.
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -11,28 +11,28 @@ namespace dsdpv1::calibrate {
 /// One measurement.
 struct Instance {
   Tick at = 0;
-  Span span;        ///< the number lies in it
+  Span span;        ///< contains the number
   double best = 0;  ///< most likely
 };
 
 struct Outlier {
   Tick at = 0;
-  double by = 0;  ///< how far it is outside of the estimate; negative: below
+  double by = 0;  ///< distance from the estimate; negative: below
 };
 
 struct Estimate {
   Span span;
   std::size_t count = 0;          ///< of instances
   std::vector<Outlier> outliers;  ///< instances that do not agree with `span`, the worst first
-  bool by_mean = false;           ///< `span` is narrower than what bounds alone give
+  bool by_mean = false;           ///< the mean has narrowed `span` further than the bounds alone
 
   /// The only whole number in the span.
   std::optional<long long> whole() const;
 };
 
-/// The values that most instances agree with. With `time` their mean narrows that down, where the chip's edges drift
-/// past the samples, so that the errors of sampling are spread. No instances: count 0. One whose `lo` is above its
-/// `hi` is none.
+/// The values that most instances agree with. With `time` their mean narrows them further if the chip's edges drift
+/// past the samples, so that the sampling errors are spread. No instances: count 0. An instance with `lo` above `hi` is
+/// ignored.
 Estimate estimate(const std::vector<Instance>& instances, const TimeBase* time = nullptr);
 
 }  // namespace dsdpv1::calibrate

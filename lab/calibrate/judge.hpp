@@ -1,5 +1,5 @@
 #pragma once
-// What a capture says of a claim of the rulings, over all places where it shows.
+// The verdict of a capture on a claim of the rulings, over all places where it shows.
 #include <map>
 #include <string>
 #include <vector>
@@ -30,7 +30,7 @@ constexpr std::size_t kMostTold = 20;
 class Judge {
  public:
   void holds(const Claim& claim) { ++tallies_[&claim].holds; }
-  /// It occurred, but the samples are too far apart to tell.
+  /// The claim occurred, but the samples are too far apart to decide.
   void coarse(const Claim& claim) { ++tallies_[&claim].coarse; }
   void fails(const Claim& claim, Tick at, std::string how) {
     Tally& tally = tallies_[&claim];

@@ -10,12 +10,12 @@
 namespace dsdpv1::calibrate {
 namespace {
 
-/// Where a bit may be sampled: with two samples a bit one of them may be just before or behind an edge.
+/// The places at which a bit may be sampled: with two samples a bit one of them may be just before or after an edge.
 constexpr std::array<double, 5> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7};
 
 class LineReader {
  public:
-  /// `glitches`: those of less than half a bit are left out.
+  /// `glitches`: low levels of less than half a bit are ignored.
   LineReader(const Trace& trace, const TimeBase& time, const std::vector<LineTelegram>& rates, bool glitches)
       : trace_(trace), time_(time), rates_(rates), glitches_(glitches) {}
 
@@ -61,7 +61,7 @@ class LineReader {
     return none;
   }
 
-  /// The receiver looks again in the middle of the start bit.
+  /// The receiver samples again in the middle of the start bit.
   bool is_glitch(std::size_t edge) const {
     if (edge + 1 >= trace_.edges.size()) return false;
     const double low = TimeBase::nominal(trace_.edges[edge + 1] - trace_.edges[edge]);
@@ -105,7 +105,7 @@ class LineReader {
     return start > telegram.last_start + (bus::kCharacterBits + 1) * bus::baud(telegram.baud).bit;
   }
 
-  /// How late the edges of a character are, from the least to the most; ticks.
+  /// The delay of a character's edges, from the least to the greatest; ticks.
   struct Lateness {
     double least = 0, most = 0;
 
@@ -114,8 +114,8 @@ class LineReader {
     void add(const Lateness& other) { add(other.least), add(other.most); }
   };
 
-  /// Of the characters before the one at `start`, as if they were it, when it follows them without a pause. Some only:
-  /// the sender's clock is another one.
+  /// The delays of the characters directly before the one at `start`, when it follows them without a pause. Only some
+  /// of them, because the sender has another clock.
   void shift(std::vector<Lateness>& before, const LineTelegram& telegram, Tick start) const {
     constexpr std::size_t kMost = 6;
     const Tick by = start - telegram.last_start - bus::kCharacterBits * bus::baud(telegram.baud).bit;
@@ -124,7 +124,7 @@ class LineReader {
     for (Lateness& each : before) each.least -= static_cast<double>(by), each.most -= static_cast<double>(by);
   }
 
-  /// The right character that the edges fit best, those before it included; -1 when there is none. Adds its own to
+  /// The right character that fits the edges best, including those before it; -1 when none does. Adds its delays to
   /// `before`.
   int character(std::size_t edge, int baud, std::vector<Lateness>& before) const {
     const auto bit = static_cast<double>(bus::baud(baud).bit);
@@ -151,13 +151,13 @@ class LineReader {
     return found;
   }
 
-  /// Edges of a right character are late by the same, but for the sampling, jitter and the sender's clock; ticks, with
-  /// some room.
+  /// The most by which the delays of a right character's edges differ: sampling, jitter and the sender's clock; ticks,
+  /// with a margin.
   double most_spread(double bit) const {
     constexpr double kSendersClock = 0.002;
     return (time_.doubt() + 1) * static_cast<double>(bus::kTicksPerCycle) + kSendersClock * bus::kCharacterBits * bit;
   }
-  /// When the character has these bits; nothing where the capture ends in it.
+  /// The times of these bits of the character; absent if the capture ends in it.
   std::optional<Lateness> lateness_of(std::size_t edge, unsigned bits, double bit) const {
     Lateness late;
     const Tick start = trace_.edges[edge];
@@ -169,7 +169,7 @@ class LineReader {
     return late;
   }
 
-  /// What is no telegram ends where the line is idle for a character: the edge that comes then.
+  /// Characters that form no telegram end when the line is idle for a character: at the next edge.
   std::size_t after_silence(const LineTelegram& wrong) const {
     const Tick idle = (bus::kCharacterBits + 1) * bus::baud(wrong.baud).bit;
     std::size_t edge = trace_.count_until(wrong.start);

@@ -1,4 +1,4 @@
-// What a calibration says, for people, programs and scenarios.
+// The report of a calibration, for people, programs and scenarios.
 #include <fmt/format.h>
 
 #include <array>
@@ -21,7 +21,7 @@ std::string line(const std::string& heading, const std::string& what) {
   return fmt::format("{:<14} {}\n", heading, what);
 }
 
-/// A bus in one word, behind the others, when all of it is there.
+/// A complete bus as one word, after the others.
 std::string wires_text(const WireTable& table, std::vector<std::string> wires) {
   std::map<std::string, std::set<std::string>> buses;
   for (const WireInfo& wire : table)
@@ -40,7 +40,7 @@ std::string ppm_text(const Estimate& clock) {
   return fmt::format("{:+.1f} to {:+.1f} ppm against the capture's", ppm(clock.span.lo), ppm(clock.span.hi));
 }
 
-/// Where and by how much the worst instance is off, or nothing.
+/// Time and error of the worst instance, or nothing.
 std::string worst_text(const std::vector<Outlier>& outliers) {
   if (outliers.empty()) return "-";
   return fmt::format("{:+.2f} at {}", outliers.front().by, time_text(outliers.front().at));
@@ -79,7 +79,7 @@ std::string claim_table(const Result& result, bool all) {
   return table.text();
 }
 
-/// The rulings that no claim is made of, by reason.
+/// The rulings without a claim, by reason.
 std::string hidden_text(const Result& result) {
   std::map<std::string, std::vector<std::string>> by_reason;
   for (const ClaimResult& claim : result.claims)
@@ -89,7 +89,7 @@ std::string hidden_text(const Result& result) {
   return text + "\n";
 }
 
-/// Rulings, each once: contradicted by any claim, else confirmed by one, else not shown.
+/// Counts each ruling once: contradicted by any claim, else confirmed by one, else not shown.
 std::array<std::size_t, 3> counted(const Result& result) {
   std::array<std::size_t, 3> counts{};
   for (std::size_t i = 0; i < result.claims.size();) {

@@ -15,7 +15,7 @@ double watchdog_of(const bus::Bytes& prm) {
   return prm[1] * prm[2] * (base ? 1 : 10) * kCyclesPerMs;
 }
 
-/// The station takes it for an error-free telegram to itself: whom it answers, and SDN after T_SYN.
+/// An error-free telegram to the station: one that it answers, or an SDN after T_SYN.
 bool is_heard(const Exchange& exchange) {
   if (exchange.answer != nullptr) return true;
   return !exchange.request->telegram.wants_answer() && exchange.request->telegram.sa != bus::kBroadcast &&
@@ -53,7 +53,7 @@ void Supervision::take(const Exchange& exchange) {
   execute(exchange, now);
 }
 
-/// Its time may have passed before this telegram.
+/// The watchdog's time may have passed before this telegram.
 void Supervision::end_watchdog(const Moment& now) {
   if (now_.state != State::kDpControl) return;
   const Span passed = since(time_, now_.last, now.edge) + now.offset.lo;
@@ -62,7 +62,7 @@ void Supervision::end_watchdog(const Moment& now) {
   if (passed.lo > watchdog)
     baud_control({now_.last.edge, now_.last.offset + watchdog});
   else
-    now_.state = State::kUnknown;  // whichever was first
+    now_.state = State::kUnknown;  // either may have been first
   now_.prm.reset();
 }
 

@@ -1,13 +1,13 @@
 #pragma once
-// Who is watched when: the rate by the state BAUD_CONTROL, the holder by the watchdog of its Set_Prm (EN 50170, DP
-// slave). Worked out from the telegrams and a wire that shows the found rate; where these do not tell, it is not known.
+// Supervision over time: BAUD_CONTROL watches the rate, the watchdog of a Set_Prm its holder (EN 50170, DP slave).
+// Derived from the telegrams and a wire that shows the found rate; unknown if these do not decide.
 #include <optional>
 
 #include "lab/calibrate/conversation.hpp"
 
 namespace dsdpv1::calibrate {
 
-/// `offset` cycles behind a recorded edge.
+/// `offset` cycles after a recorded edge.
 struct Moment {
   Tick edge = 0;
   Span offset;
@@ -20,24 +20,24 @@ Span since(const TimeBase& time, const Moment& moment, Tick at);
 
 struct Supervised {
   enum class State : std::uint8_t { kUnknown, kBaudControl, kDpControl };
-  /// A Set_Prm with Lock that was acknowledged: who exchanges data later had it accepted.
+  /// An acknowledged Set_Prm with Lock: a later data exchange shows that it was accepted.
   struct Prm {
     double watchdog = 0;  ///< cycles; 0: none
     std::uint8_t master = 0;
-    std::optional<Moment> heard;  ///< the master's last telegram; nothing: not known
+    std::optional<Moment> heard;  ///< the master's last telegram; absent: unknown
   };
 
   State state = State::kUnknown;
-  Moment last;  ///< since when its time runs; not in kUnknown
+  Moment last;  ///< start of its time; not in kUnknown
   std::optional<Prm> prm;
 };
 
 class Supervision {
  public:
-  /// `rate`: high while a rate is found; its edges count where it is in the capture.
+  /// `rate`: high while a rate is found; used if it is in the capture.
   Supervision(const Conversation& all, const TimeBase& time, const Trace& rate) : all_(all), time_(time), rate_(rate) {}
 
-  /// As it was before `at`, in order of time. A watchdog whose time has passed is told as running.
+  /// The state before `at`; call in order of time. A watchdog whose time has passed is reported as running.
   const Supervised& before(Tick at);
 
  private:
@@ -54,7 +54,7 @@ class Supervision {
   const Trace& rate_;
   std::size_t exchange_ = 0;
   Supervised now_;
-  Tick searched_ = -1;  ///< rises of the wire until there are taken
+  Tick searched_ = -1;  ///< rises of the wire up to here are processed
 };
 
 }  // namespace dsdpv1::calibrate

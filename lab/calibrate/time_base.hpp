@@ -1,5 +1,5 @@
 #pragma once
-// What the times of a capture mean in cycles of the chip: samples, jitter, and two crystals.
+// Converts the times of a capture to cycles of the chip: samples, jitter, and two crystals.
 #include <algorithm>
 
 #include "bus/baud.hpp"
@@ -11,7 +11,7 @@ using bus::Tick;
 
 constexpr double kCyclesPerMs = 48'000;
 
-/// From `lo` to `hi`, both in it.
+/// From `lo` to `hi`, both included.
 struct Span {
   double lo = 0, hi = 0;
 
@@ -24,14 +24,14 @@ struct Span {
 inline bool overlap(const Span& a, const Span& b) { return a.lo <= b.hi && b.lo <= a.hi; }
 inline Span common(const Span& a, const Span& b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 
-/// An edge that is recorded at t was there in (t - period - jitter, t + jitter].
+/// An edge recorded at t was in (t - period - jitter, t + jitter].
 struct TimeBase {
   double period = 0;  ///< from one sample to the next, nominal cycles
-  double jitter = 0;  ///< of an edge besides, and skew between channels, nominal cycles
+  double jitter = 0;  ///< additional error of an edge, skew between channels included, nominal cycles
   Span scale{1, 1};   ///< cycles of the chip in a nominal cycle of the capture's clock
 
   static double nominal(Tick ticks) { return static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerCycle); }
-  /// How far the distance of two edges may be off, nominal cycles.
+  /// Error of the distance of two edges, nominal cycles.
   double doubt() const { return period + 2 * jitter; }
   /// Cycles of the chip between two recorded edges.
   Span between(Tick from, Tick to) const {
@@ -43,7 +43,7 @@ struct TimeBase {
   Tick ticks(double cycles) const {
     return static_cast<Tick>(cycles / scale.middle() * static_cast<double>(bus::kTicksPerCycle));
   }
-  /// A few cycles more than an edge may be off.
+  /// A few cycles more than the error of an edge.
   Tick margin() const { return ticks(doubt() + 1); }
 
  private:

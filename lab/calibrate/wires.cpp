@@ -26,7 +26,7 @@ bool in_scope(const std::string& signal, const std::string& scope) {
   return scope.empty() || signal.compare(0, scope.size() + 1, scope + ".") == 0;
 }
 
-/// How a signal may be called: "l_sta", as rtl_ref has it "l_sta_o", bits "a3", "a[3]", "a_i[3]".
+/// The names of a signal: "l_sta", rtl_ref's "l_sta_o", bits "a3", "a[3]", "a_i[3]".
 std::vector<std::string> spellings(const WireInfo& wire) {
   if (wire.bus.empty()) {
     const std::string pin = lower(wire.name);
@@ -153,7 +153,7 @@ std::size_t RecordTaker::named_place(const WireInfo& wire, const std::vector<std
   return found;
 }
 
-/// D0 to D7 are also what logic analysers call their channels.
+/// Logic analysers also call their channels D0 to D7.
 void RecordTaker::leave_out_lone_data() {
   const auto is_data = [this](const Chosen& chosen) { return table_[place_of(chosen.wire)].bus == "D"; };
   const auto is_of_port = [&](const Chosen& chosen) {
@@ -181,7 +181,7 @@ void RecordTaker::level(Tick at, std::size_t which, bool level) {
   }
   if (trace.level(trace.edges.size()) == now) return;
   if (!trace.edges.empty() && trace.edges.back() == at) {
-    trace.edges.pop_back();  // back at once: nothing to be seen
+    trace.edges.pop_back();  // changed back at the same tick: not visible
     return;
   }
   trace.edges.push_back(at);

@@ -18,38 +18,38 @@ enum class Wire : std::uint8_t {};
 
 struct WireInfo {
   std::string name;  ///< the datasheet's: "PBTXD", "A10"
-  std::string bus;   ///< of one wire of several: "A"
+  std::string bus;   ///< the bus that it is a wire of: "A"
   std::size_t bit = 0;
-  const char* group = nullptr;  ///< what is called by one name where not all of it is there: "pins of the host port"
+  const char* group = nullptr;  ///< name of an incomplete group in messages: "pins of the host port"
 };
 using WireTable = std::vector<WireInfo>;
 
-/// Those of a group.
+/// The wires of a group.
 std::vector<Wire> wires_of(const WireTable& table, const std::string& group);
 
-/// What one wire did.
+/// The recording of one wire.
 struct Trace {
   bool seen = false;
   bool first = false;       ///< level at the beginning
-  std::vector<Tick> edges;  ///< when the level was another for the first time, in order
+  std::vector<Tick> edges;  ///< first sample of each new level, in order
 
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-  /// The level behind edge `edge` - 1.
+  /// The level after edge `edge` - 1.
   bool level(std::size_t edge) const { return first != (edge % 2 == 1); }
-  /// How many edges are not later than `at`.
+  /// The number of edges up to and including `at`.
   std::size_t count_until(Tick at) const;
   bool at(Tick at) const { return level(count_until(at)); }
-  /// Whether it was low from `from` to `to`; false when it was not seen.
+  /// True when it was low from `from` to `to`; false when unknown.
   bool low(Tick from, Tick to) const;
   bool high(Tick from, Tick to) const;
-  /// The first edge to `level` at or behind `from`, by its place; kNone when there is none.
+  /// The index of the first edge to `level` at or after `from`; kNone when none exists.
   std::size_t next(Tick from, bool level) const;
   /// The last edge to `level` at or before `until`.
   std::size_t last(Tick until, bool level) const;
 };
 
-/// What a capture shows.
+/// The wires in a capture.
 struct Record {
   /// `table` must outlive it.
   explicit Record(const WireTable& all) : table(all), traces(all.size()), names(all.size()) {}
@@ -66,7 +66,7 @@ struct Record {
   std::uint32_t number(Wire first, std::size_t count, Tick at) const;
 };
 
-/// How the signals of a capture are called.
+/// The names of a capture's signals.
 struct Names {
   std::string scope;  ///< only signals in it; empty: any
   struct Given {
@@ -84,7 +84,7 @@ class RecordTaker : public bus::capture::LevelTaker {
   RecordTaker(const WireTable& table, Names names)
       : table_(table), names_(std::move(names)), record_(table), begun_(table.size()) {}
 
-  /// Throws CaptureError when no pin of the chip is there, one is there twice, or one that was given is missing.
+  /// Throws CaptureError when the capture has no pin of the chip, has one twice, or lacks a given one.
   std::vector<std::size_t> choose(const std::vector<std::string>& signals) override;
   void level(Tick at, std::size_t which, bool level) override;
   void finish(Tick end) override { record_.end = end; }

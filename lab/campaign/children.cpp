@@ -44,7 +44,7 @@ void bind_to(pid_t parent) {
   bind_to(parent);
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(output, STDOUT_FILENO) < 0) give_up();
-  for (const int signal : kSignals)  // held meanwhile; what is ignored (nohup) stays so
+  for (const int signal : kSignals)  // blocked meanwhile; ignored signals (nohup) stay ignored
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   signals.release();
   execv(kThisProgram, argv.data());
@@ -77,7 +77,7 @@ void Children::start(std::size_t job, const std::vector<std::string>& arguments,
   const int output = memfd_create("output", MFD_CLOEXEC);
   if (output >= 0) fcntl(output, F_SETFL, O_APPEND);  // both channels of the run
   const pid_t parent = getpid();
-  const SignalsHeld signals;  // one for the child must not be lost in the handler that it has from here
+  const SignalsHeld signals;  // a signal for the child must not be lost in the inherited handler
   const pid_t pid = output < 0 ? -1 : fork();
   if (pid == 0) become(argv, output, parent, signals);
   if (pid > 0) {

@@ -13,17 +13,17 @@ namespace dsdpv1::tb::campaign {
 
 /// Exit codes of a run, docs/verdicts.md.
 constexpr int kPassed = 0, kFailed = 1, kWrongInput = 2, kNothingJudged = 3;
-constexpr int kSignalled = 128;  ///< an exit code above it: killed by the signal that is the difference
+constexpr int kSignalled = 128;  ///< an exit code above it: killed by signal (code - kSignalled)
 
-/// A run that has come to its end.
+/// A finished run.
 struct Ended {
   std::size_t job = 0;
   int exit = 0;           ///< kSignalled + signal when it was killed, 127 when it could not be started
-  std::string output;     ///< what it has written on its output and error channels, the last 4 KB
-  double seconds = 0;     ///< how long it ran
-  bool too_long = false;  ///< it was killed because its time was over
+  std::string output;     ///< the last 4 KB of its output and error channels
+  double seconds = 0;     ///< duration
+  bool too_long = false;  ///< killed at its time limit
 
-  /// Its own word is the last: a library's warnings come before.
+  /// Its last line; a library's warnings come before it.
   std::string last_line() const;
 };
 
@@ -38,11 +38,11 @@ class Children {
   /// Ends those that still run.
   ~Children();
 
-  /// Starts this program with `arguments`; it writes nothing but its channels. One that the system does not start has
-  /// ended at once. After `limit` it is killed.
+  /// Starts this program with `arguments`; it writes nothing but its channels. A run that the system cannot start ends
+  /// at once. After `limit` it is killed.
   void start(std::size_t job, const std::vector<std::string>& arguments, std::optional<Seconds> limit = std::nullopt);
   std::size_t running() const { return runs_.size() + not_started_.size(); }
-  /// One that has ended; waits a moment when there is none, and returns nullopt then, so that the caller hears signals.
+  /// A run that has ended. If there is none, waits a moment and returns nullopt, so that the caller can handle signals.
   std::optional<Ended> wait();
   /// Asks all to end.
   void terminate() const;
@@ -51,7 +51,7 @@ class Children {
   using Clock = std::chrono::steady_clock;
   struct Run {
     std::size_t job = 0;
-    int output = -1;  ///< file in memory: a full disk does not silence the run
+    int output = -1;  ///< file in memory: so a full disk does not lose its messages
     Clock::time_point begin;
     std::optional<Seconds> limit;
     bool too_long = false;

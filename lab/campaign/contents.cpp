@@ -16,7 +16,7 @@ Json fingerprint_json(const std::string& file) {
   return found ? Json(*found) : Json();
 }
 
-/// Empty when there is no such file.
+/// Empty for a missing file.
 std::vector<std::int64_t> times_of(const std::string& file) {
   struct stat seen {};
   if (stat(file.c_str(), &seen) != 0) return {};
@@ -25,7 +25,7 @@ std::vector<std::int64_t> times_of(const std::string& file) {
           seen.st_size,
           seen.st_mtim.tv_sec,
           seen.st_mtim.tv_nsec,
-          seen.st_ctim.tv_sec,  // cannot be set back
+          seen.st_ctim.tv_sec,  // cannot be reset by the user
           seen.st_ctim.tv_nsec};
 }
 
@@ -41,7 +41,7 @@ void Contents::add_scenario(const std::string& file) {
   if (content_[file] != fingerprint_json(file)) fail_changed(file);
 }
 
-/// The times are taken first: what is written after that shows in the next look.
+/// The times are taken first: a later write shows at the next check.
 Contents::Times Contents::look(const std::vector<std::string>& files) const {
   Times times;
   for (const std::string& file : files) {

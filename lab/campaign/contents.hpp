@@ -1,5 +1,5 @@
 #pragma once
-// The files that a campaign reads. Its runs read them at different times, so each run is held against one content.
+// The files that a campaign reads. Its runs read them at different times, so every run is checked for the same content.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,18 +12,18 @@ namespace dsdpv1::tb::campaign {
 
 class Contents {
  public:
-  /// When each file was last written, or replaced by another; changes even when the content comes back to what it was.
+  /// When each file was last written, or replaced by another; changes even when the old content is restored.
   using Times = std::vector<std::vector<std::int64_t>>;
 
   explicit Contents(Kind kind) : kind_(std::move(kind)) {}
-  /// Reads a file. Throws InputError for one that can be read only once, and when the machine refuses to read it now.
+  /// Reads a file. Throws InputError for one that can be read only once, and when it cannot be read now.
   void add(const std::string& file);
   /// A scenario must be there: throws InputError when it cannot be read.
   void add_scenario(const std::string& file);
 
-  /// Path and fingerprint of each; null where there is nothing to read.
+  /// Path and fingerprint of each; null for a missing file.
   const Json& all() const { return content_; }
-  /// Looks at files again. Throws InputError when one has other content than in the beginning.
+  /// Checks files again. Throws InputError when the content of one has changed since the beginning.
   Times look(const std::vector<std::string>& files) const;
 
  private:

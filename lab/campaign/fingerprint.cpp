@@ -23,7 +23,7 @@ constexpr std::size_t kMostMb = 1024;  // of a result
 
 std::string text_of(const Hash& hash) { return fmt::format("{:016x}", hash.value()); }
 
-/// Errors that say something about the path and not about the machine's state.
+/// Errors that concern the path, not the machine's state.
 bool of_the_path(int error) {
   return error == ENOENT || error == ENOTDIR || error == EACCES || error == EISDIR || error == ELOOP ||
          error == ENAMETOOLONG;

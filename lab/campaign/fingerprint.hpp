@@ -1,5 +1,5 @@
 #pragma once
-// Tells contents apart (FNV-1a, 64 bits, no protection against intent), and keeps them.
+// Fingerprints of contents (FNV-1a, 64 bits; not a protection against intent), and reading and writing them.
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -7,10 +7,10 @@
 namespace dsdpv1::tb::campaign {
 
 std::string fingerprint(const std::string& text);
-/// "0.1.0 1f0c...": the version and what the program is made of, so that a program built anew counts as another one.
+/// "0.1.0 1f0c...": the version and a fingerprint of the program, so that a rebuilt program counts as another one.
 std::string program_identity(const std::string& version);
-/// Of a file's content; nullopt when there is no such file, it is a folder or may not be read. Throws InputError when
-/// it is no regular file (every run reads it again), and when the machine refuses to read it now.
+/// A file's fingerprint; nullopt when it is missing, a folder or not readable. Throws InputError when
+/// it is not a regular file (every run reads it again), and when it cannot be read now.
 std::optional<std::string> fingerprint_of_file(const std::string& path);
 
 /// The last line that is not empty.
@@ -19,9 +19,9 @@ std::string last_line(const std::string& text);
 std::string content(const std::string& path);
 /// Its JSON; discarded when it has none.
 nlohmann::ordered_json read_json(const std::string& path);
-/// One line without a line end. What is not UTF-8 (a file name may be so) is replaced.
+/// One line without a line end. Invalid UTF-8 (possible in file names) is replaced.
 std::string text_of(const nlohmann::ordered_json& json);
-/// As it comes back from a file.
+/// The value as read back from a file.
 nlohmann::ordered_json as_kept(const nlohmann::ordered_json& json);
 
 }  // namespace dsdpv1::tb::campaign

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 bool begins_with(const std::string& text, const std::string& part) { return text.rfind(part, 0) == 0; }
 
-/// "00042.4711.run", "00042.json.4711.part": what a run that is no more has left among the items.
+/// "00042.4711.run", "00042.json.4711.part": files of a run that no longer exists, among the items.
 bool is_remainder(const std::string& name) {
   const std::string ending = fs::path(name).extension();
   return ending == ".run" || ending == ".err" || ending == PartFile::kEnding;
@@ -32,7 +32,7 @@ void add_all_in(const fs::path& folder, std::vector<fs::path>& files) {
     if (!entry.is_directory()) files.push_back(entry.path());
 }
 
-/// Left under a temporary name by one that was killed: of the description, or of a result.
+/// A temporary file of a killed process: of the description, or of a result.
 bool is_part_of(std::string name, const Kind& kind) {
   if (begins_with(name, ".")) name.erase(0, 1);
   const std::size_t end = name.find(PartFile::kEnding);
@@ -83,7 +83,7 @@ void Folder::own(const Json& description) {
   Json before = fs::exists(file(kind_.description())) ? read_json(file(kind_.description())) : Json();
   const bool ours = before.is_object() && before.value("format", Json()) == kind_.format();
   const bool damaged = before.is_discarded();
-  if (damaged) before = Json();  // to be compared: what is discarded differs from nothing
+  if (damaged) before = Json();  // a discarded value would compare equal to anything
   if (!ours && holds_something_else(damaged))
     throw InputError(path_.string(), 0,
                      "holds something else, allowed is a new or empty folder, or one of a " + kind_.word);
@@ -91,7 +91,7 @@ void Folder::own(const Json& description) {
   if (damaged) started_anew_ = "nothing that can be known, its " + kind_.description() + " is damaged";
   if (!started_anew_.empty()) clear();
   if (!fs::exists(path_ / kSlurmFolder)) tidy();  // else tasks in a cluster may still be writing
-  // First of all, so that a folder with items always says what they are about.
+  // First, so that a folder with items always has a description.
   if (before != description) write_file(file(kind_.description()), description.dump(2) + "\n");
   fs::create_directories(path_ / kind_.items);
 }
@@ -102,7 +102,7 @@ void Folder::join(const Json& description) const {
     throw InputError(path_.string(), 0, "is not about this " + kind_.word + " any more, its task has nothing to do");
 }
 
-/// What a campaign writes counts only where a description, though damaged, says that there was one.
+/// A campaign's files count only if a description, even a damaged one, exists.
 bool Folder::holds_something_else(bool known) const {
   const auto is_else = [this, known](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename();
@@ -112,7 +112,7 @@ bool Folder::holds_something_else(bool known) const {
   return std::any_of(fs::directory_iterator(path_), fs::directory_iterator(), is_else);
 }
 
-/// Only what a campaign writes.
+/// Only files that a campaign writes.
 void Folder::clear() const {
   fs::remove_all(path_ / kind_.items);
   for (const auto& entry : fs::directory_iterator(path_))

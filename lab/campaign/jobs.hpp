@@ -1,5 +1,5 @@
 #pragma once
-// What a campaign runs, whoever carries it out: processes here, or the tasks of a cluster.
+// The jobs of a campaign, for local processes or the tasks of a cluster.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,22 +16,23 @@ class Jobs {
   virtual ~Jobs() = default;
 
   virtual std::size_t size() const = 0;
-  /// Whether the folder had what the job has shown when it was looked at last.
+  /// True when the folder had the job's result at the last check.
   virtual bool finished(std::size_t job) const = 0;
-  /// Looks into the folder: an earlier process, or a task of a cluster, may have finished it. True when it is finished.
+  /// Checks the folder: an earlier process, or a task of a cluster, may have finished the job. True when it is
+  /// finished.
   virtual bool look(std::size_t job) = 0;
   /// A run of this program begins; returns its arguments.
   virtual std::vector<std::string> begin(std::size_t job) = 0;
-  /// It has ended: keeps what it says about the job, which is finished then. Otherwise returns why it says nothing, and
-  /// another try may.
+  /// The run has ended: stores its result, which finishes the job. Otherwise returns the reason why there is no result;
+  /// another try may give one.
   virtual std::string end(const Ended& ended) = 0;
-  /// It was ended before it could say anything.
+  /// The run was ended without a result.
   virtual void forget(std::size_t job) = 0;
   /// "point 3 (datast=4)".
   virtual std::string name(std::size_t job) const = 0;
 };
 
-/// In a few words why a run has no result.
+/// A short reason why a run has no result.
 std::string fate(const Ended& ended);
 
 }  // namespace dsdpv1::tb::campaign

@@ -27,7 +27,7 @@ std::string owner_of(int file) {
   return number ? "with process id " + id + " " : "";
 }
 
-/// The owner before may have removed the file after it was opened here; then the lock would be on nothing.
+/// The previous owner may have removed the file after it was opened here; then the lock would have no effect.
 bool is_at(const std::string& path, int file) {
   struct stat there {};
   struct stat opened {};
@@ -43,13 +43,13 @@ Lock::Lock(const fs::path& folder, const std::string& word)
   while (!take()) {
   }
   const std::string id = std::to_string(getpid());
-  // Without it (a full disk) the lock holds all the same, only its owner has no name.
+  // Without it (a full disk) the lock still holds, but its owner is unknown.
   if (ftruncate(file_, 0) == 0 && pwrite(file_, id.data(), id.size(), 0) < 0) return;
 }
 
 /// False when the file was removed meanwhile.
 bool Lock::take() {
-  // Not for child processes: one of them that outlives this process must not hold the folder.
+  // O_CLOEXEC: a child process that outlives this process must not hold the folder.
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) == 0) {
     if (is_at(path_, file_)) return true;

@@ -5,14 +5,14 @@
 
 namespace dsdpv1::tb::campaign {
 
-/// Held by an open file, so that the system frees it when the process dies, however it does.
+/// Held by an open file, so the system frees it when the process ends in any way.
 class Lock {
  public:
-  /// Of a campaign of this kind: ".sweep.lock".
+  /// The name for a kind of campaign: ".sweep.lock".
   static std::string name(const std::string& word) { return "." + word + ".lock"; }
 
-  /// Makes the folder when there is none. Throws InputError when another process has it, with its id, and when the
-  /// system refuses.
+  /// Creates a missing folder. Throws InputError when another process has it, with its id, and when the system refuses
+  /// it.
   Lock(const std::filesystem::path& folder, const std::string& word);
   ~Lock();
   Lock(const Lock&) = delete;

@@ -12,7 +12,7 @@
 namespace dsdpv1::tb::campaign {
 
 std::string fate(const Ended& ended) {
-  constexpr int kInterrupted = 130;  // the run's own word for it
+  constexpr int kInterrupted = 130;  // the run's exit code for it
   std::string said = ended.last_line();
   if (!said.empty()) return said;
   if (ended.exit > kSignalled && ended.exit != kInterrupted)
@@ -42,7 +42,7 @@ Runner::Runner(Jobs& jobs, Carrying carrying, const std::vector<std::size_t>& wa
       all_(wanted.size()) {
   std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(waiting_),
                [&jobs](std::size_t job) { return !jobs.finished(job); });
-  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only now is known what waits
+  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): the waiting jobs are known only now
   done_ = all_ - waiting_.size();
   bar_.begin(done_);
 }
@@ -51,7 +51,7 @@ bool Runner::run() {
   try {
     run_missing();
   } catch (...) {
-    bar_.clear();  // the line that says why stands alone
+    bar_.clear();  // the error line has its own line
     throw;
   }
   give_up();

@@ -13,16 +13,16 @@
 
 namespace dsdpv1::tb::campaign {
 
-/// How jobs are carried out.
+/// Options for running jobs.
 struct Carrying {
   Kind kind;
   unsigned at_a_time = 1;                  ///< processes
   std::optional<Children::Seconds> limit;  ///< of a run
-  bool progress = false;                   ///< a bar is shown
+  bool progress = false;                   ///< show a bar
   std::function<bool()> interrupted;       ///< asked often
 };
 
-/// Runs what is not finished yet.
+/// Runs unfinished jobs.
 class Runner {
  public:
   Runner(Jobs& jobs, Carrying carrying);
@@ -33,7 +33,7 @@ class Runner {
   Runner& operator=(const Runner&) = delete;
 
   /// False when it was interrupted. Throws InputError when an input has changed, a job cannot be kept, or its run has
-  /// twice ended without a statement about it.
+  /// twice ended without a result.
   bool run();
 
   std::size_t done() const { return done_; }
@@ -50,7 +50,7 @@ class Runner {
   CountProgress bar_;
   Children children_;
   std::vector<bool> tried_;
-  std::deque<std::size_t> waiting_;  ///< neither finished nor under way
+  std::deque<std::size_t> waiting_;  ///< neither finished nor running
   std::size_t all_ = 0, done_ = 0;
 };
 

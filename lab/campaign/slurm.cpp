@@ -27,7 +27,7 @@ struct Answer {
   std::string text;
 };
 
-/// A word for the shell.
+/// Quotes a word for the shell.
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
@@ -51,7 +51,7 @@ std::optional<Submission> submission_of(const fs::path& file) {
   try {
     return Submission{std::stoi(file.stem().string()), json.at("identity"), json.at("job"),
                       json.at("tasks").get<Tasks>()};
-  } catch (const std::exception&) {  // no JSON, or not of this form
+  } catch (const std::exception&) {  // not JSON, or not of this form
     return std::nullopt;
   }
 }
@@ -82,7 +82,7 @@ std::vector<Submission> Slurm::submissions() const {
   return all;
 }
 
-/// Its tasks find their jobs in the file, so that is written before they can begin, and again with Slurm's number.
+/// Its tasks find their jobs in the file, so it is written before they can begin, and again with Slurm's number.
 Submission Slurm::submit(const std::string& identity, const Tasks& tasks,
                          const std::vector<std::string>& command) const {
   fs::create_directories(folder_);
@@ -130,11 +130,11 @@ std::string Slurm::last_line(const Submission& submission, std::size_t task) con
 }
 
 void Slurm::forget(const Submission& submission) const {
-  std::error_code ignored;  // one file more in the folder harms nobody
+  std::error_code ignored;  // an additional file in the folder does no harm
   for (const char* ending : {".json", ".sh"}) fs::remove(file(submission.number, ending), ignored);
   for (std::size_t task = 0; task < submission.tasks.size(); ++task)
     fs::remove(file(submission.number, fmt::format("_{}.out", task)), ignored);
-  fs::remove(folder_, ignored);  // when it is empty
+  fs::remove(folder_, ignored);  // succeeds only when it is empty
 }
 
 std::vector<std::size_t> jobs_of_task(const fs::path& folder, int number, std::size_t jobs) {

@@ -10,16 +10,16 @@
 
 namespace dsdpv1::tb::campaign {
 
-constexpr const char* kSlurmFolder = "slurm";  ///< in the folder of a campaign, while tasks are under way
+constexpr const char* kSlurmFolder = "slurm";  ///< in the folder of a campaign, while tasks exist
 
 using Tasks = std::vector<std::vector<std::size_t>>;  ///< the jobs of each task of an array
 
-/// A job array. slurm/1.json says which jobs its tasks carry out, slurm/1.sh is what a task runs, slurm/1_7.out what
-/// task 7 has said.
+/// A job array. slurm/1.json lists the jobs of its tasks, slurm/1.sh is a task's script, slurm/1_7.out the output of
+/// task 7.
 struct Submission {
   int number = 0;        ///< in the folder
   std::string identity;  ///< of the campaign
-  std::string job;       ///< Slurm's number; empty: not known
+  std::string job;       ///< Slurm's number; empty: unknown
   Tasks tasks;
 };
 
@@ -28,16 +28,16 @@ class Slurm {
   /// `folder`: of the campaign, seen by all nodes under the same name; `options`: more words for sbatch.
   Slurm(const std::filesystem::path& folder, std::string options);
 
-  /// Those whose files are in the folder; what is damaged is left out.
+  /// The arrays whose files are in the folder; damaged files are ignored.
   std::vector<Submission> submissions() const;
   /// Submits tasks, each of which calls `command` with --slurm-task. Throws InputError with Slurm's line when it is
   /// refused.
   Submission submit(const std::string& identity, const Tasks& tasks, const std::vector<std::string>& command) const;
-  /// The tasks that wait or run, by Slurm's number; nullopt when Slurm cannot be asked just now.
+  /// The tasks that wait or run, by Slurm's number; nullopt when Slurm does not answer now.
   static std::optional<std::map<std::string, std::set<std::size_t>>> under_way();
-  /// Ends its tasks; they may have ended.
+  /// Cancels its tasks; they may have ended.
   static void cancel(const Submission& submission);
-  /// The last line that a task has said.
+  /// The last line of a task's output.
   std::string last_line(const Submission& submission, std::size_t task) const;
   void forget(const Submission& submission) const;
 
@@ -49,11 +49,11 @@ class Slurm {
   std::string options_;
 };
 
-/// What this process has to do as a task of an array: `number` of --slurm-task, and SLURM_ARRAY_TASK_ID. Throws
-/// InputError when it is none, or has a job that is not below `jobs`.
+/// The jobs of this process as a task of an array: `number` of --slurm-task, and SLURM_ARRAY_TASK_ID. Throws InputError
+/// when it is not a task, or has a job that is not below `jobs`.
 std::vector<std::size_t> jobs_of_task(const std::filesystem::path& folder, int number, std::size_t jobs);
 
-/// At most so many tasks an array (Slurm's usual limit is 1001): of more jobs a task has several.
+/// Largest number of tasks of an array (Slurm's usual limit is 1001): with more jobs a task has several.
 Tasks in_tasks(const std::vector<std::size_t>& jobs, std::size_t most = 1000);
 
 }  // namespace dsdpv1::tb::campaign

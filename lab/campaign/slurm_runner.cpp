@@ -36,7 +36,7 @@ bool SlurmRunner::run() {
   try {
     wait_for_all();
   } catch (...) {
-    bar_.clear();  // the line that says why stands alone
+    bar_.clear();  // the error line has its own line
     throw;
   }
   bar_.clear();
@@ -44,7 +44,7 @@ bool SlurmRunner::run() {
   return missing_.empty();
 }
 
-/// Those of another campaign that the folder was about before would only be in the way.
+/// Cancels tasks of an earlier campaign in the folder, which are useless now.
 void SlurmRunner::take_over() {
   for (const Submission& each : slurm_.submissions()) {
     if (each.identity == cluster_.identity) {
@@ -79,8 +79,8 @@ void SlurmRunner::collect() {
   done_ = jobs_.size() - missing_.size();
 }
 
-/// A task that Slurm does not name any more has left its results before, but another node's files may take a moment to
-/// be seen here: it is lost when they are missing at the next question, too.
+/// A task that Slurm no longer lists has written its results, but another node's files may take a moment to appear
+/// here. It is lost when they are missing at the next question, too.
 void SlurmRunner::ask() {
   const auto tasks = Slurm::under_way();
   if (!tasks) return;
@@ -110,7 +110,7 @@ void SlurmRunner::submit_missing() {
   }
 }
 
-/// What is missing and has no task.
+/// The missing jobs without a task.
 std::vector<std::size_t> SlurmRunner::gone() const {
   std::vector<std::size_t> jobs;
   std::set_difference(missing_.begin(), missing_.end(), under_way_.begin(), under_way_.end(), std::back_inserter(jobs));

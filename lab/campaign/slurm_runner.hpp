@@ -1,5 +1,5 @@
 #pragma once
-// The jobs of a campaign as tasks of a Slurm cluster. What they have shown is judged by the files in the folder.
+// The jobs of a campaign as tasks of a Slurm cluster, judged by the files in the folder.
 #include <chrono>
 #include <cstddef>
 #include <map>
@@ -14,19 +14,19 @@
 namespace dsdpv1::tb::campaign {
 
 struct OnCluster {
-  std::string identity;              ///< tasks of another one are ended
+  std::string identity;              ///< tasks of another one are cancelled
   std::string options;               ///< for sbatch
-  std::vector<std::string> command;  ///< of this program, which a task repeats with --slurm-task
+  std::vector<std::string> command;  ///< this program's command line, which a task repeats with --slurm-task
 };
 
-/// Submits what is neither finished nor under way, and waits for it. Tasks that an earlier process has submitted go on
-/// and are waited for. A task that has gone without a result is submitted once more.
+/// Submits jobs that are neither finished nor running, and waits for them. Tasks of an earlier process continue and are
+/// waited for. A task that ends without a result is submitted once more.
 class SlurmRunner {
  public:
   SlurmRunner(Jobs& jobs, const Folder& folder, Carrying carrying, OnCluster cluster);
 
-  /// False when it was interrupted: then the tasks are ended. Throws InputError when Slurm refuses the tasks, or one
-  /// has twice gone without a result; those of others go on then.
+  /// False when it was interrupted; then the tasks are cancelled. Throws InputError when Slurm refuses the tasks, or
+  /// one has twice ended without a result; the other tasks then continue.
   bool run();
 
   std::size_t done() const { return done_; }
@@ -51,7 +51,7 @@ class SlurmRunner {
   std::vector<Submission> submissions_;
   std::set<std::size_t> missing_;    ///< jobs without a result
   std::set<std::size_t> under_way_;  ///< jobs of tasks that wait or run
-  std::set<std::size_t> not_seen_;   ///< jobs that were neither when Slurm was asked last
+  std::set<std::size_t> not_seen_;   ///< jobs that were in neither at the last question to Slurm
   std::map<std::size_t, int> tries_;
   std::size_t done_;
 };

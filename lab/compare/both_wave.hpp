@@ -1,5 +1,5 @@
 #pragma once
-// A wave with both sides, one below the other, and for each signal one that is 1 while they differ.
+// A wave with both sides, one below the other, and for each signal a second one that is 1 while they differ.
 #include <memory>
 
 #include "io/waves/wave_writer.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The times at which both sides are looked at: the edges of a clock of one of them, A's when both have it. Its file is
+// The times at which both sides are sampled: the edges of a clock of one of them, A's when both have it. Its file is
 // read a second time.
 #include "lab/compare/side.hpp"
 
@@ -7,7 +7,7 @@ namespace dsdpv1::tb::compare {
 
 class ClockEdges {
  public:
-  /// Throws InputError when neither side has the clock, or it is no single bit.
+  /// Throws InputError when neither side has the clock, or it is not a single bit.
   ClockEdges(const Clock& clock, const Side& a, const Side& b, const Scale& scale, Time shift_of_b);
   /// nullopt at the end of the file.
   std::optional<Time> next();

@@ -89,7 +89,7 @@ void Comparison::check_window() const {
                                scale_.text(from_), span(a_), b_.path(), span(b_)));
 }
 
-/// Whether a file has ended before this time.
+/// True when a file has ended before this time.
 bool Comparison::passed(Time time) const { return (!a_.next() && time > a_.end()) || (!b_.next() && time > b_.end()); }
 
 std::optional<Time> Comparison::next_change() const {
@@ -108,7 +108,7 @@ void Comparison::go_by_changes() {
   }
 }
 
-/// What a flip-flop would see: the values before the edge.
+/// The values before the edge, which a flip-flop would sample.
 void Comparison::go_by_clock() {
   ClockEdges edges(*options_.clock, a_, b_, scale_, scale_.from(options_.shift));
   for (auto edge = edges.next(); edge && *edge <= to_; edge = edges.next()) {
@@ -119,7 +119,7 @@ void Comparison::go_by_clock() {
     compare_at(*edge);
     tell_progress();
   }
-  a_.advance(to_);  // where the files end
+  a_.advance(to_);  // to the end of the files
   b_.advance(to_);
 }
 
@@ -155,7 +155,7 @@ void Comparison::begins_to_differ(std::uint32_t pair, Time now, std::string_view
   open_.push({now + state.tolerance + (state.tolerance != 0 ? 1 : 0), pair, state.times});
 }
 
-/// A pair whose time is up is one that differs, if it still does.
+/// A pair whose tolerance has passed differs if it still does.
 void Comparison::confirm_until(Time now) {
   while (!open_.empty()) {
     const Open open = open_.top();

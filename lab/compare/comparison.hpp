@@ -1,5 +1,5 @@
 #pragma once
-// Two waves gone through side by side, in order of time, each read once from front to back.
+// Compares two waves in order of time, each read once from front to back.
 #include <functional>
 #include <queue>
 
@@ -20,26 +20,26 @@ class Comparison {
   Comparison(const Comparison&) = delete;
   Comparison& operator=(const Comparison&) = delete;
 
-  /// Before `run`: all that is compared also goes into this wave.
+  /// Call before `run`: also writes all compared signals into this wave.
   void write_wave(const std::string& path) { wave_.emplace(path, pairs_.pairs); }
-  /// Called again and again while it runs, with how much of the files has been read, 0 to 1.
+  /// Called repeatedly while it runs, with the part of the files that has been read, 0 to 1.
   void on_progress(std::function<void(double)> progress) { progress_ = std::move(progress); }
 
-  /// Throws InputError when a file turns out to be damaged.
+  /// Throws InputError when a file is damaged.
   Result run();
 
  private:
-  /// What a pair has come to.
+  /// The result of a pair.
   struct State {
     bool differs = false;
-    std::uint32_t times = 0;  ///< that it began to differ
+    std::uint32_t times = 0;  ///< how often it began to differ
     Time since = 0;
     Time tolerance = 0;
     Difference began;
   };
-  /// A pair that began to differ, until it has for longer than is tolerated.
+  /// A pair that began to differ, until the tolerance has passed.
   struct Open {
-    Time deadline;  ///< when it has; at once without a tolerance
+    Time deadline;  ///< end of the tolerance; at once without one
     std::uint32_t pair, times;
     bool operator>(const Open& other) const { return deadline > other.deadline; }
   };

@@ -44,7 +44,7 @@ Levels::Levels(XRule x, ZRule z) {
 bool Levels::match(WaveKind kind, std::string_view a, std::string_view b) const {
   if (kind == WaveKind::kBits) return match(a, b);
   if (a == b) return true;
-  if (kind == WaveKind::kReal) return real(a) == real(b);  // NaN is spelt in one way, which was seen already
+  if (kind == WaveKind::kReal) return real(a) == real(b);  // NaN has one spelling, which was compared already
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same_character);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// When two values are the same.
+// Equality of two values.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -19,7 +19,7 @@ class Levels {
       if (!match_[place(a[i]) * 4 + place(b[i])]) return false;
     return true;
   }
-  /// Reals by their number, texts but for blanks, which a VCD has as underlines.
+  /// Compares reals by number and texts except blanks, which a VCD writes as underscores.
   bool match(WaveKind kind, std::string_view a, std::string_view b) const;
 
  private:
@@ -27,11 +27,11 @@ class Levels {
   std::array<bool, 16> match_{};
 };
 
-/// A value as people write it, for a signal: "1", "0x3F", "x", "01xz", a real or a text. Throws InputError, whose line
+/// A user's value for a signal: "1", "0x3F", "x", "01xz", a real or a text. Throws InputError, whose line
 /// begins with `what`.
 std::string parse_value(const std::string& text, WaveKind kind, std::uint32_t width, const std::string& what);
 
-/// A value as people read it: "1", "3F", "0x1z" in binary where not all bits are known.
+/// A value for people: "1", "3F", "0x1z" in binary if not all bits are known.
 std::string value_text(std::string_view value, WaveKind kind);
 
 }  // namespace dsdpv1::tb::compare

@@ -9,7 +9,7 @@
 namespace dsdpv1::tb::compare {
 namespace {
 
-/// The pairs that a name means: A's whole name, or the end of it.
+/// The pairs that a name selects: A's whole name, or the end of it.
 std::vector<std::uint32_t> targets_of(const std::string& name, const std::vector<Pair>& pairs) {
   std::vector<std::uint32_t> targets;
   std::vector<std::string> names;

@@ -1,5 +1,5 @@
 #pragma once
-// While which conditions hold nothing, or one signal, is not compared.
+// Conditions under which nothing, or one signal, is not compared.
 
 #include "lab/compare/side.hpp"
 
@@ -7,9 +7,9 @@ namespace dsdpv1::tb::compare {
 
 class Masks {
  public:
-  /// Throws InputError when a mask names a signal that there is not, or a value that the signal cannot have.
+  /// Throws InputError when a mask names an unknown signal, or a value that the signal cannot have.
   Masks(const std::vector<Mask>& masks, Side& a, Side& b, const std::vector<Pair>& pairs);
-  /// Looks at what has changed; signals that are compared again, or no longer, are added to `pairs`.
+  /// Processes the changes; adds signals whose comparison resumes or stops to `pairs`.
   void settle(Touched& pairs);
   bool hide(std::uint32_t pair) const { return all_ != 0 || of_pair_[pair] != 0; }
 
@@ -25,7 +25,7 @@ class Masks {
 
   std::vector<Condition> conditions_;
   Touched touched_;
-  std::vector<std::uint32_t> of_pair_;  ///< how many hold for it alone
+  std::vector<std::uint32_t> of_pair_;  ///< number of masks on it alone
   std::uint32_t all_ = 0;               ///< ... for all
 };
 

@@ -14,7 +14,7 @@ namespace dsdpv1::tb::compare {
 namespace {
 
 constexpr std::size_t kNamed = 8;           // in a message
-constexpr std::size_t kCompared = 100'000;  // names that are looked through for one that is meant
+constexpr std::size_t kCompared = 100'000;  // names searched for a suggestion
 
 /// The scope without the prefix; nullopt when it is not below it.
 std::optional<std::string> below(const std::string& scope, const std::string& prefix) {
@@ -28,7 +28,7 @@ std::optional<std::string> below(const std::string& scope, const std::string& pr
 int high(const WaveVariable& piece) { return std::max(piece.range->first, piece.range->second); }
 int low(const WaveVariable& piece) { return std::min(piece.range->first, piece.range->second); }
 
-/// Whether variables of one name are the pieces of one vector; they come in order of their highest bit.
+/// True when variables of one name are the pieces of one vector; they come in order of their highest bit.
 bool is_split(const WaveDeclarations& declarations, const std::vector<const WaveVariable*>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const WaveSignal& signal = declarations.signals[pieces[i]->signal];

@@ -1,5 +1,5 @@
 #pragma once
-// The signals of one side by their names: aliases are one, a vector that was split into bits is a vector again.
+// The signals of one side by their names: aliases are merged, and a vector that was split into bits is joined.
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -20,18 +20,18 @@ struct Net {
 
 class Nets {
  public:
-  /// Those in the scope `prefix` and below it; empty: all. `file` is for messages. Throws InputError when there is no
-  /// such scope.
+  /// Those in the scope `prefix` and below it; empty: all. `file` is for messages. Throws InputError for an unknown
+  /// scope.
   Nets(const WaveDeclarations& declarations, const std::string& prefix, std::string file);
 
   const std::vector<Net>& all() const { return nets_; }
-  /// The one with this name; nullptr when there is none.
+  /// The net with this name; nullptr when none has it.
   const Net* at(const std::string& name) const;
-  /// The one with this last part of its name, in capitals or not; nullptr when there is none or there are several.
+  /// The net with this last part of its name, ignoring case; nullptr when none or several have it.
   const Net* with_leaf(const std::string& leaf) const;
-  /// Whether `find` has something to say about it: one signal, or several.
+  /// True when the name selects one signal or several.
   bool knows(const std::string& name) const;
-  /// By its whole name or by the end of it ("dut.irq"); throws InputError when it is none or several.
+  /// By its whole name or by the end of it ("dut.irq"); throws InputError for none or several.
   const Net& find(const std::string& name) const;
   const std::string& file() const { return file_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is compared, and how.
+// Options of a comparison.
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace dsdpv1::tb::compare {
 
-/// What an unknown bit (X) matches. A is what is expected, B what is held to it.
+/// The matches of an unknown bit (X). A is the expectation, B is compared with it.
 enum class XRule : std::uint8_t {
   kExpected,  ///< X of A matches anything, X of B only X
   kAny,       ///< X of either side matches anything
@@ -16,7 +16,7 @@ enum class XRule : std::uint8_t {
   kNever,     ///< X matches nothing
 };
 
-/// What a released bit (Z) matches.
+/// The matches of a released bit (Z).
 enum class ZRule : std::uint8_t {
   kEqual,     ///< Z
   kExpected,  ///< Z of A matches anything, Z of B only Z
@@ -27,10 +27,10 @@ enum class ZRule : std::uint8_t {
 struct NamedPair {
   std::string a, b;
   bool inverted = false;    ///< B has the other level
-  std::string driven;       ///< of B: while it does not say so, `released` stands in b's place; empty: b alone
-  bool driven_low = false;  ///< it says so with 0
-  std::string released;     ///< empty: nobody drives, Z
-  bool required = true;     ///< else it is left out where a side lacks it
+  std::string driven;       ///< of B: while it is not set, `released` replaces b; empty: b alone
+  bool driven_low = false;  ///< it is set when 0
+  std::string released;     ///< empty: undriven, Z
+  bool required = true;     ///< else it is left out if a side lacks it
   std::optional<Femtoseconds> tolerance;
 };
 
@@ -39,8 +39,8 @@ struct Clock {
   bool rising = true;
 };
 
-/// While the signal (of A, or of B when A has none) has the value, or has it not, `target` is not compared; empty:
-/// nothing is.
+/// While the signal (of A, or of B when A has none) has the value, or has it not, `target` is not compared; empty: no
+/// signal is.
 struct Mask {
   std::string signal, value;
   bool equal = true;
@@ -52,7 +52,7 @@ struct Options {
   std::vector<NamedPair> pairs;  ///< empty: by name
   std::optional<Femtoseconds> from, to;
   Femtoseconds shift = 0;                 ///< added to B's times
-  std::optional<Femtoseconds> tolerance;  ///< left out: the coarser time scale's unit where the two differ, else 0
+  std::optional<Femtoseconds> tolerance;  ///< default: the coarser time scale's unit if the two differ, else 0
   std::optional<Clock> clock;
   XRule x = XRule::kExpected;
   ZRule z = ZRule::kEqual;

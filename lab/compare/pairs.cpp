@@ -17,7 +17,7 @@ std::string form(const Net& net) {
   return net.kind == WaveKind::kText ? "a text" : fmt::format("{} bits wide", net.width);
 }
 
-/// nullptr where a signal that may be missing is.
+/// nullptr for an optional signal that is missing.
 const Net* look_for(const Nets& nets, const std::string& name, bool required) {
   return required || nets.knows(name) ? &nets.find(name) : nullptr;
 }
@@ -63,7 +63,7 @@ class Matcher {
     used_b_.insert(b->name());
     found_.pairs.push_back(std::move(pair));
   }
-  /// Of a signal of B that is driven only at times.
+  /// A signal of B that is driven only at times.
   bool lacks_a_side(const NamedPair& names) const {
     const auto lacks = [this](const std::string& name) { return !name.empty() && !b_.knows(name); };
     return !names.required && (lacks(names.driven) || lacks(names.released));
@@ -97,7 +97,8 @@ class Matcher {
   const Nets &a_, &b_;
   Pairs found_;
   std::set<std::string> used_a_, used_b_;
-  std::set<std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>>> met_;  ///< aliases of a pair are the pair
+  std::set<std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>>>
+      met_;  ///< aliases of a pair count as the pair
 };
 
 }  // namespace

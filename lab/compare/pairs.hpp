@@ -1,5 +1,5 @@
 #pragma once
-// Which signal of A is held against which of B.
+// The pairs of compared signals of A and B.
 #include <string>
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace dsdpv1::tb::compare {
 
-/// What a side's value is made of.
+/// The parts of a side's value.
 struct Source {
   Net net;
   bool inverted = false;
@@ -24,10 +24,10 @@ struct Pair {
 
 struct Pairs {
   std::vector<Pair> pairs;
-  std::vector<std::string> only_a, only_b;  ///< names of what is not compared
+  std::vector<std::string> only_a, only_b;  ///< names of signals that are not compared
 };
 
-/// Throws InputError when a named signal does not exist, its counterpart is of another width, or there is no pair.
+/// Throws InputError when a named signal does not exist, its counterpart is of another width, or no pair is found.
 Pairs match(const Nets& a, const Nets& b, const Options& options);
 
 }  // namespace dsdpv1::tb::compare

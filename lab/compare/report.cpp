@@ -44,7 +44,7 @@ std::string when(const Result& result, Time at) {
   return fmt::format("{}, {}", cycle_text(result.scale.tick(at)), result.scale.text(at));
 }
 
-/// Of a signal that differs.
+/// The lines of a signal that differs.
 std::string found_text(const Result& result, const SignalResult& signal) {
   return fmt::format("{}: A {}, B {}", cycle_text(result.scale.tick(signal.first->at)), signal.first->a,
                      signal.first->b);
@@ -66,7 +66,7 @@ std::string first_text(const Result& result) {
   return text;
 }
 
-/// Those that differ, and where there is room the others.
+/// Signals that differ, and the others if there is room.
 std::vector<const SignalResult*> rows(const Result& result) {
   std::vector<const SignalResult*> rows;
   for (const bool different : {true, false})

@@ -1,5 +1,5 @@
 #pragma once
-// What a comparison has found.
+// The result of a comparison.
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ struct Difference {
 
 struct SignalResult {
   std::string name;            ///< A's
-  std::uint64_t compared = 0;  ///< values that were held against each other
+  std::uint64_t compared = 0;  ///< number of compared values
   std::uint64_t differences = 0;
   std::optional<Difference> first;
 };
@@ -23,7 +23,7 @@ struct SignalResult {
 struct FileResult {
   std::string path;
   std::size_t signals = 0;
-  Time begin = 0, end = 0;  ///< of the times that were read
+  Time begin = 0, end = 0;  ///< of the times read
   bool ended = false;       ///< to its end
 };
 
@@ -36,9 +36,9 @@ struct Result {
   std::vector<SignalResult> signals;
   std::vector<std::string> only_a, only_b;
   std::optional<std::size_t> first;  ///< the signal that differed first
-  std::vector<Line> surroundings;    ///< of it
+  std::vector<Line> surroundings;    ///< its surroundings
 
-  /// A file that ends before what was asked for is no equal one.
+  /// A file that ends before --to is not equal.
   bool short_of_end() const { return wanted && to < *wanted; }
   bool equal() const { return !first && !short_of_end(); }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Time while two waves are compared: whole units of the finer of their time scales, so that nothing is rounded.
+// Time in a comparison: whole units of the finer of the two time scales, so nothing is rounded.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,9 +9,9 @@
 namespace dsdpv1::tb::compare {
 
 using Time = std::int64_t;          ///< in units of a Scale
-using Femtoseconds = std::int64_t;  ///< what people say: up to 9223 s
+using Femtoseconds = std::int64_t;  ///< times from users: up to 9223 s
 
-/// What a duration may look like, for error messages.
+/// The forms of a duration, for error messages.
 constexpr const char* kDurationForm = "a number with a unit fs, ps, ns, us, ms, s or cycles (of 48 MHz), like 10ns";
 
 /// "10ns", "-1.5us", "2cycles"; nullopt for anything else.
@@ -22,14 +22,14 @@ class Scale {
   /// Units of 10^exponent seconds, -15 to 2.
   explicit Scale(int exponent) : exponent_(exponent) {}
   int exponent() const { return exponent_; }
-  /// To the nearest unit.
+  /// Converts to the nearest unit.
   Time from(Femtoseconds duration) const;
-  /// Of a coarser scale; nullopt when it is beyond 2^62 units.
+  /// Converts from a coarser scale; nullopt beyond 2^62 units.
   std::optional<Time> from(std::uint64_t time, int exponent) const;
   /// To the nearest tick; the model's times are whole ticks, rounded to a picosecond.
   bus::Tick tick(Time time) const;
   std::uint64_t picoseconds(Time time) const;
-  /// Exactly: "1766604167 ps".
+  /// The exact time: "1766604167 ps".
   std::string text(Time time) const;
 
  private:

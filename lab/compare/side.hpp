@@ -1,5 +1,5 @@
 #pragma once
-// One of the two waves while it is gone through: the present values of the signals that somebody looks at.
+// One of the two waves during a comparison: the present values of its used signals.
 #include <cstdint>
 #include <memory>
 #include <numeric>
@@ -14,7 +14,7 @@
 
 namespace dsdpv1::tb::compare {
 
-/// Which of many things have changed since they were last looked at.
+/// Collects the indices that have changed since the last check.
 class Touched {
  public:
   explicit Touched(std::size_t count) : is_(count, 0) {}
@@ -39,7 +39,7 @@ class Touched {
   std::vector<std::uint32_t> list_;
 };
 
-/// A source as the side that it belongs to reads it: places of its values.
+/// A source in the form that its side reads: indices of its values.
 struct Probe {
   std::vector<std::uint32_t> pieces, driven, released;
   std::uint32_t width = 1;
@@ -48,7 +48,7 @@ struct Probe {
 
 class Side {
  public:
-  /// Throws InputError, as everything here that reads.
+  /// Throws InputError, like all reading functions here.
   Side(const std::string& path, const std::string& scope);
 
   const std::string& path() const { return path_; }
@@ -70,11 +70,11 @@ class Side {
   }
   /// Until the next call.
   std::string_view value(const Probe& probe);
-  /// Whether the simulator records nothing ($dumpoff).
+  /// True when the simulator records nothing ($dumpoff).
   bool off() const { return off_; }
 
   Time begin() const { return at(reader_->begin()); }
-  Time end() const { return at(reader_->end()); }  ///< of what was read
+  Time end() const { return at(reader_->end()); }  ///< of the part read
   double share() const { return reader_->share(); }
 
  private:
@@ -91,7 +91,7 @@ class Side {
   std::string path_, scope_;
   std::unique_ptr<WaveReader> reader_;
   Nets nets_;
-  std::vector<std::uint32_t> place_;  ///< by signal of the file; kNone: nobody looks at it
+  std::vector<std::uint32_t> place_;  ///< by signal of the file; kNone: not used
   std::vector<std::string> values_;   ///< by place
   std::vector<std::vector<User>> users_;
   std::string scratch_;

@@ -1,6 +1,6 @@
 #pragma once
-// What happened at the pins of a chip up to a difference: on its line, at its memory. Which pins these are, and what
-// they mean, is the business of the chip's kind.
+// The activity at a chip's pins before a difference: on its line, at its memory. The chip's kind defines the pins and
+// their meaning.
 #include <functional>
 #include <memory>
 #include <string>
@@ -12,17 +12,17 @@
 
 namespace dsdpv1::tb::compare {
 
-/// A heading and what it is about, for a line of the report.
+/// A heading and a text, for a line of the report.
 using Line = std::pair<std::string, std::string>;
 
 class Surroundings {
  public:
   virtual ~Surroundings() = default;
-  /// Names of the pins that it looks at.
+  /// Names of the observed pins.
   virtual const std::vector<std::string>& pins() const = 0;
   /// A pin (its place in `pins`) has a new value, bits as WaveEvent has them; in order of time.
   virtual void change(bus::Tick at, std::size_t pin, std::string_view value) = 0;
-  /// What there is to say up to `now`, which is not before the last change.
+  /// The report up to `now`, which is not before the last change.
   virtual std::vector<Line> lines(bus::Tick now) const = 0;
 };
 

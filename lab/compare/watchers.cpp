@@ -5,7 +5,7 @@
 namespace dsdpv1::tb::compare {
 namespace {
 
-constexpr std::size_t kMostPins = 4096;  // of all chips: who has more is looking at something else
+constexpr std::size_t kMostPins = 4096;  // of all chips: more pins than this belong to something else
 
 /// "strobe" for "STROBE" and "strobe_i".
 std::string plain(const std::string& leaf) {

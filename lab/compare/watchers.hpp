@@ -9,13 +9,13 @@ namespace dsdpv1::tb::compare {
 
 class Watchers {
  public:
-  /// Looks at the pins that stand in scopes of `side` under their own names, in capitals or not, with or without _i and
-  /// _o. `make` may be empty.
+  /// Observes the pins in scopes of `side` by their names, ignoring case, with or without _i and _o. `make` may be
+  /// empty.
   Watchers(Side& side, const MakeSurroundings& make);
   bool empty() const { return pins_.empty(); }
-  /// Takes what has changed up to `now`.
+  /// Processes the changes up to `now`.
   void settle(bus::Tick now);
-  /// Of the chip in this scope of the side; of the only chip where there is one.
+  /// The report of the chip in this scope of the side, or of the only chip.
   std::vector<Line> lines(const std::string& scope, bus::Tick now) const;
 
  private:

@@ -23,10 +23,10 @@ constexpr const char* kResult = "result.json";
 
 bool is_result(const std::string& name) { return name == "index.html"; }
 
-/// Each run has its own key, so nothing of another regression is in the way.
+/// Each run has its own key, so results of another regression do not interfere.
 std::string difference(const Json& /*before*/, const Json& /*now*/) { return ""; }
 
-/// What the system refuses in the folder is an error of one line.
+/// Turns errors of the file system into an error of one line.
 template <typename Action>
 auto in_folder(const campaign::Folder& folder, const Action& action) {
   try {
@@ -37,7 +37,7 @@ auto in_folder(const campaign::Folder& folder, const Action& action) {
   }
 }
 
-/// A run that was killed has left temporary names: its log gets its own, a wave can be recovered, what is empty goes.
+/// A killed run leaves temporary names: its log gets its final name, a wave can be recovered, empty files are removed.
 void tidy_up(const fs::path& place) {
   if (!fs::is_directory(place)) return;
   std::vector<fs::path> parts;
@@ -106,7 +106,7 @@ Description last_description(const std::string& folder) {
 Folder::Folder(const std::string& path, const Description& description, campaign::Folder::Access access)
     : description_(description), folder_(path, kind(), json_of(description), difference, access) {}
 
-/// With the id of this process: a run of an owner before that has not died yet writes into a place of its own.
+/// With the id of this process: a surviving run of an earlier owner writes into a separate place.
 std::string Folder::place(const Run& run) const {
   return folder_.item_file(fmt::format("{}.{}.run", run.file_name(), getpid()));
 }

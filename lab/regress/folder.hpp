@@ -1,5 +1,6 @@
 #pragma once
-// The folder of a regression: runs/NAME.json is what a run has come to, runs/NAME/ what was kept of it, index.html all.
+// The folder of a regression: runs/NAME.json is the result of a run, runs/NAME/ has its kept files, index.html shows
+// all runs.
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,21 +14,21 @@ namespace dsdpv1::tb::regress {
 
 const campaign::Kind& kind();
 
-/// Of which runs files are kept.
+/// The runs whose files are kept.
 enum class Keep : std::uint8_t { kNone, kFailed, kAll };
 /// "none", "failed", "all", and back.
 const std::vector<std::string>& keep_words();
 std::optional<Keep> keep_named(const std::string& word);
 
-/// What regression.json says: the runs and how they are carried out.
+/// The content of regression.json: the runs and their options.
 struct Description {
   Plan plan;
-  std::string checks, wave;  ///< of run --checks; "vcd", "fst"; empty: as usual, none
+  std::string checks, wave;  ///< of run --checks; "vcd", "fst"; empty: the default, none
   Keep keep = Keep::kFailed;
-  bool report = false;  ///< of each run the page of run --report
+  bool report = false;  ///< write each run's page (run --report)
 };
 campaign::Json json_of(const Description& description);
-/// That of the last regression in a folder. Throws InputError when there is none.
+/// The description of the last regression in a folder. Throws InputError when none is there.
 Description last_description(const std::string& folder);
 
 class Folder {
@@ -35,18 +36,18 @@ class Folder {
   Folder(const std::string& path, const Description& description, campaign::Folder::Access access);
 
   const campaign::Folder& base() const { return folder_; }
-  /// Where a run under way writes; removed by `finish` or `forget`.
+  /// The folder of a run in progress; removed by `finish` or `forget`.
   std::string place(const Run& run) const;
-  /// Arguments of a run: what it writes goes to its place.
+  /// Arguments that make a run write to its folder.
   std::vector<std::string> words(const Run& run) const;
 
-  /// What the run has come to; nullopt when it is not known. `key`: what it depends on; empty: whatever that was.
+  /// The run's result; nullopt when it is unknown. `key`: the fingerprint of its inputs; empty: any.
   std::optional<Outcome> finished(const Run& run, const std::string& key) const;
-  /// Keeps what the run has come to, and its files when they are wanted. Throws InputError when it cannot be written.
+  /// Stores the run's result, and its files when they are wanted. Throws InputError when it cannot be written.
   Outcome finish(const Run& run, const std::string& key, const campaign::Ended& ended) const;
-  /// Removes what is under way.
+  /// Removes the files of a run in progress.
   void forget(const Run& run) const;
-  /// Removes what is known of it.
+  /// Removes the run's result.
   void remove(const Run& run) const;
 
  private:

@@ -32,14 +32,14 @@ std::string first_unmet(const Json& result) {
   return "";
 }
 
-/// Of a run that failed. A lockstep run whose scenario has passed says on its output where the two sides differ.
+/// The reason of a failed run. A lockstep run whose scenario has passed prints the difference of the two sides.
 std::string failure(const Ended& ended, const Json& result) {
   try {
     std::string unmet = first_unmet(result);
     if (!unmet.empty()) return unmet;
     const sweep::Point point = sweep::point_of(ended.exit, "", result);
     if (result.at("passed") == false) return point.reason();
-  } catch (const nlohmann::json::exception&) {  // no result, or none of this form
+  } catch (const nlohmann::json::exception&) {  // not a result, or not of this form
     return fate(ended);
   }
   return ended.output.substr(0, ended.output.find('\n'));

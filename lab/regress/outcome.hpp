@@ -1,5 +1,5 @@
 #pragma once
-// What one run of a regression has come to.
+// The result of one run of a regression.
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@ enum class Verdict : std::uint8_t {
   kNothingJudged,  ///< exit code 3
   kRefused,        ///< exit code 2: the scenario, a file of it or the settings are wrong
   kCrashed,        ///< ended by a signal
-  kHung            ///< killed because its time was over
+  kHung            ///< killed at its time limit
 };
 
 /// "passed", "failed", "nothing_judged", "refused", "crashed", "hung".
@@ -25,9 +25,9 @@ struct Outcome {
   int exit = 0;
   double seconds = 0;
   std::string reason;              ///< the first failing check or expectation in words; empty when it passed
-  std::string output;              ///< what a run that did not pass has written on its channels, the end of it
+  std::string output;              ///< the end of the output of a run that did not pass
   std::string log;                 ///< and the last lines of its log
-  std::vector<std::string> files;  ///< that were kept of it
+  std::vector<std::string> files;  ///< the kept files
 
   bool passed() const { return verdict == Verdict::kPassed; }
 };
@@ -36,7 +36,7 @@ struct Outcome {
 Outcome outcome_of(const campaign::Ended& ended, const campaign::Json& result);
 
 campaign::Json json_of(const Outcome& outcome);
-/// Throws nlohmann::json::exception when it is none.
+/// Throws nlohmann::json::exception for any other JSON.
 Outcome outcome_of(const campaign::Json& json);
 
 }  // namespace dsdpv1::tb::regress

@@ -59,7 +59,7 @@ std::string escaped(const std::string& text) { return markup_escaped(bus::printa
 
 std::string cell(const std::string& text) { return "<td>" + escaped(text) + "</td>"; }
 
-/// What went wrong, and on demand the last that the run has said.
+/// The reason, and on demand the run's last output.
 std::string reason_cell(const Outcome& outcome) {
   std::string text = "<td>" + escaped(outcome.reason);
   for (const auto& [what, lines] : {std::pair{"output", outcome.output}, std::pair{"end of the log", outcome.log}})

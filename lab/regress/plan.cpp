@@ -68,7 +68,7 @@ std::vector<std::vector<std::string>> combinations(const std::vector<sweep::Para
   return all;
 }
 
-/// Only RTL has something random: what it begins with where nothing is reset.
+/// Only RTL has random values: those of registers that are not reset.
 std::vector<std::string> seeds_of(const Request& request, const std::string& engine) {
   return request.seeds.empty() || !is_rtl(engine) ? std::vector<std::string>{""} : request.seeds;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a regression runs: scenarios by engines, views, seeds and settings.
+// The runs of a regression: scenarios by engines, views, seeds and settings.
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -12,12 +12,12 @@ namespace dsdpv1::tb::regress {
 
 struct Run {
   std::string scenario, engine, view;
-  std::string seed;                   ///< empty: nothing in it depends on one
+  std::string seed;                   ///< empty: the run does not depend on one
   std::vector<std::string> settings;  ///< PATH=VALUE
 
   /// "skip pins", "rtl pins seed=3 baud=6M".
   std::string variant() const;
-  /// "scenarios/watchdog.yaml skip pins"; each run of a plan has another one.
+  /// "scenarios/watchdog.yaml skip pins"; unique in a plan.
   std::string name() const { return scenario + " " + variant(); }
   /// The same as the name of a file: letters, digits, "._-".
   std::string file_name() const;
@@ -25,20 +25,20 @@ struct Run {
   std::vector<std::string> words() const;
 };
 
-/// What the command line asks for.
+/// The choices of the command line.
 struct Request {
   std::vector<std::string> scenarios;  ///< files and folders
   std::vector<std::string> engines = {"skip"}, views = {"pins"};
-  std::vector<std::string> seeds;                 ///< none: the usual one
+  std::vector<std::string> seeds;                 ///< none: the default
   std::vector<sweep::Parameter> parameters = {};  ///< of --set, each with at least one value
-  /// Whether the scenario of a run can be carried out by pins only, whatever the engine.
+  /// True when the scenario of a run needs the view pins with every engine.
   std::function<bool(const Run& run)> pins_only = [](const Run& /*run*/) { return false; };
 };
 
 /// A part of all runs: `index` of `count`, from 1.
 struct Shard {
   std::uint64_t index = 1, count = 1;
-  /// Depends on the run's name alone, so that a new scenario moves no other run to another shard.
+  /// Depends only on the run's name, so that a new scenario moves no other run to another shard.
   bool has(const Run& run) const;
 };
 
@@ -49,15 +49,15 @@ std::vector<std::string> parse_seeds(const std::string& text);
 
 struct Plan {
   std::vector<Run> runs;
-  std::size_t left_out = 0;  ///< combinations that cannot be: RTL, and some scenarios, have pins only
+  std::size_t left_out = 0;  ///< impossible combinations: RTL, and some scenarios, have pins only
 };
 
-/// Throws InputError for a path that is not there, a folder without scenarios, a key that is set twice, seeds without
-/// an engine that has something random, more than 100 000 runs, and when nothing is left to be run.
+/// Throws InputError for a missing path, a folder without scenarios, a key that is set twice, seeds without an engine
+/// that uses them, more than 100 000 runs, and when no run remains.
 Plan plan_of(const Request& request, const Shard& shard);
 
 campaign::Json json_of(const Run& run);
-/// Throws nlohmann::json::exception when it is no run.
+/// Throws nlohmann::json::exception for any other JSON.
 Run run_of(const campaign::Json& json);
 
 }  // namespace dsdpv1::tb::regress

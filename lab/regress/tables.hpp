@@ -8,7 +8,7 @@
 
 namespace dsdpv1::tb::regress {
 
-/// The runs of a plan with what each has come to.
+/// The runs of a plan with their results.
 struct Report {
   Plan plan;
   std::vector<Outcome> outcomes;  ///< of the runs, in their order
@@ -18,7 +18,7 @@ struct Report {
 
 /// A line a run with a heading, its fields separated by tabs. Control characters in them are shown as escapes.
 std::string tsv(const Report& report);
-/// The same for people: what fits a terminal (tb/report/text_table.hpp).
+/// The same for people, fitted to a terminal (tb/report/text_table.hpp).
 std::string table(const Report& report);
 /// One JSON object with counts and runs.
 std::string json(const Report& report);

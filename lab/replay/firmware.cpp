@@ -23,7 +23,7 @@ int ident_at(const bus::Bytes& bytes, std::size_t at) { return bytes[at] << 8 | 
 
 // --- initialisation data ---------------------------------------------------------------------------------------------
 
-/// What the master has sent last; in force once data are exchanged.
+/// The master's last parameters; in force once data are exchanged.
 struct Sent {
   std::optional<bus::Telegram> prm;
   std::optional<bus::Bytes> cfg;
@@ -59,7 +59,7 @@ class InitReader {
   }
   void take_diagnosis(const bus::Bytes& diagnosis) {
     if (!init_.ident) init_.ident = ident_at(diagnosis, 4);
-    if ((diagnosis[0] & kCfgFault) != 0) init_.cfg_mode = 1;  // it wants its own one
+    if ((diagnosis[0] & kCfgFault) != 0) init_.cfg_mode = 1;  // the slave accepts only its configuration
   }
 
   scenario::InitData init_;
@@ -158,8 +158,8 @@ class SupplyReader {
   std::optional<Tick> high_since_;  ///< end of the answer before those of high priority
 };
 
-/// A third of the shortest time from the end of an answer to the request whose answer shows something else, between
-/// what a driver needs and what is no slower than usual.
+/// A third of the shortest time from the end of an answer to the next request whose answer shows new data. Clamped to
+/// 20 us, which a driver needs, and 1 ms.
 Tick cycle_for(const Recording& recording, const std::vector<Supply>& supplies) {
   constexpr Tick kLeast = 20 * bus::kTicksPerUs, kMost = bus::kTicksPerMs;
   Tick shortest = 3 * kMost;
@@ -217,7 +217,7 @@ Beginning beginning_of(const Recording& recording) {
   beginning.first_answer = static_cast<std::size_t>(first_answer - requests.begin());
   beginning.comparable = beginning.first_answer;
   if (!begins_in_the_middle(recording)) return beginning;
-  // A Set_Prm alone may leave a slave in data exchange, which the model never was in.
+  // A Set_Prm alone may keep a slave in data exchange; the model never was in it.
   auto prm = requests.end();
   for (auto each = first_prm; each != requests.end(); ++each) {
     const bus::Telegram& request = telegram_of(*each);

@@ -1,6 +1,6 @@
 #pragma once
-// What the recorded slave's user CPU must have given its chip, as far as the capture shows it: initialisation data, and
-// inputs and diagnoses with the times from which on they were there.
+// The data that the recorded slave's user CPU must have given its chip, as shown by the capture: initialisation data,
+// and inputs and diagnoses with their times.
 #include <optional>
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace dsdpv1::tb::replay {
 
-/// Something that the user CPU gives to its chip.
+/// Data that the user CPU gives to its chip.
 struct Supply {
   Tick at = 0;  ///< of the capture: when the answer before the first one that shows it has ended
   std::optional<user_cpu::DiagnosisKind> diagnosis = {};  ///< absent: inputs

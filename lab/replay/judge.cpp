@@ -18,7 +18,7 @@ bus::Telegram telegram_of(const bus::Bytes& bytes) { return bus::decode(bytes).t
 
 bool is_acyclic(const bus::Telegram& request) { return request.dsap && *request.dsap <= bus::sap::kMs1; }
 
-/// The first byte that differs; of two lengths the shorter one's end.
+/// The first byte that differs; with different lengths the end of the shorter one.
 std::size_t first_difference(const bus::Bytes& a, const bus::Bytes& b) {
   const std::size_t both = std::min(a.size(), b.size());
   return static_cast<std::size_t>(
@@ -129,7 +129,7 @@ Verdict Judge::compare_tsdr(RequestResult& result) const {
   return Verdict::kTsdr;
 }
 
-/// Whether the model's answer is what it has to be as long as the user CPU has not brought the news.
+/// True when the model's answer is right for a user CPU that has not yet delivered the new data.
 bool Judge::user_was_late(const RequestResult& result) const {
   if (!result.recorded->right || !result.model->right) return false;
   constexpr Tick kDriver = 60 * bus::kTicksPerUs;
@@ -148,8 +148,8 @@ bool Judge::user_was_late(const RequestResult& result) const {
   return recorded.fc == model.fc || news_of_diagnosis;
 }
 
-/// DPV1: when an answer is there, and why something is refused, is the user CPU's business. Once an answer came at
-/// another poll, what follows is another talk, and the objects may hold something else.
+/// DPV1: the user CPU decides when an answer is ready and why a request is refused. Once an answer came at another
+/// poll, the later exchanges differ, and the objects may have other content.
 bool Judge::is_users_dpv1(const RequestResult& result) {
   if (!is_acyclic(telegram_of(result.request)) || !result.recorded || !result.model) return false;
   const bus::Bytes recorded = telegram_of(result.recorded->bytes).data, model = telegram_of(result.model->bytes).data;

@@ -1,5 +1,5 @@
 #pragma once
-// Holds the model's answers against the recorded ones.
+// Compares the model's answers with the recorded ones.
 #include <string>
 #include <vector>
 
@@ -19,15 +19,15 @@ struct JudgeOptions {
 
 class Judge {
  public:
-  /// All that is given must outlive it.
+  /// All arguments must outlive it.
   Judge(const Recording& recording, const Firmware& firmware, const JudgeOptions& options);
   std::vector<RequestResult> judge(const Listener& listener);
 
  private:
   struct Supplied {
-    Tick inputs = 0, diagnosis = 0;  ///< when there were others for the last time, 0 never
+    Tick inputs = 0, diagnosis = 0;  ///< time of the last change, 0 for none
     bool any_inputs = false, any_diagnosis = false;
-    bus::Bytes before;  ///< the inputs that they replaced
+    bus::Bytes before;  ///< the inputs before that change
     bus::Bytes now;
   };
   RequestResult result_of(const RecordedRequest& request, const Heard* heard) const;
@@ -50,7 +50,7 @@ class Judge {
   Beginning beginning_;
   std::size_t next_supply_ = 0;
   Supplied supplied_;
-  Tick request_end_ = 0;  ///< of the request that is judged
+  Tick request_end_ = 0;  ///< of the request being judged
   MinTsdr min_tsdr_;
   std::optional<bool> dpv1_;
   bool dpv1_out_of_step_ = false;

@@ -1,6 +1,6 @@
 #pragma once
-// Before a replay: requests at the capture's rate to a station that is not there, until the model has found the rate;
-// then what brings it into the data exchange in which the capture begins.
+// Before a replay: requests at the capture's rate to an absent station, until the model has found the rate. Then the
+// telegrams that bring it into the data exchange in which the capture begins.
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -19,12 +19,12 @@ class LeadIn : public bus::Agent {
  public:
   /// `avoid`: the address of the model. `found` is asked before each request. The segment must outlive it.
   LeadIn(bus::Segment& segment, int baud, std::uint8_t avoid, std::function<bool()> found);
-  /// It ends at once.
+  /// Ends it at once.
   void leave_out() { wanted_ = false; }
-  /// To be sent once the rate is found, each with time for the model's user CPU after it.
+  /// The telegrams to send once the rate is found, each followed by time for the model's user CPU.
   void then_send(std::vector<bus::Telegram> telegrams) { telegrams_ = std::move(telegrams); }
 
-  /// Told once, with the time from which on the line is free.
+  /// Called once, with the time from which on the line is free.
   std::function<void(Tick free)> on_end;
 
   Tick next() const override;
@@ -32,7 +32,7 @@ class LeadIn : public bus::Agent {
 
   /// Time enough for the model's user CPU to initialise it.
   static constexpr Tick kStart = 500 * bus::kTicksPerUs;
-  /// After that the capture is played, found or not: a search tries each rate in some 1.2 s.
+  /// After that the capture is played even if the rate was not found: a search tries each rate in some 1.2 s.
   static constexpr Tick kLongest = 6 * bus::kTicksPerSecond;
 
  private:

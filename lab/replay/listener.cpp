@@ -17,7 +17,7 @@ Listener::Listener(const Recording& recording, const std::vector<PlacedTelegram>
   }
 }
 
-/// At the end of the telegram's last stop bit, or later for a broken one.
+/// Called at the end of the telegram's last stop bit, or later for a broken one.
 void Listener::telegram(const HeardTelegram& heard) {
   if (!shift_) return;
   const Tick start = heard.telegram.start - *shift_, bit = bus::baud(recording_.baud).bit;

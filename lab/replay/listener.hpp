@@ -1,5 +1,5 @@
 #pragma once
-// Hears the run of a replay: which telegrams are the model's, and to which request each belongs.
+// Observes the run of a replay: finds the model's telegrams and the request to which each belongs.
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace dsdpv1::tb::replay {
 
-/// What the model did with a telegram of the capture.
+/// The model's reaction to a telegram of the capture.
 struct Heard {
   bool whole = false;     ///< it was on the line undisturbed
   bool has_rate = false;  ///< the model had its baud rate at the telegram's end
@@ -20,18 +20,18 @@ struct Heard {
 
 class Listener : public Observer {
  public:
-  /// All that is given must outlive it.
+  /// All arguments must outlive it.
   Listener(const Recording& recording, const std::vector<PlacedTelegram>& placed);
 
   void begins(std::size_t /*slave*/, const ChipView& chip) override { chip_ = &chip; }
   void telegram(const HeardTelegram& heard) override;
-  /// From now on the capture is played, its times shifted by so much.
+  /// The capture is played from now on, its times shifted by this.
   void begin(Tick shift) { shift_ = shift; }
 
   bool model_has_rate() const { return chip_ != nullptr && chip_->status().baud.has_value(); }
   /// By position in Recording::telegrams.
   const Heard* of(std::size_t telegram) const;
-  /// What the model sent after something that asked nothing of it, or after it had answered.
+  /// Telegrams of the model without a request, or after its answer.
   const std::vector<Answer>& unasked() const { return unasked_; }
 
  private:

@@ -15,14 +15,15 @@ constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40;  // in its first byte, tabl
 void MinTsdr::take(const bus::Telegram& request, const RecordedTelegram* answer) {
   if (is_service(request, bus::sap::kSetPrm)) return set_prm(request, answer);
   const bus::Bytes* diagnosis = diagnosis_of(request, answer);
-  if (diagnosis != nullptr && ((*diagnosis)[1] & kPrmReq) != 0) possible_.insert(bus::kMinTsdrBits);  // it may be new
+  if (diagnosis != nullptr && ((*diagnosis)[1] & kPrmReq) != 0)
+    possible_.insert(bus::kMinTsdrBits);  // the slave may have restarted
   if (!asked_ || !exchanged(request, answer)) return;
-  possible_ = {*asked_};  // who exchanges data has accepted the last Set_Prm
+  possible_ = {*asked_};  // a slave in data exchange has accepted the last Set_Prm
   asked_.reset();
 }
 
-/// SC does not say that it was accepted (S14), and a user judges later (S11): until data are exchanged the value before
-/// may be in force as well. RS (S12, S33), an Unlock (S17), a short one (S14) and 0 (S6) leave it.
+/// SC does not say that it was accepted (S14), and a user judges later (S11): until data are exchanged the earlier
+/// value may be in force as well. RS (S12, S33), an Unlock (S17), a short one (S14) and 0 (S6) leave it.
 void MinTsdr::set_prm(const bus::Telegram& request, const RecordedTelegram* answer) {
   const bool heard = answer != nullptr && answer->right();
   if (heard && !acknowledged(answer)) return;

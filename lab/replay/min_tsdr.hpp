@@ -1,5 +1,5 @@
 #pragma once
-// The min_TSDR that a recorded slave has by what its masters have set.
+// The min_TSDR of a recorded slave, from its masters' Set_Prm.
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -14,7 +14,7 @@ class MinTsdr {
   /// `baud`: index of bus/baud.hpp.
   explicit MinTsdr(int baud) : baud_(baud) {}
 
-  /// A request to the slave, in order of time; `answer` null where it was silent.
+  /// A request to the slave, in order of time; `answer` null if it was silent.
   void take(const bus::Telegram& request, const RecordedTelegram* answer);
   /// The least that may be in force for the answer to the last request, bit times.
   int least() const { return *possible_.begin(); }
@@ -25,7 +25,7 @@ class MinTsdr {
 
   int baud_;
   std::set<int> possible_ = {bus::kMinTsdrBits};
-  std::optional<int> asked_;  ///< by a Set_Prm that was acknowledged, and accepted or not
+  std::optional<int> asked_;  ///< by an acknowledged Set_Prm, accepted or not
 };
 
 }  // namespace dsdpv1::tb::replay

@@ -14,7 +14,7 @@
 namespace dsdpv1::tb::replay {
 namespace {
 
-/// The unit of 1 ns, 10 ns ... 1 ms of which all starts are whole numbers; a tick where there is none.
+/// The unit of 1 ns, 10 ns ... 1 ms that divides all starts; a tick if none does.
 Tick resolution_of(const std::vector<RecordedTelegram>& telegrams) {
   constexpr std::array<Tick, 7> kUnits = {bus::kTicksPerMs, bus::kTicksPerMs / 10, bus::kTicksPerMs / 100,
                                           bus::kTicksPerUs, bus::kTicksPerUs / 10, bus::kTicksPerUs / 100,
@@ -67,12 +67,13 @@ Recording Recorder::finish() {
   recording_.baud = baud_.value_or(0);
   divide();
   check();
-  // Of levels a telegram begins with an edge, sampled at whatever rate.
+  // In a recording of levels a telegram begins with an edge, at an unknown sampling rate.
   if (recording_.levels.empty()) recording_.resolution = resolution_of(recording_.telegrams);
   return std::move(recording_);
 }
 
-// --- who sent what ---------------------------------------------------------------------------------------------------
+// --- senders of telegrams
+// ---------------------------------------------------------------------------------------------------
 
 void Recorder::divide() {
   for (std::size_t i = 0; i < recording_.telegrams.size(); ++i) divide(i);
@@ -100,7 +101,7 @@ void Recorder::right(std::size_t index) {
   if (pending_->of_slave) recording_.requests.push_back({index, {}});
 }
 
-/// What comes damaged within the slot time after a request to the slave is the slave's.
+/// A damaged telegram within the slot time after a request to the slave is the slave's.
 void Recorder::wrong(std::size_t index) {
   if (!pending_) return;
   RecordedTelegram& recorded = recording_.telegrams[index];
@@ -123,7 +124,8 @@ void Recorder::follow_address(const RecordedTelegram& answer) {
     address_ = request.data[0] & 0x7FU;
 }
 
-// --- whether it is any use -------------------------------------------------------------------------------------------
+// --- whether it can be used
+// -------------------------------------------------------------------------------------------
 
 void Recorder::check() const {
   const auto fail = [this](const std::string& what) { throw InputError(recording_.name, 0, what); };

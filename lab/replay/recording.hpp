@@ -1,5 +1,5 @@
 #pragma once
-// A capture of the line, divided into what one slave has sent and what all others have.
+// A capture of the line, divided into the telegrams of one slave and those of all others.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@ namespace dsdpv1::tb::replay {
 
 using bus::Tick;
 
-/// A telegram of the capture. Times are the capture's own.
+/// A telegram of the capture. Times are the capture's.
 struct RecordedTelegram {
   Tick start = 0, end = 0;
   std::uint32_t damage = 0;  ///< bits of bus::capture::damage
@@ -41,7 +41,7 @@ struct RecordedRequest {
 
 struct Recording {
   std::string name;          ///< of the file, for messages
-  std::uint8_t slave = 0;    ///< its address where the capture begins
+  std::uint8_t slave = 0;    ///< its address at the beginning of the capture
   int baud = 0;              ///< index of bus/baud.hpp
   Tick resolution = 1;       ///< of the times
   std::size_t left_out = 0;  ///< telegrams of other rates
@@ -50,11 +50,11 @@ struct Recording {
   std::vector<LevelChange> levels;  ///< empty: a capture of telegrams
 
   const RecordedTelegram& request(const RecordedRequest& request) const { return telegrams[request.telegram]; }
-  /// Null where the slave was silent.
+  /// Null if the slave was silent.
   const RecordedTelegram* answer(const RecordedRequest& request) const {
     return request.answer ? &telegrams[*request.answer] : nullptr;
   }
-  /// End of what it holds.
+  /// End of its content.
   Tick end() const { return telegrams.empty() ? 0 : telegrams.back().end; }
 };
 
@@ -67,7 +67,7 @@ class Recorder {
 
   void telegram(const bus::capture::CapturedTelegram& telegram);
   void level(Tick at, bool level) { recording_.levels.push_back({at, level}); }
-  /// Throws InputError where nothing can be replayed: no rate, several rates, no request to the slave, no answer.
+  /// Throws InputError when nothing can be replayed: no rate, several rates, no request to the slave, no answer.
   Recording finish();
 
  private:
@@ -84,7 +84,7 @@ class Recorder {
   void answered(std::size_t index);
   void follow_address(const RecordedTelegram& answer);
   void check() const;
-  /// What to do where this one is of no use.
+  /// Advice for a capture that cannot be used.
   std::string stations() const;
 
   Recording recording_;

@@ -55,7 +55,7 @@ void Replay::prepare_lead_in() {
   lead_in_.then_send(std::move(telegrams));
 }
 
-/// The line has been idle for the lead-in's pause; the capture may begin with an answer.
+/// The line is idle for the lead-in's pause, because the capture may begin with an answer.
 void Replay::begin(Tick free) {
   constexpr int kIdle = 2 * bus::kSynBits;
   const Tick first = placed_.empty() ? 0 : placed_.front().start;
@@ -66,7 +66,7 @@ void Replay::begin(Tick free) {
   line_->begin(first, at);
 }
 
-/// A last answer has its time.
+/// Leaves time for a last answer.
 bool Replay::over(Tick now) const {
   const bus::Baud& rate = bus::baud(recording_.baud);
   constexpr int kLongestAnswer = 256 * bus::kCharacterBits;

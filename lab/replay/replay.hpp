@@ -1,5 +1,5 @@
 #pragma once
-// A capture played to the model, which takes the part of one recorded slave; its answers are held against the recorded
+// Plays a capture to the model, which takes the part of one recorded slave, and compares its answers with the recorded
 // ones.
 #include <functional>
 #include <memory>
@@ -20,24 +20,24 @@ struct ReplayOptions {
   std::string gsd;      ///< absolute path, empty: none
 };
 
-/// A scenario with the slave alone, initialised as the capture shows it, or as the GSD says.
+/// A scenario with only the slave, initialised from the capture or the GSD.
 scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd);
-/// The scenario with nobody but the slave of this address, or the only one, which gets it. Throws InputError.
+/// The scenario with only the slave of this address, or its only slave, which gets the address. Throws InputError.
 scenario::Scenario alone(scenario::Scenario scenario, const Recording& recording);
-/// In words, what the slave is initialised with.
+/// The slave's initialisation in words.
 std::string describe_station(const scenario::Scenario& scenario);
 
 class Replay {
  public:
-  /// All that is given must outlive it; `scenario` has one slave. Throws InputError.
+  /// All arguments must outlive it; `scenario` has one slave. Throws InputError.
   Replay(const Recording& recording, const Firmware& firmware, const scenario::Scenario& scenario,
          const ReplayOptions& options, RunOptions run, std::unique_ptr<Execution> execution);
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  /// Plays to the end, or until `poll` returns false: called with the share that is done, 0 to 1.
+  /// Plays to the end, or until `poll` returns false. `poll` gets the progress, 0 to 1.
   Result run(const std::function<bool(double share)>& poll);
-  /// What the bench says of the run.
+  /// The bench's result of the run.
   const RunResult& bench_result() const { return run_result_; }
   bool wave_is_empty() const { return bench_.wave_is_empty(); }
 
@@ -47,7 +47,7 @@ class Replay {
    public:
     Supplier(Bench& bench, const scenario::Scenario& scenario, const std::vector<Supply>& supplies)
         : bench_(bench), slave_(scenario.slaves.front().name.text), supplies_(supplies) {}
-    /// `at`: where the capture begins, nothing is given before.
+    /// `at`: begin of the capture; nothing is given before.
     void begin(Tick shift, Tick at) {
       shift_ = shift;
       begin_ = at;

@@ -10,7 +10,7 @@
 namespace dsdpv1::tb::replay {
 namespace {
 
-/// What the capture says of a damaged telegram; which of its characters were wrong it does not say.
+/// A damaged telegram; the capture does not show which of its characters were wrong.
 bus::WireFaults faults_of(const RecordedTelegram& telegram) {
   bus::WireFaults faults;
   if ((telegram.damage & bus::capture::damage::kCharacter) != 0) faults.wrong_parity_at = telegram.bytes.size() - 1;
@@ -52,7 +52,7 @@ class TelegramLine : public ReplayedLine, private bus::Listener {
   std::size_t next_ = 0;
 };
 
-/// The recorded levels without what the slave drove, and without what is no telegram any more at the end.
+/// The recorded levels without the slave's, and without an incomplete telegram at the end.
 std::vector<LevelChange> levels_of_others(const Recording& recording) {
   const Tick half_bit = bus::baud(recording.baud).bit / 2;
   std::vector<LevelChange> others;
@@ -62,7 +62,7 @@ std::vector<LevelChange> levels_of_others(const Recording& recording) {
   auto telegram = recording.telegrams.begin();
   for (const LevelChange& change : recording.levels) {
     if (change.at > recording.end()) break;
-    // The last stop bit is high, so that nothing of the slave's is left at the end.
+    // The last stop bit is high, so no level of the slave remains at the end.
     while (telegram != recording.telegrams.end() && (!telegram->of_slave || telegram->end - half_bit < change.at))
       ++telegram;
     const bool of_slave = telegram != recording.telegrams.end() && change.at >= telegram->start - half_bit;
@@ -71,7 +71,7 @@ std::vector<LevelChange> levels_of_others(const Recording& recording) {
   return others;
 }
 
-/// Drives low and lets go for high, so that it meets the model's driver only where the two really disagree.
+/// Drives low and releases for high, so it conflicts with the model's driver only if the two really disagree.
 class LevelLine : public ReplayedLine {
  public:
   LevelLine(bus::Segment& segment, const Recording& recording)

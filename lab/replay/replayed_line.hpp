@@ -1,5 +1,5 @@
 #pragma once
-// What a capture has on the line, but for one slave's part, put on a segment again.
+// Replays a capture on a segment, without one slave's telegrams.
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace dsdpv1::tb::replay {
 
-/// A telegram of the others as it is put on the line; times of the capture. It begins where it was recorded, or, where
-/// the recorded times are too coarse for that, at the end of the one before.
+/// A telegram of the others for the line; times of the capture. It begins at its recorded time, or, if the recorded
+/// times are too coarse, at the end of the one before.
 struct PlacedTelegram {
   std::size_t telegram;  ///< position in Recording::telegrams
   Tick start, end;
@@ -20,7 +20,7 @@ struct PlacedTelegram {
 /// In order of time.
 std::vector<PlacedTelegram> place(const Recording& recording);
 
-/// Plays once it is told when to begin.
+/// Plays once `begin` was called.
 class ReplayedLine : public bus::Agent {
  public:
   /// The first start bit of the capture, at `first` there, falls at `at`.
@@ -41,8 +41,8 @@ class ReplayedLine : public bus::Agent {
   bool begun_ = false;
 };
 
-/// By the levels of the capture where it has them, else by its telegrams in nominal bit times. All that is given must
-/// outlive the line.
+/// Plays the levels of the capture if it has them, else its telegrams in nominal bit times. All arguments must outlive
+/// the line.
 std::unique_ptr<ReplayedLine> make_line(bus::Segment& segment, const Recording& recording,
                                         const std::vector<PlacedTelegram>& placed);
 

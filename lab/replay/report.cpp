@@ -55,7 +55,7 @@ struct Spread {
   Tick min = 0, median = 0, max = 0;
 };
 
-/// Of the requests that both have answered and that are compared; absent without one.
+/// TSDR of the compared requests that both have answered; absent without one.
 template <class Side>
 std::optional<Spread> spread_of(const Result& result, const Side& side) {
   std::vector<Tick> times;
@@ -89,7 +89,7 @@ std::string rule_text(const Result& result) {
 
 // --- tables ----------------------------------------------------------------------------------------------------------
 
-/// Of one service.
+/// The counts of one service.
 struct Counts {
   std::size_t requests = 0, compared = 0, equal = 0, silent = 0, missing = 0, unexpected = 0, bytes = 0, tsdr = 0;
 
@@ -128,7 +128,7 @@ std::string services_table(const Result& result) {
   return table.text();
 }
 
-/// Why requests were not compared, with their number.
+/// The reasons why requests were not compared, with their numbers.
 std::vector<std::pair<Verdict, std::size_t>> left_aside(const Result& result) {
   std::vector<std::pair<Verdict, std::size_t>> all;
   for (std::size_t i = 0; i < kVerdicts; ++i) {

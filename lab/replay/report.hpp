@@ -7,8 +7,7 @@
 
 namespace dsdpv1::tb::replay {
 
-/// Lines and tables, ended by EQUAL or DIFFERENT; `run`: what the bench says of the run, which may have failed all the
-/// same.
+/// Lines and tables, ended by EQUAL or DIFFERENT; `run`: the bench's result of the run, which may have failed even so.
 std::string text(const Result& result, const RunResult& run);
 /// docs/replay.md describes it.
 std::string json(const Result& result);

@@ -1,5 +1,5 @@
 #pragma once
-// What came of a replay: each request to the slave with both answers.
+// The result of a replay: each request to the slave with both answers.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,13 +18,13 @@ enum class Verdict : std::uint8_t {
   kBytes,       ///< other bytes
   kTsdr,        ///< the same bytes at another time
   // Not compared.
-  kBeforeFirstAnswer,  ///< the recorded slave was not there yet
+  kBeforeFirstAnswer,  ///< the recorded slave was not active yet
   kNotParameterised,   ///< the capture begins in the middle of a data exchange
   kNoRate,             ///< the model searched its baud rate
-  kDisturbed,          ///< an answer of the model that the slave did not give reached into it
+  kDisturbed,          ///< it collided with an answer that only the model gave
   kCaptureEnds,        ///< before the slave could answer
   kBeforeWindow,
-  kUserLate,  ///< the user CPU had not yet brought the inputs or the diagnosis, or judged in another time
+  kUserLate,  ///< the user CPU had not yet delivered the inputs or the diagnosis, or judged at another time
   kUserDpv1,  ///< DPV1: the user CPU answered at another poll, or refused for another reason
 };
 constexpr std::size_t kVerdicts = 14;
@@ -34,7 +34,7 @@ const char* name(Verdict verdict);
 bool is_difference(Verdict verdict);
 bool is_compared(Verdict verdict);
 
-/// An answer, whoever gave it.
+/// An answer of either side.
 struct Answer {
   Tick start = 0, tsdr = 0;
   bool right = false;
@@ -48,10 +48,10 @@ struct RequestResult {
   std::string service;
   std::optional<Answer> recorded, model;
   Verdict verdict = Verdict::kEqual;
-  std::string why;  ///< of a difference, in words
+  std::string why;  ///< the reason of a difference, in words
 };
 
-/// How the TSDR of a pair of answers are held against each other.
+/// Comparison of the TSDR of a pair of answers.
 struct TsdrRule {
   std::optional<double> tolerance_bits = {};  ///< absent: both have to be from min_TSDR to max_TSDR
 };
@@ -63,13 +63,13 @@ struct Result {
   Tick resolution = 1;
   std::size_t telegrams = 0, left_out = 0;
   Tick begin = 0, end = 0;  ///< of the capture
-  Tick lead_in = 0;         ///< time that the model had to find the rate before
-  std::string station;      ///< what the model's user CPU gave to it
+  Tick lead_in = 0;         ///< time before it, for the model to find the rate
+  std::string station;      ///< initialisation of the model
   bool started = false;     ///< the lead-in has brought the model into data exchange
   bool inputs_recorded = false;
   TsdrRule rule;
   std::vector<RequestResult> requests;
-  /// What the model sent without a request to it, times of the capture.
+  /// Telegrams of the model without a request, times of the capture.
   std::vector<Answer> unasked;
   bool interrupted = false;
 
@@ -77,7 +77,7 @@ struct Result {
   const RequestResult* first_difference() const;
   std::size_t count(Verdict verdict) const;
   std::size_t compared() const;
-  /// Something was compared, and nothing was found.
+  /// Answers were compared, and no difference was found.
   bool equal() const { return compared() != 0 && first_difference() == nullptr && unasked.empty(); }
 };
 

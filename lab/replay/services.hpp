@@ -20,7 +20,7 @@ inline bool is_data_exchange(const bus::Telegram& request) {
   return !request.dsap && bus::explain_service(request) == "Data_Exchange";
 }
 
-/// Null when there is none, or a wrong one.
+/// Null for a missing or wrong one.
 inline const bus::Telegram* right_answer(const RecordedTelegram* answer) {
   return answer != nullptr && answer->right() ? &answer->decoded.telegram : nullptr;
 }
@@ -41,7 +41,7 @@ inline bool exchanged(const bus::Telegram& request, const RecordedTelegram* answ
   return is_data_exchange(request) && telegram != nullptr && !refused(*telegram);
 }
 
-/// The bytes of a Slave_Diag answer; null when it is none.
+/// The bytes of a Slave_Diag answer; null for any other.
 inline const bus::Bytes* diagnosis_of(const bus::Telegram& request, const RecordedTelegram* answer) {
   const bus::Telegram* telegram = right_answer(answer);
   if (!is_service(request, bus::sap::kSlaveDiag) || telegram == nullptr || telegram->data.size() < kDiagHead)

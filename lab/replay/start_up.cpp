@@ -92,7 +92,7 @@ std::vector<bus::Telegram> start_up_of(const Recording& recording, const user_cp
   const auto to_slave = [&](const bus::Bytes& data, std::uint8_t dsap) {
     return bus::make_telegram(recording.slave, first.sa, kNewSeries, data, dsap, sap::kMaster);
   };
-  // The frame count bit of the last one is the one that the first request of the capture does not have.
+  // The last one has the opposite frame count bit of the capture's first request.
   bus::Telegram last = first;
   last.fc = static_cast<std::uint8_t>(kNewSeries | bus::fc::kFcv);
   const auto of_master = std::find_if(recording.requests.begin(), recording.requests.end(), [&](const auto& each) {

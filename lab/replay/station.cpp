@@ -1,4 +1,4 @@
-// The scenario of a replay: one slave and nobody else.
+// The scenario of a replay, with one slave only.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ scenario::UserCpu user_of(const Firmware& firmware, const ChipKind& kind) {
   return user;
 }
 
-/// Where the capture does not show something, nobody has asked for it.
+/// Properties that the capture does not show were not requested in it.
 scenario::InitData init_of(const Firmware& firmware, bool has_gsd) {
   scenario::InitData init = firmware.init;
   if (has_gsd)
@@ -41,7 +41,7 @@ scenario::InitData init_of(const Firmware& firmware, bool has_gsd) {
   return init;
 }
 
-/// What the bus monitor flags is the recorded line's, on which the model's answers end in other bit times.
+/// Flags of the bus monitor concern the recorded line, on which the model's answers end in other bit times.
 void allow_flags(scenario::Scenario& scenario) {
   for (std::size_t flag = 0; flag < bus::kFlagKinds; ++flag)
     scenario.allow.push_back({{scenario::flag_code(static_cast<bus::FlagKind>(flag)), 0}, {"bus", 0}, 0});

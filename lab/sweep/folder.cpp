@@ -20,7 +20,7 @@ bool is_picture(const std::string& name) {
 
 bool is_result(const std::string& name) { return name == "results.csv" || is_picture(name); }
 
-/// In what `now` is another sweep than `before`.
+/// The difference that makes `now` another sweep than `before`.
 std::string difference(const Json& before, const Json& now) {
   if (before.value("program", Json()) != now["program"]) return "another version of the program";
   if (before.value("content", Json()) != now["content"]) return "another scenario or other content of its files";
@@ -28,8 +28,7 @@ std::string difference(const Json& before, const Json& now) {
   return before == now ? "" : "other settings";
 }
 
-/// What the result of a run says; nullopt when it is no result. Only these exit codes are about the point, see
-/// docs/sweep.md.
+/// The point of a run's result; nullopt for an invalid one. Only these exit codes concern the point, see docs/sweep.md.
 std::optional<Point> statement(int exit, const std::string& error, const Json& result) {
   const bool judged = exit == campaign::kPassed || exit == campaign::kFailed || exit == campaign::kNothingJudged;
   const bool ran = judged && error.empty() && result.is_object();
@@ -60,7 +59,7 @@ Folder::Folder(const fs::path& path, const Json& identity, Access access)
     : folder_(path, kind(), identity, difference, access),
       identity_(campaign::fingerprint(campaign::text_of(identity))) {}
 
-/// With the id of this process: a run of an owner before that has not died yet writes into a file of its own.
+/// With the id of this process: a surviving run of an earlier owner writes into a separate file.
 std::string Folder::result_file(std::size_t point) const {
   return folder_.item_file(fmt::format("{}.{}.run", name_of(point), getpid()));
 }

@@ -18,12 +18,12 @@ struct Colour {
   int red, green, blue;
 };
 
-// Blue and orange are told apart by every kind of eye. Light: little margin or a small violation; dark: much.
+// All kinds of colour vision can tell blue from orange. Light: little margin or a small violation; dark: much.
 constexpr Colour kHoldsLeast = {222, 235, 247}, kHoldsMost = {66, 146, 198};
 constexpr Colour kFailsLeast = {253, 208, 162}, kFailsMost = {230, 85, 13};
 constexpr int kHeight = 34, kTop = 90, kLegend = 74;
-constexpr double kWithoutMargin = 0.6;  // how dark a colour is then
-constexpr double kTextWidth = 34;       // narrower cells bear no number
+constexpr double kWithoutMargin = 0.6;  // darkness of a cell without a margin
+constexpr double kTextWidth = 34;       // narrower cells have no number
 
 Colour between(const Colour& a, const Colour& b, double part) {
   const auto mix = [part](int from, int to) { return from + static_cast<int>(std::lround((to - from) * part)); };
@@ -82,7 +82,7 @@ struct Scale {
     return between(kFailsLeast, kFailsMost, part(-margin, deepest));
   }
 
-  /// What stands in a cell: the margin where there is one that tells.
+  /// The text of a cell: the margin if it is meaningful.
   std::string text(const Point& point) const {
     if (!point.possible()) return "";
     const CheckSeen* worst = shown(point);
@@ -127,7 +127,7 @@ class Map {
   static double y(std::size_t row) { return kTop + kHeight * static_cast<double>(row); }
   double bottom() const { return y(rows_) + 12; }
 
-  /// Room for the values of the second parameter.
+  /// Width for the values of the second parameter.
   double label_width() const {
     if (plan_.parameters.size() < 2) return 24;
     std::size_t longest = plan_.short_name(1).size();
@@ -178,7 +178,7 @@ class Map {
     return text;
   }
 
-  /// Shown where the mouse rests on a cell.
+  /// Shown while the mouse is on a cell.
   std::string title(std::size_t column, std::size_t row) const {
     const Point& point = at(column, row);
     std::string text = plan_.short_name(0) + "=" + plan_.parameters[0].values[column];
@@ -188,7 +188,7 @@ class Map {
     return text + (point.holds() ? "" : ": " + point.reason());
   }
 
-  /// A line between what holds and what does not.
+  /// A line between points that hold and points that do not.
   std::string borders() const {
     std::string path;
     for (std::size_t row = 0; row < rows_; ++row) {
@@ -227,7 +227,7 @@ class Map {
     return text + text_at(12, bottom() + 46, "fill=\"#505050\"", first_violation());
   }
 
-  /// In words, for the first point at the border.
+  /// The reason in words, for the first point at the border.
   std::string first_violation() const {
     for (std::size_t row = 0; row < rows_; ++row) {
       for (std::size_t column = 0; column < columns_; ++column) {

@@ -14,7 +14,7 @@ struct Picture {
 };
 
 /// Cells show the margin of `check`, or when that is empty the worst of all checks. The first parameter runs to the
-/// right, the second downwards; of three and more parameters there is a picture for each combination of the others.
+/// right, the second downwards; with three and more parameters there is a picture for each combination of the others.
 std::vector<Picture> heat_maps(const Plan& plan, const std::vector<Point>& points, const std::string& check = "");
 
 }  // namespace dsdpv1::tb::sweep

@@ -18,9 +18,9 @@ class Inputs {
   /// scenario that cannot be read.
   explicit Inputs(const Plan& plan);
 
-  /// Path and fingerprint of each; null where there is nothing to read.
+  /// Path and fingerprint of each; null for a missing file.
   const nlohmann::ordered_json& content() const { return contents_.all(); }
-  /// Looks at the files of a point again. Throws InputError when one has other content than in the beginning.
+  /// Checks the files of a point again. Throws InputError when the content of one has changed since the beginning.
   Times look(std::size_t point) const { return contents_.look(files_of(point)); }
 
  private:

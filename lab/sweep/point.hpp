@@ -1,5 +1,5 @@
 #pragma once
-// What one point of a sweep has shown, taken from the result file of its run.
+// The result of one point of a sweep, from the result file of its run.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,7 +23,7 @@ struct FirstViolation {
 struct Point {
   int exit = 0;       ///< of the run: 0 passed, 1 failed, 2 the scenario cannot be run like this, 3 nothing was
                       ///< judged, above 128 killed
-  std::string error;  ///< what the run said then
+  std::string error;  ///< the run's error line then
   std::int64_t violations = 0, bad_reads = 0;
   std::vector<CheckSeen> checks;
   std::optional<FirstViolation> first;
@@ -36,7 +36,7 @@ struct Point {
   const CheckSeen* check(const std::string& id) const;
   /// The check with the least margin; null without any.
   const CheckSeen* worst() const;
-  /// Why it does not hold, in a few words; empty when it does.
+  /// A short reason why it does not hold; empty when it does.
   std::string reason() const;
 };
 

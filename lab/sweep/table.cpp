@@ -85,7 +85,7 @@ class Line {
     return matches == 0 ? "none" : text;
   }
 
-  /// Where the violation begins: a point that does not hold beside one that does, else the first that does not.
+  /// The begin of the violation: a point that does not hold beside one that does, else the first that does not.
   std::optional<std::size_t> border() const {
     std::optional<std::size_t> first;
     for (std::size_t i = 0; i < size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace dsdpv1::tb::sweep {
 
-/// The ids of the checks of all points, in the order in which they come.
+/// The ids of the checks of all points, in order of first appearance.
 std::vector<std::string> check_ids(const std::vector<Point>& points);
 
 /// results.csv: a row a point with its parameters, verdict, violations, the worst margin of all and of each check, and

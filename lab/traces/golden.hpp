@@ -19,7 +19,7 @@ std::string trace_path(const std::string& folder, const std::string& name);
 /// Names of all goldens there, in order; throws InputError when there is no such folder.
 std::vector<std::string> golden_names(const std::string& folder);
 
-struct Golden {  // NOLINT(bugprone-exception-escape): what moves throws nothing
+struct Golden {  // NOLINT(bugprone-exception-escape): moving throws nothing
   Json manifest;
   std::unique_ptr<Trace> trace;
 };
@@ -31,7 +31,7 @@ Golden read_golden(const std::string& folder, const std::string& name);
 /// The golden of a scenario, which must be the one that it was made from; throws InputError.
 Golden read_golden(const std::string& folder, const scenario::Scenario& scenario);
 
-/// What the golden of a scenario should be after a run: the content of both files.
+/// The content of both files of a scenario's golden after a run.
 struct NewGolden {
   std::string trace;  ///< decompressed
   Json manifest;
@@ -39,8 +39,8 @@ struct NewGolden {
 /// `tool` names the program, `rulings` is of rulings_of.
 NewGolden make_golden(const scenario::Scenario& scenario, std::string trace, const std::string& tool,
                       const Json& rulings);
-/// Writes those of the two files that are not so already; says whether the trace, the manifest were written. Throws
-/// InputError when one cannot be written (a full disk), and both stay as they are: each without the other is no golden.
+/// Writes those of the two files that differ; returns which were written. Throws InputError when one cannot be written
+/// (a full disk); then both stay unchanged, because one without the other is not a golden.
 struct Written {
   bool trace = false, manifest = false;
 };

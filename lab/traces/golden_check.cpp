@@ -13,7 +13,7 @@ namespace {
 
 constexpr Tick kLongestBits = 255 * 11 + 33;  // the longest telegram, and the pause before it
 
-/// Of several differences at one tick: what a chip does is the cause, what it is given the consequence.
+/// Rank of differences at one tick: a chip's outputs are the cause, its inputs the consequence.
 int rank(const Signal& signal) {
   switch (signal.kind) {
     case Signal::Kind::kOutput: return 0;
@@ -81,7 +81,7 @@ Tick GoldenCheck::earliest() const {
   return least;
 }
 
-/// What the golden has at now_ is told by now, and nothing before `now` comes any more.
+/// All changes of the golden at now_ were compared by now, and no change before `now` follows.
 void GoldenCheck::reached(Tick now) {
   if (difference_ || now == now_) return;
   if (!wrong_.empty() || earliest() < now) settle();
@@ -100,7 +100,7 @@ void GoldenCheck::settle() {
   heard_all_ = heard_ && heard_->end >= at;
 }
 
-/// The first of those that come first in rank is kept.
+/// Keeps the first difference of the highest rank.
 void GoldenCheck::find(Tick at, std::size_t signal, const Side& golden, const Side& here) {
   const Signal& found = golden_.signals()[signal];
   if (difference_ && rank(difference_->signal) <= rank(found)) return;

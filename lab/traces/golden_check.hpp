@@ -1,5 +1,5 @@
 #pragma once
-// A run held against its golden while it goes on.
+// Compares a run with its golden while it runs.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -12,10 +12,10 @@
 
 namespace dsdpv1::tb::traces {
 
-/// What one side does with a signal at the tick of the difference.
+/// A signal of one side at the tick of the difference.
 struct Side {
-  Level level = kLevelX;  ///< that it has then
-  bool changed = false;   ///< to it, at this tick
+  Level level = kLevelX;  ///< at that tick
+  bool changed = false;   ///< changed to it at this tick
 };
 
 struct Difference {
@@ -27,9 +27,9 @@ struct Difference {
 /// "pin READY of io: golden 0, here still 1", "the line: golden still 1, here 0".
 std::string what_differs(const Difference& difference);
 
-/// Told all signals by a Tap, and as an Observer what was on the bus. Compares up to the first difference: at each
-/// tick every signal must change as often and to the same levels as in the golden; in which order signals change within
-/// one tick does not matter.
+/// Gets all signals from a Tap, and the bus as an Observer. Compares up to the first difference: at each tick every
+/// signal must change as often and to the same levels as in the golden. The order of signals within one tick does not
+/// matter.
 class GoldenCheck : public Sink, public Observer {
  public:
   /// Both must outlive it. The signals of the trace are those of the scenario.
@@ -38,17 +38,17 @@ class GoldenCheck : public Sink, public Observer {
   void change(std::size_t signal, Tick at, Level level) override;
   void telegram(const HeardTelegram& heard) override;
 
-  /// All changes before `now` were told.
+  /// All changes before `now` were reported.
   void reached(Tick now);
-  /// The run has come to its end, all changes were told.
+  /// The run has ended, all changes were reported.
   void finish() { reached(bus::kNever); }
 
   const std::optional<Difference>& difference() const { return difference_; }
-  /// Nothing more is needed for `words`: the telegram at the difference has ended as well.
+  /// `words` is complete: the telegram at the difference has ended as well.
   bool done(Tick now) const { return difference_ && (heard_all_ || now > difference_->at + longest_telegram_); }
   /// The first difference in some lines: time, signal and levels, telegram, access.
   std::string words() const;
-  /// Changes that were the same, levels of power-on not counted.
+  /// Number of equal changes, without the levels of power-on.
   std::uint64_t same() const { return matched_ - std::min<std::uint64_t>(matched_, cursors_.size()); }
 
  private:
@@ -67,18 +67,18 @@ class GoldenCheck : public Sink, public Observer {
   const Trace& golden_;
   std::vector<Cursor> cursors_;
   std::vector<Tick> next_;     ///< of each cursor
-  std::vector<Level> levels_;  ///< that the signals have
+  std::vector<Level> levels_;  ///< present levels of the signals
   std::vector<Wrong> wrong_;   ///< the first change of a signal at now_ that the golden does not have
-  Tick now_ = 0;               ///< of the changes told last
+  Tick now_ = 0;               ///< tick of the last reported changes
   std::uint64_t matched_ = 0;
   std::optional<Difference> difference_;
 
   std::size_t pins_;                                     ///< of a slave
   std::vector<std::unique_ptr<AccessReader>> accesses_;  ///< by slave
-  std::string access_;                                   ///< of the slave's user at the difference
+  std::string access_;                                   ///< last access of the slave's user before the difference
   Tick longest_telegram_;
   std::optional<bus::WireTelegram> heard_;  ///< the last one begun before the difference
-  bool heard_all_ = false;                  ///< one has ended after it
+  bool heard_all_ = false;                  ///< a telegram has ended after it
 };
 
 }  // namespace dsdpv1::tb::traces

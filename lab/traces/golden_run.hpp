@@ -1,5 +1,5 @@
 #pragma once
-// A run with its golden beside it: what a command has to do before, during and after it.
+// A run compared with its golden: a command's steps before, during and after it.
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,14 +12,13 @@ namespace dsdpv1::tb::traces {
 
 class GoldenRun {
  public:
-  /// Reads the scenario's golden from `folder` and has the bench tell what it needs; with an empty folder there is
-  /// nothing to be compared. Throws InputError. It must outlive the bench.
+  /// Reads the scenario's golden from `folder` and connects to the bench; with an empty folder nothing is compared.
+  /// Throws InputError. It must outlive the bench.
   GoldenRun(const std::string& folder, const scenario::Scenario& scenario, bus::Segment& segment, RunOptions& options);
 
-  /// Asked from time to time: whether a difference was found and the run need not go on.
+  /// Polled: whether a difference was found and the run need not continue.
   bool over(Tick now);
-  /// After a run that went on to its end, or to the difference: in words what was found; empty when nothing was
-  /// compared.
+  /// Call after the run's end, or after the difference. Returns the result in words; empty when nothing was compared.
   std::string report();
   /// No difference was found so far.
   bool same() const { return !check_ || !check_->difference(); }

@@ -32,7 +32,7 @@ Json files_of(const scenario::Scenario& scenario) {
   return files;
 }
 
-/// Of the chips: what the scenario says, else the default.
+/// Parameters of the chips: the scenario's, else the defaults.
 Json parameters_of(const scenario::Scenario& scenario, const std::string& text) {
   const YAML::Node chip = YAML::Load(text)["chip"];
   Json parameters = {{"kind", scenario.kind->name()},

@@ -1,5 +1,5 @@
 #pragma once
-// All signals of a run as it goes on, for those who write a trace or compare with one.
+// All signals of a run while it runs, for writing a trace or comparing with one.
 #include <vector>
 
 #include "bus/wire/segment.hpp"
@@ -8,7 +8,7 @@
 
 namespace dsdpv1::tb::traces {
 
-/// Hears signals, numbered as in signals_of.
+/// Receives signals, numbered as in signals_of.
 class Sink {
  public:
   virtual ~Sink() = default;
@@ -18,7 +18,7 @@ class Sink {
 
 class Tap : public Observer, private bus::Listener {
  public:
-  /// Listens to the line as a station of its own. Scenario and sinks must outlive it, it the run.
+  /// Listens to the line as a separate station. Scenario and sinks must outlive it, and it must outlive the run.
   Tap(const scenario::Scenario& scenario, bus::Segment& segment);
   void add(Sink& sink) { sinks_.push_back(&sink); }
 

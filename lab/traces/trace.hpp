@@ -1,5 +1,5 @@
 #pragma once
-// A trace as its file holds it once decompressed (docs/traces.md): a head in text, then each signal's changes.
+// A trace in the form of its decompressed file (docs/traces.md): a head in text, then each signal's changes.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -30,7 +30,7 @@ Signals signals_of(const scenario::Scenario& scenario);
 /// "1", "7FF", "Z", "X".
 std::string level_words(const Signal& signal, Level level);
 
-/// Largest trace that is read.
+/// Size limit of a trace.
 constexpr std::size_t kMostBytes = 256U << 20U;
 
 /// Builds a trace from a run.
@@ -58,10 +58,10 @@ class Cursor {
       : times_(times), levels_(levels), left_(entries) {
     step();
   }
-  /// Of the next change; `at` is bus::kNever when there is none.
+  /// The next change; `at` is bus::kNever at the end.
   Tick at() const { return at_; }
   Level level() const { return level_; }
-  /// To the change after it.
+  /// Advances to the change after it.
   void step();
 
  private:
@@ -77,7 +77,7 @@ class Trace {
     std::uint64_t entries = 0;  ///< with the level of power-on
     std::string_view times, levels;
   };
-  /// Reads a decompressed trace; throws InputError, `file` is for its words.
+  /// Reads a decompressed trace; throws InputError, with `file` in its text.
   Trace(std::string content, const std::string& file);
   Trace(const Trace&) = delete;
   Trace& operator=(const Trace&) = delete;
@@ -85,7 +85,7 @@ class Trace {
   const std::string& content() const { return content_; }
   const Signals& signals() const { return signals_; }
   Tick end() const { return end_; }
-  /// Without the level of power-on.
+  /// Number of changes, without the level of power-on.
   std::uint64_t changes(std::size_t signal) const { return columns_[signal].entries - 1; }
   std::uint64_t changes() const;
   Cursor cursor(std::size_t signal) const {

@@ -10,7 +10,7 @@ std::string compress(std::string_view content);
 
 struct Decompressed {
   std::string content;
-  std::string wrong;  ///< empty, or why there is no content: "is no .xz file"
+  std::string wrong;  ///< empty, or the reason why there is no content: "is no .xz file"
 };
 /// At most `most` bytes.
 Decompressed decompress(std::string_view file, std::size_t most);
