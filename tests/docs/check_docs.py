@@ -101,7 +101,7 @@ def sources(root):
     """The project's own, but two tests, whose small projects have other pages."""
     for top in sorted(root.glob("[a-zA-Z]*")):
         for path in [top] if top.is_file() else top.rglob("*") if top.name not in ("build", "out", "traces") else ():
-            if path.suffix in SOURCES and path.is_file() and not path.name not in ("check_docs_test.py", "site_test.py"):
+            if path.suffix in SOURCES and path.is_file() and path.name not in ("check_docs_test.py", "site_test.py"):
                 yield path
 
 
@@ -132,7 +132,7 @@ TRUST = re.compile(r"(<!-- trust: [^\n]*-->\n)(.*?)(?=<!-- /trust -->)", re.S)
 
 
 def figure(root, page, pattern):
-    """The groups of the pattern's only place in docs/PAGE.md."""
+    """The groups of the pattern's only place in a page."""
     found = re.findall(pattern, (root / f"docs/{page}.md").read_text(encoding="utf-8"), re.M)
     if len(found) != 1:
         sys.exit(f"docs/{page}.md:1: {pattern} is there {len(found)} times, README.md takes its figures from there")
