@@ -1,24 +1,24 @@
 #!/usr/bin/env python3
-"""Builds and runs just the tests that a changed file concerns: ./run edit.
+"""Builds and runs only the tests that a changed file concerns: ./run edit.
 
     edit.py [--list] [--all] [FILE...]
 
-FILE: what has changed; without one, what git says has changed since the last commit.
+FILE: a changed file; default: all files that git reports as changed since the last commit.
 
 Which tests a file concerns:
   a source of tests              its suites
-  a file that rulings are in     the tests that docs/conformance/rulings.yaml names for it
-  any other C or C++ file        the suites of the sources of tests that include it, or its header, in the folder of its room where such are
-                                 there; where none do, of those that include what includes it; else those of the folder of tests whose
-                                 name is a word of the file's
+  a file with rulings            the tests that docs/conformance/rulings.yaml names for it
+  any other C or C++ file        the suites of the sources of tests that include it or its header, only those in the folder of its room if there
+                                 are any; without such sources, those that include them indirectly; else the suites in the folder of tests
+                                 named by a word of the file's name
   a scenario                     its runs in step, skip and TLM
   the reference RTL              its lint
   a document                     links, names, rulings, rooms and arrows
-  what a test of ctest names     that test
+  a file on a ctest command line that test
 
-All are built in the preset edit. Of tests whose time is known from an earlier call, the shortest are run, up to 8 s in sum; --all runs them all. What
-else a file may break, ./run test says. Exit codes: 0 all passed, 1 a test failed or does not compile,
-2 wrong input, 3 the files concern no test.
+All are built in the preset edit. If the times of tests are known from an earlier call, only the shortest are run, up to 8 s in total; --all runs
+them all. ./run test shows what else a file may break. Exit codes: 0 all passed, 1 a test failed or does not compile, 2 wrong input, 3 the files
+concern no test.
 """
 import argparse
 import collections
@@ -46,13 +46,13 @@ NO_SOURCES = ("build", "out", "share")
 SUITE = re.compile(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\((\w+),", re.M)
 SECONDS = 600  # of a program: for what hangs
 CALLS_SIM = "tests/app/program.hpp"  # what a test includes that calls the built dsdpv1-sim
-BUDGET = 8  # s of tests in sum
+BUDGET = 8  # s of tests in total
 TIMES = BUILD / "edit_times.json"  # program to its tests to s, of earlier calls
 
 
 @dataclasses.dataclass
 class Sources:
-    """All C and C++ files by their paths: who includes them, and their suites."""
+    """All C and C++ files by path: the files that include them, and their suites."""
     includers: dict
     suites: dict
 
@@ -71,12 +71,13 @@ class Sources:
             self.includers[included].add(name)
 
     def header_of(self, name):
-        """The file's header, itself where there is none."""
+        """The file's header, or the file itself without one."""
         stem = name.rpartition(".")[0]
         return next((stem + ending for ending in HEADERS if stem + ending in self.suites), name)
 
     def nearest_tests(self, name):
-        """Sources with suites that include the file: directly, else through the fewest others; in the folder of its room, where such are there."""
+        """Sources with suites that include the file: directly, or through the fewest others; only those in the folder of its room, if there are
+        any."""
         level, seen = {self.header_of(name)}, set()
         while level:
             seen |= level
@@ -89,7 +90,7 @@ class Sources:
         return set()
 
     def reaching(self, header):
-        """All that include a header, directly or through others."""
+        """All files that include a header, directly or through others."""
         found, open_names = set(), [header]
         while open_names:
             new = self.includers[open_names.pop()] - found
@@ -98,27 +99,27 @@ class Sources:
         return found
 
     def tests_of_words(self, text):
-        """Sources of the folders of tests whose name begins as a word of a name does."""
+        """Sources in the folders of tests whose name begins with a word of `text`."""
         words = re.split(r"[/_.]", text)
         return {each for each, suites in self.suites.items() if suites and
                 any(folder.startswith(word) or word.startswith(folder) for folder in each.split("/")[1:-1] for word in words if len(word) > 2)}
 
 
 def ruled(file):
-    """Names of the tests of the rulings that are in the file."""
+    """Names of the tests of the rulings that concern the file."""
     rulings = yaml.load((ROOT / "docs/conformance/rulings.yaml").read_text(encoding="utf-8"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     return {test.split(" ")[0] for ruling in rulings.values() if {file, file.removeprefix("model/")} & set(ruling.get("model") or [])
             for test in ruling["tests"]}
 
 
 def patterns(name):
-    """Of a suite, or one test of it, those of --gtest_filter, with parameters or without."""
+    """The --gtest_filter for a suite, or one of its tests, with parameters or without."""
     suite, _, test = name.partition(".")
     return {f"{suite}.{test or '*'}", f"*/{suite}.{test or ''}*", f"{suite}/*.{test or '*'}"}
 
 
 class Concern:
-    """What is to be run: programs of GoogleTest with their filters, and tests of ctest."""
+    """The tests to run: programs of GoogleTest with their filters, and tests of ctest."""
 
     def __init__(self, sources, programs):
         self._sources, self._programs = sources, programs
@@ -137,7 +138,7 @@ class Concern:
         return bool(tests or suites)
 
     def _suites_of(self, file):
-        """Sources of tests and the filters of what the file concerns in them."""
+        """Sources of tests, and the filters for the suites in them that the file concerns."""
         suites = self._sources.suites
         if re.fullmatch(r"scenarios/\w+\.yaml", file):
             return {"tests/app/scenarios_test.cpp": {f"*/{pathlib.Path(file).stem}"}}
@@ -153,7 +154,7 @@ class Concern:
 
 
 def programs_of_tests(ninja):
-    """Source to the programs that it is compiled into."""
+    """Maps each source to the programs that it is compiled into."""
     built = set(re.findall(r"^build (\S+): CXX_EXECUTABLE_LINKER__", ninja, re.M))
     found = collections.defaultdict(set)
     for entry in json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8")):
@@ -181,7 +182,7 @@ def tests_by_file(ninja):
 
 
 def changed_files():
-    """What differs from the last commit, new files too."""
+    """Files that differ from the last commit, including new ones."""
     told = subprocess.run(["git", "-C", ROOT, "status", "--porcelain", "--untracked-files=all", "--no-renames"], capture_output=True, text=True, check=True).stdout
     return [line[3:] for line in told.splitlines() if "D" not in line[:2]]
 
@@ -195,7 +196,7 @@ def known_times():
 
 
 def too_long(filters, times, budget):
-    """Of the tests that the filters choose, those beyond the shortest that fit the budget: program to names; and their s in sum."""
+    """Of the tests selected by the filters, those beyond the shortest that fit the budget: program to names; and their total time in s."""
     known = sorted((seconds, program, name) for program, chosen in filters.items() for name, seconds in times.get(program, {}).items()
                    if any(fnmatch.fnmatchcase(name, each) for each in chosen))
     sums = itertools.accumulate(seconds for seconds, _, _ in known)
@@ -207,7 +208,7 @@ def too_long(filters, times, budget):
 
 
 def run_shard(program, chosen, shard, shards):
-    """Passed and failed tests, what the program said when any failed, and the time of each."""
+    """Passed and failed tests, the output if any failed, and the time of each."""
     with tempfile.TemporaryDirectory(prefix="edit-") as folder:
         report = pathlib.Path(folder, "tests.json")
         environment = {**os.environ, "GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(shard), "GTEST_BRIEF": "1"}
@@ -234,7 +235,7 @@ def run_ctest(names, jobs):
 
 
 def run(concern, left_out, times, jobs):
-    """Passed and failed tests; what was said is printed, and the times are kept."""
+    """Passed and failed tests; prints their output and keeps the times."""
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         runs = {}
         for program, filters in sorted(concern.filters.items()):

@@ -1,4 +1,4 @@
-# cmake -D OUTPUT=file.cpp -D NAMESPACE=ns -D FILES="name=path;..." -P embed.cmake: each file as a constant text of C++.
+# cmake -D OUTPUT=file.cpp -D NAMESPACE=ns -D FILES="name=path;..." -P embed.cmake: embeds each file as a constant text of C++.
 set(text "// Made by cmake/embed.cmake from the files named below.\n#include <string_view>\n\nnamespace ${NAMESPACE} {\n")
 foreach(each ${FILES})
   string(REGEX REPLACE "=.*" "" name "${each}")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What did not pass, for the end of a long output: how the output of the first tests ended, then the names of all.
+"""Lists failed tests at the end of a long output: the last lines of the first ones, then the names of all.
 
     failures.py BUILD_FOLDER...      each has the tests.xml of its ctest; the folder's name is the preset's
 """
@@ -9,13 +9,13 @@ import xml.etree.ElementTree as xml
 from pathlib import Path
 
 IN_FULL = 10          # tests whose output is shown
-LEAST, MOST = 15, 60  # lines of it: from the first that speaks of a failure, but at least and at most so many
+LEAST, MOST = 15, 60  # lines of it: from the first that mentions a failure, within these bounds
 WIDTH = 300
 SPEAKS = re.compile("fail|error|attempt 1:|traceback", re.IGNORECASE)
 
 
 def not_passed(folder):
-    """(words, last lines) of each test that failed or was skipped; nothing of a report that is not there."""
+    """(words, last lines) of each test that failed or was skipped; nothing for a missing report."""
     for report in folder.glob("tests.xml"):
         for test in xml.parse(report).iter("testcase"):
             skipped = test.find("skipped")

@@ -9,17 +9,17 @@
 #   python    the module dsdpv1, cocotbext.profibus; the component wheel has what a wheel holds (bindings/python/CMakeLists.txt)
 #   tools     the programs, their man page, completions and data (apps/CMakeLists.txt)
 #   docs      documents, examples, licences
-# A room that others bind (bindings/) calls dsdpv1_install_targets and dsdpv1_install_pc for its own.
+# A room with bindings (bindings/) calls dsdpv1_install_targets and dsdpv1_install_pc for its targets.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(DSDPV1_INSTALL_INCLUDEDIR ${CMAKE_INSTALL_INCLUDEDIR}/dsdpv1)
 set(DSDPV1_INSTALL_CMAKEDIR ${CMAKE_INSTALL_LIBDIR}/cmake/dsdpv1)
-set(DSDPV1_INSTALL_PYTHONDIR lib/python3/dist-packages)  # with the prefix /usr Debian's Python finds it
+set(DSDPV1_INSTALL_PYTHONDIR lib/python3/dist-packages)  # where Debian's Python finds it with the prefix /usr
 set(DSDPV1_INSTALL_DATADIR ${CMAKE_INSTALL_DATADIR}/dsdpv1)
 
-# An archive of g++ that other compilers' programs link with, also where they optimise across files: templates' static members as weak
-# symbols, which every linker merges, not as GNU's unique ones; and machine code beside what g++ alone reads (-flto).
+# Makes an archive of g++ that links with other compilers' programs, even with link-time optimisation: templates' static members as weak symbols,
+# which every linker merges, instead of GNU's unique ones; and machine code beside the data that only g++ reads (-flto).
 function(dsdpv1_link_with_others target)
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "STATIC_LIBRARY" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -27,19 +27,19 @@ function(dsdpv1_link_with_others target)
   endif()
 endfunction()
 
-# A C++ interface lasts for a minor version. No macro for the sources of a shared library: all is visible, and compiled once for both.
+# A C++ interface lasts for a minor version. The sources of a shared library need no macro: everything is visible, and compiled once for both.
 function(dsdpv1_version_library target)
   set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "" VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endfunction()
 
-# Headers by the paths of this repository ("model/dsdpv1/chip.hpp"), and where they are installed also as <dsdpv1/model/dsdpv1/chip.hpp>.
+# Headers by the paths of this repository ("model/dsdpv1/chip.hpp"), and in an installation also as <dsdpv1/model/dsdpv1/chip.hpp>.
 function(dsdpv1_export_includes target)
   set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES
     "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>;$<INSTALL_INTERFACE:${DSDPV1_INSTALL_INCLUDEDIR};${CMAKE_INSTALL_INCLUDEDIR}>")
 endfunction()
 
-# What has been compiled in asks nothing of those who link.
+# Compiled-in libraries add no requirements for programs that link.
 function(dsdpv1_export_links target)
   get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
   if(links)
@@ -83,7 +83,8 @@ function(dsdpv1_install_headers component)
           PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE)
 endfunction()
 
-# dsdpv1_install_former_header(COMPONENT ROOT FORMER NOW): at the path FORMER, which it had before 0.2, a header that includes NOW. To go with 0.4.
+# dsdpv1_install_former_header(COMPONENT ROOT FORMER NOW): installs at FORMER, the path before 0.2, a header that includes NOW. Will be removed with
+# 0.4.
 function(dsdpv1_install_former_header component root former now)
   cmake_path(GET former PARENT_PATH folder)
   file(RELATIVE_PATH way /${folder} /${now})
@@ -96,8 +97,8 @@ function(dsdpv1_install_former_header component root former now)
   install(FILES ${file} DESTINATION ${root}/${folder} COMPONENT ${component})
 endfunction()
 
-# dsdpv1_install_pc(COMPONENT NAME DESCRIPTION [LIBS libraries...] [REQUIRES modules...]): NAME.pc for pkg-config; what archives
-# need is needed by everybody who links with them, what a shared library needs is its own affair.
+# dsdpv1_install_pc(COMPONENT NAME DESCRIPTION [LIBS libraries...] [REQUIRES modules...]): NAME.pc for pkg-config; programs that link with archives
+# need the archives' requirements, while a shared library brings its own.
 function(dsdpv1_install_pc component name description)
   cmake_parse_arguments(ARG "SHARED" "" "LIBS;REQUIRES" ${ARGN})
   set(requires_word Requires)
@@ -120,7 +121,7 @@ function(dsdpv1_install_package)
   configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/dsdpv1-config.cmake.in ${config}
                                 INSTALL_DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} NO_SET_AND_CHECK_MACRO)
   write_basic_package_version_file(${version} COMPATIBILITY SameMinorVersion)
-  # With every component: each can be the only one that is installed.
+  # Installed with every component, because each may be the only one.
   foreach(component core driver bus checks systemc capi dpi python tools)
     install(FILES ${config} ${version} ${PROJECT_SOURCE_DIR}/cmake/systemc.cmake
             DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT ${component})
@@ -136,7 +137,7 @@ function(dsdpv1_install_core_and_driver)
   dsdpv1_install_pc(driver dsdpv1-driver "driver for the DSDPV1, in C99" LIBS dsdpv1_driver)
 endfunction()
 
-# dsdpv1_install_moved_headers(ROOM FORMER [NAME]): the headers of ROOM, or that of this name, also at their paths of before.
+# dsdpv1_install_moved_headers(ROOM FORMER [NAME]): installs the headers of ROOM, or the one with this name, also at their former paths.
 function(dsdpv1_install_moved_headers room former)
   set(name *)
   if(ARGN)
@@ -183,7 +184,7 @@ function(dsdpv1_install_capi)
   dsdpv1_install_pc(capi dsdpv1-capi "the DSDPV1 with bus, masters, checks and scenarios, in C" SHARED LIBS dsdpv1)
 endfunction()
 
-# What simulators load, beside libdsdpv1.so, and what they compile.
+# The libraries that simulators load, beside libdsdpv1.so, and the sources that they compile.
 function(dsdpv1_install_dpi)
   if(NOT TARGET dsdpv1_dpi)
     return()
@@ -198,7 +199,7 @@ function(dsdpv1_install_dpi)
   endif()
 endfunction()
 
-# The packages of Python where Debian's are. They load the library of the component capi, by a link that names it from there.
+# The Python packages, in the place of Debian's. They load the library of the component capi through a link.
 function(dsdpv1_install_python)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/bindings/python/dsdpv1 bindings/cocotb/cocotbext DESTINATION ${DSDPV1_INSTALL_PYTHONDIR} COMPONENT python
           PATTERN "__pycache__" EXCLUDE)
@@ -220,7 +221,7 @@ function(dsdpv1_install_docs)
   install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE REUSE.toml DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
   install(DIRECTORY docs LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs PATTERN "*.py" EXCLUDE)
   install(DIRECTORY examples DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs PATTERN ".clang-tidy" EXCLUDE)
-  # Sources that firmware takes along, for the example and for products.
+  # Sources used by firmware, for the example and for products.
   install(DIRECTORY driver DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs
           FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "systemc" EXCLUDE)
   install(FILES registers/dsdpv1_regs.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/registers COMPONENT docs)
@@ -228,7 +229,7 @@ function(dsdpv1_install_docs)
   dsdpv1_install_former_header(docs ${DSDPV1_INSTALL_DATADIR} tb/dsdpv1/user_cpu/arm/mailbox.h board/firmware/mailbox.h)
 endfunction()
 
-# --component dsdpv1, which once was the only one: core, driver and SystemC modules as before. To go with 0.3 (docs/install.md).
+# --component dsdpv1, once the only one: core, driver and SystemC modules as before. Will be removed with 0.3 (docs/install.md).
 function(dsdpv1_install_former_component)
   install(CODE [[
     foreach(component core driver systemc bus)
@@ -239,7 +240,7 @@ function(dsdpv1_install_former_component)
     COMPONENT dsdpv1 EXCLUDE_FROM_ALL)
 endfunction()
 
-# The bill of materials of what is there when all else has been installed, as installing changes programs.
+# The bill of materials of an installation, made last because installing changes programs.
 function(dsdpv1_install_sbom)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   set(lib ${CMAKE_INSTALL_LIBDIR})
@@ -252,7 +253,7 @@ function(dsdpv1_install_sbom)
     COMPONENT docs)
 endfunction()
 
-# Builds what is installed, and no tests: `./run examples`.
+# Builds everything that is installed, without tests: `./run examples`.
 function(dsdpv1_installed_target)
   add_custom_target(dsdpv1_installed)
   foreach(target core driver bus checks systemc driver_systemc systemc_bus capi dpi vpi modules python pages rtl_libraries firmware)

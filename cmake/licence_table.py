@@ -1,4 +1,4 @@
-"""The table of docs/licences.md: what others have made, under which licence, and where it goes."""
+"""The table of docs/licences.md: third-party components, their licences, and the programs that use them."""
 import pathlib
 import re
 
@@ -7,7 +7,7 @@ TABLE = re.compile(r"<!-- licences -->\n(.*?)<!-- /licences -->", re.S)
 
 
 class Row:
-    """A dependency as the page has it."""
+    """A dependency as shown on the page."""
 
     def __init__(self, line):
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
@@ -22,5 +22,5 @@ def rows_of(text):
 
 
 def label_of(program):
-    """As the page calls it: tests are one, others go by their names, libraries without their versions."""
+    """The name on the page: all tests are "tests", other programs have their names, libraries no version."""
     return "tests" if program.startswith("tests/") else re.sub(r"\.so\..*", ".so", pathlib.PurePosixPath(program).name)

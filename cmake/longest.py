@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tests that took longest: seconds, the preset, the name, a line each.
+"""Lists the slowest tests: seconds, preset and name, one per line.
 
     longest.py BUILD_FOLDER...      each has the tests.xml of its ctest; the folder's name is the preset's
 """

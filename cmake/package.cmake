@@ -1,5 +1,5 @@
-# cpack -G DEB, cpack -G TGZ: all components in one package. What is linked is found by dpkg-shlibdeps; what is needed to build with the libraries
-# is recommended, which apt installs unless told otherwise.
+# cpack -G DEB, cpack -G TGZ: all components in one package. dpkg-shlibdeps finds the linked libraries; packages needed to build with the libraries
+# are recommended, which apt installs by default.
 set(DSDPV1_PACKAGE_CONTACT "the dsdpv1 authors <dsdpv1@invalid>" CACHE STRING "Who is responsible for packages: NAME <ADDRESS>")
 mark_as_advanced(DSDPV1_PACKAGE_CONTACT)
 
@@ -23,13 +23,13 @@ set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, pkg-config, libfmt-dev, libsyst
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "verilator, iverilog, gcc-arm-none-eabi, gdb-multiarch, gtkwave, wireshark")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# Who is packaged with one of the shared libraries depends on this package, and the linker's cache learns of it.
+# A package of a program that uses the shared libraries depends on this package; the linker's cache is updated.
 set(debian ${PROJECT_BINARY_DIR}/debian)
 file(WRITE ${debian}/shlibs "libdsdpv1 0 dsdpv1 (>= ${PROJECT_VERSION})\nlibdsdpv1_dpi 0 dsdpv1 (>= ${PROJECT_VERSION})\n")
 file(WRITE ${debian}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${debian}/shlibs ${debian}/triggers)
 
-# Debian's own changelog says no more than that there is CHANGELOG.md; its date is from there.
+# Debian's changelog only refers to CHANGELOG.md, which provides its date.
 file(STRINGS ${PROJECT_SOURCE_DIR}/CHANGELOG.md entry REGEX "^## \\[${PROJECT_VERSION}\\] - ")
 string(REGEX MATCH "[0-9-]+$" date "${entry}")
 execute_process(COMMAND date -R -u -d "${date}" OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)

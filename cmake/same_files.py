@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Compares two folders byte by byte: prints a line for each file that is not the same in both, tab-separated, and how many are; exit 1 when any differs.
+"""Compares two folders byte by byte: prints a line for each file that differs, tab-separated, and the number of equal files; exit 1 if any
+differs.
 
-    same_files.py ONE OTHER
+  same_files.py ONE OTHER
 """
 import filecmp
 import pathlib

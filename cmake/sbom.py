@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The software bill of materials of what has been installed, as SPDX 2.3 in JSON: programs and libraries with their SHA-256, what is in each, with
-versions and licences, and what built and tested them. From the table of docs/licences.md, which a test holds against the link lines, and from dpkg and
-the lists of PyPI's packages. The same files always have the same text.
+"""Writes the software bill of materials of an installation as SPDX 2.3 in JSON: programs and libraries with their SHA-256, the contents of each with
+versions and licences, and the tools that built and tested them. Sources: the table of docs/licences.md, which a test compares with the link lines, dpkg
+and the lists of PyPI's packages. The same files always give the same text.
 
-    sbom.py OUTPUT VERSION FILE...        files that are not there are left out
+    sbom.py OUTPUT VERSION FILE...        missing files are skipped
 """
 import datetime
 import hashlib
@@ -32,10 +32,10 @@ def identifier(kind, name):
 
 
 def debian_versions(packages):
-    """Package to version and architecture, of those that are installed."""
+    """Maps packages to version and architecture, if they are installed."""
     told = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version} ${Architecture}\\n", *sorted(packages)], capture_output=True, text=True, check=False)
     words = (line.split() for line in told.stdout.splitlines())
-    return {each[0]: (each[1], each[2]) for each in words if len(each) == 3}  # one that is known and not installed has no version
+    return {each[0]: (each[1], each[2]) for each in words if len(each) == 3}  # a known package that is not installed has no version
 
 
 def python_versions():
@@ -44,7 +44,7 @@ def python_versions():
 
 
 def where_from(name, debian, python):
-    """Version and package URL; None where neither has it."""
+    """Version and package URL; None if neither has it."""
     if name in python:
         return python[name], f"pkg:pypi/{re.sub(r'[-_.]+', '-', name).lower()}@{python[name]}"
     if name in debian:
@@ -77,7 +77,7 @@ def relations_of(row, here, files):
 
 
 def created():
-    """When what is built was committed, or what SOURCE_DATE_EPOCH says (https://reproducible-builds.org/specs/source-date-epoch/)."""
+    """The commit time of the built sources, or SOURCE_DATE_EPOCH (https://reproducible-builds.org/specs/source-date-epoch/)."""
     told = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%ct"], capture_output=True, text=True, check=False).stdout.strip()
     seconds = int(os.environ.get("SOURCE_DATE_EPOCH") or told or 0)
     return datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
@@ -92,7 +92,7 @@ def document(version, files):
     for file in files:
         packages.append(built(file))
         relations.append(relation(PACKAGE, "CONTAINS", identifier("Built", file.name)))
-    for number, row in enumerate(rows):  # a package can have several, with licences of their own
+    for number, row in enumerate(rows):  # a package can have several, each with its licence
         for name in row.packages:
             here = identifier("Dependency", f"{number}-{name}")
             origin, found = where_from(name, debian, python), relations_of(row, here, files)

@@ -1,8 +1,8 @@
 # Finds SystemC and TLM through pkg-config (Debian ships no CMake package): target PkgConfig::SYSTEMC.
 # Used by the build and, installed, by dsdpv1-config.cmake.
 #
-# libsystemc exports a symbol with the C++ standard it was built for, and only that standard links. A program tells: by default
-# it must be C++17, like everything here.
+# libsystemc exports a symbol with the C++ standard it was built for, and only programs in that standard link. The caller states the program's
+# standard: C++17 by default, as in this project.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SYSTEMC REQUIRED IMPORTED_TARGET systemc tlm)
 

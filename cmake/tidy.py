@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over source files and remembers what was clean.
+"""Runs clang-tidy over source files and remembers the clean ones.
 
     tidy.py BUILD_FOLDER [-j N] FILE...
 
-BUILD_FOLDER holds compile_commands.json and a finished Ninja build: ninja knows what each source includes. A file is looked at
-again when it, one of the project's headers it includes, its command, .clang-tidy or clang-tidy itself has changed. Each is looked at
-alone, also what CMake compiles together, or does not compile itself. Exit 1 when something was found.
+BUILD_FOLDER holds compile_commands.json and a finished Ninja build, from which the includes of each source are known. A file is checked
+again if the file, one of the project's headers that it includes, its command, .clang-tidy or clang-tidy has changed. Each is checked
+separately, even if CMake compiles several together or does not compile it. Exit 1 if there are findings.
 """
 import argparse
 import hashlib
@@ -28,7 +28,7 @@ def output_of(*command):
 
 
 def sources_of(entry):
-    """What is compiled: the file, or those that a unity source of CMake's includes."""
+    """The compiled file, or those included by a unity source of CMake."""
     file = Path(entry["file"])
     if not file.name.startswith("unity_"):
         return [file.resolve()]
@@ -37,14 +37,14 @@ def sources_of(entry):
 
 
 def for_clang(command):
-    """Without what clang does not know, and without precompiled headers: a file includes what it needs."""
+    """Removes options unknown to clang, and precompiled headers: a file includes what it needs."""
     for option in OF_GCC_ALONE:
         command = command.replace(option, "")
     return re.sub(r" -Winvalid-pch -include \S*/cmake_pch\.hxx", "", command)
 
 
 def read_commands(build):
-    """Source -> its entry in the compile database, as if compiled alone; of one that is compiled twice, the first."""
+    """Source -> its entry in the compile database, as if compiled alone; if it is compiled twice, the first."""
     commands = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         for source in sources_of(entry):
@@ -59,7 +59,7 @@ def object_of(entry):
 
 
 def apart_options(source, build):
-    """Of what CMake has no command for: the ARM board's firmware, what Verilator's make compiles, projects of an installed package."""
+    """Entries for sources without a command of CMake: the ARM board's firmware, output of Verilator's make, projects of an installed package."""
     if source.suffix == ".c":
         return f"--target=thumbv7m-none-eabi -std=c99 -ffreestanding -isystem {ROOT}/examples/firmware/freestanding -I{ROOT}"
     top = "dsdpv1_rsu" if source.name.startswith("rsu_") else "dsdpv1"
@@ -75,7 +75,7 @@ def apart_entry(source, build):
 
 
 def apart_headers(entry):
-    """As clang itself finds them."""
+    """As found by clang itself."""
     words = shlex.split(entry["command"])
     rule = output_of(*words[:words.index("-c")], "-MM", entry["file"])
     paths = {Path(word).resolve() for word in rule.replace("\\\n", " ").split()[1:]}
@@ -83,7 +83,7 @@ def apart_headers(entry):
 
 
 def read_dependencies(build):
-    """Object -> the files of this project that it was made from."""
+    """Object -> the files of this project that it depends on."""
     dependencies, current = {}, []
     for line in output_of("ninja", "-C", str(build), "-t", "deps").splitlines():
         if line.startswith("    "):
@@ -111,7 +111,7 @@ def digest_of(settings, command, files):
 
 
 def files_of(source, entry, commands, dependencies):
-    """The source and the headers of its object, of which it may be only a part: then they are more than it includes."""
+    """The source and the headers of its object; if the source is only a part of it, there are more headers than it includes."""
     if source not in commands:
         return apart_headers(entry)
     made_from = dependencies.get(object_of(entry), [])
@@ -119,7 +119,7 @@ def files_of(source, entry, commands, dependencies):
 
 
 def look_at(database, source, clean):
-    """Prints what clang-tidy finds; `clean` is made when it finds nothing."""
+    """Prints clang-tidy's findings; creates `clean` if there are none."""
     result = subprocess.run(
         [CLANG_TIDY, "--quiet", "-p", str(database), source], capture_output=True, text=True, check=False
     )

@@ -1,4 +1,4 @@
-# Settings of the build as a whole; they are the parent's business when this project is a part of another.
+# Settings of the build as a whole; if this project is a part of another, the parent makes them.
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
 endif()
@@ -15,13 +15,13 @@ if(DSDPV1_CCACHE)
   endforeach()
 endif()
 
-# Where it is there: it links in a tenth of the time that GNU's linker takes.
+# Used if present: it links in a tenth of the time of GNU's linker.
 find_program(DSDPV1_MOLD mold)
 mark_as_advanced(DSDPV1_MOLD)
 if(DSDPV1_MOLD)
   add_link_options(-fuse-ld=mold)
 endif()
 
-# No program names the folder that it was built in: two builds in different folders are the same (./run reproducible).
+# Programs do not contain the path of their build folder: builds in different folders are equal (./run reproducible).
 add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)

@@ -45,7 +45,7 @@ void History::write_wave(const std::string& path, Tick end) const {
     for (std::size_t i = 0; i < pins_.size(); ++i)
       if (belongs(side, pins_[i])) writer->set(begin, signals.at(side).at(i), levels_.at(side).at(i));
   }
-  // Each side tells its changes in order of time, the sides in turns.
+  // Each side reports its changes in order of time, one side after the other.
   std::vector<Change> ordered(changes_.begin(), changes_.end());
   std::stable_sort(ordered.begin(), ordered.end(), [](const Change& a, const Change& b) { return a.at < b.at; });
   for (const Change& change : ordered)

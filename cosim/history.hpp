@@ -1,6 +1,5 @@
 #pragma once
-// The last cycles of a lockstep run: what changed at the inputs, at the model's outputs and at the RTL's; and as a
-// wave.
+// The last cycles of a lockstep run: changes of the inputs, of the model's outputs and of the RTL's, also as a wave.
 #include <array>
 #include <deque>
 #include <string>
@@ -23,10 +22,10 @@ class History {
 
   void begin(Side side, PinNumber pin, Level level) { levels_.at(static_cast<std::size_t>(side)).at(pin) = level; }
   void add(Tick at, Side side, PinNumber pin, Level level);
-  /// Writes what happened in the last cycles up to `end` to `path` (.vcd, .fst): scopes inputs, model, rtl, one below
-  /// the other. Throws tb::InputError.
+  /// Writes the changes of the last cycles up to `end` to `path` (.vcd, .fst): scopes inputs, model, rtl. Throws
+  /// tb::InputError.
   void write_wave(const std::string& path, Tick end) const;
-  /// The last telegram that the chip heard; see LineHistory.
+  /// The last telegram that the chip received; see LineHistory.
   LineTelegram last_telegram(int rate) const { return line_.last_telegram(rate); }
 
  private:

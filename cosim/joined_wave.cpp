@@ -11,7 +11,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// A wave that is the difference alone.
+/// Writes a wave that contains only the difference.
 void write_difference(const std::string& path, const Difference& difference) {
   const std::unique_ptr<tb::WaveWriter> writer = tb::open_wave(path);
   writer->open_scope("lockstep");
@@ -31,7 +31,7 @@ JoinedWave::~JoinedWave() {
   for (const std::unique_ptr<tb::NameToRemove>& each : parts_) ::unlink(each->text().c_str());
 }
 
-/// FST keeps blanks in words, and is small.
+/// FST keeps blanks in words, and its files are small.
 std::string JoinedWave::part(const std::string& name) {
   parts_.push_back(std::make_unique<tb::NameToRemove>(fmt::format("{}/{}-{}.fst", folder_, ::getpid(), name)));
   return parts_.back()->text();

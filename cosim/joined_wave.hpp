@@ -1,5 +1,5 @@
 #pragma once
-// One wave of a run in lockstep: the model's side, beside it the inside of the user's RTL, and where they differ.
+// One wave of a lockstep run: the model's side, internal signals of the user's RTL, and their difference.
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace dsdpv1::cosim {
 
-/// Until it is finished its parts are in files of their own in the folder of the build, which go with it.
+/// Until it is finished, its parts are in separate files in the build folder, which are then removed.
 class JoinedWave {
  public:
   /// `path`: .vcd or .fst. `folder`: for the parts.
@@ -19,12 +19,12 @@ class JoinedWave {
   JoinedWave(const JoinedWave&) = delete;
   JoinedWave& operator=(const JoinedWave&) = delete;
 
-  /// Where the model's side is to be written.
+  /// The file for the model's side.
   const std::string& model() const { return model_; }
-  /// What the RTL of the chip in the model's scope `chip` is to record, into the scope `chip`.rtl.
+  /// What the RTL of the chip in the model's scope `chip` records, in scope `chip`.rtl.
   RtlTrace trace(const std::string& chip, Tick from = 0, Tick to = bus::kNever);
-  /// Writes the wave, once all sides are there: the RTL is gone. With a difference its scope `lockstep` tells it.
-  /// Throws tb::InputError.
+  /// Writes the wave once all sides are complete and the RTL is destroyed. A difference is shown in its scope
+  /// `lockstep`. Throws tb::InputError.
   void finish(const std::optional<Difference>& difference);
 
  private:

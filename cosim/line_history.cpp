@@ -19,7 +19,7 @@ std::string bytes_text(const bus::Bytes& bytes) {
   return text;
 }
 
-/// Reads characters from the edges of a line and keeps the telegram begun last.
+/// Reads characters from the edges of a line and keeps the telegram that began last.
 class LineReader {
  public:
   explicit LineReader(int rate) : bit_(bus::baud(rate).bit) {

@@ -1,5 +1,5 @@
 #pragma once
-// The last edges of a line, and the telegram that they were.
+// The last edges of a line, and the telegram derived from them.
 #include <deque>
 #include <string>
 
@@ -9,17 +9,17 @@ namespace dsdpv1::cosim {
 
 using bus::Tick;
 
-/// What a station of the segment sent last, as far as it can be read from the edges of the line.
+/// The last telegram of a station of the segment, as far as the edges of the line show it.
 struct LineTelegram {
   Tick start = 0;
-  std::string text;  ///< in words; empty when there was none
+  std::string text;  ///< as text; empty if there was none
 };
 
 class LineHistory {
  public:
   void add(Tick at, bool level);
-  /// The last telegram; `rate` 0..9 is that of the chip, anything else: as the shortest pulse says.
-  /// `until`: characters that end later are left out; left out itself: the line is taken to stay as it is.
+  /// The last telegram; `rate` 0..9 is that of the chip, otherwise the shortest pulse determines it. `until`: ignores
+  /// characters that end later; by default the line is assumed to keep its level.
   LineTelegram last_telegram(int rate, Tick until = bus::kNever) const;
 
  private:

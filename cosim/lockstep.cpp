@@ -89,8 +89,7 @@ void Lockstep::watch_change(Tick at, PinNumber pin, Level level) {
   if (const std::optional<Tick> end = watch_->take_end()) ended_ = end;
 }
 
-/// The model is stopped wherever one of its accesses ends, because the RTL's memory can be seen at its present time
-/// only.
+/// The model stops at the end of each of its accesses, because the RTL's memory can only be read at its present time.
 void Lockstep::advance(Tick to) {
   if (ends_later()) look_at_memory(to);
   for (Tick next = model_->next_event(); next <= to && !difference_; next = model_->next_event()) {
@@ -106,7 +105,7 @@ void Lockstep::advance(Tick to) {
   settle(to);
 }
 
-/// Where ticks are evaluated when they are over.
+/// For RTL that evaluates a tick after its end.
 void Lockstep::look_at_memory(Tick to) {
   if (ended_ && *ended_ < to && !difference_) access_ended(*std::exchange(ended_, std::nullopt));
 }

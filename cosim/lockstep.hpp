@@ -1,6 +1,6 @@
 #pragma once
-// Model and RTL side by side on the same inputs: every change of every output pin is compared, and the memory that chip
-// and user share at the end of each access that can have changed it. Whoever drives the chip sees the model's outputs.
+// Model and RTL with the same inputs: compares every change of every output pin, and the memory shared by chip and user
+// at the end of each access that can have changed it. The driver of the chip sees the model's outputs.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,11 +16,11 @@ namespace dsdpv1::cosim {
 
 struct LockstepOptions {
   Tolerances tolerances{};
-  bool compare_dpram = true;  ///< as far as the RTL lets it be seen
-  int history_cycles = 5000;  ///< that the wave of a difference shows
+  bool compare_dpram = true;  ///< if the RTL's memory can be read
+  int history_cycles = 5000;  ///< shown in the wave of a difference
 };
 
-/// The first difference in words, one thing a line.
+/// The first difference as text, one item per line.
 struct Difference {
   Tick at = 0;
   std::string what;            ///< pin or cell and both values: one line
@@ -29,15 +29,15 @@ struct Difference {
   std::string dpram_accesses;  ///< the chip's last one
 };
 
-/// A level in words: "1", "3F", "Z", "X".
+/// A level as text: "1", "3F", "Z", "X".
 std::string level_text(int width, Level level);
 
-/// All of it as text: cycle, time, what, last telegram and access.
+/// Everything as text: cycle, time, difference, last telegram and access.
 std::string describe(const Difference& difference);
 
 struct MatchCounts {
   std::uint64_t cycles = 0;        ///< compared up to here
-  std::uint64_t pin_changes = 0;   ///< that both sides made
+  std::uint64_t pin_changes = 0;   ///< made by both sides
   std::uint64_t dpram_images = 0;  ///< compared as a whole
 
   void add(const MatchCounts& other) {
@@ -49,11 +49,11 @@ struct MatchCounts {
 
 class Lockstep : public tb::PinDevice {
  public:
-  /// `model`, fresh from ChipKind::make_device, and `rtl` with these parameters. Of a kind that has an RtlOf.
+  /// `model`, fresh from ChipKind::make_device, and `rtl` with these parameters. The kind must have an RtlOf.
   Lockstep(std::unique_ptr<tb::PinDevice> model, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
            const tb::OwnSettings& chip, const LockstepOptions& options = {});
 
-  // Outputs, events and what no pin shows are the model's.
+  // Outputs, events and internal state are the model's.
   void set(Tick at, PinNumber pin, Level level) override;
   void advance(Tick to) override;
   Tick now() const override { return model_->now(); }
@@ -74,15 +74,15 @@ class Lockstep : public tb::PinDevice {
   }
   const char* works_on() const override { return model_->works_on(); }
 
-  /// Told each change at the pins of all sides: of each side in order of time, the sides in turns.
+  /// Called for each change at the pins of all sides: each side in order of time, one side after the other.
   using PinListener = std::function<void(Tick at, Side side, PinNumber pin, Level level)>;
   void on_pin(PinListener listener) { on_pin_ = std::move(listener); }
 
   /// The first difference; nothing is compared after it.
   const std::optional<Difference>& difference() const { return difference_; }
   const MatchCounts& counts() const;
-  /// The last cycles of both sides; they are run some cycles further, so that the wave shows what follows a difference.
-  /// Nobody else is told of that.
+  /// Writes the last cycles of both sides; runs them some cycles further, so that the wave also shows what follows a
+  /// difference. Listeners are not called for that.
   void write_wave(const std::string& path);
 
  private:
@@ -104,11 +104,11 @@ class Lockstep : public tb::PinDevice {
   PinComparator comparator_;
   History history_;
   std::unique_ptr<MemoryWatch> watch_;
-  std::vector<std::uint8_t> image_;  ///< of the RTL's memory
+  std::vector<std::uint8_t> image_;  ///< the RTL's memory
   tb::PinSink sink_;
   PinListener on_pin_;
   tb::PinMask watched_ = 0;
-  std::optional<Tick> ended_;  ///< an access of the model has ended, the memory is not compared yet
+  std::optional<Tick> ended_;  ///< an access of the model has ended, the memory has not been compared yet
   std::optional<Difference> difference_;
   mutable MatchCounts counts_;
   Tick compared_to_ = 0;

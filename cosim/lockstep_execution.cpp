@@ -11,7 +11,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// Throws for a kind that has none.
+/// Throws for a kind without RTL.
 std::unique_ptr<Rtl> rtl_of(const MakeRtl& make, const tb::ChipKind& kind, const tb::ChipRequest& request) {
   if (kind.rtl() != nullptr) return make(request.name, kind, request.settings);
   std::vector<std::string> with_rtl;

@@ -11,7 +11,7 @@
 
 namespace dsdpv1::cosim {
 
-/// The RTL drives the pins. A core beside it, on the same inputs, tells states and events, which pins do not show.
+/// The RTL drives the pins. A core with the same inputs reports states and events, which pins do not show.
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make);
 
 /// Model and RTL side by side for every chip of the scenario; ends with the first difference.
@@ -23,12 +23,12 @@ class LockstepExecution : public tb::Execution {
   void run(tb::Tick end, const std::function<bool()>& stopped) override;
 
   bool broken_off() override { return different() != nullptr; }
-  /// The chip with the first difference, null when there was none.
+  /// The chip with the first difference, null without one.
   Lockstep* different();
   const std::string& different_name();
-  /// Of all chips together; cycles of the one compared furthest.
+  /// For all chips together; cycles of the one compared furthest.
   MatchCounts counts() const;
-  /// Counts up to the first difference, and that.
+  /// Counts up to the first difference, and the difference.
   tb::LockstepResult result();
 
  private:
@@ -41,8 +41,8 @@ class LockstepExecution : public tb::Execution {
   std::vector<Chip> chips_;
 };
 
-/// What a lockstep run ends with: the counts of what matched, or the first difference, for which a wave is written to
-/// `wave` (empty: none). True when there was no difference.
+/// The result of a lockstep run: the counts of matches, or the first difference, for which a wave is written to `wave`
+/// (empty: none). Returns true without a difference.
 bool report(LockstepExecution& execution, const std::string& wave, std::string& text);
 
 }  // namespace dsdpv1::cosim

@@ -1,9 +1,9 @@
 #pragma once
-// Compares the pin changes of two chips that get the same inputs.
+// Compares the pin changes of two chips with the same inputs.
 //
 // A pin without tolerance must have the same level on both sides at every tick. A pin with a tolerance must make the
-// same changes in the same order, each within so many cycles of the other side's. Data as the model drives them may be
-// X, which anything matches (P5).
+// same changes in the same order, each within so many cycles of the other side's. Data of the model may be X, which
+// matches anything (P5).
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -29,13 +29,13 @@ class PinComparator {
   explicit PinComparator(const tb::PinTable& pins, const Tolerances& tolerances = {})
       : data_(tb::data_of(pins)), tolerances_(tolerances) {}
 
-  /// The levels at the beginning; without a call 0.
+  /// Sets the levels at the beginning; default 0.
   void begin(PinNumber pin, Level model, Level rtl);
   void model_changed(Tick at, PinNumber pin, Level level) { model_.push_back({at, pin, level}); }
   void rtl_changed(Tick at, PinNumber pin, Level level) { rtl_.push_back({at, pin, level}); }
 
-  /// Compares everything before `horizon`, which both sides have reached. The first difference, and from then on
-  /// nothing more.
+  /// Compares everything before `horizon`, which both sides have reached. Returns the first difference; after it
+  /// comparison stops.
   std::optional<PinDifference> settle(Tick horizon);
   /// Changes of the model that the RTL made as well.
   std::uint64_t matched() const { return matched_; }

@@ -1,13 +1,13 @@
 #pragma once
-// How the ports of a user's RTL are called and what they mean: a YAML file.
+// Names and meanings of the ports of a user's RTL: a YAML file.
 //
-//   clock: clk_i                      # left out: the names of rtl_ref/
+//   clock: clk_i                      # default: the names of rtl_ref/
 //   pins:
 //     RESET: {port: rst_i, inverted: true}
 //     D_OE: {port: d_oe_o}            # 1: the chip drives D
 //   tolerance: {READY: 1}             # cycles that a pin may be earlier or later
 //   parameters: {SEARCH_WINDOW_MS: 5}
-//   files: [chip.sv, uart.sv]         # left out: every .sv and .v of the folder
+//   files: [chip.sv, uart.sv]         # default: every .sv and .v of the folder
 //   include: [../lib]                 # folders for `include and for modules that no file holds
 //   reference: true                   # ... and those of the reference RTL after them
 #include <map>
@@ -21,7 +21,7 @@ namespace dsdpv1::cosim {
 
 struct Port {
   std::string name;
-  bool inverted = false;  ///< against the level of the datasheet
+  bool inverted = false;  ///< relative to the level in the datasheet
 };
 
 struct PinMap {
@@ -31,14 +31,14 @@ struct PinMap {
   Tolerances tolerances{};
   std::map<std::string, std::string> parameters;
   std::vector<std::string> files, include;  ///< relative to the folder of the RTL
-  bool reference = false;                   ///< modules that neither has are those of the reference RTL
+  bool reference = false;                   ///< modules missing in both come from the reference RTL
 };
 
-/// What the map calls the pin that says whether this output is driven; empty: it always is.
+/// The pin in the map that enables this output; empty: it is always driven.
 std::string enable_of(const tb::PinInfo& pin);
 /// The names of rtl_ref/: the datasheet's in lower case, _i and _o.
 PinMap default_pin_map(const tb::PinTable& pins);
-/// Reads what differs from the default; throws tb::InputError.
+/// Reads the differences from the default; throws tb::InputError.
 PinMap load_pin_map(const std::string& path, const tb::PinTable& pins);
 /// The same from text; `path` is for messages only.
 PinMap parse_pin_map(const std::string& text, const std::string& path, const tb::PinTable& pins);

@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
                        "step and skip");
 }
 
-/// The folder rtl/ of the build that this program belongs to, beside one of the folders above the program; or of the
-/// installation.
+/// The folder rtl/ of this program's build, beside one of the folders above the program; or of the installation.
 fs::path find(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   for (fs::path folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path())
@@ -34,7 +33,7 @@ fs::path find(const std::string& name) {
 template <class Function>
 Function symbol(void* library, const std::string& name) {
   return reinterpret_cast<Function>(
-      dlsym(library, ("dsdpv1_rtl_" + name).c_str()));  // the way POSIX gives for functions
+      dlsym(library, ("dsdpv1_rtl_" + name).c_str()));  // the conversion that POSIX prescribes for functions
 }
 
 class Design : public Rtl {

@@ -1,7 +1,7 @@
 #pragma once
-// The reference RTL (rtl_ref/) under Verilator. It is no part of the program: it stands in shared libraries, two for
-// each top, the RTL as it is and the RTL with single faults, which are loaded when somebody asks for them. `./run
-// build` builds them, `./run sim` need not wait for it.
+// The reference RTL (rtl_ref/) under Verilator. It is not part of the program but in shared libraries, two for each top
+// (the RTL unchanged, and the RTL with single faults), which are loaded on demand. `./run build` builds them, `./run
+// sim` need not wait for that.
 #include <string>
 
 #include "cosim/rtl.hpp"
@@ -9,12 +9,12 @@
 
 namespace dsdpv1::cosim {
 
-/// Its functions; they stay loaded to the end of the program, as designs may live as long. The text says why there are
-/// none.
+/// Its functions; they stay loaded to the end of the program, because designs may live that long. `why_not` receives
+/// the reason if they cannot be loaded.
 RtlLibrary load_library(const std::string& path, std::string& why_not);
 
-/// That of `top` ("dsdpv1"), as it is or with single faults. Throws tb::InputError when it was not built, or by another
-/// build than this program.
+/// The library of `top` ("dsdpv1"), unchanged or with single faults. Throws tb::InputError if it was not built, or by
+/// another build than this program.
 RtlLibrary reference_library(const std::string& top, bool with_faults);
 
 /// A design of the library.

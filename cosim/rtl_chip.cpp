@@ -43,7 +43,8 @@ void RtlChip::set(Tick at, PinNumber pin, Level level) {
 }
 
 void RtlChip::advance(Tick to) {
-  to = std::max(to, now_);  // who samples a serial reply asks for what was before this tick, after other inputs of it
+  to = std::max(
+      to, now_);  // a sample of a serial reply needs the level before this tick, but comes after other inputs at it
   if (to > now_) ends_ == TickEnds::kLater ? end_tick() : apply_held();
   const Tick last = ends_ == TickEnds::kLater ? to - 1 : to;
   while (next_edge_ <= last) {
@@ -60,7 +61,7 @@ void RtlChip::clock_edge() {
   next_edge_ += kHalfCycle;
 }
 
-/// What happens at tick `now_`: CLK's edge and the second clock's first one in one evaluation, then the other inputs.
+/// The evaluation of tick `now_`: CLK's edge and the second clock's first one together, then the other inputs.
 void RtlChip::end_tick() {
   if (held_.empty()) return;
   const bool clk = next_edge_ == now_;
@@ -76,7 +77,7 @@ void RtlChip::end_tick() {
   held_.clear();
 }
 
-/// RtlTiming::data of a tick that is over: the second clock's edge at that tick has not seen its change.
+/// RtlTiming::data of a completed tick: the second clock's edge at that tick has not seen its change.
 void RtlChip::apply_held() {
   for (const Change& change : held_) apply(change.pin, change.level);
   held_.clear();
@@ -102,7 +103,7 @@ void RtlChip::tell(Tick at, PinNumber pin, Level level) {
   if ((watched_ & tb::mask_of(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 
-/// RtlTiming::data as it was set, also while it waits for the end of its tick.
+/// RtlTiming::data as set, even while it waits for the end of its tick.
 Level RtlChip::level(PinNumber pin) const {
   if (pin == timing_.delayed) return delayed_.level();
   if (pin == timing_.data)

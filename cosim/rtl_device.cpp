@@ -44,13 +44,13 @@ void RtlDevice::advance(Tick to) {
   pass_on();
 }
 
-/// The RTL does not know when the user looks: before Tw (P5) the core beside it says that D is unknown.
+/// The RTL does not know when the user samples: before Tw (P5) the core reports that D is unknown.
 Level RtlDevice::sample(Tick at) {
   advance(at);
   return core_->sample(at) == tb::kLevelX ? tb::kLevelX : d_;
 }
 
-/// Both sides have told their changes in order of time, one side after the other.
+/// Both sides have reported their changes in order of time, one side after the other.
 void RtlDevice::pass_on() {
   while (core_next_ < core_changes_.size() || rtl_next_ < rtl_changes_.size()) {
     Tick at = core_next_ < core_changes_.size() ? core_changes_[core_next_].at : rtl_changes_[rtl_next_].at;

@@ -1,7 +1,7 @@
 #pragma once
-// RTL as the chip of a bench: the RTL drives the pins. A core beside it, on the same inputs, tells what pins do not
-// show: states and events, and when data are X. A two-state simulation has no X: where P5 and section 12 of the
-// microarchitecture leave D unknown the RTL drives some value, and the bench must not see a value there.
+// RTL as the chip of a bench: the RTL drives the pins. A core with the same inputs reports what pins do not show:
+// states and events, and when data are X. A two-state simulation has no X: where P5 and section 12 of the
+// microarchitecture leave D unknown the RTL drives some value, which the bench must not see.
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -12,7 +12,7 @@ namespace dsdpv1::cosim {
 
 class RtlDevice : public tb::PinDevice {
  public:
-  /// `core`, fresh from ChipKind::make_device, and `rtl` with these parameters. Of a kind that has an RtlOf.
+  /// `core`, fresh from ChipKind::make_device, and `rtl` with these parameters. The kind must have an RtlOf.
   RtlDevice(std::unique_ptr<tb::PinDevice> core, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
             const tb::OwnSettings& chip);
 
@@ -41,10 +41,10 @@ class RtlDevice : public tb::PinDevice {
 
   std::unique_ptr<tb::PinDevice> core_;
   RtlChip rtl_;
-  const PinNumber data_;  ///< the output on a bus of data; kNoPin: there is none
+  const PinNumber data_;  ///< the output on a bus of data; kNoPin: none
   tb::PinSink sink_;
   tb::PinMask watched_ = 0;
-  std::vector<Change> core_changes_, rtl_changes_;  ///< since pass_on; of the core only data
+  std::vector<Change> core_changes_, rtl_changes_;  ///< since pass_on; from the core only data
   std::size_t core_next_ = 0, rtl_next_ = 0;
   Level core_d_ = tb::kLevelZ, rtl_d_ = tb::kLevelZ, d_ = tb::kLevelZ;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The inside of a user's RTL as a wave: what Verilator's trace records while the design runs.
+// Internal signals of a user's RTL as a wave: recorded by Verilator's trace while the design runs.
 #include <string>
 
 #include "bus/time.hpp"
@@ -7,11 +7,11 @@
 namespace dsdpv1::cosim {
 
 struct RtlTrace {
-  std::string file;  ///< FST; it is there when the design is gone
+  std::string file;  ///< FST; complete when the design is destroyed
   bus::Tick from = 0, to = bus::kNever;
 };
 
-/// The scope of a trace's file above all others.
+/// The top scope in a trace's file.
 constexpr const char* kTraceScope = "TOP";
 
 }  // namespace dsdpv1::cosim

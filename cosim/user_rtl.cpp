@@ -30,17 +30,17 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// Ctrl-C, which the command has got as well.
+/// Ctrl-C, which the command received as well.
 bool was_interrupted(int status) {
   constexpr int kByShell = 128 + SIGINT;
   return (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) || (WIFEXITED(status) && WEXITSTATUS(status) == kByShell);
 }
 
-/// Runs a command; what it says goes to a file, whose first lines with an error are the message when it fails.
+/// Runs a command with its output in a file; if it fails, the first error lines of the file are the message.
 void call(const std::string& command, const std::string& log, const UserRtl& rtl) {
   const int status = std::system((command + " >" + quoted(log) + " 2>&1").c_str());
   if (status == 0) return;
-  if (was_interrupted(status)) std::raise(SIGINT);  // which system() has kept from this process
+  if (was_interrupted(status)) std::raise(SIGINT);  // system() has kept it from this process
   std::ifstream file(log);
   std::string first;
   for (std::string line; first.empty() && std::getline(file, line);)
@@ -70,7 +70,7 @@ RtlLibrary load(const std::string& path) {
 }
 
 /// Three designs that begin with zeros, with ones and with random values wherever nothing is initialised or reset
-/// (Verilator's randReset). A trace is that of the first.
+/// (Verilator's randReset). The first is traced.
 class UserDesigns : public Rtl {
  public:
   UserDesigns(const RtlLibrary& library, const tb::PinTable& pins, std::optional<RtlTrace> trace)
@@ -99,7 +99,7 @@ class UserDesigns : public Rtl {
         if (!pins_[pin].input && other.at(pin) != levels[pin]) levels[pin] = tb::kLevelX;
     }
   }
-  /// What the evaluations of one time have led to is dumped when they are over: a trace takes each time once.
+  /// Dumps the result of all evaluations of one time after the last: a trace takes each time once.
   void moment(Tick at) override {
     if (!trace_ || at == now_) return;
     if (now_ >= 0) dump();
@@ -116,10 +116,10 @@ class UserDesigns : public Rtl {
   const tb::PinTable& pins_;
   std::array<void*, 3> designs_{};
   std::optional<RtlTrace> trace_;
-  Tick now_ = -1;  ///< of the evaluations that are not dumped yet
+  Tick now_ = -1;  ///< of the evaluations not dumped yet
 };
 
-/// The parts of the generated file that only a traced build has.
+/// The parts of the generated file that only a traced build needs.
 constexpr const char* kTraceIncluded = "#include \"verilated_fst_c.h\"\n";
 constexpr const char* kTraceMember = "  VerilatedFstC trace;  // closed before the model goes\n";
 constexpr const char* kTraceFunctions =
@@ -137,7 +137,7 @@ namespace {
 
 unsigned bits(const tb::PinInfo& pin) { return (1U << static_cast<unsigned>(pin.width)) - 1; }
 
-/// A bus that nobody drives reads as ones.
+/// An undriven bus reads as ones.
 std::string input_line(const tb::PinInfo& pin, std::size_t number, const Port& port) {
   if (pin.width == 1) return fmt::format("  model.{} = {}levels[{}];\n", port.name, port.inverted ? "!" : "", number);
   const std::string level = pin.bus != nullptr ? fmt::format("(levels[{0}] < 0 ? {1} : levels[{0}])", number, bits(pin))
@@ -185,7 +185,7 @@ std::string adapter_source(const std::string& top, const PinMap& map, const tb::
 
 namespace {
 
-/// Folders with the modules of the reference RTL, and what they include.
+/// Folders with the modules of the reference RTL and their includes.
 std::vector<std::string> reference_folders(const UserRtl& rtl) {
   const fs::path root = fs::path(rtl.sources) / "rtl_ref";
   if (!fs::is_directory(root))
@@ -214,7 +214,7 @@ std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::
   return command + " " + quoted(adapter);
 }
 
-/// Every port that the map names is one of the Verilated top, whose header declares them as VL_IN8(&name,7,0).
+/// Checks that every port in the map is one of the Verilated top, whose header declares them as VL_IN8(&name,7,0).
 void check_ports(const UserRtl& rtl, const PinMap& map, const std::string& build) {
   std::ifstream file(fmt::format("{}/V{}.h", build, rtl.top));
   const std::string header{std::istreambuf_iterator<char>(file), {}};
@@ -227,7 +227,7 @@ void check_ports(const UserRtl& rtl, const PinMap& map, const std::string& build
   for (const auto& [pin, port] : map.pins) check(pin, port.name);
 }
 
-/// It stands in names of files and classes, and in commands.
+/// It is used in names of files and classes, and in commands.
 void check_top(const UserRtl& rtl) {
   const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   const bool begins = !rtl.top.empty() && std::isdigit(static_cast<unsigned char>(rtl.top.front())) == 0;
@@ -246,7 +246,7 @@ void create_folder(const std::string& folder) {
   if (error) throw tb::InputError(folder, 0, "cannot be created: " + error.message());
 }
 
-/// With ccache, where there is one: RTL that has been built before is not compiled again.
+/// With ccache, if present: RTL that has been built before is not compiled again.
 std::string make_command(const UserRtl& rtl, const std::string& build) {
   return fmt::format("{}make -s -j2 -C {} -f V{}.mk", installed("ccache") ? "OBJCACHE=ccache " : "", quoted(build),
                      rtl.top);

@@ -1,5 +1,5 @@
 #pragma once
-// RTL of a user's own: built with Verilator into a shared library, loaded, and evaluated as any other Rtl.
+// A user's RTL: built with Verilator into a shared library, loaded, and evaluated like any other Rtl.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,20 +13,20 @@ namespace dsdpv1::cosim {
 struct UserRtl {
   std::string command;  ///< for messages: "dsdpv1-sim cosim"
   std::string folder, top;
-  std::string build = "build/cosim";  ///< for what is generated
+  std::string build = "build/cosim";  ///< for generated files
   std::string sources;                ///< of this program, where PinMap::reference finds the reference RTL
-  bool traced = false;                ///< its inside can be recorded; a build of its own
+  bool traced = false;                ///< records internal signals; needs a separate build
 };
 
-/// Makes the design for one run, also on several threads. With a trace, of a build with UserRtl::traced, its inside is
-/// recorded.
+/// Makes the design for one run, also on several threads. With a trace, in a build with UserRtl::traced, records its
+/// internal signals.
 using MakeUserRtl = std::function<std::unique_ptr<Rtl>(const std::optional<RtlTrace>& trace)>;
 
-/// Builds it; throws tb::InputError with Verilator's or the compiler's words. The result makes chips that run three
-/// times, with different values wherever nothing is initialised or reset: where the three differ a pin is X.
+/// Builds it; throws tb::InputError with Verilator's or the compiler's message. The result makes chips that run three
+/// times, with different values wherever nothing is initialised or reset: a pin is X if the three differ.
 MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind);
 
-/// The generated file between the Verilated class and this program; `traced` as of UserRtl.
+/// The generated file between the Verilated class and this program; `traced` as in UserRtl.
 std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced);
 
 }  // namespace dsdpv1::cosim

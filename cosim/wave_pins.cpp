@@ -10,7 +10,7 @@ namespace {
 
 constexpr tb::compare::Femtoseconds kThreeCycles = 62'500'000;
 
-/// What the chip drives, Z when it does not: D_OUT of a golden trace.
+/// The chip's drive, Z if it does not drive: D_OUT of a golden trace.
 tb::compare::NamedPair driven_pair(const PinMap& map, const tb::PinInfo& output) {
   const Port &out = map.pins.at(output.name), &drives = map.pins.at(enable_of(output));
   tb::compare::NamedPair pair;
@@ -22,7 +22,7 @@ tb::compare::NamedPair driven_pair(const PinMap& map, const tb::PinInfo& output)
   return pair;
 }
 
-/// The bus: D of a run's wave.
+/// The bus: D in a run's wave.
 tb::compare::NamedPair data_pair(const PinMap& map, const tb::PinInfo& input, const tb::PinInfo& output) {
   tb::compare::NamedPair pair = driven_pair(map, output);
   pair.a = input.bus;
@@ -80,7 +80,7 @@ PinSurroundings::PinSurroundings(const tb::ChipKind& kind) : kind_(kind), watch_
 
 void PinSurroundings::change(Tick at, std::size_t number, std::string_view value) {
   const PinNumber pin = pins_.at(number);
-  if (value.size() != static_cast<std::size_t>(kind_.pins()[pin].width)) return;  // another thing of that name
+  if (value.size() != static_cast<std::size_t>(kind_.pins()[pin].width)) return;  // another signal with that name
   const Level level = level_of(value);
   watch_->change(at, pin, level);
   if (pin == kind_.board_pins().rxd) received_.add(at, level != 0);

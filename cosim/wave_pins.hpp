@@ -1,5 +1,5 @@
 #pragma once
-// The chip's pins in waves that are compared: which of a simulator's signals they are, and what they show.
+// The chip's pins in compared waves: maps them to a simulator's signals and converts their values.
 #include <string>
 #include <vector>
 
@@ -10,15 +10,15 @@
 
 namespace dsdpv1::cosim {
 
-/// A pair for each pin, A with the datasheet's names as the model's waves have them, B with those of the map. Of a bus
-/// the model's waves have one signal: of B it is the output while its enable says that the chip drives, else the input.
-/// What a wave lacks is left out.
+/// A pair for each pin, A with the datasheet's names as in the model's waves, B with those of the map. A bus has one
+/// signal in the model's waves: in B it is the output while its enable is active, else the input. Pins missing in a
+/// wave are left out.
 std::vector<tb::compare::NamedPair> pairs_of(const PinMap& map, const tb::PinTable& pins);
 
-/// The last telegrams on both lines, the user's last access and the chip's.
+/// The last telegrams on both lines, and the last accesses of user and chip.
 class PinSurroundings : public tb::compare::Surroundings {
  public:
-  /// A kind that has an RtlOf.
+  /// The kind must have an RtlOf.
   explicit PinSurroundings(const tb::ChipKind& kind);
   const std::vector<std::string>& pins() const override { return names_; }
   void change(Tick at, std::size_t number, std::string_view value) override;
@@ -26,7 +26,7 @@ class PinSurroundings : public tb::compare::Surroundings {
 
  private:
   const tb::ChipKind& kind_;
-  std::vector<PinNumber> pins_;  ///< all but the outputs on a bus, by place in names_
+  std::vector<PinNumber> pins_;  ///< all except the outputs on a bus, by place in names_
   std::vector<std::string> names_;
   std::unique_ptr<MemoryWatch> watch_;
   LineHistory received_, sent_;

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The C API: a master brings a slave up whose user CPU is this program. It runs the C driver; the driver's port is a
- * chip of libdsdpv1.so, pin by pin. Masters of class 1 and 2 then read and write an object of it by acyclic requests.
- * At the end the rules of the user's side are looked at.
+ * The C API: a master brings up a slave whose user CPU is this program. It runs the C driver on a chip of
+ * libdsdpv1.so, pin by pin. Masters of class 1 and 2 then read and write one of its objects by acyclic requests. At
+ * the end the checks of the user's side are evaluated.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static void check(dpsim_status status) {
 
 static double us(uint64_t ticks) { return (double)ticks / (1000 * DPSIM_TICKS_PER_NS); }
 
-/* ---- the user CPU: each action takes its time, and the bus goes on meanwhile ---- */
+/* ---- the user CPU: each action takes time, and the bus continues meanwhile ---- */
 
 typedef struct {
   dpsim_chip* chip;
@@ -80,7 +80,7 @@ static void initialise(user* self, dsdpv1_device* device, const dpsim_slave* sla
   printf("%10.3f us  initialised: %s\n", us(self->now), dsdpv1_error_text(error));
 }
 
-/* A DS_Transport of the object: what came, from the last byte to the first. Request and reply share their memory. */
+/* A DS_Transport of the object returns the received bytes in reverse order. Request and reply share their memory. */
 static dsdpv1_outcome reverse(void* unused, const dsdpv1_request* request, dsdpv1_reply* reply) {
   (void)unused;
   for (unsigned i = 0; i < request->length / 2u; ++i) {
@@ -92,7 +92,7 @@ static dsdpv1_outcome reverse(void* unused, const dsdpv1_request* request, dsdpv
   return DSDPV1_DONE;
 }
 
-/* One object, for both classes. The driver serves reads and writes of its bytes by itself, and refuses all others. */
+/* One object, for both classes. The driver serves reads and writes of its bytes and refuses all others. */
 static void open_object(dsdpv1_acyclic* acyclic, dsdpv1_device* device) {
   static uint8_t bytes[] = {0x11, 0x22, 0x33, 0x44};
   static dsdpv1_object object = {.slot = kSlot, .index = kIndex, .max_length = sizeof bytes, .data = bytes};
@@ -109,14 +109,14 @@ static void open_object(dsdpv1_acyclic* acyclic, dsdpv1_device* device) {
 typedef struct {
   dpsim_master *first, *second; /* of class 1, of class 2 */
   uint32_t connection;
-  int ended; /* how many of kRequests */
+  int ended; /* number of kRequests that have ended */
 } dialogue;
 
 static void ask_by_class_1(dialogue* self) {
   const uint8_t bytes[] = {0xAA, 0xBB, 0xCC, 0xDD};
   check(dpsim_master_read(self->first, kAddress, kSlot, kIndex, 10, NULL));
   check(dpsim_master_write(self->first, kAddress, kSlot, kIndex, bytes, sizeof bytes, NULL));
-  check(dpsim_master_read(self->first, kAddress, kSlot + 1, kIndex, 10, NULL)); /* there is no such slot */
+  check(dpsim_master_read(self->first, kAddress, kSlot + 1, kIndex, 10, NULL)); /* a slot that does not exist */
 }
 
 static void ask_by_class_2(dialogue* self) {
@@ -125,7 +125,7 @@ static void ask_by_class_2(dialogue* self) {
   check(dpsim_master_transport(self->second, self->connection, kSlot, kIndex, bytes, sizeof bytes, NULL));
 }
 
-/* ---- what is told ---- */
+/* ---- callbacks ---- */
 
 static void told(void* ctx, const dpsim_event* event) {
   dialogue* self = ctx;
@@ -187,7 +187,7 @@ static dpsim_master* add_master(dpsim_bus* bus, int32_t master_class, uint8_t ad
   options.address = address;
   options.highest_address = kAddress;
   options.ring = 1;
-  options.gap_factor = 1; /* the second one is soon let in */
+  options.gap_factor = 1; /* the second one is soon admitted */
   check(dpsim_bus_add_master(bus, &options, &master));
   return master;
 }

@@ -16,7 +16,7 @@ constexpr Tick kNs = dsdpv1::profibus::kTicksPerNs;
 constexpr Tick kUs = 1000 * kNs;
 
 void print_change(void*, Tick at, Pin pin, dsdpv1::Level level) {
-  if (pin == Pin::kDOut && level < 0) return;  // only what can be read
+  if (pin == Pin::kDOut && level < 0) return;  // only readable values
   std::printf("%12.3f us  %-6s %0*X\n", static_cast<double>(at) / kUs, dsdpv1::name(pin), pin == Pin::kDOut ? 2 : 1,
               static_cast<unsigned>(level));
 }

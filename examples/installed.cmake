@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-# What the examples show with an installed copy, besides the programs that are built; what is not there to run one with is said.
-# Python is the one that CMake finds, or -DPython3_EXECUTABLE=... names.
+# The examples with an installed copy, besides the compiled programs; missing tools are reported. Python is the one that CMake finds, or
+# -DPython3_EXECUTABLE=...
 set(here ${CMAKE_CURRENT_SOURCE_DIR})
 set(sim $<TARGET_FILE:dsdpv1::dsdpv1-sim>)
 
-# needs(RESULT NAME conditions...): RESULT is true when each CONDITION is; else NAME is left out, which is said.
+# needs(RESULT NAME conditions...): RESULT is true if each CONDITION is; else NAME is skipped with a message.
 macro(needs result name)
   set(${result} TRUE)
   foreach(condition ${ARGN})
@@ -18,10 +18,10 @@ endmacro()
 
 shown(scenario ${sim} run ${DSDPV1_TREE}/scenarios/power_on_12m.yaml --no-progress --wave power_on_12m.vcd --result power_on_12m.json
       PRINTS "PASSED")
-# A scenario whose masters other benches use as well.
+# A scenario whose masters are also used by other benches.
 shown(masters ${sim} run ${here}/masters.yaml --no-progress PRINTS "PASSED")
 
-# The example firmware, as it has just been built, on the ARM board, where the program has it.
+# The example firmware, just built, on the ARM board, if the program has it.
 find_program(arm-none-eabi-gcc arm-none-eabi-gcc)
 needs(there firmware arm-none-eabi-gcc)
 if(there)
@@ -29,7 +29,7 @@ if(there)
         user_cpu.elf=${CMAKE_CURRENT_BINARY_DIR}/firmware/device_O2.elf PRINTS "PASSED")
 endif()
 
-# RTL of one's own against the model: two things are wrong in it, this is the first that shows (docs/tutorials/rtl_cosim.md).
+# Your RTL compared with the model: it contains two faults, of which the first is found here (docs/tutorials/rtl_cosim.md).
 find_program(verilator verilator)
 needs(there own_rtl verilator)
 if(there)

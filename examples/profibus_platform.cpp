@@ -4,7 +4,7 @@
 // power-on to data exchange, and the device answers each output byte with its complement as an input.
 //
 //   profibus_platform tlm     the chip with a TLM-2.0 socket
-//   profibus_platform pins    the chip with the pins of table 1: the same at the same times
+//   profibus_platform pins    the chip with the pins of table 1: the same results at the same times
 #include <cstdio>
 #include <string>
 #include <systemc>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// A SystemC platform round the TLM module: a user CPU that brings the chip up with the C driver, and a bus station that
-// asks it for its FDL status and prints the answer.
+// A SystemC platform around the TLM module: a user CPU that brings the chip up with the C driver, and a bus station
+// that requests its FDL status and prints the answer.
 #include <iostream>
 #include <systemc>
 #include <vector>
@@ -35,7 +35,7 @@ void report(const DriverCpu& cpu, const char* what, dsdpv1_error error) {
   std::cout << what << " at " << cpu.now().to_seconds() * 1e6 << " us: " << dsdpv1_error_text(error) << "\n";
 }
 
-/// What the user CPU does.
+/// The program of the user CPU.
 void bring_up(DriverCpu& cpu, sc_core::sc_event& initialised) {
   cpu.spend(sc_core::sc_time(1, SC_US));
   cpu.set_reset(true);
@@ -79,7 +79,8 @@ class Station : public sc_core::sc_module, private tlm::tlm_analysis_if<BusChara
     constexpr dsdpv1::systemc::Tick kBit = 1000, kCharacter = 11 * kBit;  // 12 Mbit/s
     dsdpv1::systemc::Tick start = dsdpv1::systemc::current_tick();
     for (const std::uint8_t byte : telegram) {
-      send->write({to_time(start), to_time(kBit), byte, true, true});  // each time rounded once: nothing adds up
+      send->write(
+          {to_time(start), to_time(kBit), byte, true, true});  // each time is rounded once, so errors do not accumulate
       start += kCharacter;
     }
     sent_ = to_time(start);

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-# A wheel of a build that is there already: pip wheel . --config-settings cmake.define.DSDPV1_BUILD=$PWD/build/default
+# Makes a wheel from an existing build: pip wheel . --config-settings cmake.define.DSDPV1_BUILD=$PWD/build/default
 add_custom_target(dsdpv1_capi)
 add_custom_target(dsdpv1_python)
 install(CODE "

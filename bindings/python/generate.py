@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes into FOLDER what the package dsdpv1 has from C: _c.py, the C API as ctypes has it, from the headers of include/dsdpv1/; registers.py from
-registers/dsdpv1_regs.h.
+"""Generates the parts of the package dsdpv1 that come from C, into FOLDER: _c.py, the C API for ctypes, from the headers of include/dsdpv1/;
+registers.py from registers/dsdpv1_regs.h.
 
     generate.py FOLDER
 
-The headers keep to a small part of C99, and that is all that is read: constants, enums, integer types, structs, opaque structs, types of
-functions, functions. What is anything else is an error, so that nothing is left out silently. Python's standard library only.
+The headers keep to a small part of C99, and only that is read: constants, enums, integer types, structs, opaque structs, types of functions,
+functions. Anything else is an error, so that nothing is skipped silently. Python's standard library only.
 """
 import pathlib
 import re
@@ -37,7 +37,7 @@ SCALARS = {"int16_t": "c_int16", "int32_t": "c_int32", "int64_t": "c_int64", "ui
 
 
 class Unknown(Exception):
-    """Something in a header that this program does not know."""
+    """A construct in a header that this program does not support."""
 
 
 def without_comments(text):
@@ -45,7 +45,7 @@ def without_comments(text):
 
 
 def value_of(text):
-    """A constant as Python writes it."""
+    """A constant in Python syntax."""
     text = re.sub(r"\((?:u?int\d+_t|dpsim_\w+)\)", "", text.strip())
     text = re.sub(r"\bUINT(\d+)_MAX\b", lambda found: hex(2 ** int(found[1]) - 1), text)
     text = text.replace("INT64_MAX", hex(2**63 - 1))
@@ -57,7 +57,7 @@ def value_of(text):
 
 
 class Writer:
-    """Statement after statement of the headers as lines of Python."""
+    """Converts the headers to lines of Python, statement by statement."""
 
     def __init__(self):
         self.lines, self.functions = [], []
@@ -71,7 +71,7 @@ class Writer:
         return self.types[name]
 
     def member_type(self, text):
-        """Of a struct's member or a callback's argument: what a pointer points at can be read through it."""
+        """The type of a struct's member or a callback's argument: the target of a pointer can be read through it."""
         words = text.replace("const", " ").replace("*", " * ").split()
         name, stars = words[0], words.count("*")
         if stars == 0:
@@ -83,7 +83,7 @@ class Writer:
         return "POINTER(" * stars + self.base(name) + ")" * stars
 
     def argument_type(self, text):
-        """Of a function's argument: constant bytes are given as bytes, arrays of changes by their address."""
+        """The type of a function's argument: constant bytes are passed as bytes, arrays of changes by their address."""
         plain = re.sub(r"\s+", "", text)
         if plain == "constuint8_t*":
             return "c_char_p"
@@ -151,7 +151,7 @@ class Writer:
     )
 
     def read(self, text):
-        """One header."""
+        """Converts one header."""
         text = without_comments(text)
         text = re.sub(r'#ifdef __cplusplus.*?#endif|#if defined\(__GNUC__\).*?#endif|extern "C" \{', "", text, flags=re.S)
         for name, value in re.findall(r"^#define (\w+)[ \t]+(\S.*)$", text, flags=re.M):
@@ -161,7 +161,7 @@ class Writer:
             text = self.statement(text).lstrip()
 
     def statement(self, text):
-        """The text after its first statement."""
+        """Converts the first statement; returns the text after it."""
         for pattern, take in self.STATEMENTS:
             found = re.match(pattern, text)
             if found:

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// The checks of docs/checks.md on packed pins. With a rate, a bus beside them hears the telegrams on PBRXD and PBTXD.
+// The checks of docs/checks.md on packed pins. With a rate, an additional bus receives the telegrams on PBRXD and
+// PBTXD.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,12 +32,12 @@ class Checker final : public Object {
   void make_bus(int32_t baud);
   void hear(uint64_t inputs, uint64_t outputs);
   void feed_telegrams(uint64_t until);
-  /// Pins of one direction that have changed, as far as their levels are known: RTL before its reset.
+  /// Feeds changed pins of one direction, if their levels are known: RTL before its reset has unknown ones.
   void feed(const PackedPins& pins, uint64_t before, uint64_t now);
   static void violated(void* self, const dpsim_violation* violation);
   static void heard(void* self, const dpsim_heard* telegram);
 
-  /// A telegram is known in its last stop bit, before its end: it waits for the pins that change until then.
+  /// A telegram is decoded in its last stop bit, before its end: it waits for pin changes until then.
   struct Waiting {
     dpsim_heard heard;
     std::vector<uint8_t> bytes;

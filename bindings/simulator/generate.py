@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes into FOLDER the modules of SystemVerilog that have a chip's pins: model, scoreboard and checker of each kind that the library has, from its lists
-of pins and parameters (dpsim_pin_get, dpsim_parameter_get), and how a top's inputs and outputs are packed, which they include. What they do is in
-dsdpv1_model.svh, dsdpv1_scoreboard.svh and dsdpv1_checker.svh. Last of all files.txt, the order of all modules.
+"""Generates the SystemVerilog modules that have a chip's pins: model, scoreboard and checker of each kind in the library, from its lists of pins
+and parameters (dpsim_pin_get, dpsim_parameter_get), and the files that they include for packing a top's inputs and outputs. dsdpv1_model.svh,
+dsdpv1_scoreboard.svh and dsdpv1_checker.svh implement them. Last comes files.txt, the order of all modules.
 
-    generate.py FOLDER PACKAGE    PACKAGE: the folder of the Python package dsdpv1, with what its generate.py writes
+  generate.py FOLDER PACKAGE    PACKAGE: the folder of the Python package dsdpv1, with the output of its generate.py
 
-Pins are packed as bindings/simulator/pins.hpp has it. Ports have the names and the order of the reference RTL's top, if there is one, so that either may stand in
-the place of the other; what it has not comes after them.
+Pins are packed as defined in bindings/simulator/pins.hpp. Ports have the names and the order of the reference RTL's top, if there is one, so that
+either may replace the other; additional ones come after them.
 """
 import pathlib
 import re
@@ -43,16 +43,16 @@ module {kind}_{role} #(
   `include "{top}_inputs.svh"
 """
 WHAT = {
-    "model": "The {chip} as the library's model, with parameters and ports of the reference RTL: either may stand in the place of the other.",
-    "scoreboard": "The model of the {chip} beside somebody's RTL, on the same pins: bind {top} {kind}_scoreboard u_scoreboard (.*);",
-    "checker": "The rules of the user's side (docs/checks.md) on the pins of a {chip}, the model's or those of somebody's RTL.",
+    "model": "The library's model of the {chip}, with parameters and ports of the reference RTL: either may replace the other.",
+    "scoreboard": "Compares the model of the {chip} with RTL on the same pins: bind {top} {kind}_scoreboard u_scoreboard (.*);",
+    "checker": "The rules of the user's side (docs/checks.md) on the pins of a {chip}, model or RTL.",
 }
 OWN = {
     "model": ["parameter integer CLOCKED = 1,                 // 0: without CLK"],
-    "scoreboard": ["parameter longint TOLERANCE_PS = 0,           // a difference that lasts no longer than this is none: RTL with delays",
+    "scoreboard": ["parameter longint TOLERANCE_PS = 0,           // differences that last at most this long are ignored: for RTL with delays",
                    "parameter integer STOP = 1,                   // 1: $fatal at the first difference; 0: $error"],
     "checker": ['parameter LIMITS = "",                        // other limits in ticks of 1/12 ns, or off: "TIMING_TS=240 TIMING_TW=off"',
-                "parameter integer BAUD = -1,                  // of the line (0: 12M ... 9: 9.6k): telegrams are heard; -1: rules that need them are left out",
+                "parameter integer BAUD = -1,                  // rate of the line (0: 12M ... 9: 9.6k) for rules that need telegrams; -1: skips those rules",
                 "parameter integer STOP = 0,                   // 1: $fatal at the first violation",
                 "parameter integer QUIET = 0,                  // 1: violations are only counted"],
 }
@@ -92,14 +92,14 @@ def rtl_of(top):
 
 
 def top_of(kind):
-    """The top that has its ports: its own, or that of a kind with the same pins, as the DSDPV1-R is the DSDPV1 under another name (R1). One without
-    reference RTL has its own name."""
+    """The top that has these ports: its own, or that of a kind with the same pins, since the DSDPV1-R is the DSDPV1 under another name (R1). A
+    kind without reference RTL has its own name."""
     others = [kind, *map(kind_of, kind_names())]
     return next((each.name for each in others if each.pins == kind.pins and rtl_of(each.name).is_file()), kind.name)
 
 
 def place_in_rtl(kind, name, last):
-    """Without RTL they stay in the order of the pins."""
+    """Without RTL the order of the pins."""
     rtl = rtl_of(top_of(kind))
     source = rtl.read_text(encoding="utf-8") if rtl.is_file() else ""
     names = re.findall(r"^  (?:input|output) +logic +(?:\[\d+:0\] +)?(\w+)[,\n]", source, re.M)
@@ -107,7 +107,7 @@ def place_in_rtl(kind, name, last):
 
 
 def parameters(kind):
-    """[name, type, default, comment]; those of a list are one vector, 16 bits each."""
+    """[name, type, default, comment]; a list is one vector, 16 bits per element."""
     lists = {}
     for each in kind.parameters:
         lists.setdefault(each.name.split("[")[0], []).append(each)
@@ -128,9 +128,10 @@ def parameter_lines(kind, role):
     return [f"  {line}" for line in [*lines[:-1], f"{last} {comment}"]]
 
 
-# ---- what packs the pins
+# ---- packing of the pins
 def packed(kind, inputs):
-    """Pins of one direction by number, and where in the packed number the flags of those that can be released, and of outputs the unknown, begin."""
+    """Pins of one direction by number, and the places in the packed number where the flags of releasable pins and, for outputs, of unknown levels
+    begin."""
     pins = [each for each in kind.pins if each.input == inputs]
     released = sum(each.width for each in pins)
     return pins, released, released + sum(map(releasable, pins))
@@ -171,14 +172,14 @@ def output_terms(kind):
 
 
 def concatenation(name, size, terms):
-    """Terms from bit 0 on, four a line."""
+    """Terms from bit 0 on, four per line."""
     wide = [f"{64 - size}'d0", *[f"({each})" if "?" in each else each for each in reversed(terms)]]
     rows = [", ".join(wide[at:at + 4]) for at in range(0, len(wide), 4)]
     return [f"  wire [63:0] {name} = {{"] + [f"    {row}" for row in ",\n".join(rows).split("\n")] + ["  };"]
 
 
 def driver(kind):
-    """The task that gives the model's outputs to the ports."""
+    """The task that assigns the model's outputs to the ports."""
     pins, released, unknown = packed(kind, False)
     names = ", ".join(port(pin) for pin in reversed(pins))
     lines = ["  task drive(input longint outputs);", f"    {{{names}}} <= outputs[{released - 1}:0];"]
@@ -189,7 +190,7 @@ def driver(kind):
 
 
 def options(kind, role):
-    """The text of the options: kind, and parameters of the chip."""
+    """The text of the options: kind and parameters of the chip."""
     words, values = [f"kind={kind.name}"], []
     if role == "checker":
         words.append("%0s")
@@ -213,7 +214,7 @@ def module(kind, role):
 
 
 def packing(kinds):
-    """How each top packs its pins: text by file name. Kinds of one top have the same pins."""
+    """The packing of each top's pins: text by file name. Kinds of one top have the same pins."""
     texts = {}
     for kind in kinds:
         for direction, lines in (("inputs", input_terms(kind)), ("outputs", output_terms(kind))):
@@ -224,7 +225,7 @@ def packing(kinds):
 
 
 def files():
-    """What is to be there: text by name."""
+    """All files to generate: text by name."""
     kinds = [kind_of(name) for name in kind_names()]
     modules = {f"{kind.name}_{role}.sv": module(kind, role) for kind in kinds for role in WHAT}
     order = ["dsdpv1_pkg.sv", "dsdpv1_clock.sv", *modules, "dsdpv1_user.sv", "profibus_segment.sv", "profibus_master.sv", "dsdpv1_assertions.sv"]

@@ -16,10 +16,10 @@ namespace {
 struct MasterOptions {
   dpsim_master_options master{};
   dpsim_bus_options bus{};
-  int32_t verbose = 0;  ///< 1: what happens is said as messages
+  int32_t verbose = 0;  ///< 1: events are reported as messages
 };
 
-/// Sets one member; false when there is none of this name.
+/// Sets one member; returns false for an unknown name.
 bool set_member(MasterOptions& options, const Option& option) {
   dpsim_master_options& master = options.master;
   const std::map<std::string, int32_t*> numbers{{"master_class", &master.master_class},
@@ -70,7 +70,7 @@ const char* state_name(int32_t state) {
 
 }  // namespace
 
-/// A bus that goes with whoever is being made of it when that fails.
+/// Destroys a bus if the object that is being built on it fails.
 struct BusGuard {
   dpsim_bus*& bus;
   bool keep = false;
@@ -144,7 +144,7 @@ void Master::happened(void* self, const dpsim_event* event) {
   if (master->verbose_) master->tell(*event);
 }
 
-/// Of a telegram the data and FC; of an acyclic service its data and codes.
+/// For a telegram its data and FC; for an acyclic service its data and codes.
 void Master::note_answer(const dpsim_event& event) {
   Answer& answer = answers_[event.id];
   answer.outcome = event.outcome;
@@ -164,7 +164,7 @@ void Master::note_answer(const dpsim_event& event) {
   answer.data.assign(telegram.data, telegram.data + telegram.data_size);
 }
 
-/// The token's way round is not told.
+/// The rotation of the token is not reported.
 bool enters_or_leaves(const dpsim_event& event) {
   const auto outside = [](int32_t state) { return state <= DPSIM_RING_CLAIM_TOKEN || state == DPSIM_RING_OUT; };
   return outside(event.from) != outside(event.to);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A master of the C API on a line that the simulator has: all other stations are one outside station of its bus.
+// A master of the C API on the simulator's line: all other stations are one external station of its bus.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace dsdpv1::simulator {
 
-/// What came of a request.
+/// The result of a request.
 struct Answer {
   int32_t outcome = 0;
   uint32_t codes = 0;
@@ -27,16 +27,16 @@ class Master final : public Object {
   Master(const Master&) = delete;
   Master& operator=(const Master&) = delete;
 
-  /// The other stations' driver at `tick`.
+  /// Sets the other stations' driver at `tick`.
   void step(uint64_t tick, bool enabled, bool level);
-  /// TXD + 2 RTS; of several masters what they do together.
+  /// TXD + 2 RTS; of several masters, their combined levels.
   int32_t outputs() const;
   /// Absolute, in ps; -1: never.
   int64_t wake() const;
 
   dpsim_master* master() const { return master_; }
   dpsim_slave_status slave(int32_t address) const;
-  /// Takes it out of what is kept. False: not done yet.
+  /// Takes a kept answer. Returns false if it is not there yet.
   bool take_answer(uint32_t id, Answer& answer);
 
  private:

@@ -26,7 +26,7 @@ class Model final : public Object {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
-  /// Runs up to `tick`, a time before the present one counting as that, and gives the inputs their levels then.
+  /// Runs up to `tick` and sets the inputs there; a time before the present one counts as the present one.
   void step(uint64_t tick, uint64_t inputs) {
     now_ = std::max(now_, tick);
     if (inputs == inputs_) return check(dpsim_chip_advance(chip_, now_));
@@ -35,7 +35,7 @@ class Model final : public Object {
         [this](const PinPlace& place, dpsim_level level) { check(dpsim_chip_set(chip_, now_, place.pin, level)); });
   }
   uint64_t outputs() const { return outputs_; }
-  /// When an output may change by itself.
+  /// When an output may next change without a change of an input.
   uint64_t next_tick() const {
     uint64_t tick = 0;
     check(dpsim_chip_next(chip_, &tick));

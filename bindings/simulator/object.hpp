@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The objects that a simulator knows by number, and how what goes wrong gets back to it.
+// Objects with numbers for the simulator, and the way of their errors back to it.
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -19,7 +19,7 @@ struct Error : std::runtime_error {
   dpsim_status status;
 };
 
-/// Throws what the C API says.
+/// Throws the C API's error.
 void check(dpsim_status status);
 
 class Object {
@@ -29,7 +29,7 @@ class Object {
   Object& operator=(const Object&) = delete;
 
   void say(std::string text) { messages_.push_back(std::move(text)); }
-  /// The oldest message, out of the queue; stands until the next call.
+  /// Takes the oldest message out of the queue; valid until the next call.
   const char* take();
 
  protected:
@@ -42,10 +42,10 @@ class Object {
 
 int32_t keep(std::unique_ptr<Object> object);
 void drop(int32_t handle);
-/// Throws when there is none.
+/// Throws if there is none.
 Object& object(int32_t handle);
 
-/// `Type` is a final class: to compare is quicker than a dynamic_cast, which an event of the simulator would pay for.
+/// `Type` is a final class: comparing is faster than a dynamic_cast, which each event of the simulator would pay for.
 template <class Type>
 Type& get(int32_t handle) {
   static_assert(std::is_final_v<Type>);
@@ -58,7 +58,7 @@ Type& get(int32_t handle) {
 void set_error(const std::string& text);
 const std::string& error();
 
-/// Calls `function`; an exception becomes its status, and its words dsdpv1_error().
+/// Calls `function`; an exception becomes its status, with the text in dsdpv1_error().
 template <class Function>
 auto guarded(const Function& function) -> decltype(function()) {
   try {
@@ -72,7 +72,7 @@ auto guarded(const Function& function) -> decltype(function()) {
   }
 }
 
-/// The same for a function that makes an object: 0 when it fails.
+/// As above for a function that creates an object: 0 if it fails.
 template <class Function>
 int32_t created(const Function& function) {
   const int32_t handle = guarded([&] { return keep(function()); });

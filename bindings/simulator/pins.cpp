@@ -58,7 +58,7 @@ const KindPins& pins_of_kind(const std::string& kind) {
   const auto found = all.find(kind);
   if (found != all.end()) return found->second;
   uint16_t number = 0;
-  check(dpsim_pin_find(kind.c_str(), "RESET", &number));  // says which kinds there are
+  check(dpsim_pin_find(kind.c_str(), "RESET", &number));  // its error lists the known kinds
   const KindPins pins{kind, {kind.c_str(), true}, {kind.c_str(), false}};
   return all.emplace(kind, pins).first->second;
 }

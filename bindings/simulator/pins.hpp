@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Packed pins and halves of a cycle, as simulator.h has them, and what they are for the C API.
+// Converts packed pins and halves of a cycle, see simulator.h, for the C API.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -19,8 +19,8 @@ inline uint64_t tick_of(int64_t half, int64_t ps) {
   return static_cast<uint64_t>(half * kTicksPerHalf + after);
 }
 
-/// How a clocked module is told when to call next: the half cycle that `tick` lies in; when that is the present one,
-/// less than 0: so many ps after its edge.
+/// Tells a clocked module when to call next: the half cycle of `tick`; if that is the present one, a negative number:
+/// so many ps after its edge.
 inline int64_t wake_of(uint64_t tick, int64_t half) {
   if (tick > DPSIM_LAST_TICK) return INT64_MAX;
   const auto at = static_cast<int64_t>(tick);
@@ -28,8 +28,8 @@ inline int64_t wake_of(uint64_t tick, int64_t half) {
   return -std::max<int64_t>(((at - half * kTicksPerHalf) * 500 + 3) / 6, 1);
 }
 
-/// Up to here, some 8 days, absolute times fit products of 64 bits; dpsim_ticks_to and dpsim_ticks_from, which divide
-/// 128 bits, serve what is beyond. The results are the same.
+/// Up to this tick, some 8 days, absolute times fit products of 64 bits; dpsim_ticks_to and dpsim_ticks_from, which
+/// divide 128 bits, handle later ones. The results are the same.
 constexpr uint64_t kQuickTicks = uint64_t{1} << 53U;
 
 /// Absolute, in ps; INT64_MAX: never.
@@ -44,18 +44,18 @@ inline uint64_t tick_of_ps(uint64_t ps) {
   return dpsim_ticks_from(ps, DPSIM_PS);
 }
 
-/// A pin in packed pins.
+/// Place of a pin in packed pins.
 struct PinPlace {
   uint16_t pin = 0;
   std::string name;
   unsigned shift = 0;
   uint64_t level = 0;     ///< bits of its level, from `shift` on
-  uint64_t released = 0;  ///< the bit that says so; 0: it cannot be
-  uint64_t unknown = 0;   ///< ... of an output
+  uint64_t released = 0;  ///< the bit for "released"; 0: it cannot be
+  uint64_t unknown = 0;   ///< ... for "unknown", of an output
   uint64_t all() const { return level | released | unknown; }
 };
 
-/// One direction of a kind's pins, by their number: levels first, then what is released, then what is unknown.
+/// One direction of a kind's pins, by their number: levels first, then the bits for released, then those for unknown.
 class PackedPins {
  public:
   PackedPins() = default;
@@ -64,11 +64,11 @@ class PackedPins {
   const std::vector<PinPlace>& places() const { return places_; }
   uint64_t at_reset() const { return at_reset_; }
   const PinPlace& of_pin(uint16_t pin) const { return places_[of_pin_[pin]]; }
-  /// The pin that the lowest bit of `pins`, which is not 0, belongs to.
+  /// The pin to which the lowest bit of `pins`, which is not 0, belongs.
   const PinPlace& first_of(uint64_t pins) const {
     return places_[of_bit_[static_cast<unsigned>(__builtin_ctzll(pins))]];
   }
-  /// Of the levels' bits only; throws Error when there is no such pin.
+  /// The bits of the levels only; throws Error if there is no such pin.
   uint64_t mask(const std::string& name) const;
 
  private:
@@ -83,7 +83,7 @@ struct KindPins {
   std::string kind;
   PackedPins inputs, outputs;
 };
-/// Good for ever; throws Error for a kind that there is not.
+/// Always valid; throws Error for an unknown kind.
 const KindPins& pins_of_kind(const std::string& kind);
 
 inline dpsim_level level_of(const PinPlace& place, uint64_t pins) {
@@ -92,14 +92,14 @@ inline dpsim_level level_of(const PinPlace& place, uint64_t pins) {
   return (pins & place.unknown) != 0 ? DPSIM_X : DPSIM_Z;
 }
 
-/// Packed pins in which one has another level.
+/// Packed pins with another level for one pin.
 inline uint64_t with_level(uint64_t pins, const PinPlace& place, dpsim_level level) {
   pins &= ~place.all();
   if (level == DPSIM_Z) return pins | place.released;
   return pins | (level == DPSIM_X ? place.unknown : static_cast<uint64_t>(level) << place.shift);
 }
 
-/// Calls `told` with the place and level of each pin that has another one in `now`.
+/// Calls `told` with the place and level of each pin that differs in `now`.
 template <class Told>
 void for_each_change(const PackedPins& pins, uint64_t before, uint64_t now, const Told& told) {
   for (uint64_t different = before ^ now; different != 0;) {

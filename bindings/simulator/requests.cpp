@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// What a bench asks of its master.
+// Requests of a bench to its master.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -43,7 +43,7 @@ void set_slave_members(dpsim_slave& slave, const char* text) {
   }
 }
 
-/// `flags` among the options, which a GSD has to know beforehand.
+/// `flags` among the options, which must be known before the GSD is read.
 uint32_t flags_of(const char* text) {
   dpsim_slave slave{};
   set_slave_members(slave, text);
@@ -72,7 +72,7 @@ void copy(uint8_t* to, std::size_t capacity, const std::vector<uint8_t>& bytes, 
   std::copy(bytes.begin(), bytes.end(), to);
 }
 
-/// Throws Error when a parameter of a task is out of its range.
+/// Throws Error if a parameter of a task is out of range.
 uint8_t byte_of(const char* name, int32_t value) {
   if (value < 0 || value > 255)
     throw Error(DPSIM_ERR_ARGUMENT, std::string(name) + " is " + std::to_string(value) + ", allowed are 0 to 255");
@@ -88,7 +88,7 @@ int32_t command(int32_t handle, const Command& command) {
   });
 }
 
-/// The same for a request: returns its number.
+/// As above for a request: returns its number.
 template <class Request>
 int32_t request(int32_t handle, const Request& request) {
   return guarded([&] {

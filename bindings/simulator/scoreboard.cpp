@@ -30,7 +30,7 @@ class Scoreboard final : public Object {
   Scoreboard(const Scoreboard&) = delete;
   Scoreboard& operator=(const Scoreboard&) = delete;
 
-  /// The pins at `tick`, a time before the present one counting as that.
+  /// Feeds the pins at `tick`; a time before the present one counts as the present one.
   void step(uint64_t tick, uint64_t inputs, uint64_t outputs) {
     if (differs()) return;
     now_ = std::max(now_, tick);

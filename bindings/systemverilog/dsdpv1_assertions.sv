@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// What holds at the pins of a DSDPV1 at every edge of CLK: the proved properties of rtl_ref/formal and rulings of docs/chip.md. Bound to
-// the reference RTL or to one with its port names by dsdpv1_bind.sv; the model keeps them as well.
+// Properties of a DSDPV1's pins at every edge of CLK: the proved properties of rtl_ref/formal and rulings of docs/chip.md. dsdpv1_bind.sv
+// binds them to the reference RTL or to RTL with its port names; the model keeps them as well.
 //
-// For simulators these are concurrent assertions (assert property). With DSDPV1_IMMEDIATE defined, as for Icarus and Yosys, which
-// have none, the same conditions are immediate assertions at the edges of CLK. With DSDPV1_ASSUME_USER defined what the user has to do
-// is assumed: for proofs.
+// For simulators these are concurrent assertions (assert property). With DSDPV1_IMMEDIATE defined, for Icarus and Yosys, which have none,
+// the same conditions are immediate assertions at the edges of CLK. With DSDPV1_ASSUME_USER defined the user's duties are assumed: for
+// proofs.
 `ifdef DSDPV1_IMMEDIATE
 `define DSDPV1_HOLDS(name, condition) always @(posedge clk_i) if (reset_i && seen) begin : name assert (condition); end
 `define DSDPV1_USER_KEEPS(name, condition) always @(posedge clk_i) if (reset_i && seen) begin : name assume (condition); end
@@ -35,11 +35,11 @@ module dsdpv1_assertions #(
   input logic       br_o,
   input logic       ready_o
 );
-`ifndef YOSYS  // which knows no time
+`ifndef YOSYS  // Yosys has no time
   timeunit 1ps;
   timeprecision 1ps;
 `endif
-  // What levels were at earlier edges. `seen`: RESET has been low for four edges, from when on no level is unknown.
+  // Levels at earlier edges. `seen`: RESET has been low for four edges, after which no level is unknown.
   logic seen = 1'b0, had_pulse, ready_before, r_sta_before;
   logic [1:0] held_before;
   logic [2:0] in_reset = 3'd0;
@@ -70,12 +70,12 @@ module dsdpv1_assertions #(
   end
   wire intr0_falls = !intr0_o && low_for == 16'd0;
 
-  // ---- proved of the reference RTL (docs/rtl.md)
+  // ---- proved for the reference RTL (docs/rtl.md)
   // L_REQ and L_STA are equal (H1).
   `DSDPV1_HOLDS(l_req_is_l_sta, l_req_o == l_sta_o)
-  // Never do both sides own the DPRAM, as long as the user keeps H2 (H1, H2, H6).
+  // The two sides never own the DPRAM at once, as long as the user keeps H2 (H1, H2, H6).
   `DSDPV1_HOLDS(one_owner, !(l_sta_o && r_sta_i))
-  // A pulse of INTR0 lasts INTR_LOW cycles, no more and no less (P7).
+  // A pulse of INTR0 lasts exactly INTR_LOW cycles (P7).
   `DSDPV1_HOLDS(intr0_not_longer, {16'd0, low_for} < INTR_LOW || intr0_o)
   `DSDPV1_HOLDS(intr0_not_shorter, !intr0_o || low_for == 16'd0 || {16'd0, low_for} == INTR_LOW)
   // Between two of them it is high for at least INTR_GAP cycles (P7).
@@ -105,8 +105,8 @@ module dsdpv1_assertions #(
 
   // ---- the user's side
 `ifdef DSDPV1_ASSUME_USER
-  // R_STA rises only while R_REQ is high, L_REQ and L_STA are seen low, and R_REQ has been high for three edges: up to then the chip may still
-  // begin (H2's window for a user whose edges fall between those of CLK).
+  // R_STA rises only while R_REQ is high, L_REQ and L_STA are sampled low, and R_REQ has been high for three edges: until then the chip may
+  // still begin (H2's window for a user whose edges fall between those of CLK).
   `DSDPV1_USER_KEEPS(user_takes_turns, !r_sta_i || r_sta_before || (r_req_i && held_before == 2'b11 && !l_req_o && !l_sta_o))
 `endif
 endmodule

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// Inside of the checkers of all kinds: handshake, timing of the host port, cells, service (docs/checks.md). They can be bound as scoreboards are. Each
-// violation is an $error with its clause and what to do about it.
+// Implements the checkers of all kinds: handshake, timing of the host port, cells, service (docs/checks.md). They can be bound like
+// scoreboards. Each violation is an $error with its clause and advice.
   `include "dsdpv1_time.svh"
 
   int handle = 0;
@@ -21,7 +21,7 @@
     if (handle != 0) report(`DSDPV1(checker_step)(handle, half, $time - edge_ps, inputs, outputs));
   endtask
 
-  // At the end of the simulation: what could only then be seen. Afterwards nothing is checked any more.
+  // At the end of the simulation: checks what can only be decided then. Afterwards nothing is checked.
   task finish;
     report(`DSDPV1(checker_finish)(handle));
     applied = `DSDPV1(checker_applied)(handle);

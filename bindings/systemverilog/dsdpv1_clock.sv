@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// The 48 MHz of CLK for benches that have none: each edge is rounded to 1 ps from its own place, so that nothing drifts. It begins high
-// at time 0; its rising edge n is at n / 48 us.
+// The 48 MHz of CLK for benches without a clock: each edge is rounded to 1 ps from its absolute time, so nothing drifts. It begins high at
+// time 0; its rising edge n is at n / 48 us.
 module dsdpv1_clock (
   output reg clk_o
 );

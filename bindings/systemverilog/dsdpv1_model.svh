@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// Inside of the models of all kinds. The library is called at an edge of CLK at which an output may change, when MISO changes, and at each change of an
-// input.
+// Implements the models of all kinds. Calls the library at an edge of CLK at which an output may change, when MISO changes, and at each
+// change of an input.
 //
-// Outputs change at their edge of CLK, D at the falling one (section 12). X at an input counts as its level of rest, a D with an X or Z in
-// it as released.
+// Outputs change at their edge of CLK, D at the falling one (section 12). X at an input counts as its idle level, a D with an X or Z in it
+// as released.
 //
-// With CLOCKED = 0 the model has its own 48 MHz, whose rising edge n is at n / 48 us: clk_i is not looked at, so that a bench need not
-// simulate a clock. Each change is then at its absolute time, in ps rounded to the nearest tick of 1/12 ns and back.
+// With CLOCKED = 0 the model has an internal 48 MHz, whose rising edge n is at n / 48 us: clk_i is ignored, so a bench need not simulate a
+// clock. Each change is then at its absolute time, in ps rounded to the nearest tick of 1/12 ns and back.
   `include "dsdpv1_time.svh"
 
   int handle = 0;
-  longint next = 0;  // when an output may change by itself: half cycle, without CLK ps
+  longint next = 0;  // next change of an output without a change of an input: half cycle, without CLK ps
 
   task step;
     longint outputs;

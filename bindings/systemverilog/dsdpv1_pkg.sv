@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// The functions of libdsdpv1_dpi.so and the numbers that benches need. What each does, its units and ranges: bindings/simulator/simulator.h.
+// The functions of libdsdpv1_dpi.so and the numbers that benches need. bindings/simulator/simulator.h has each one's meaning, units and
+// ranges.
 package dsdpv1_pkg;
   timeunit 1ps;
   timeprecision 1ps;
@@ -14,7 +15,7 @@ package dsdpv1_pkg;
   // States of a slave at its master.
   localparam int SLAVE_OFFLINE = 0, SLAVE_DIAGNOSE = 1, SLAVE_CLEAR = 2, SLAVE_SET_PRM = 3, SLAVE_CHK_CFG = 4, SLAVE_AWAIT_READY = 5,
                  SLAVE_DATA_EXCHANGE = 6, SLAVE_RELEASING = 7, SLAVE_RELEASED = 8;
-  // What came of a request ...
+  // Outcome of a request ...
   localparam int SENT = 0, ANSWERED = 1, NO_ANSWER = 2, BAD_ANSWER = 3, ABORTED = 4;
   // ... and of an acyclic one.
   localparam int ACYCLIC_POSITIVE = 0, ACYCLIC_NEGATIVE = 1, ACYCLIC_TIMEOUT = 2, ACYCLIC_REFUSED = 3, ACYCLIC_NO_ANSWER = 4,

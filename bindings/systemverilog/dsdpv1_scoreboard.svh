@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// Inside of the scoreboards of all kinds: at the first different level they say which pin, both levels, cycle and time, the last input and the last
-// events of the model, and stop the simulation. Parameters of the chip are those of the RTL.
+// Implements the scoreboards of all kinds: at the first different level they report the pin, both levels, cycle and time, the last input
+// and the last events of the model, and stop the simulation. Parameters of the chip are those of the RTL.
 //
-// Levels are compared when all of a time step has settled, from the fourth cycle with RESET low on. Where the model says that D is X, any
-// level is right (P5). MISO of the RTL is the pin's register: its pin follows SPI_MISO_DELAY later.
+// Levels are compared when everything in a time step has settled, from the fourth cycle with RESET low on. If the model's D is X, any level
+// is right (P5). MISO of the RTL is the pin's register: its pin follows SPI_MISO_DELAY later.
   `include "dsdpv1_time.svh"
 
   int handle = 0;
@@ -27,7 +27,7 @@
     end
   endtask
 
-  // Changes of the model's outputs so far that the RTL has made as well.
+  // Changes of the model's outputs so far that the RTL made as well.
   function int matched();
     matched = `DSDPV1(scoreboard_matched)(handle);
   endfunction

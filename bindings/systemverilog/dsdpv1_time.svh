@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// Inside of the modules that have a chip's pins: the halves of a cycle of CLK, see bindings/simulator/simulator.h, and a bell that rings at a time.
+// Shared by the modules with a chip's pins: the halves of a cycle of CLK, see bindings/simulator/simulator.h, and wake-ups at a time.
   longint half = 0;     // 2n since the rising edge n, 2n + 1 since the falling edge after it
   longint edge_ps = 0;  // when that was
   bit counts = 1'b0;    // the first rising edge has its number from its time, all others by counting
@@ -15,7 +15,7 @@
     end
   endtask
 
-  // The earliest wake-up on its way. It cannot be taken back; one that has become needless does no harm.
+  // The earliest pending wake-up. It cannot be cancelled; a needless one does no harm.
   longint planned = -1;
   int plans = 0;
   int alarm = 0;
@@ -29,7 +29,7 @@
   endtask
   always @(plans) alarm <= #(planned - $time) plans;
 
-  // What CLK does not move, MISO, changes between two of its edges: `next` is then less than 0.
+  // MISO, which CLK does not move, changes between two of its edges: `next` is then negative.
   task plan_between(input longint next);
     longint now;
     now = $time;

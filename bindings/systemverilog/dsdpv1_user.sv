@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// A user CPU at the pins of a DSDPV1, model or RTL, as a bus functional model: accesses with the times of table 15, ownership by R_REQ and
-// R_STA (H2), blocks with their CRC (4.2). Tasks are called by one process.
+// A user CPU on the pins of a DSDPV1, model or RTL, as a bus functional model: accesses with the times of table 15, ownership by R_REQ and
+// R_STA (H2), blocks with their CRC (4.2). Only one process may call the tasks.
 module dsdpv1_user #(
   parameter integer DPV1 = 0,           // 1: initialise enables DPV1, requests are fetched with get_request
   parameter longint SETUP_PS = 20000,   // A, D, CSR before the strobe falls
   parameter longint STROBE_PS = 50000,  // RD, WR low: Tw >= 31.25 ns, Ts >= 12.5 ns
   parameter longint HOLD_PS = 20000,    // A, D, CSR after it: Td >= 12.5 ns
-  parameter longint LOOK_PS = 100000    // from R_REQ to each look at L_REQ and L_STA
+  parameter longint LOOK_PS = 100000    // from R_REQ to each sample of L_REQ and L_STA
 ) (
   output logic        r_req_o,
   output logic        r_sta_o,
@@ -39,7 +39,7 @@ module dsdpv1_user #(
     wr_o = 1'b1;
   end
 
-  // All delays are in this module's own process: Verilator 5.006 scales those of a task by the time unit of its caller.
+  // All delays are in a process of this module: Verilator 5.006 scales those of a task by the time unit of its caller.
   longint pause_ps = 0;
   int pauses = 0, ends = 0;
   always @(pauses) ends <= #(pause_ps) pauses;
@@ -49,7 +49,7 @@ module dsdpv1_user #(
     @(ends);
   endtask
 
-  // Until the DPRAM is the user's; each hold begins by counting B006 (note 1 of table 2).
+  // Waits until the user owns the DPRAM; each hold begins by counting B006 (note 1 of table 2).
   task take;
     logic [7:0] count;
     r_req_o = 1'b1;
@@ -102,7 +102,7 @@ module dsdpv1_user #(
     for (shift = 0; shift < 8; shift = shift + 1) crc16 = crc16[0] ? (crc16 >> 1) ^ 16'hA001 : crc16 >> 1;
   endfunction
 
-  // A block of `count` bytes at `address` and its CRC at `crc_address`. The user owns the DPRAM.
+  // Writes a block of `count` bytes at `address` and its CRC at `crc_address`. The user owns the DPRAM.
   task write_block_at(input logic [10:0] address, input bytes_t block, input int count, input logic [10:0] crc_address);
     logic [15:0] crc;
     int i;
@@ -115,7 +115,7 @@ module dsdpv1_user #(
     write_cell(crc_address + 11'd1, crc[7:0]);
   endtask
 
-  // The same, then `command` into B010.
+  // As above, then writes `command` into B010.
   task write_block(input logic [10:0] address, input bytes_t block, input int count, input logic [10:0] crc_address,
                    input logic [7:0] command);
     write_block_at(address, block, count, crc_address);
@@ -134,8 +134,8 @@ module dsdpv1_user #(
     end
   endtask
 
-  // The initialisation block (table 12): lengths at their limits, the chip judges the parameters by their length and the configuration by
-  // comparing it (modes 0 and 1). `done`: whether the chip has accepted it.
+  // Writes the initialisation block (table 12): lengths at their limits; the chip judges the parameters by their length and the
+  // configuration by comparison (modes 0 and 1). `done`: whether the chip has accepted it.
   task initialise(input int address, input int ident, input bytes_t cfg, input int cfg_size, output int done);
     bytes_t block;
     logic [7:0] status;
@@ -165,7 +165,7 @@ module dsdpv1_user #(
     done = status[0] === 1'b1 ? 1 : 0;
   endtask
 
-  // Inputs for the master.
+  // Writes inputs for the master.
   task give_inputs(input bytes_t inputs, input int count);
     bytes_t block;
     int i;
@@ -177,7 +177,7 @@ module dsdpv1_user #(
     give;
   endtask
 
-  // Outputs of the master; `count` 0: no new ones. Their CRC is compared (4.1.2).
+  // Reads outputs of the master; `count` 0: no new ones. Checks their CRC (4.1.2).
   task get_outputs(output bytes_t outputs, output int count);
     logic [7:0] value, crc_high, crc_low;
     logic [15:0] crc;
@@ -204,8 +204,8 @@ module dsdpv1_user #(
     give;
   endtask
 
-  // ---- acyclic requests (7.2, 7.3). `channel` 0: MSAC_C1, area B5D0; 1: MSAC_C2, area B6D0. Bit `channel` of B00F says that there is a
-  // ---- request, that of B011 that there is an answer
+  // ---- acyclic requests (7.2, 7.3). `channel` 0: MSAC_C1, area B5D0; 1: MSAC_C2, area B6D0. Bit `channel` of B00F announces a request,
+  // ---- that of B011 an answer
 
   logic [7:0] asked [0:7];  // the header of each channel's request: Function_Num, slot, index, length; an answer repeats it (V6)
 
@@ -213,8 +213,8 @@ module dsdpv1_user #(
     area = channel == 0 ? 11'h5D0 : 11'h6D0;
   endfunction
 
-  // Fetches a request. `service`: DS_READ, DS_WRITE, DS_TRANSPORT of dsdpv1_pkg, 0: there is none. `data`, `count`: what is to be
-  // written or transported; of a read `count` is how many bytes are asked for. Its CRC is compared (4.1.2).
+  // Fetches a request. `service`: DS_READ, DS_WRITE, DS_TRANSPORT of dsdpv1_pkg, 0: none. `data`, `count`: bytes to write or transport; for
+  // a read `count` is the number of bytes requested. Checks its CRC (4.1.2).
   task get_request(input int channel, output int service, output int slot, output int index, output bytes_t data, output int count);
     logic [7:0] value, crc_high, crc_low;
     logic [15:0] crc;
@@ -252,7 +252,7 @@ module dsdpv1_user #(
     logic [7:0] value;
     take;
     read_cell(11'h00F, value);
-    if (value[channel] !== 1'b1) begin  // else a newer request is there, which the answer would destroy (V13)
+    if (value[channel] !== 1'b1) begin  // else the answer would destroy a newer request (V13)
       read_cell(11'h011, value);
       write_block_at(area(channel), block, count, area(channel) + 11'h0F4);
       write_cell(11'h011, value | (8'h01 << channel));
@@ -260,7 +260,7 @@ module dsdpv1_user #(
     give;
   endtask
 
-  // The answer to the request fetched last: what was read or transported; of a write nothing is looked at, all of it was written.
+  // Answers the last request: `data` are the bytes read or transported; ignored for a write, which is answered as complete.
   task answer(input int channel, input bytes_t data, input int count);
     bytes_t block;
     int i;
@@ -274,7 +274,7 @@ module dsdpv1_user #(
     end
   endtask
 
-  // ... or its refusal (tables 28, 29): ACCESS_... of dsdpv1_pkg.
+  // Refuses the last request (tables 28, 29): ACCESS_... of dsdpv1_pkg.
   task refuse(input int channel, input int error_code_1, input int error_code_2);
     bytes_t block;
     block = 2048'd0;

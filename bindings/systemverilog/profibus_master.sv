@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// A PROFIBUS master, class 1 or 2, as a bus functional model. It works by itself once it is started: the bus parameters, token, polling of
-// its slaves, repetitions. Tasks are services out of the cycle, each returns when the answer is there. Bits are at their exact times, in
-// ps rounded from the absolute count of 1/12 ns.
+// A PROFIBUS master, class 1 or 2, as a bus functional model. Once started it works automatically: bus parameters, token, polling of its
+// slaves, repetitions. Tasks are acyclic services; each returns with the answer. Bits are at their exact times, in ps rounded from the
+// absolute count of 1/12 ns.
 //
-// `rxd_i` is the level that all other stations put on the line, `rxd_en_i` whether one of them drives it (profibus_segment has both; with one
-// chip alone its PBTXD and PBRTS). `txd_o` and `rts_o` are its own driver.
+// `rxd_i` is the level that all other stations put on the line, `rxd_en_i` whether one of them drives it (profibus_segment has both; with a
+// single chip its PBTXD and PBRTS). `txd_o` and `rts_o` are the master's driver.
 //
-// With SCENARIO it needs no task: the masters of that file (docs/scenarios.md), both classes, start at their times and carry out the script
-// as far as it is theirs. What is said there of slaves, their user CPUs, plugs, and expect is left out, and displayed once; a `when` that only
-// a slave could tell is an error. Tasks are for the first master then. A file is found from where the simulator runs.
+// With SCENARIO it needs no task: the masters of that file (docs/scenarios.md), both classes, start at their times and execute the script's
+// actions for masters. Slaves, their user CPUs, plugs, and expect are ignored and displayed once; a `when` that only a slave could evaluate
+// is an error. Tasks then apply to the first master. The file's path is relative to the simulator's working folder.
 //
 // A task is called by one process at a time; two processes may wait in different tasks.
 `include "dsdpv1_calls.svh"
@@ -20,9 +20,9 @@ module profibus_master #(
   parameter integer BAUD = 0,     // 0: 12M ... 9: 9.6k
   parameter integer RING = 0,     // 1: shares the token with other masters; class 2 always does
   parameter OPTIONS = "",         // other members of dpsim_master_options (include/dsdpv1/master.h): "slot_bits=1000 gap_factor=-1"
-  parameter SCENARIO = "",        // a scenario's file: its masters, by themselves; the parameters above are not looked at
-  parameter SETTINGS = "",        // keys of the scenario that are replaced: "baud=1.5M;masters.0.start=1ms"
-  parameter integer VERBOSE = 0   // 1: states of slaves, faults on the line, answers to the script are displayed
+  parameter SCENARIO = "",        // a scenario's file: its masters run automatically; the parameters above are ignored
+  parameter SETTINGS = "",        // replaced keys of the scenario: "baud=1.5M;masters.0.start=1ms"
+  parameter integer VERBOSE = 0   // 1: displays states of slaves, faults on the line, answers to the script
 ) (
   input  logic rxd_i,
   input  logic rxd_en_i,
@@ -36,14 +36,14 @@ module profibus_master #(
 
   int handle = 0;
   event ran;                // after each step
-  longint planned = -1;     // the earliest wake-up on its way
+  longint planned = -1;     // the earliest pending wake-up
   int alarm = 0, plans = 0;
 
   task fail;
     $fatal(1, "%m: %0s", `DSDPV1(error)());
   endtask
 
-  // Wake-ups cannot be taken back: one that has become needless does no harm.
+  // Wake-ups cannot be cancelled; a needless one does no harm.
   task plan(input longint now, input longint wake);
     if (wake >= 0 && (planned <= now || wake < planned)) begin
       planned = wake;
@@ -52,7 +52,7 @@ module profibus_master #(
   endtask
   always @(plans) alarm <= #(planned - $time) plans;
 
-  // Everything up to the present time, asked for by a task.
+  // A task requests that everything up to the present time be simulated.
   int asked = 0;
   task run;
     asked = asked + 1;
@@ -89,11 +89,11 @@ module profibus_master #(
     if (SCENARIO == "") handle = `DSDPV1(master_create)(options);
     else handle = `DSDPV1(master_load)(SCENARIO, SETTINGS, VERBOSE);
     if (handle == 0) fail();
-    tell();  // what of a scenario is not its masters'
+    tell();  // the ignored parts of a scenario
   end
   always @(handle or asked or alarm or rxd_i or rxd_en_i) step();
 
-  // What a command returned; it takes effect at the present time.
+  // Evaluates a command's result; the command takes effect at the present time.
   task commanded(input int status);
     if (status < 0) fail();
     run();
@@ -101,13 +101,13 @@ module profibus_master #(
 
   // ---- its slaves, its operation
 
-  // A slave by its GSD file; `modules` by name, separated by ';', "": those that the file presets. `options`: see add_slave.
+  // Adds a slave by its GSD file; `modules` by name, separated by ';', "": those that the file presets. `options`: see add_slave.
   task add_gsd(input string path, input string modules, input int address, input string options);
     run();
     commanded(`DSDPV1(master_add_gsd)(handle, path, modules, address, options));
   endtask
 
-  // A slave by its numbers; `options`: "ident=0xC90F input_length=8 output_length=8 flags=8 wd_fact_1=10 wd_fact_2=10 min_tsdr=11
+  // Adds a slave by its numbers; `options`: "ident=0xC90F input_length=8 output_length=8 flags=8 wd_fact_1=10 wd_fact_2=10 min_tsdr=11
   // group_ident=1", see dpsim_slave in include/dsdpv1/gsd.h.
   task add_slave(input int address, input string options, input bytes_t prm, input int prm_size, input bytes_t cfg, input int cfg_size);
     run();
@@ -151,7 +151,7 @@ module profibus_master #(
     commanded(`DSDPV1(master_set_outputs)(handle, address, data, count));
   endtask
 
-  // Of the last data exchange.
+  // Inputs of the last data exchange.
   task get_inputs(input int address, output bytes_t data, output int count);
     run();
     count = `DSDPV1(master_get_inputs)(handle, address, data);
@@ -168,7 +168,7 @@ module profibus_master #(
     exchanges = `DSDPV1(master_exchanges)(handle, address);
   endfunction
 
-  // Until the slave is in this state. `reached` 0: not within `limit_ps`.
+  // Waits until the slave is in this state. `reached` 0: not within `limit_ps`.
   task wait_state(input int address, input int state, input longint limit_ps, output int reached);
     longint now, until_ps;
     now = $time;
@@ -181,7 +181,7 @@ module profibus_master #(
     reached = slave_state(address) == state ? 1 : 0;
   endtask
 
-  // ---- services out of the cycle. `outcome`: ANSWERED, NO_ANSWER, ... of dsdpv1_pkg; `fc`: function code of the answer; `data`: its
+  // ---- acyclic services. `outcome`: ANSWERED, NO_ANSWER, ... of dsdpv1_pkg; `fc`: function code of the answer; `data`: its
   // ---- bytes without addresses, SAPs and frame
 
   task finish_request(input int id, output int outcome, output int codes, output bytes_t data, output int count);
@@ -227,7 +227,7 @@ module profibus_master #(
     ask(57, address, outcome, fc, data, count);
   endtask
 
-  // Any SRD high; SAPs -1: without. The answer comes in the place of the request's data.
+  // Any SRD high; SAPs -1: none. The answer replaces the request's data.
   task request(input int address, input int dsap, input int ssap, inout bytes_t data, inout int count, output int outcome, output int fc);
     int id;
     run();
@@ -235,7 +235,7 @@ module profibus_master #(
     finish_request(id, outcome, fc, data, count);
   endtask
 
-  // `prm`: all of Set_Prm's data, its first 7 bytes too (table 19)
+  // `prm`: all data of Set_Prm, including its first 7 bytes (table 19)
   task set_prm(input int address, input bytes_t prm, input int prm_size, output int outcome, output int fc);
     bytes_t data;
     int count;
@@ -265,7 +265,7 @@ module profibus_master #(
     finish_request(`DSDPV1(master_global_control)(handle, command, group, address), outcome, codes, data, count);
   endtask
 
-  // `lock` 1: no later change
+  // `lock` 1: forbids later changes
   task set_slave_address(input int address, input int new_address, input int ident, input int lock, output int outcome, output int fc);
     bytes_t data;
     int count;
@@ -290,7 +290,7 @@ module profibus_master #(
     finish_request(`DSDPV1(master_write)(handle, peer, slot, index, data, count), outcome, codes, answer, answer_count);
   endtask
 
-  // Class 2 only. The answer comes in the place of the request's data.
+  // Class 2 only. The answer replaces the request's data.
   task acyclic_transport(input int peer, input int slot, input int index, inout bytes_t data, inout int count, output int outcome,
                          output int codes);
     int id;
@@ -299,7 +299,7 @@ module profibus_master #(
     finish_request(id, outcome, codes, data, count);
   endtask
 
-  // Class 2: Initiate. `send_timeout` in 10 ms, 0: 100. `state`: CONNECTION_OPEN, or CONNECTION_CLOSED when it was refused.
+  // Class 2: Initiate. `send_timeout` in 10 ms, 0: 100. `state`: CONNECTION_OPEN, or CONNECTION_CLOSED if refused.
   task initiate(input int slave, input int send_timeout, output int connection, output int state);
     run();
     connection = `DSDPV1(master_add_connection)(handle, slave, send_timeout);
@@ -312,7 +312,7 @@ module profibus_master #(
     end
   endtask
 
-  // Until the connection is closed. `reason` 0: an ordinary end.
+  // Aborts the connection and waits until it is closed. `reason` 0: an ordinary end.
   task abort(input int connection, input int reason);
     run();
     commanded(`DSDPV1(master_abort)(handle, connection, reason));

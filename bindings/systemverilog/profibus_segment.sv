@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// The two wires of a segment: a station whose driver is enabled (RTS) puts its TXD on them, low wins, 1 is idle. A chip's PBRXD is line_o; a
-// profibus_master wants what all others do.
+// The two wires of a segment: a station with an enabled driver (RTS) puts its TXD on them, low wins, 1 is idle. Connect a chip's PBRXD to
+// line_o, and a profibus_master to the combined outputs of the others.
 module profibus_segment #(
   parameter integer STATIONS = 2
 ) (
   input  logic [STATIONS-1:0] txd_i,
   input  logic [STATIONS-1:0] rts_i,
   output logic                line_o,
-  output logic [STATIONS-1:0] others_o,     // the level that all but this station put on the line
+  output logic [STATIONS-1:0] others_o,     // the level that all other stations put on the line
   output logic [STATIONS-1:0] others_en_o   // whether one of them drives it
 );
   timeunit 1ps;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// The functions of simulator.h as system functions of VPI: dsdpv1_model_step is $dsdpv1_model_step. A C++ function's
-// own signature says how its arguments are read from the call and written back to it.
+// The functions of simulator.h as system functions of VPI: dsdpv1_model_step is $dsdpv1_model_step. The signature of a
+// C++ function determines how its arguments are read from the call and written back to it.
 #include <vpi_user.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace {
 
-constexpr int kTextBits = 8 * 2048;  // of a function that returns text
+constexpr int kTextBits = 8 * 2048;  // for a function that returns text
 constexpr int kWords = DSDPV1_BYTES / 4;
 
 int64_t read_number(vpiHandle from, int words) {
@@ -47,7 +47,7 @@ void write_number(vpiHandle to, uint64_t number) {
   write_words(to, words);
 }
 
-/// An argument of a call: `read` before, `pass` is what the function gets, `write` afterwards.
+/// An argument of a call: `read` fetches it before, `pass` passes it to the function, `write` stores it afterwards.
 template <class Type>
 struct Argument;
 
@@ -172,7 +172,7 @@ PLI_INT32 carry_out(PLI_BYTE8*) {
   return 0;
 }
 
-/// Before the simulation: a call with another number of arguments stops it.
+/// Before the simulation: stops it if a call has a wrong number of arguments.
 template <auto Function>
 PLI_INT32 check_call(PLI_BYTE8* name) {
   vpiHandle call = vpi_handle(vpiSysTfCall, nullptr);
@@ -181,7 +181,7 @@ PLI_INT32 check_call(PLI_BYTE8* name) {
   while (all != nullptr && vpi_scan(all) != nullptr) ++count;
   constexpr std::size_t kWanted = Call<decltype(Function)>::kCount;
   if (count == kWanted) return 0;
-  std::string form = "%s:%d: %s has %u arguments, it needs %u\n";  // VPI's texts are not constant
+  std::string form = "%s:%d: %s has %u arguments, it needs %u\n";  // VPI takes non-const texts
   vpi_printf(form.data(), vpi_get_str(vpiFile, call), vpi_get(vpiLineNo, call), name, static_cast<unsigned>(count),
              static_cast<unsigned>(kWanted));
   vpi_control(vpiFinish, 1);
@@ -255,7 +255,7 @@ void add_all() {
 
 }  // namespace
 
-/// What a simulator looks for in a VPI module.
+/// The symbol that a simulator looks for in a VPI module.
 extern "C" {
 __attribute__((visibility("default"))) void (*vlog_startup_routines[])() = {add_all, nullptr};
 }

@@ -18,7 +18,7 @@ struct Played {
   std::vector<std::string> settings;
 };
 
-/// Hands out case numbers and collects what came of them.
+/// Hands out case numbers and collects their results.
 class Campaign {
  public:
   Campaign(const CampaignOptions& options, const MakeTop& make, const CampaignProgress& progress)
@@ -53,7 +53,7 @@ class Campaign {
     Played played;
     if (options_.make_for) played.settings = cases.case_settings(seed);
     if (!played.settings.empty()) {
-      const std::scoped_lock lock(mutex_);  // the keys' descriptions are made when they are first asked for
+      const std::scoped_lock lock(mutex_);  // the keys' descriptions are made at first use
       set_parameters(options, played.settings);
     }
     const std::unique_ptr<PlayListener> watch = cases.watch(*options.chip, played.situations);
@@ -61,7 +61,7 @@ class Campaign {
     played.result = play(random_case(seed, options), options_.make_for ? options_.make_for(options) : make_, options);
     return played;
   }
-  /// Every case before the first with a difference was begun before it, and all that were begun have ended.
+  /// Every case before the first with a difference was begun before it, and all begun cases have ended.
   CampaignResult sum() const {
     CampaignResult result;
     for (const Played& each : played_) {

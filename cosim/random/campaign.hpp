@@ -1,5 +1,5 @@
 #pragma once
-// Many random cases, on several threads; and the shrinking of one that fails.
+// Runs many random cases on several threads, and shrinks a failing one.
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,11 +18,11 @@ struct CampaignOptions {
   unsigned jobs = 1;                   ///< threads
   PlayOptions play = quick_options();
   std::uint64_t first_case = 0;    ///< number of the first one
-  MakeTopFor make_for = {};        ///< each case has its RandomCases::case_settings; empty: none has
+  MakeTopFor make_for = {};        ///< each case has its RandomCases::case_settings; empty: no settings
   bool counts_situations = false;  ///< costs a few percent
 };
 
-/// The same for the same seed and cycles, however many threads there are.
+/// The same for the same seed and cycles, independent of the number of threads.
 struct CampaignResult {
   MatchCounts counts;
   Coverage coverage;
@@ -33,20 +33,20 @@ struct CampaignResult {
   std::optional<Difference> difference;      ///< of the first case that has one
 };
 
-/// What is compared so far, for a progress line; called by one thread at a time.
+/// Progress of the comparison; called by one thread at a time.
 using CampaignProgress = std::function<void(std::uint64_t cases, std::uint64_t cycles)>;
 
 /// The seed of case `number` of a campaign.
 std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number);
 
-/// Cases until so many cycles are compared, or one differs. `make` is called by all threads; `progress` may be empty.
+/// Runs cases until so many cycles are compared, or one differs. All threads call `make`; `progress` may be empty.
 CampaignResult run_campaign(const CampaignOptions& options, const MakeTop& make, const CampaignProgress& progress = {});
 
-/// A shorter stimulus that still differs: actions are left out, then delays and faults, as long as there is a
+/// Finds a shorter stimulus that still differs: removes actions, then delays and faults, as long as there is a
 /// difference. At most `runs` runs, each with `options`.
 Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs, const PlayOptions& options = quick_options());
 
-/// Calls `work` on so many threads, each until it returns false; throws what the first of them threw.
+/// Calls `work` on so many threads, each until it returns false; rethrows the first exception.
 void in_parallel(unsigned jobs, const std::function<bool()>& work);
 
 }  // namespace dsdpv1::cosim

@@ -1,6 +1,6 @@
 #pragma once
-// A campaign at all host ports that is interrupted and gone on with: what has been compared so far, in one file of a
-// folder.
+// The record of a campaign at all host ports, which can be interrupted and resumed: the comparisons so far, in one file
+// of a folder.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace dsdpv1::cosim {
 
 constexpr const char* kCampaignFile = "campaign.json";
 
-/// The random cases at one host port, up to now.
+/// The random cases at one host port so far.
 struct PortRecord {
   const tb::ChipKind* kind;
   const HostPort* port;
@@ -33,21 +33,21 @@ struct CampaignRecord {
 
   std::uint64_t cycles() const;
   std::uint64_t cases() const;
-  /// The port that has least of what it is to have of `goal` cycles, in relation to it; null: all have.
+  /// The port that is furthest below its share of `goal` cycles; null: all are complete.
   PortRecord* behind(std::uint64_t goal);
-  /// What went well is added, up to before a case that differs.
+  /// Adds matching cases, up to before a case that differs.
   static void add(PortRecord& port, const CampaignResult& result);
 };
 
-/// Nothing compared yet: each kind at each of its ports that has a share.
+/// A new record: each kind at each of its ports that has a share.
 CampaignRecord new_record(std::uint64_t seed);
-/// What the folder has; a new one where it has none. Throws tb::InputError: no record, or one of another seed or
+/// The record in the folder; a new one if there is none. Throws tb::InputError: not a record, or one of another seed or
 /// version of the program's table.
 CampaignRecord read_record(const std::string& folder, std::uint64_t seed);
-/// Complete or as before.
+/// Writes it completely or not at all.
 void write_record(const std::string& folder, const CampaignRecord& record);
 
-/// Every port's situations with their counts, after what was compared: lines of text, separated by tabs.
+/// Every port's situations with their counts so far: lines of text, separated by tabs.
 std::string table(const CampaignRecord& record);
 
 }  // namespace dsdpv1::cosim

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kLineWidth = 118;
 
-/// The only telegram in `bytes`, if it is one.
+/// The only telegram in `bytes`, if they are one.
 std::optional<bus::Telegram> decode(const bus::Bytes& bytes) {
   bus::TelegramDecoder decoder;
   std::optional<bus::Telegram> telegram;
@@ -44,7 +44,7 @@ std::string kind(const bus::Bytes& bytes, bool faulty) {
   return service(*telegram);
 }
 
-/// "NAME count, NAME count" in lines behind a heading.
+/// "NAME count, NAME count" in lines after a heading.
 class Lines {
  public:
   explicit Lines(const std::string& heading) : line_(fmt::format("{:<18}", heading)) {}

@@ -1,5 +1,5 @@
 #pragma once
-// What a random campaign has done: kinds of telegrams, and what the chip said to them and to its user.
+// Coverage of a random campaign: kinds of telegrams, and the chip's reasons towards them and its user.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -12,7 +12,7 @@ namespace dsdpv1::cosim {
 
 class Coverage {
  public:
-  /// A telegram as it was sent, with its faults on the wire.
+  /// A sent telegram, with its faults on the wire.
   void sent(const bus::Bytes& bytes, const bus::WireFaults& faults);
   void happened(const profibus::Event& event);
   void add(const Coverage& other);
@@ -22,7 +22,7 @@ class Coverage {
   const std::map<std::string, std::uint64_t>& telegrams() const { return telegrams_; }
   std::uint64_t count(profibus::Reason reason) const { return of(reasons_, reason); }
   /// Telegrams, refusals and states with their counts, then the codes that never occurred: some lines of text. `codes`:
-  /// all that there are.
+  /// all known codes.
   std::string text(const std::vector<profibus::Reason>& codes) const;
 
  private:

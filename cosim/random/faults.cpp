@@ -54,7 +54,7 @@ class Hunt {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// How long it waits, all lanes together.
+/// Total waiting time of all lanes.
 Tick waits(const Stimulus& stimulus) {
   return std::accumulate(
       stimulus.begin(), stimulus.end(), Tick{0}, [](Tick sum, const Action& action) { return sum + action.delay; });

@@ -1,5 +1,5 @@
 #pragma once
-// The fault campaign: the checker is checked. Every single fault that the RTL can be given must be found.
+// The fault campaign tests the checker: every single fault that can be planted in the RTL must be found.
 #include <string>
 #include <vector>
 
@@ -30,11 +30,11 @@ struct Kill {
   std::string what;  ///< the difference
 };
 
-/// Directed stimuli, first the one that the fault names, then random cases until `cycles` are compared.
-/// Of the chip and its port in `options`.
+/// Plays directed stimuli, first the one that the fault names, then random cases until `cycles` are compared. For the
+/// chip and its port in `options`.
 Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options);
 
-/// All of them, on several threads; `found` is called in the order of `faults`, by one thread at a time.
+/// Hunts all faults on several threads; `found` is called in the order of `faults`, by one thread at a time.
 std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<NamedStimulus>& directed,
                            const CampaignOptions& options, const std::function<void(const Kill&)>& found);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The log of a stimulus that is played: every change of every pin, the model's events, telegrams, the difference.
+// Log of a stimulus that is played: every change of every pin, the model's events, telegrams, the difference.
 #include <string>
 
 #include "cosim/random/play_listener.hpp"
@@ -9,14 +9,14 @@ namespace dsdpv1::cosim {
 
 class PlayLog : public PlayListener {
  public:
-  /// JSON lines for a file whose name ends in .jsonl; throws tb::InputError when it cannot be created.
+  /// Writes JSON lines to a file whose name ends in .jsonl; throws tb::InputError if it cannot be created.
   PlayLog(const std::string& path, const tb::ChipKind& kind)
       : kind_(kind), log_(path, tb::log_form(path, false, false)) {}
 
   void pin(Tick at, Side side, PinNumber pin, Level level) override;
   void event(const profibus::Event& event) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
-  /// Gives the file its name; throws tb::InputError when it cannot be written.
+  /// Gives the file its name; throws tb::InputError if it cannot be written.
   void ends(Tick end, const Lockstep& lockstep) override;
 
  private:

@@ -9,7 +9,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
-// No case needs longer; the slow rates would make some last for minutes.
+// No case needs longer; slow rates would make some last for minutes.
 constexpr Tick kLongestCase = 2'500'000 * profibus::kTicksPerCycle;
 
 }  // namespace

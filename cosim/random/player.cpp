@@ -16,9 +16,9 @@ namespace dsdpv1::cosim {
 namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
-constexpr Tick kAfterwards = 3000 * kCycle;  // so that what the last action has caused is compared as well
+constexpr Tick kAfterwards = 3000 * kCycle;  // so that the effects of the last action are compared as well
 
-/// One lane: takes its next action when the one before has ended.
+/// One lane: takes its next action when the previous one has ended.
 class Lane : public bus::Agent {
  public:
   virtual bool takes(Verb verb) const = 0;
@@ -57,7 +57,7 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     for (PlayListener* each : listeners_) each->evaluated(now, *lockstep_);
     tell_of_accesses(now);
   }
-  /// `lane` wants to know what the chip's accesses work on.
+  /// `lane` receives the items on which the chip's accesses work.
   void tell_of_accesses(PinLane& lane) { aimed_.push_back(&lane); }
   Lockstep& lockstep() { return *lockstep_; }
   const tb::BoardPins& places() const { return places_; }
@@ -72,7 +72,7 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     Tick at;
     bool enabled, level;
   };
-  /// The line answers, so it is told when the call into the chip is over.
+  /// The line may react, so it is updated after the call into the chip has returned.
   void drive(Tick at, PinNumber pin, Level level) {
     (pin == places_.txd ? level_ : enabled_) = level != 0;
     due_.push_back({at, enabled_, level_});
@@ -115,7 +115,7 @@ class BusLane : public Lane {
     answer_by_ = action.reply_bits == 0 ? -1 : sender_.end() + action.reply_bits * bit_;
     look_ = sender_.end();
   }
-  /// A glitch may last longer than the telegram: the line is looked at when the sender is through.
+  /// A glitch may last longer than the telegram: the line is checked after the sender has finished.
   Tick next() const override { return std::min({sender_.busy() ? sender_.next() : look_, spike_, spike_end_}); }
   void run(Tick now) override {
     if (spike_ <= now)
@@ -127,7 +127,7 @@ class BusLane : public Lane {
   }
 
  private:
-  /// Looks at RTS each bit time: ends when it has fallen, or when no answer has come in time.
+  /// Checks RTS at each bit time: ends when it has fallen, or if no answer has come in time.
   void look(Tick now) {
     const bool answers = chip_.level(chip_.places().rts) != 0;
     if (answers) answer_by_ = -1;
@@ -140,16 +140,16 @@ class BusLane : public Lane {
   Tick bit_ = 0, answer_by_ = -1, look_ = bus::kNever, spike_ = bus::kNever, spike_end_ = bus::kNever;
 };
 
-/// Of the user or the board. An action may be aimed: it waits for a part of an access of the chip, which whoever runs
-/// the chip tells about, so that nobody looks at every cycle.
+/// Actions of the user or the board. An action may be aimed: it waits for a part of a chip access, which the agent that
+/// runs the chip reports, so that not every cycle must be checked.
 class PinLane : public Lane {
  public:
-  /// From the verb `first` to `last`; `verbs`: of the user.
+  /// For the verbs from `first` to `last`; `verbs`: those of the user.
   PinLane(ChipAgent& chip, const std::vector<VerbRow>& verbs, Verb first, Verb last)
       : chip_(chip), verbs_(verbs), first_(first), last_(last) {}
 
   bool takes(Verb verb) const override { return verb >= first_ && verb <= last_; }
-  /// What the chip's access works on now.
+  /// The item on which the chip's access works now.
   void works_on(Tick now, const char* item) {
     item_ = item;
     if (aimed_ != nullptr && std::strcmp(aimed_->during, item) == 0) fire(now);
@@ -171,7 +171,7 @@ class PinLane : public Lane {
   }
 
  private:
-  static constexpr int kMostPolls = 400;  // a user who was patient for so long goes on all the same
+  static constexpr int kMostPolls = 400;  // after so many polls a user continues anyway
   UserPlan plan_of(const Action& action) const {
     const PinNumber reset = chip_.places().reset;
     if (action.verb == Verb::kReset) return {{{0, reset, 0}, {action.low, reset, 1}}};
@@ -210,7 +210,7 @@ class PinLane : public Lane {
     for (std::size_t i = edge_; i < plan_.edges.size(); ++i) plan_.edges[i].at += plan_.poll_every;
     --edge_;
   }
-  /// Looks at the reply every half bit.
+  /// Checks the reply every half bit.
   void look(Tick now) {
     if (chip_.level(plan_.reply) == 0) last_low_ = now;
     const bool over = last_low_ >= 0 ? now > last_low_ + bus::kCharacterBits * plan_.bit : now > reply_by_;
@@ -225,8 +225,8 @@ class PinLane : public Lane {
   Tick look_ = bus::kNever, last_low_ = -1, reply_by_ = 0;
   int polls_ = 0;
   const char* item_ = "";
-  const Action* aimed_ = nullptr;  ///< waits
-  Tick by_ = 0;                    ///< ... until then at most
+  const Action* aimed_ = nullptr;  ///< waiting
+  Tick by_ = 0;                    ///< ... at most until then
 };
 
 void ChipAgent::tell_of_accesses(Tick now) {
@@ -270,10 +270,10 @@ class Player {
  private:
   struct Place {
     Lane* lane = nullptr;
-    std::size_t next = 0;  ///< of the stimulus
+    std::size_t next = 0;  ///< index in the stimulus
   };
   Lockstep& lockstep() { return chip_.lockstep(); }
-  /// Somebody wants to know what happens: pins of all sides, and telegrams, which nobody else here reads.
+  /// A listener needs the events: pins of all sides, and telegrams, which are not read otherwise.
   void listen() {
     lockstep().on_pin([this](Tick at, Side side, PinNumber pin, Level level) {
       for (PlayListener* each : options_.listeners) each->pin(at, side, pin, level);
@@ -286,7 +286,7 @@ class Player {
     for (PlayListener* each : options_.listeners) each->begins(lockstep());
   }
 
-  /// Gives every idle lane its next action before the next `sync`; when there is none for any, `sync` is over.
+  /// Gives every idle lane its next action before the next `sync`; if no lane has one, `sync` is complete.
   bool hand_out() {
     bool any = false;
     do {

@@ -1,5 +1,5 @@
 #pragma once
-// Plays a stimulus to model and RTL in lockstep.
+// Plays a stimulus on model and RTL in lockstep.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace dsdpv1::cosim {
 
-/// Makes the RTL for one run; each run has a new one.
+/// Makes the RTL for one run; each run gets a new one.
 using MakeTop = std::function<std::unique_ptr<Rtl>()>;
 
 /// See play_options.hpp.
 struct PlayOptions {
-  const tb::ChipKind* kind;                          ///< of a chip that has RandomCases
-  std::vector<std::string> set = {};                 ///< texts of --set: the parameters, one after the other
-  std::shared_ptr<const tb::OwnSettings> chip = {};  ///< what they come to
+  const tb::ChipKind* kind;                          ///< has RandomCases
+  std::vector<std::string> set = {};                 ///< texts of --set: the parameters, in sequence
+  std::shared_ptr<const tb::OwnSettings> chip = {};  ///< the resulting settings
   tb::Engine engine = tb::Engine::kSkip;
   LockstepOptions lockstep = {};
   std::string wave = {};       ///< for the wave of a difference; empty: none
@@ -35,7 +35,7 @@ struct PlayResult {
   Coverage coverage;
 };
 
-/// Until the first difference, or until all lanes are through and some cycles more.
+/// Until the first difference, or until all lanes have finished and some cycles more.
 PlayResult play(const Stimulus& stimulus, const MakeTop& make, const PlayOptions& options);
 
 }  // namespace dsdpv1::cosim

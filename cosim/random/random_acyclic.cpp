@@ -31,7 +31,7 @@ void RandomMaster::acyclic_request(int channel) {
 
 void RandomMaster::abort(int channel) { send_acyclic(kSapOfChannel[channel], kC2Ssap, {kAbort, 0, 0x20, 0}); }
 
-/// Mostly right: what a slave with the user's help can answer.
+/// Usually valid: what a slave can answer with the user's help.
 bus::Bytes RandomMaster::acyclic_pdu(int channel) {
   constexpr std::uint8_t kFunctions[] = {kRead, kRead, kWrite, kWrite, kTransport};
   if (channel != 0 && random_.one_in(8)) return {random_.one_in(2) ? kIdle : kAbort, 0, 0x20, 0};
@@ -59,7 +59,7 @@ void RandomMaster::wait_timer(int ms, bool polls) {
   extra_ += ms * kStep + random_.between(-4000, 1500) * profibus::kTicksPerCycle;
 }
 
-/// Add_Addr in both forms, and neither.
+/// Add_Addr in both forms, and in none.
 void RandomMaster::initiate() {
   bus::Bytes pdu = {kInitiate, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0};
   if (random_.one_in(12)) pdu[5] = static_cast<std::uint8_t>(random_.below(3));

@@ -1,5 +1,6 @@
 #pragma once
-// What rtl-random needs of a kind of chip, ChipKind::random(): the user at its host port, and what may occur there.
+// rtl-random's interface to a kind of chip, ChipKind::random(): the user at its host port, and the situations that may
+// occur.
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,8 +19,8 @@ struct Field {
   bool hex = false;
 };
 
-/// An input gets a level, in ticks from the begin of an action. With `until_low` it does not: this edge and those
-/// behind it wait until these outputs are 0.
+/// Sets an input, in ticks from the begin of an action. With `until_low` it sets none: this edge and the following ones
+/// wait until these outputs are 0.
 struct PinEdge {
   Tick at = 0;
   PinNumber pin = 0;
@@ -27,11 +28,11 @@ struct PinEdge {
   tb::PinMask until_low = 0;
 };
 
-/// What an action of the user does at the pins. With `reply_bits` it ends once the output `reply` has been high for a
-/// character, or when it has not been low for so many bits behind the last edge.
+/// The edges of a user's action at the pins. With `reply_bits` the action ends once the output `reply` has been high
+/// for a character, or if it has not been low for so many bits after the last edge.
 struct UserPlan {
   std::vector<PinEdge> edges = {};  ///< in order of time
-  Tick poll_every = 0;              ///< how often `until_low` is looked at
+  Tick poll_every = 0;              ///< poll interval of `until_low`
   Tick reply_bits = 0;
   PinNumber reply = kNoPin;
   Tick bit = 0;
@@ -42,39 +43,39 @@ struct VerbRow {
   Verb verb;
   const char* word;
   std::vector<Field> fields;
-  UserPlan (*plan)(const Action& action);  ///< null: it is no action of the user
-  bool faults = false;                     ///< `bytes` may have faults of a wire
+  UserPlan (*plan)(const Action& action);  ///< null: not an action of the user
+  bool faults = false;                     ///< `bytes` may have wire faults
 };
 
 /// A host port.
 struct HostPort {
-  const char* word;              ///< of --mode
-  unsigned share;                ///< of the cycles of a campaign, in percent
-  std::vector<std::string> set;  ///< texts of --set that choose it
+  const char* word;              ///< for --mode
+  unsigned share;                ///< of a campaign's cycles, in percent
+  std::vector<std::string> set;  ///< texts of --set that select it
 };
 
-/// What command lines and files say of a kind.
+/// A kind's words on command lines and in files.
 struct Vocabulary {
   std::vector<HostPort> ports = {};            ///< the usual one first
   std::vector<VerbRow> verbs = {};             ///< Verb::kPin, and the kind's own
   std::vector<const char*> access_parts = {};  ///< PinDevice::works_on(), at which actions can be aimed
-  std::vector<std::string> quick = {};         ///< texts of --set: times so short that every state is reached soon
-  std::string faults = {}, stimuli = {};       ///< its list of faults, its directed stimuli: places in the source tree
+  std::vector<std::string> quick = {};         ///< texts of --set: times so short that every state is reached quickly
+  std::string faults = {}, stimuli = {};       ///< paths in the source tree: its list of faults, its directed stimuli
 };
 
 class RandomCases {
  public:
   virtual ~RandomCases() = default;
   virtual const Vocabulary& words() const = 0;
-  /// Texts of --set: what now and then is other in the case of this seed than Vocabulary::quick.
+  /// Texts of --set: the occasional differences from Vocabulary::quick in the case of this seed.
   virtual std::vector<std::string> case_settings(std::uint64_t seed) const = 0;
-  /// One case from power-on, the same for the same seed. Meant for a chip with times about as short as the quick ones:
-  /// what has to be waited for is waited for with the times of `chip`. Runs for a few hundred thousand cycles, some for
-  /// two millions (slow rates).
+  /// One case from power-on, the same for the same seed. For a chip with times about as short as the quick ones: waits
+  /// use the times of `chip`. Runs for a few hundred thousand cycles, some for two millions (slow rates).
   virtual Stimulus make_case(std::uint64_t seed, const tb::OwnSettings& chip) const = 0;
-  /// All that may occur, in the order of a table. Some of it the rulings allow and no random case does.
+  /// All situations that may occur, in the order of a table. Some are possible by the rulings, but no random case
+  /// reaches them.
   virtual std::vector<Situation> known_situations(const tb::OwnSettings& chip) const = 0;
-  /// Counts what occurs in one run. Both outlive the result.
+  /// Counts the situations of one run. Both arguments outlive the result.
   virtual std::unique_ptr<PlayListener> watch(const tb::OwnSettings& chip, Situations& counted) const = 0;
 };
 

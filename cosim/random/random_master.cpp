@@ -7,7 +7,7 @@ namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr int kNoSap = -1;
-constexpr std::uint8_t kFailSafe = 0x08, kFailSafeReq = 0x40;  // of Setup::command; byte 7 of Set_Prm
+constexpr std::uint8_t kFailSafe = 0x08, kFailSafeReq = 0x40;  // for Setup::command; byte 7 of Set_Prm
 constexpr int kReplyBits = 270;                                // longer than any min_TSDR
 
 Tick window(const SearchTimes& times, int rate) {
@@ -23,7 +23,7 @@ void RandomMaster::choose_rate() {
   be_found();
 }
 
-/// What choose_rate() has few of, since a telegram lasts as long as a whole case at 12 Mbit/s.
+/// Rates that choose_rate() rarely uses, because one telegram lasts as long as a whole case at 12 Mbit/s.
 void RandomMaster::slow_rate() {
   constexpr int kRates[] = {3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 9};
   setup_.rate = random_.pick(kRates);
@@ -35,7 +35,7 @@ void RandomMaster::fastest_rate() {
   be_found();
 }
 
-/// Waits for the rate's window, then telegrams.
+/// Waits for the rate's window, then sends telegrams.
 void RandomMaster::be_found() {
   Tick wait = 0;
   for (int rate = 0; rate < setup_.rate; ++rate) wait += window(times_, rate);
@@ -78,7 +78,7 @@ bus::Bytes RandomMaster::prm(bool right) {
   if (random_.one_in(3)) bytes[0] = random_.byte();
   if (random_.one_in(4))
     bytes.resize(static_cast<std::size_t>(std::min(7 + setup_.max_prm + random_.between(-1, 2), 30)), 0);
-  if (random_.one_in(6)) bytes[0] |= 0x08;  // with what may be factors of 0
+  if (random_.one_in(6)) bytes[0] |= 0x08;  // possibly with factors of 0
   if (random_.one_in(5)) bytes[random_.one_in(2) ? 4 : 5] ^= static_cast<std::uint8_t>(1 << random_.below(8));
   if (random_.one_in(6)) bytes.resize(static_cast<std::size_t>(random_.below(14)));
   if (random_.one_in(4) && bytes.size() > 7) bytes[7] = random_.byte();
@@ -107,7 +107,7 @@ void RandomMaster::read_service() {
   request(random_.pick(kSaps), {});
 }
 
-/// Too short for a start bit, a wrong character, or a break; a telegram soon behind it.
+/// Too short for a start bit, a wrong character, or a break; soon followed by a telegram.
 void RandomMaster::spike() {
   Action action;
   action.verb = Verb::kSpike;
@@ -127,7 +127,7 @@ void RandomMaster::unlock() {
 
 void RandomMaster::check_cfg(bool right) {
   bus::Bytes cfg = setup_.cfg;
-  if (cfg.empty()) cfg = {0x00};  // an empty place; nothing at all is refused (D8)
+  if (cfg.empty()) cfg = {0x00};  // an empty slot; no data at all are refused (D8)
   if (!right) {
     constexpr int kMost = 200;  // S14
     const int what = random_.below(random_.one_in(4) ? 6 : 5);
@@ -266,7 +266,7 @@ void RandomMaster::broken() {
       bytes[std::min<std::size_t>(2, bytes.size() - 1)] ^= static_cast<std::uint8_t>(1 << random_.below(8));
       break;
     case 10: faults.missing_stop_at = bytes.size() - 1; break;
-    case 11:  // a SAP is announced and does not come (S8)
+    case 11:  // a SAP is announced but missing (S8)
       bytes = bus::encode(bus::make_telegram(setup_.address, 2, 0x6D));
       bytes[random_.one_in(2) ? 1 : 2] |= 0x80;
       bytes[4] = static_cast<std::uint8_t>(bytes[1] + bytes[2] + bytes[3]);
@@ -327,7 +327,7 @@ std::uint8_t RandomMaster::master() {
   return !careful_ && random_.one_in(10) ? std::uint8_t{3} : std::uint8_t{2};
 }
 
-/// SRD; the frame count bit toggles in a series, and sometimes not.
+/// SRD; the frame count bit toggles in a series, but sometimes does not.
 std::uint8_t RandomMaster::function_code() {
   constexpr std::uint8_t kFcb = bus::fc::kFcb, kFcv = bus::fc::kFcv;
   const auto base =
@@ -356,7 +356,7 @@ void RandomMaster::send(const bus::Telegram& telegram, bool answered) {
   send(bus::encode(telegram), idle(), answered);
 }
 
-/// Mostly T_SYN and some more; often just about T_SYN, where one cycle decides (S3, S10).
+/// Usually T_SYN or slightly more; often near T_SYN, where one cycle decides (S3, S10).
 Tick RandomMaster::idle() {
   if (careful_) return 33 * bit() + random_.below(static_cast<int>(8 * bit()));
   if (random_.one_in(6)) return 33 * bit() + random_.between(-22, 6) * kCycle / 2;

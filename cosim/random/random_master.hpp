@@ -1,5 +1,5 @@
 #pragma once
-// The master of a random case: DP services right and wrong, broken telegrams, idle times at their limits.
+// The master of a random case: valid and invalid DP services, broken telegrams, idle times at their limits.
 #include <optional>
 
 #include "bus/telegram/telegram.hpp"
@@ -12,41 +12,41 @@ class RandomMaster {
   RandomMaster(Random& random, Setup& setup, Stimulus& stimulus, const SearchTimes& times)
       : random_(random), setup_(setup), stimulus_(stimulus), times_(times) {}
 
-  /// Another baud rate, and telegrams until the chip must have found it.
+  /// Changes the baud rate, and sends telegrams until the chip must have found it.
   void choose_rate();
   void slow_rate();
   void fastest_rate();
   void forget_series() { fcv_ = false; }
-  /// From now on nothing goes wrong on the line: T_SYN is kept, each request begins a series, one master.
+  /// From now on the line is free of faults: T_SYN is kept, each request begins a series, one master.
   void careful(bool careful) { careful_ = careful; }
   void slave_diag();
   void set_prm(bool right);
-  /// Of the present holder: the slave is free again.
+  /// Set_Prm with Unlock by the present holder: the slave is free again.
   void unlock();
   void check_cfg(bool right);
   void data_exchange();
   void global_control();
   void set_slave_address();
   void read_service();
-  /// WD_On, WD_Base, 1 to 2 ms; and so long a silence.
+  /// WD_On, WD_Base, 1 to 2 ms; then a silence of that length.
   void set_prm_with_watchdog();
   void wait_watchdog();
-  /// The last request, exactly.
+  /// Repeats the last request exactly.
   void repeat_last();
-  /// Any service but those that parameterise, mostly right, by this master or another.
+  /// Any service except those that parameterise, usually valid, by this master or another.
   void any_service();
   void anything();
-  /// To SAP 51 (channel 0), 48 or 47: without data, or a PDU right or wrong.
+  /// To SAP 51 (channel 0), 48 or 47: without data, or a valid or invalid PDU.
   void acyclic_poll(int channel);
   void acyclic_request(int channel);
   void initiate();
   void abort(int channel);
-  /// So many milliseconds, or some cycles around them, in which nothing but the watchdog is triggered, or both C2
-  /// channels are polled all the time.
+  /// Waits so many milliseconds, give or take some cycles, while only the watchdog is triggered, or both C2 channels
+  /// are polled continuously.
   void wait_timer(int ms, bool polls);
-  /// Nothing on the line, for a while.
+  /// An idle line, for a while.
   void silence();
-  /// ... until BAUD_CONTROL has run out.
+  /// ... until BAUD_CONTROL has expired.
   void wait_baud_control();
 
  private:

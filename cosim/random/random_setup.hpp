@@ -1,5 +1,5 @@
 #pragma once
-// What the lanes of a random case share: the numbers, and how the slave was set up.
+// Shared by the lanes of a random case: the random numbers, and the slave's setup.
 #include <cstdint>
 #include <random>
 
@@ -14,7 +14,7 @@ struct SearchTimes {
   int window_bits = 0;
 };
 
-/// Random numbers that are the same with every standard library.
+/// Random numbers that are equal with every standard library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -38,20 +38,20 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// How the slave is initialised, as far as master and user have to know it.
+/// The initialisation of the slave, as far as master and user need it.
 struct Setup {
   std::uint8_t address = 5;
-  std::uint8_t command = 0x0F;  ///< allowed are: Set_Slave_Address (bit 0), Freeze, Sync, Fail_Safe
+  std::uint8_t command = 0x0F;  ///< enables Set_Slave_Address (bit 0), Freeze, Sync, Fail_Safe
   std::uint16_t ident = 0x0CC9;
   int max_input = 244, max_output = 244, max_diag = 32, max_prm = 237, max_cfg = 200;
   int prm_mode = 0, cfg_mode = 0;
   bus::Bytes cfg = {0x11, 0x21};  ///< of the initialisation
   int inputs = 2, outputs = 2;    ///< bytes that `cfg` describes
   int rate = 0;
-  bool dpv1 = false;       ///< the user allows it, and Set_Prm enables it
+  bool dpv1 = false;       ///< permitted by the user and enabled in Set_Prm
   bool locked = false;     ///< the address (S5)
-  bool fail_safe = false;  ///< the last Set_Prm asks for it
-  /// Of the last acyclic requests to SAP 51, 48 and 47: function, slot, index.
+  bool fail_safe = false;  ///< requested in the last Set_Prm
+  /// Function, slot and index of the last acyclic requests to SAP 51, 48 and 47.
   std::uint8_t function[3] = {0x5E, 0x5E, 0x5E}, slot[3] = {}, index[3] = {};
 };
 

@@ -33,7 +33,7 @@ class Shrinker {
     best_ = candidate;
     return true;
   }
-  /// Blocks of actions, from halves down to single ones, from the end to the beginning.
+  /// Removes blocks of actions, from halves down to single ones, from the end to the beginning.
   bool leave_out() {
     const std::size_t before = best_.size();
     for (std::size_t size = std::max<std::size_t>(1, best_.size() / 2); size > 0 && runs_ > 0; size /= 2) {
@@ -47,7 +47,7 @@ class Shrinker {
     }
     return best_.size() < before;
   }
-  /// Faults of the wire and odd delays that do not matter.
+  /// Removes wire faults and odd delays that have no effect.
   void simplify() {
     for (std::size_t i = 0; i < best_.size() && runs_ > 0; ++i) {
       Stimulus candidate = best_;

@@ -1,6 +1,6 @@
 #pragma once
 // Functional coverage of lockstep runs: which states, transitions, services, refusals and situations at the host port
-// have occurred, how often, and which of those that are known have not.
+// have occurred, how often, and which known ones have not.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -29,9 +29,9 @@ class Situations {
   std::map<Situation, std::uint64_t> counts_;  ///< those that occurred
 };
 
-/// A line a group: how many of those known occurred; then the others by name: some lines of text.
+/// A line per group: how many known ones occurred, then the others by name.
 std::string text(const Situations& situations, const std::vector<Situation>& known);
-/// A line each: group, situation, count, separated by tabs; those that did not occur, too.
+/// One line each: group, situation, count, separated by tabs; includes those that did not occur.
 std::string table(const Situations& situations, const std::vector<Situation>& known);
 
 }  // namespace dsdpv1::cosim

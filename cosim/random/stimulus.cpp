@@ -14,7 +14,7 @@ namespace {
 
 constexpr Tick kLongest = Tick{1} << 40;
 
-/// What every chip has beside the user's verbs.
+/// Verbs of every chip besides the user's.
 const std::vector<VerbRow>& own_verbs() {
   static const std::vector<VerbRow> verbs = {
       {Verb::kSend, "send", {{"rate", &Action::rate, 0, 9}, {"reply", &Action::reply_bits, 0, 2000}}, nullptr, true},
@@ -24,7 +24,7 @@ const std::vector<VerbRow>& own_verbs() {
   return verbs;
 }
 
-/// Null: there is none that is `wanted`.
+/// Null if none is `wanted`.
 template <class Wanted>
 const VerbRow* find_verb(const tb::ChipKind& kind, const Wanted& wanted) {
   for (const std::vector<VerbRow>* verbs : {&own_verbs(), &kind.random()->words().verbs}) {
@@ -42,7 +42,7 @@ const VerbRow* verb_called(const tb::ChipKind& kind, const std::string& word) {
 /// Faults on the wire, `key=position` or `key=position:number:number`.
 struct FaultField {
   const char* key;
-  std::size_t numbers;  ///< behind the position
+  std::size_t numbers;  ///< after the position
   std::optional<std::vector<long>> (*get)(const bus::WireFaults&);
   void (*set)(bus::WireFaults&, const std::vector<long>&);
 };
@@ -89,7 +89,7 @@ std::string faults_text(const bus::WireFaults& faults) {
 
 bool is_aimed(const Action& action) { return action.during != nullptr; }
 
-/// Of user and board, whose lanes look at what the chip does.
+/// True for verbs of user and board, whose lanes observe the chip.
 bool may_be_aimed(Verb verb) { return verb != Verb::kSend && verb != Verb::kSpike && verb != Verb::kSync; }
 
 constexpr const char* kDuring = "during";
@@ -130,7 +130,7 @@ class LineParser {
   LineParser(const std::string& line, const std::string& file, int number, const tb::ChipKind& kind)
       : words_(line), file_(file), number_(number), kind_(kind) {}
 
-  /// Nothing for an empty line or a comment.
+  /// nullopt for an empty line or a comment.
   std::optional<Action> parse() {
     std::string word;
     if (!(words_ >> word) || word[0] == '#') return std::nullopt;

@@ -43,7 +43,7 @@ Json codes_of(const StimulusResult& result) {
   return codes;
 }
 
-/// Each group with its situations, those that did not occur, too.
+/// Each group with its situations, including those that did not occur.
 Json situations_of(const StimulusResult& result) {
   Json groups = Json::object();
   for (const Situation& each : result.known) groups[each.first][each.second] = result.situations.of(each);

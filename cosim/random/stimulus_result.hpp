@@ -1,5 +1,5 @@
 #pragma once
-// What came of random cases, or of a stimulus that was played, for programs: one JSON object (docs/cosim.md).
+// The result of random cases or of a played stimulus, for programs: one JSON object (docs/cosim.md).
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,13 +24,13 @@ struct StimulusResult {
   Situations situations;                 ///< of random cases ...
   std::vector<Situation> known;          ///< ... and those that may occur
   std::optional<Difference> difference;  ///< of the stimulus in `stimulus`, or of the one that was played
-  std::string stimulus;                  ///< where the case that differs, shrunk, was written
-  std::size_t actions = 0;               ///< ... and how long it is
+  std::string stimulus;                  ///< file of the shrunk failing case
+  std::size_t actions = 0;               ///< ... and its length
 };
 
 /// Indented, with a line end.
 std::string result_json(const StimulusResult& result);
-/// Its JSON Schema (draft 2020-12): exact, what it does not name is wrong.
+/// Its JSON Schema (draft 2020-12): exact, other members are invalid.
 std::string stimulus_result_schema();
 /// The table of docs/cosim.md.
 std::string stimulus_result_table();

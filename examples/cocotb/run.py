@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the tests of test_rtl.py on the reference RTL, each in a simulation of its own.
+"""Runs the tests of test_rtl.py on the reference RTL, each in a separate simulation.
 
     run.py [--simulator icarus|verilator] [--test NAME]... [--fault N] [--scenario FILE] [--end MICROSECONDS] [--build FOLDER]
 
@@ -27,7 +27,7 @@ from cocotb.runner import get_results, get_runner
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RTL = ROOT / "rtl_ref"
-# Each test, and the parameters of the RTL: short times, as test_rtl.QUICK gives them to the model, or those of the chip.
+# Each test, and the parameters of the RTL: short times, as in test_rtl.QUICK for the model, or those of the chip.
 QUICK = {"SEARCH_WINDOW_MS": 1, "READY_CYCLES": 256}
 TESTS = {"a_master_brings_the_chip_up": QUICK, "acyclic_requests_are_answered": QUICK, "the_pins_of_a_scenario_are_replayed": {}}
 SIMULATORS = {"icarus": ["-g2012"], "verilator": ["--timing", "-Wno-fatal"]}
@@ -45,7 +45,7 @@ def arguments():
 
 
 def run(given, test):
-    """How many tests have failed."""
+    """Returns the number of failed tests."""
     runner, build = get_runner(given.simulator), given.build.resolve() / ("quick" if TESTS[test] else "as_the_chip")
     runner.build(verilog_sources=[RTL / name for name in (RTL / "dsdpv1/files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
                  includes=[RTL, ROOT / "registers"], defines={"SINGLE_FAULTS": 1}, parameters=TESTS[test], timescale=("1ns", "1ps"), build_dir=build,

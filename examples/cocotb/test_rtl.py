@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The reference RTL in cocotb: a master brings it up through its pins, and the model looks at each of its outputs.
+"""The reference RTL in cocotb: a master brings it up through its pins, and the model checks each of its outputs.
 
-The environment says what is played: FAULT, a number of rtl_ref/dsdpv1/faults.txt that is switched on; SCENARIO, one whose pins are replayed; MASTERS, one
-whose masters are on the line.
+Environment variables select what is played: FAULT enables a number of rtl_ref/dsdpv1/faults.txt; SCENARIO names a scenario whose pins are
+replayed; MASTERS one whose masters are on the line.
 """
 import os
 
@@ -18,7 +18,7 @@ QUICK = {"search_window_ms": 1, "ready_cycles": 256}
 
 
 async def begin(dut, parameters=None):
-    """Pins at rest, clock, scoreboard."""
+    """Idle pins, clock, scoreboard."""
     dut.fault_i.setimmediatevalue(int(os.environ.get("FAULT", "0")))
     pins = ChipPins(dut)
     await pins.power_on()
@@ -49,7 +49,7 @@ async def bring_up(dut, pins):
 
 @cocotb.test()
 async def a_master_brings_the_chip_up(dut):
-    """Every change of every output is the model's, and the host port keeps the rules of the user's side."""
+    """Every change of every output must match the model, and the host port must keep the rules of the user's side."""
     pins, scoreboard = await begin(dut, QUICK)
     checker = PinChecker(pins)
     await bring_up(dut, pins)
@@ -61,7 +61,7 @@ async def a_master_brings_the_chip_up(dut):
 
 @cocotb.test()
 async def acyclic_requests_are_answered(dut):
-    """MSAC_C1 and MSAC_C2, as a scenario's masters ask for them by themselves; the user CPU is a callback."""
+    """MSAC_C1 and MSAC_C2, requested automatically by a scenario's masters; the user CPU is a callback."""
     pins, scoreboard = await begin(dut, QUICK)
     slave = dsdpv1.Slave(address=7, ident=0x0CC9, cfg=b"\x31", input_length=2, output_length=2, dpv1=True)
     objects = {(1, 2): b"\x11\x22\x33\x44"}
@@ -89,7 +89,7 @@ async def acyclic_requests_are_answered(dut):
 
 @cocotb.test()
 async def the_pins_of_a_scenario_are_replayed(dut):
-    """The inputs of a run of the model; with a fault, the first different cycle is named."""
+    """The inputs of a run of the model; with a fault, the first differing cycle is reported."""
     pins, scoreboard = await begin(dut)
     run = dsdpv1.run(os.environ["SCENARIO"], changes=True)
     end = int(float(os.environ.get("END_US", "100")) * US)

@@ -36,14 +36,14 @@ static void carry_out(dsdpv1_device* chip, const dsdpv1_mailbox_command* command
     case DSDPV1_CMD_VERDICT: station_send_verdict(command->value, command->refuse != 0u); break;
     case DSDPV1_CMD_ANSWERING: objects_answer(command->value); break;
     case DSDPV1_CMD_SPOIL: bench_spoil(command->value, command->times); break;
-    default: break; /* of a newer bench: nothing that this firmware can do */
+    default: break; /* from a newer bench: not supported by this firmware */
   }
 }
 
 void bench_run_commands(dsdpv1_device* chip) {
   if (!settings_from_bench()) return;
   while (dsdpv1_bench.done != dsdpv1_bench.posted) {
-    board_barrier(); /* the command was there before the count that announces it */
+    board_barrier(); /* the command is complete before the count that announces it */
     carry_out(chip, &dsdpv1_bench.command);
     board_barrier();
     dsdpv1_bench.done = dsdpv1_bench.posted;

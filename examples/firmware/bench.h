@@ -3,16 +3,16 @@
 #ifndef BENCH_H
 #define BENCH_H
 /*
- * The bench's side door (board/firmware/mailbox.h): what a scenario's script wants of the user CPU. A product
- * leaves out bench.c, bench_faults.c and bench_telegrams.c, and their calls in main.c.
+ * Commands of the bench (board/firmware/mailbox.h): the actions of a scenario's script for the user CPU. A product
+ * omits bench.c, bench_faults.c and bench_telegrams.c, and their calls in main.c.
  */
 #include <stdbool.h>
 
 #include "driver/dsdpv1.h"
 
-/* Carries out the commands that the bench has posted, in order; all that there are. */
+/* Executes all commands posted by the bench, in order. */
 void bench_run_commands(dsdpv1_device* chip);
-/* Between the commands "stop" and "resume". */
+/* True between the commands "stop" and "resume". */
 bool bench_stopped(void);
 
 #endif /* BENCH_H */

@@ -26,7 +26,7 @@ static struct {
                   [DSDPV1_AREA_C2_ANSWER] = {DSDPV1_REG_C2_CRC, 0}};
 enum { kAreas = sizeof wrong_crcs / sizeof wrong_crcs[0] };
 
-static bool any_wrong; /* one look for the writes of a board without faults */
+static bool any_wrong; /* one test per write on a board without faults */
 
 void bench_wrong_crc(uint8_t area, uint32_t times) {
   if (area < kAreas) {
@@ -53,7 +53,7 @@ static void write(void* ctx, uint16_t address, uint8_t value) {
   port_dpram_write(address, any_wrong ? spoil(address, value) : value);
 }
 
-/* The others go straight to the board. */
+/* Other accesses go directly to the board. */
 static uint8_t read(void* ctx, uint16_t address) {
   (void)ctx;
   return port_dpram_read(address);
@@ -66,14 +66,14 @@ const dsdpv1_port bench_port = {NULL, read, write, set_r_req, set_r_sta, get_l_r
 
 /* -------------------------------------------------------------------------------------------------------- handshake */
 
-/* Over SPI: a claim by the driver. */
+/* Over SPI: claims through the driver. */
 static void claim_for(dsdpv1_device* chip, uint64_t ns) {
   if (!report_check(dsdpv1_hold(chip), DSDPV1_DURING_EXCHANGE)) return;
   board_wait(board_cycles(ns));
   report_check(dsdpv1_release(chip), DSDPV1_DURING_EXCHANGE);
 }
 
-/* On the memory bus without the driver, whose holds are as short as possible. */
+/* On the memory bus, without the driver, whose holds are as short as possible. */
 void bench_hold(dsdpv1_device* chip, uint64_t ns) {
   if (straps()->mode != kModeParallel) {
     claim_for(chip, ns);
@@ -90,7 +90,7 @@ void bench_hold(dsdpv1_device* chip, uint64_t ns) {
   board_enable_intr0(true);
 }
 
-/* Both stores side by side, whatever the compiler's optimisation: one cycle from pin to pin. */
+/* Both stores are adjacent at every optimisation level: one cycle from pin to pin. */
 static void raise_both(void) {
   const uint32_t r_req = kRReqBit;
   const uint32_t r_sta = kRStaBit;
@@ -106,8 +106,8 @@ static void raise_one_after_the_other(uint32_t cycles) {
 }
 
 /*
- * The chip comes once a microsecond, 72 cycles, and at once after a release. Each time some cycles later than the time
- * before, so that of a series some meet it.
+ * The chip accesses the DPRAM once a microsecond, 72 cycles, and at once after a release. Waits some cycles longer
+ * each time, so that some of a series coincide with an access.
  */
 static void wander(void) {
   enum { kStep = 5, kSteps = 15 };
@@ -119,7 +119,7 @@ static void wander(void) {
 void bench_early_r_sta(uint64_t after_ns, uint64_t hold_ns) {
   const uint64_t after = board_cycles(after_ns);
   const uint64_t hold = board_cycles(hold_ns);
-  enum { kLoop = 10 }; /* a look at CYCCNT takes about as long */
+  enum { kLoop = 10 }; /* reading CYCCNT takes about as long */
   board_enable_intr0(false);
   wander();
   if (after < kLoop)

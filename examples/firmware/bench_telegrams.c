@@ -11,7 +11,7 @@
 #include "examples/firmware/straps.h"
 #include "examples/firmware/uart_port.h"
 
-enum { kFaultAt = 2 }; /* the byte that goes wrong */
+enum { kFaultAt = 2 }; /* the byte to disturb */
 
 static bool (*spi_exchange)(void* ctx, const uint8_t* out, uint8_t* in, uint16_t n);
 static bool (*uart_send)(void* ctx, const uint8_t* bytes, uint16_t n);
@@ -41,7 +41,7 @@ static bool exchange(void* ctx, const uint8_t* out, uint8_t* in, uint16_t n) {
   return done;
 }
 
-/* The parity is what PS says; the character before it is out when `uart_send` returns. */
+/* PS selects the parity; the character before has been sent when `uart_send` returns. */
 static bool send_odd(void* ctx, const uint8_t* bytes, uint16_t n) {
   USART2->CR1 |= USART_CR1_PS;
   const bool sent = uart_send(ctx, bytes, n);

@@ -2,12 +2,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #ifndef BENCH_TELEGRAMS_H
 #define BENCH_TELEGRAMS_H
-/* Telegrams over SPI and UART that go wrong because a scenario asks for it. */
+/* Disturbs telegrams over SPI and UART on request of a scenario. */
 #include <stdint.h>
 
-/* Puts itself before the functions of the port that is open. Once, when it is. */
+/* Wraps the functions of the open port. Call it once, after opening it. */
 void bench_telegrams_start(void);
-/* The next telegrams go wrong: DSDPV1_SPOIL_ of the mailbox. */
+/* Disturbs the next telegrams: DSDPV1_SPOIL_ of the mailbox. */
 void bench_spoil(uint8_t which, uint32_t times);
 
 #endif /* BENCH_TELEGRAMS_H */

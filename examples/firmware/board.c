@@ -19,7 +19,7 @@ enum {
   kLStaPin = 9
 };
 
-/* Where a card's INTR0 and RESET are; INTR0's pin is the number of its EXTI line. */
+/* Pins of a card's INTR0 and RESET; INTR0's pin is the number of its EXTI line. */
 typedef struct card_pins {
   gpio_registers* intr0_port;
   uint32_t exti_port;
@@ -31,7 +31,7 @@ static const card_pins cards[] = {{GPIOG, AFIO_EXTICR_PORT_G, 6, kIrqExti9To5, 4
 
 static const card_pins* card(void) { return &cards[straps()->card - 1u]; }
 
-/* 4 bits of priority, in the high nibble; a lower number goes first. The time goes on while INTR0 is served. */
+/* 4 bits of priority, in the high nibble; a lower number goes first. Timekeeping continues while INTR0 is served. */
 enum { kPrioritySysTick = 0x00, kPrioritySerial = 0x20, kPriorityIntr0 = 0x40 };
 
 /* ----------------------------------------------------------------------------------------------------------- clocks */
@@ -41,7 +41,7 @@ static void wait_for(const reg32* address, uint32_t mask, uint32_t value) {
   }
 }
 
-/* 8 MHz x 9 = 72 MHz; APB1 bears 36 MHz at most. Without the crystal nothing is in time: waits for it. */
+/* 8 MHz x 9 = 72 MHz; APB1 allows at most 36 MHz. Waits for the crystal, without which no timing is right. */
 void board_start_clocks(void) {
   RCC->CR |= RCC_CR_HSEON;
   wait_for(&RCC->CR, RCC_CR_HSERDY, RCC_CR_HSERDY);
@@ -74,8 +74,8 @@ static void configure_all(gpio_registers* port, uint32_t pins, uint32_t function
     if ((pins >> pin & 1u) != 0u) board_pin(port, pin, function);
 }
 
-/* R_REQ and R_STA are low outputs before the chip leaves its reset. L_REQ and L_STA of a chip that is missing read as
- * high: it never gives the DPRAM away, and the driver says so. */
+/* R_REQ and R_STA are low outputs before the chip leaves its reset. L_REQ and L_STA of a missing chip read as high:
+ * it never releases the DPRAM, and the driver reports that. */
 static void configure_handshake(void) {
   GPIOE->BRR = 1u << card()->reset;
   board_pin(GPIOE, card()->reset, GPIO_OUTPUT_50MHZ);
@@ -93,8 +93,8 @@ static void configure_memory_bus(void) {
 }
 
 /*
- * Mode 1, asynchronous, 8 bits. Address phase (ADDSET + 1) 27.8 ns, WR low DATAST 69.4 ns and one HCLK, 13.9 ns, of
- * hold behind it, RD low one HCLK longer: the limits of table 15 (Ts and Td 12.5 ns, Tw 31.25 ns) with margin.
+ * Mode 1, asynchronous, 8 bits. Address phase (ADDSET + 1) 27.8 ns, WR low DATAST 69.4 ns followed by one HCLK, 13.9
+ * ns, of hold, RD low one HCLK longer: keeps the limits of table 15 (Ts and Td 12.5 ns, Tw 31.25 ns) with margin.
  */
 static void start_memory_bus(void) {
   configure_memory_bus();
@@ -115,12 +115,12 @@ void board_halt(void) {
 
 /* ------------------------------------------------------------------------------------------------------------- time */
 
-/* CYCCNT overflows after a minute; SysTick looks at it every millisecond at least. */
+/* CYCCNT overflows after a minute; SysTick reads it at least every millisecond. */
 enum { kTick = 1000u * BOARD_HCLK_MHZ };
 
 static volatile uint32_t overflows, last_count;
 
-/* The next tick comes in so many cycles, those after it every millisecond again. */
+/* The next tick comes after so many cycles, later ones every millisecond again. */
 static void tick_in(uint32_t cycles) {
   SYST->LOAD = cycles - 1u;
   SYST->VAL = 0;
@@ -157,7 +157,7 @@ void board_wait(uint64_t cycles) {
   while (board_now() < end) board_sleep(end);
 }
 
-/* WFE, not WFI: the event of an interrupt between the caller's look and the sleep is kept. */
+/* WFE, not WFI: it keeps the event of an interrupt between the caller's test and the sleep. */
 void board_sleep(uint64_t until) {
   enum { kWorthwhile = 200 }; /* below it setting up the tick takes longer */
   const uint64_t now = board_now();
@@ -171,7 +171,7 @@ void board_sleep(uint64_t until) {
 
 static void (*intr0_handler)(void);
 
-/* INTR0 is low for 1.3 us only (P7): the edge counts. */
+/* INTR0 is low for only 1.3 us (P7): the edge counts. */
 static void configure_intr0(void) {
   const card_pins* pins = card();
   const unsigned shift = 4u * (pins->intr0 % 4u);
@@ -204,7 +204,7 @@ void board_on_intr0(void (*handler)(void)) {
   board_enable_intr0(true);
 }
 
-/* The flag goes before the work: a second INTR0 meanwhile makes the handler run again. */
+/* Clear the flag before the work: a second INTR0 meanwhile makes the handler run again. */
 static void serve_intr0(void) {
   EXTI->PR = 1u << card()->intr0;
   board_barrier();
@@ -220,7 +220,7 @@ void board_enable_serial(unsigned irq) {
 }
 
 uint32_t board_lock(void) {
-  uint32_t before; /* NOLINT(cppcoreguidelines-init-variables): the instruction does it */
+  uint32_t before; /* set by the instruction */
   __asm__ volatile("mrs %0, primask\n\tcpsid i" : "=r"(before)::"memory");
   return before;
 }

@@ -11,7 +11,7 @@
  *   PC9  in   L_STA            PG6  in   INTR0, falling edge, EXTI line 6
  *   PE4  out  RESET, low       PA9  USART1 TX;  PA0 in, key, high when pressed
  *
- * With a DSDPV1-RSU, whose straps say which port is live (straps.h):
+ * With a DSDPV1-RSU, whose straps select the live port (straps.h):
  *
  *   PA4..PA7    XSS (output), SCK, MISO, MOSI of SPI1         PA2, PA3  TX, RX of USART2: the chip's RXD, TXD
  *   PB12..PB15  the same of SPI2: card 2, whose RESET and INTR0 are PE5 and PD12, EXTI line 12
@@ -23,21 +23,21 @@
 
 #define BOARD_HCLK_MHZ 72u
 
-/* Clocks, memory bus, pins, SysTick, serial line. Afterwards the chip is held in reset and INTR0 is not heard. */
+/* Starts clocks, memory bus, pins, SysTick, serial line. Afterwards the chip is held in reset and INTR0 is ignored. */
 void board_start(void);
 
 #define BOARD_APB1_MHZ 36u
 
-/* HCLK to 72 MHz: the first thing after a reset, which leaves 8 MHz. Uses no variable. */
+/* Sets HCLK to 72 MHz: call it first after a reset, which leaves 8 MHz. Uses no variable. */
 void board_start_clocks(void);
 
 /* RESET of the chip high; it works after 4096 of its cycles, 85 us (ruling D1). */
 void board_release_chip(void);
 
-/* For what must not go on: interrupts closed, the chip back in reset, so that the master sees the station gone. */
+/* Stops after a fatal error: interrupts disabled, the chip back in reset, so that the master sees the station gone. */
 void board_halt(void) __attribute__((noreturn));
 
-/* What a pin is: GPIO_ values of stm32f103.h. */
+/* Configures a pin: GPIO_ values of stm32f103.h. */
 void board_pin(gpio_registers* port, unsigned pin, uint32_t function);
 
 /* True while the key is pressed. */
@@ -45,33 +45,33 @@ bool board_key(void);
 
 /* ------------------------------------------------------------------------------------------------------------- time */
 
-/* HCLK cycles since board_start, without overflow. Callable from everywhere. */
+/* HCLK cycles since board_start, without overflow. May be called from any context. */
 uint64_t board_now(void);
 /* Nanoseconds in cycles, rounded up. */
 uint64_t board_cycles(uint64_t ns);
 /* Waits at least so many cycles; interrupts are served meanwhile, and their time counts. */
 void board_wait(uint64_t cycles);
 /*
- * Sleeps until then at the latest. Interrupts end the sleep, also one that came just before it, and so does an event
- * from outside: the caller looks whether there is something to do.
+ * Sleeps at most until then. Interrupts end the sleep, even one just before it, and so does an external event: the
+ * caller checks whether there is work.
  */
 void board_sleep(uint64_t until);
 
 /* ------------------------------------------------------------------------------------------------------- interrupts */
 
-/* Who is called from the INTR0 handler. Forgets an INTR0 that fell before, and hears it from now on. */
+/* Sets the function called from the INTR0 handler. Drops earlier falls of INTR0 and receives later ones. */
 void board_on_intr0(void (*handler)(void));
-/* Keeps the INTR0 handler out, or lets it in again; an INTR0 meanwhile is served then. */
+/* Disables or enables the INTR0 handler; an INTR0 meanwhile is served when enabled. */
 void board_enable_intr0(bool enabled);
 
-/* The interrupt of a serial port, above INTR0's: whose handler uses the port. */
+/* Enables the interrupt of a serial port, with a higher priority than INTR0, whose handler uses the port. */
 void board_enable_serial(unsigned irq);
 
-/* Closes all interrupts; returns what board_unlock wants. */
+/* Disables all interrupts; returns the argument for board_unlock. */
 uint32_t board_lock(void);
 void board_unlock(uint32_t before);
 
-/* All writes so far are done before anything that follows. */
+/* Completes all writes so far before anything that follows. */
 static inline void board_barrier(void) { __asm__ volatile("dsb" ::: "memory"); }
 
 #endif /* BOARD_H */

@@ -14,8 +14,8 @@ static volatile int16_t configured_length = kUnknown; /* of the inputs; the INTR
 static uint8_t outputs[DSDPV1_MAX_IO], output_length; /* of the process */
 static uint8_t commanded[DSDPV1_MAX_IO], commanded_length;
 static bool is_commanded;
-static uint8_t exchanges; /* modulo 256: what DSDPV1_INPUTS_COUNT shows */
-static uint8_t longest;   /* that the chip takes since its initialisation */
+static uint8_t exchanges; /* modulo 256: the value for DSDPV1_INPUTS_COUNT */
+static uint8_t longest;   /* accepted by the chip since its initialisation */
 static bool wrong_length; /* of the next inputs */
 
 void cyclic_configured(uint8_t input_length) { configured_length = input_length; }
@@ -39,14 +39,14 @@ typedef struct inputs {
   uint8_t length, bytes[DSDPV1_MAX_IO];
 } inputs;
 
-/* The first bytes of `source`, zeros behind them. */
+/* The first bytes of `source`, followed by zeros. */
 static void take(inputs* target, const uint8_t* source, uint8_t length) {
   const uint8_t taken = length < target->length ? length : target->length;
   memcpy(target->bytes, source, taken);
   memset(target->bytes + taken, 0, (size_t)(target->length - taken));
 }
 
-/* Samples the process: here the outputs that came last, a count, or what the settings say. */
+/* Samples the process: here the last outputs, a count, or bytes from the settings. */
 static void sample(inputs* target) {
   const dsdpv1_mailbox_settings* device = settings();
   switch (device->inputs) {
@@ -77,14 +77,14 @@ static void next_inputs(inputs* target, int16_t length) {
   }
 }
 
-/* Before the master has sent a configuration nobody knows how long the inputs have to be (D10). */
+/* Before the master has sent a configuration the length of the inputs is unknown (D10). */
 static bool are_known(int16_t length) {
   return is_commanded || (length != kUnknown && settings()->inputs != DSDPV1_INPUTS_IDLE);
 }
 
 /* --------------------------------------------------------------------------------------------------------- exchange */
 
-/* The process gets a copy: the exchange's buffer is valid only when new outputs have come. */
+/* The process gets a copy: the exchange's buffer is only valid with new outputs. */
 static void drive_process(const uint8_t* bytes, uint8_t length) {
   memcpy(outputs, bytes, length);
   output_length = length;
@@ -94,7 +94,7 @@ static void drive_process(const uint8_t* bytes, uint8_t length) {
 bool cyclic_exchange(dsdpv1_device* chip) {
   uint8_t received[DSDPV1_MAX_IO];
   dsdpv1_exchange_result result = {.outputs = received, .capacity = sizeof received};
-  const int16_t length = configured_length; /* once: the INTR0 handler may change it */
+  const int16_t length = configured_length; /* read once: the INTR0 handler may change it */
   inputs next;
   next_inputs(&next, length);
   const dsdpv1_input_policy policy =

@@ -7,17 +7,17 @@
 
 #include "driver/dsdpv1.h"
 
-/* One exchange. True when parameters or configuration wait for judgement. */
+/* One exchange. Returns true if parameters or configuration wait for judgement. */
 bool cyclic_exchange(dsdpv1_device* chip);
 
-/* The configuration that the master has sent says how long the inputs are. Also from the INTR0 handler. */
+/* The length of the inputs in the master's configuration. Also from the INTR0 handler. */
 void cyclic_configured(uint8_t input_length);
-/* The chip has been initialised for at most so many inputs; what the master configured before does not count. */
+/* The chip has been initialised for at most so many inputs; an earlier configuration of the master no longer counts. */
 void cyclic_initialised(uint8_t max_input);
 
-/* From now on the inputs are these bytes, with this length as it is; at most 244. */
+/* Sets the inputs from now on to these bytes with exactly this length; at most 244. */
 void cyclic_set_inputs(const uint8_t* bytes, uint8_t length);
-/* The next inputs are one byte longer than they ought to be, shorter where the chip takes no longer ones. */
+/* Makes the next inputs one byte too long, or too short if the chip takes no longer ones. */
 void cyclic_mistake_length(void);
 
 #endif /* CYCLIC_H */

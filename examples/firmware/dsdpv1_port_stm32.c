@@ -26,8 +26,8 @@ static void set_pin(uint32_t bit, bool level) {
 #ifdef DSDPV1_PLANTED_EARLY_R_STA
 
 /*
- * A mistake, for the tests of the bench: R_STA follows R_REQ in the next instruction, and nobody looks at the chip's
- * lines. It works as long as the chip happens to be away.
+ * A deliberate mistake for the tests of the bench: R_STA follows R_REQ in the next instruction, without sampling the
+ * chip's lines. It works as long as the chip happens to be idle.
  */
 static void port_set_r_req(void* ctx, bool level) {
   (void)ctx;

@@ -13,10 +13,10 @@ extern const dsdpv1_port port_stm32;
 
 enum { kRReqBit = 1 << 6, kRStaBit = 1 << 7, kLReqBit = 1 << 8, kLStaBit = 1 << 9 }; /* PC6 to PC9 */
 
-/* One byte of the DPRAM, 0x000 to 0x7FF, for who holds it. */
+/* One byte of the DPRAM, 0x000 to 0x7FF; requires a hold. */
 static inline uint8_t port_dpram_read(uint16_t address) { return ((const volatile uint8_t*)FSMC_BANK1_NE1)[address]; }
 
-/* The barrier keeps the last byte from being behind R_STA's fall: the memory bus has a write buffer. */
+/* The barrier keeps the last byte before R_STA's fall, because the memory bus has a write buffer. */
 static inline void port_dpram_write(uint16_t address, uint8_t value) {
   ((volatile uint8_t*)FSMC_BANK1_NE1)[address] = value;
   __asm__ volatile("dsb" ::: "memory");

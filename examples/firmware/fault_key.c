@@ -8,7 +8,7 @@
 #include "examples/firmware/board.h"
 #include "examples/firmware/station.h"
 
-/* Contacts bounce for some milliseconds; only a level that stays counts. */
+/* Contacts bounce for some milliseconds; only a stable level counts. */
 enum { kSettlingMs = 20 };
 
 static bool reported, candidate;

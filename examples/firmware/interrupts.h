@@ -10,9 +10,9 @@ void systick_handler(void);
 /* EXTI lines 5 to 9 and 10 to 15, of which only INTR0's, line 6 or 12, is enabled (board.c). */
 void exti9_5_handler(void);
 void exti15_10_handler(void);
-/* A byte has come over SPI (spi_port.c). */
+/* A byte was received over SPI (spi_port.c). */
 void spi_handler(void);
-/* A character has come or gone (uart_port.c). */
+/* A character was received or sent (uart_port.c). */
 void usart2_handler(void);
 
 #endif /* INTERRUPTS_H */

@@ -6,8 +6,8 @@
 #include <string.h>
 
 /*
- * Two requests can be open, one of each class. One that its master has withdrawn keeps its place until its time has
- * come, and a master may ask again meanwhile.
+ * Two requests can be open, one of each class. A withdrawn one keeps its place until its time, and a master may ask
+ * again meanwhile.
  */
 enum { kPlaces = 8 };
 

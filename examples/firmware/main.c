@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Firmware of a simple PROFIBUS-DP slave: STM32F103ZE and DSDPV1. It initialises the chip, exchanges inputs and outputs
- * at a fixed period, judges what the master sends, and answers acyclic requests.
+ * Firmware of a simple PROFIBUS-DP slave: STM32F103ZE and DSDPV1. It initialises the chip, exchanges inputs and
+ * outputs at a fixed period, judges the master's blocks, and answers acyclic requests.
  */
 #include "examples/firmware/bench.h"
 #include "examples/firmware/bench_faults.h"
@@ -17,7 +17,7 @@
 #include "examples/firmware/settings.h"
 #include "examples/firmware/station.h"
 
-/* What is not urgent. */
+/* Work that is not urgent. */
 static void idle(dsdpv1_device* chip) {
   bench_run_commands(chip);
   report_print_errors();
@@ -34,7 +34,7 @@ static void wait_for_turn(dsdpv1_device* chip, uint64_t due) {
   }
 }
 
-/* The order matters: a judgement first, since the master waits for it; requests, which have no interrupt, last. */
+/* The order matters: judgement first, because the master waits for it; requests, which have no interrupt, last. */
 static void turn(dsdpv1_device* chip) {
   station_service_if_pending();
   if (cyclic_exchange(chip)) station_service();
@@ -43,7 +43,7 @@ static void turn(dsdpv1_device* chip) {
   if (!settings_from_bench()) fault_key_watch();
 }
 
-/* After a long hold the turns do not come in a burst. */
+/* A long hold must not cause a burst of turns. */
 static uint64_t not_too_late(uint64_t due, uint64_t period) {
   const uint64_t now = board_now();
   return due + period < now ? now - period : due;
@@ -51,7 +51,7 @@ static uint64_t not_too_late(uint64_t due, uint64_t period) {
 
 int main(void) {
   board_start();
-  board_release_chip(); /* it needs 85 us, time for what follows */
+  board_release_chip(); /* it needs 85 us, time for the rest of the start-up */
   settings_load();
   dsdpv1_device* chip = station_open(settings_from_bench() ? &bench_port : &port_stm32);
   if (settings_from_bench()) bench_telegrams_start();

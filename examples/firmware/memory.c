@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * memcpy and its relatives. Compiled with -fno-tree-loop-distribute-patterns, else the compiler recognises the loops
- * and replaces them by calls of the very functions that they make up.
+ * memcpy and its relatives. Compiled with -fno-tree-loop-distribute-patterns, because otherwise the compiler would
+ * replace the loops by calls of the same functions.
  */
 #include <stdint.h>
 #include <string.h>

@@ -24,8 +24,8 @@ void objects_answer(uint8_t answering) { settings()->answering = answering; }
  */
 
 /*
- * A read gives the object's bytes, a write replaces its first ones, a transport writes and gives what was there before.
- * Request and reply share their memory, so the request is taken before anything is put there.
+ * A read returns the object's bytes, a write replaces its first ones, a transport writes and returns the previous
+ * bytes. Request and reply share their memory, so the request is copied first.
  */
 static void carry_out(dsdpv1_mailbox_object* object, const dsdpv1_request* request, uint8_t* data, uint8_t* length) {
   uint8_t before[DSDPV1_MAX_ACYCLIC];

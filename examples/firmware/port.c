@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which port it is. */
+/* Selects the port. */
 #include "examples/firmware/port.h"
 
 #include "examples/firmware/board.h"

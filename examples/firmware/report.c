@@ -13,14 +13,14 @@ static uint32_t printed, printed_lost; /* errors; bytes */
 
 dsdpv1_mailbox_report* report(void) { return &dsdpv1_bench.report; }
 
-/* The INTR0 handler may interrupt the main loop in here. */
+/* The INTR0 handler may interrupt the main loop here. */
 bool report_check(dsdpv1_error error, uint8_t during) {
   if (error == DSDPV1_OK) return true;
   const uint32_t before = board_lock();
   const uint32_t place = report()->error_count % DSDPV1_MAILBOX_ERRORS;
   report()->errors[place].error = (uint8_t)error;
   report()->errors[place].during = during;
-  board_barrier(); /* the count announces what has been written */
+  board_barrier(); /* the count announces the entry written before it */
   ++report()->error_count;
   board_unlock(before);
   return false;
@@ -63,6 +63,6 @@ void report_print_errors(void) {
   if (lost != printed_lost) print_lost(lost);
   printed_lost = lost;
   const uint32_t count = report()->error_count;
-  if (count - printed > DSDPV1_MAILBOX_ERRORS) printed = count - DSDPV1_MAILBOX_ERRORS; /* the others are gone */
+  if (count - printed > DSDPV1_MAILBOX_ERRORS) printed = count - DSDPV1_MAILBOX_ERRORS; /* older ones are overwritten */
   while (printed != count) print_error(printed++);
 }

@@ -2,20 +2,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #ifndef REPORT_H
 #define REPORT_H
-/* What has happened so far: counters and errors, for the bench or the debugger, and in words on the serial line. */
+/* Counters and errors so far, for the bench or the debugger, and as text on the serial line. */
 #include <stdbool.h>
 
 #include "examples/firmware/settings.h"
 
-/* The counters; who counts writes them. */
+/* The counters; each is updated where it is counted. */
 dsdpv1_mailbox_report* report(void);
-/* Notes an error of the driver; `during`: DSDPV1_DURING_. True when there is none. Also from the INTR0 handler. */
+/* Notes an error of the driver; `during`: DSDPV1_DURING_. Returns true without an error. Also from the INTR0
+ * handler. */
 bool report_check(dsdpv1_error error, uint8_t during);
-/* The outputs that the master has sent, for the bench. */
+/* The master's outputs, for the bench. */
 void report_outputs(const uint8_t* bytes, uint8_t length);
-/* Who this is. */
+/* Prints the device's name. */
 void report_print_device(void);
-/* Errors and bytes lost that came since the last call, in words. From the main loop. */
+/* Prints errors and lost bytes since the last call. From the main loop. */
 void report_print_errors(void);
 
 #endif /* REPORT_H */

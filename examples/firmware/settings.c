@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The device that this firmware makes of the board. */
+/* The device that this firmware implements on the board. */
 #include "examples/firmware/settings.h"
 
 #include <string.h>
@@ -15,7 +15,7 @@ static settings_times times;
 
 /* --------------------------------------------------------------------------------------- a device without a bench */
 
-/* Two bytes in, two bytes out, as scenarios/dsdpv1.gsd has modules for; the master's outputs come back as inputs. */
+/* Two bytes in, two bytes out, for which scenarios/dsdpv1.gsd has modules; the master's outputs come back as inputs. */
 static const dsdpv1_mailbox_station own_station = {
     .ident = 0x0CC9,
     .address = 3,
@@ -91,7 +91,7 @@ static void compute_times(void) {
   times.answer_delay = board_cycles(loaded->answer_delay_ns);
 }
 
-/* Without a bench the mailbox is what the RAM held when power came: its report starts at zero here. */
+/* Without a bench the mailbox has the RAM's power-on content: its report is cleared here. */
 void settings_load(void) {
   from_bench = filled_by_bench();
   if (!from_bench) {

@@ -3,8 +3,8 @@
 #ifndef SETTINGS_H
 #define SETTINGS_H
 /*
- * What kind of device this is: station, timing, objects, nameplate. On the bench the scenario says so
- * (board/firmware/mailbox.h); on a board of its own the firmware is the device of own_settings (settings.c).
+ * The kind of device: station, timing, objects, nameplate. On the bench the scenario defines it
+ * (board/firmware/mailbox.h); on a separate board the firmware is the device of own_settings (settings.c).
  */
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,11 +19,11 @@ typedef struct settings_times {
   uint64_t start_delay, period, judge_delay, retry_delay, answer_delay;
 } settings_times;
 
-/* Finds out who says what the device is. Once, first of all. */
+/* Determines who defines the device. Call it once, first of all. */
 void settings_load(void);
 /* True when a bench has filled in the mailbox and may give commands. */
 bool settings_from_bench(void);
-/* Only the objects' data and the way of answering change while the firmware runs. */
+/* Only the objects' data and the way of answering may change while the firmware runs. */
 dsdpv1_mailbox_settings* settings(void);
 const settings_times* settings_in_cycles(void);
 

@@ -11,7 +11,7 @@
 typedef struct wiring {
   spi_registers* spi;
   gpio_registers* port;
-  unsigned xss; /* SCK, MISO and MOSI are the pins that follow */
+  unsigned xss; /* SCK, MISO and MOSI are the next pins */
   unsigned irq;
 } wiring;
 
@@ -25,7 +25,7 @@ static void select(bool on) {
 
 #ifdef BOARD_SERIAL_INTERRUPTS
 
-/* The frame that is under way: the handler's, from its begin until `left` is 0. */
+/* The frame in progress: owned by the handler from its begin until `left` is 0. */
 static const uint8_t* volatile next_out;
 static uint8_t* volatile next_in;
 static volatile uint16_t left;
@@ -54,8 +54,8 @@ static void prepare(void) {
 #elif defined DSDPV1_PLANTED_LATE_READ
 
 /*
- * A mistake, for the tests of the bench: the next byte is sent before the last one has been fetched, and something
- * takes longer than a byte. It works at a slower clock, and it is seen only by who looks at OVR.
+ * A deliberate mistake for the tests of the bench: the next byte is sent before the last one has been fetched, and
+ * then something takes longer than a byte. It works at a slower clock, and only OVR shows it.
  */
 enum { kDawdle = 150 }; /* cycles; a byte has 64 at 9 MHz */
 
@@ -66,7 +66,7 @@ static bool fetch(uint8_t* to) {
   while (DWT->CYCCNT - since < (uint32_t)kDawdle) {
   }
   *to = (uint8_t)card->spi->DR;
-  if ((card->spi->SR & SPI_SR_OVR) == 0u) return true; /* the look clears it, after DR */
+  if ((card->spi->SR & SPI_SR_OVR) == 0u) return true; /* reading it after DR clears it */
   port_note_lost();
   return false;
 }
@@ -102,7 +102,7 @@ void spi_handler(void) {} /* not enabled */
 
 #endif
 
-/* The last bit's clock falls half a bit after RXNE: XSS waits for it (BSY). */
+/* The last bit's clock falls half a bit after RXNE: wait with XSS for it (BSY). */
 static bool frame(void* ctx, const uint8_t* out, uint8_t* in, uint16_t n) {
   (void)ctx;
   select(true);
@@ -113,7 +113,7 @@ static bool frame(void* ctx, const uint8_t* out, uint8_t* in, uint16_t n) {
   return done;
 }
 
-/* The longest time that nobody knows is a card's until its reply: two bytes, as the vendor's own firmware has it. */
+/* A card's time until its reply is not specified: two bytes, as in the vendor's firmware. */
 static dsdpv1_spi port = {.exchange = frame, .pause = port_pause, .spare = 2};
 
 dsdpv1_spi* spi_port(void) { return &port; }
@@ -123,7 +123,7 @@ dsdpv1_spi* spi_port_start(void) {
   select(false);
   board_pin(card->port, card->xss, GPIO_OUTPUT_50MHZ);
   board_pin(card->port, card->xss + 1u, GPIO_ALTERNATE_50MHZ);
-  card->port->BSRR = 1u << (card->xss + 2u); /* MISO is pulled up while nobody drives it */
+  card->port->BSRR = 1u << (card->xss + 2u); /* MISO is pulled up while it is not driven */
   board_pin(card->port, card->xss + 2u, GPIO_INPUT_PULL);
   board_pin(card->port, card->xss + 3u, GPIO_ALTERNATE_50MHZ);
   card->spi->CR1 = SPI_CR1_MSTR | SPI_CR1_SSM | SPI_CR1_SSI | SPI_CR1_BR_DIV8 | SPI_CR1_SPE;

@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
-/* From reset to main: the vector table, RAM, and what happens at interrupts that nobody asked for. */
+/* From reset to main: the vector table, RAM, and the handling of unexpected interrupts. */
 #include <stdint.h>
 
 #include "examples/firmware/board.h"

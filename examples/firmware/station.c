@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The life of the chip. */
+/* Operation of the chip. */
 #include "examples/firmware/station.h"
 
 #include <stddef.h>
@@ -18,7 +18,7 @@ static volatile bool paused;
 /* ----------------------------------------------------------------------------------------------------------- judging
  */
 
-/* A product looks at the bytes here. Called from dsdpv1_service, so from the INTR0 handler or the main loop. */
+/* A product checks the bytes here. Called from dsdpv1_service, so from the INTR0 handler or the main loop. */
 static dsdpv1_verdict judge(uint8_t judgement) {
   ++report()->judgements;
   board_wait(settings_in_cycles()->judge_delay);
@@ -44,7 +44,7 @@ static dsdpv1_verdict judge_cfg(void* ctx, const dsdpv1_cfg_block* cfg) {
 
 void station_service(void) {
   const dsdpv1_error error = dsdpv1_service(&chip);
-  if (error != DSDPV1_ERR_NESTED) /* no failure: the interrupted main loop does it */
+  if (error != DSDPV1_ERR_NESTED) /* not a failure: the interrupted main loop does it */
     report_check(error, DSDPV1_DURING_SERVICE);
 }
 
@@ -70,7 +70,7 @@ void station_send_verdict(uint8_t which, bool refuse) {
 
 dsdpv1_device* station_open(const dsdpv1_port* parallel) {
   const dsdpv1_judge judges = {NULL, judge_prm, judge_cfg};
-  if (port_open(&chip, parallel, &judges) != DSDPV1_OK) board_halt(); /* straps for no card: ADR 0 or 3 */
+  if (port_open(&chip, parallel, &judges) != DSDPV1_OK) board_halt(); /* straps without a card: ADR 0 or 3 */
   return &chip;
 }
 
@@ -82,7 +82,7 @@ bool station_initialise(const dsdpv1_mailbox_station* station) {
   return true;
 }
 
-/* The main loop, which prints what goes wrong, has not begun. */
+/* The main loop, which prints errors, has not begun. */
 static void wait_for_retry(void) {
   for (const uint64_t end = board_now() + settings_in_cycles()->retry_delay; board_now() < end;) {
     report_print_errors();
@@ -94,7 +94,7 @@ void station_bring_up(void) {
   while (!report_check(dsdpv1_wait_ready(&chip), DSDPV1_DURING_WAIT_READY) || !station_initialise(&settings()->station))
     wait_for_retry();
   board_on_intr0(on_intr0);
-  station_service(); /* what came between the initialisation and the line above */
+  station_service(); /* serves events between the initialisation and the line above */
 }
 
 /* --------------------------------------------------------------------------------------------------------- diagnosis

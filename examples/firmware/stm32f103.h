@@ -3,8 +3,8 @@
 #ifndef STM32F103_H
 #define STM32F103_H
 /*
- * The registers of the STM32F103xE that this firmware uses, named as in ST's reference manual RM0008, and those of the
- * Cortex-M3 core, named as in ARM's architecture manual. Only what is used: add bits where you need them.
+ * The registers of the STM32F103xE that this firmware uses, named as in ST's reference manual RM0008, and those of
+ * the Cortex-M3 core, named as in ARM's architecture manual. Only those in use: add bits when needed.
  */
 #include <stdint.h>
 
@@ -45,7 +45,7 @@ typedef struct {
 #define DEMCR_TRCENA (1u << 24)
 
 #define DBGMCU_CR (*(reg32*)0xE0042004u)
-#define DBGMCU_CR_DBG_SLEEP (1u << 0) /* HCLK goes on in sleep, and with it CYCCNT */
+#define DBGMCU_CR_DBG_SLEEP (1u << 0) /* HCLK continues in sleep, and with it CYCCNT */
 
 /* --------------------------------------------------------------------------------------------- reset and clock control
  */

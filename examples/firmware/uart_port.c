@@ -12,7 +12,8 @@ enum { kTxPin = 2, kRxPin = 3 }; /* port A */
 
 static const uint32_t rates[] = {9600u, 19200u, 38400u, 57600u, 115200u, 230400u, 460800u, 1843200u}; /* UBR */
 
-/* SR before DR: what the character of DR is. Says whether it is right; one that had no room before it is counted. */
+/* SR, read before DR, describes the character in DR. Returns whether it is right; counts one that was lost before
+ * it. */
 static bool fetch(uint32_t status, uint8_t* to) {
   *to = (uint8_t)USART2->DR;
   if ((status & USART_SR_ORE) != 0u) port_note_lost();
@@ -36,7 +37,7 @@ static void take_in(uint32_t status) {
   head = (uint16_t)((head + 1u) % kBufferSize);
 }
 
-/* TXEIE asks for the next character; after the last one TCIE for its end. */
+/* TXEIE requests the next character; after the last one TCIE waits for its end. */
 static void give_out(void) {
   if (left != 0u) {
     USART2->DR = *next_out++;
@@ -52,7 +53,7 @@ void usart2_handler(void) {
   const uint32_t enabled = USART2->CR1;
   if ((status & (USART_SR_RXNE | USART_SR_ORE)) != 0u) take_in(status);
   if ((status & enabled & (USART_SR_TXE | USART_SR_TC)) != 0u)
-    give_out(); /* the enables have the places of the flags */
+    give_out(); /* the enable bits have the same positions as the flags */
 }
 
 static bool send(void* ctx, const uint8_t* bytes, uint16_t n) {
@@ -82,8 +83,8 @@ static void prepare(void) {
 
 #ifdef DSDPV1_PLANTED_LATE_READ
 
-/* A mistake, for the tests of the bench: longer than two characters at 1.8432 MBd before the first of them is fetched.
- */
+/* A deliberate mistake for the tests of the bench: waits longer than two characters at 1.8432 Mbit/s before fetching
+ * the first of them. */
 static void dawdle(void) {
   enum { kDawdle = 1000 };
   const uint32_t since = DWT->CYCCNT;

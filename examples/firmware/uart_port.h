@@ -8,7 +8,7 @@
  */
 #include "driver/dsdpv1_uart.h"
 
-/* For dsdpv1_open_uart; board_start first. */
+/* For dsdpv1_open_uart; call board_start first. */
 dsdpv1_uart* uart_port_start(void);
 /* The same port, started. */
 dsdpv1_uart* uart_port(void);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
-// A chip as a user of the co-simulation might bring it: the pins have names and polarities of their own, INTR0 is made by an own pulse
-// generator. Two things are wrong in it; docs/tutorials/rtl_cosim.md shows how they are found.
+// A chip as a user might provide it for co-simulation: the pins have other names and polarities, and a separate pulse generator makes
+// INTR0. It contains two faults; docs/tutorials/rtl_cosim.md shows how they are found.
 module board_chip #(
   parameter integer SEARCH_WINDOW_MS = 50,
   parameter integer PULSE = 60,           // wrong: the low time is 64 cycles (P7)
@@ -37,7 +37,7 @@ module board_chip #(
     .d_oe_o(data_drive), .csr_i(!cs), .rd_i(rd_n), .wr_i(wr_n), .intr0_o(intr0), .pbf_o(led_no_exchange), .br_o(led_baud),
     .ready_o(led_ready));
 
-  // irq is high while count_q counts down; without a reset it may be high after power-on, for as long as it happens to take
+  // irq is high while count_q counts down; without a reset it may be high after power-on for an arbitrary time
   logic clear;
   assign clear = rst && RESET_VALUE != 0;
   always_ff @(posedge clk or posedge clear) begin

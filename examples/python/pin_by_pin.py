@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""A master brings a slave up whose user CPU is this program; the rules of the user's side are looked at, too.
+"""A master brings up a slave whose user CPU is this program; the rules of the user's side are checked as well.
 
     python3 examples/python/pin_by_pin.py [GSD]
 """

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
 // A PROFIBUS master brings a DSDPV1 to data exchange, in SystemVerilog: the chip is the library's model, its user CPU and the master are
-// bus functional models. With USE_RTL defined the reference RTL is in the model's place and the scoreboard beside it; with SINGLE_FAULTS too,
-// +fault=N plants the defect N of rtl_ref/dsdpv1/faults.txt. docs/systemverilog.md says how to run it.
+// bus functional models. With USE_RTL defined the reference RTL replaces the model, and a scoreboard compares them; with SINGLE_FAULTS as
+// well, +fault=N plants the defect N of rtl_ref/dsdpv1/faults.txt. docs/systemverilog.md shows how to run it.
 module data_exchange;
   timeunit 1ns;
   timeprecision 1ps;
@@ -49,7 +49,7 @@ module data_exchange;
     if (seen != wanted) $fatal(1, "%0s: %0d, expected %0d", what, seen, wanted);
   endtask
 
-  // Services out of the cycle, in data exchange.
+  // Acyclic services, in data exchange.
   task try_services;
     bytes_t data;
     int outcome, fc, count;

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""libdsdpv1 behind ctypes: found, checked, its errors made exceptions. ctypes lets other threads of Python run while a call is in the library.
+"""Loads and checks libdsdpv1 with ctypes and turns its errors into exceptions. ctypes releases the GIL during a call.
 
-DSDPV1_LIBRARY in the environment names another libdsdpv1.so than the one that is installed with this package.
+The environment variable DSDPV1_LIBRARY selects another libdsdpv1.so than the one installed with this package.
 """
 import ctypes
 import functools
@@ -19,7 +19,7 @@ _thread = threading.local()
 
 
 def _path() -> str:
-    """The environment's, the package's own, or the one that the system's loader knows."""
+    """The library named in the environment, the package's own, or the one known to the system's loader."""
     named = os.environ.get("DSDPV1_LIBRARY")
     if named:
         return named
@@ -40,7 +40,7 @@ def _load() -> ctypes.CDLL:
 
 
 def _raise_pending() -> None:
-    """What a callback has raised while the call was in the library."""
+    """Raises the exception of a callback that ran during the call."""
     pending = getattr(_thread, "pending", None)
     if pending is not None:
         _thread.pending = None
@@ -57,7 +57,7 @@ def _check(status: int, _function: typing.Any, arguments: typing.Any) -> typing.
 
 
 class _Library:
-    """The functions of the C API by name, bound when first asked for."""
+    """The functions of the C API by name, bound at first use."""
 
     def __init__(self) -> None:
         self._library = _load()
@@ -91,14 +91,14 @@ def sized(struct: typing.Any, **members: typing.Any) -> typing.Any:
 
 
 def filled(function: typing.Any, struct: typing.Any, *arguments: typing.Any) -> typing.Any:
-    """What a function writes into a struct that is its last argument."""
+    """Returns the struct that a function fills through its last argument."""
     into = sized(struct)
     function(*arguments, ctypes.byref(into))
     return into
 
 
 def number(function: typing.Any, kind: typing.Any, *arguments: typing.Any) -> typing.Any:
-    """What a function writes into a number, text or handle that is its last argument."""
+    """Returns the number, text or handle that a function writes through its last argument."""
     into = kind()
     function(*arguments, ctypes.byref(into))
     return into.value
@@ -109,8 +109,8 @@ def as_bytes(pointer: typing.Any, count: int) -> bytes:
 
 
 def callback(kind: typing.Any, function: typing.Optional[typing.Callable[..., typing.Any]], default: typing.Any = None) -> typing.Any:
-    """`function`, called with all arguments but the user pointer. What it raises ends up at the caller of the call that it came from; until
-    then the callbacks of this thread do nothing."""
+    """Wraps `function`, which is called with all arguments except the user pointer. Its exception is raised to the caller of the library call;
+    until then callbacks of this thread do nothing."""
     if function is None:
         return kind()  # NULL
 
@@ -128,20 +128,20 @@ def callback(kind: typing.Any, function: typing.Optional[typing.Callable[..., ty
 
 
 class Handle:
-    """An object of the library: closed by close(), the end of a `with` block, or when nobody has it any more."""
+    """An object of the library, released by close(), at the end of a `with` block, or when it is no longer referenced."""
 
     def __init__(self, handle: int, destroy: typing.Optional[typing.Any]) -> None:
-        self._as_parameter_: typing.Optional[int] = handle  # what ctypes gives to the library for it
+        self._as_parameter_: typing.Optional[int] = handle  # the value that ctypes passes to the library
         self._destroy = destroy
-        self._callbacks: typing.Dict[str, typing.Any] = {}  # the library has their addresses
+        self._callbacks: typing.Dict[str, typing.Any] = {}  # the library holds their addresses
 
     @property
     def closed(self) -> bool:
-        """Whether it has been released."""
+        """True if it has been released."""
         return self._as_parameter_ is None
 
     def close(self) -> None:
-        """Releases it; afterwards every call is a StateError. Again: nothing."""
+        """Releases it; afterwards every call raises a StateError. Further calls of close() do nothing."""
         handle, self._as_parameter_ = getattr(self, "_as_parameter_", None), None
         if handle is not None and self._destroy is not None:
             self._destroy(handle)
@@ -156,12 +156,12 @@ class Handle:
     def __del__(self) -> None:
         try:
             self.close()
-        except Exception:  # pylint: disable=broad-except  # at the end of the interpreter
+        except Exception:  # at the interpreter's exit
             pass
 
     def _keep(self, name: str, kind: typing.Any, function: typing.Optional[typing.Callable[..., typing.Any]],
               tell: typing.Callable[[typing.Any], None], default: typing.Any = None) -> None:
-        """Makes `function` the library's callback, then lets go of the earlier one."""
+        """Sets `function` as the library's callback, then drops the earlier one."""
         made = callback(kind, function, default)
         tell(made)
         self._callbacks[name] = made

@@ -14,17 +14,17 @@ _PIECE = 1 << 16  # changes, 1 MB
 
 
 def address(changes: np.ndarray) -> int:
-    """Where an array of CHANGE begins, for the library."""
+    """The address of an array of CHANGE, for the library."""
     return int(changes.__array_interface__["data"][0])
 
 
 def as_changes(changes: typing.Any) -> np.ndarray:
-    """An array, or whatever makes one of CHANGE: a list of (tick, station, pin, level)."""
+    """Converts an array or a list of (tick, station, pin, level) to an array of CHANGE."""
     return np.ascontiguousarray(changes, dtype=CHANGE)
 
 
 def taken(read: typing.Callable[..., typing.Any], source: Handle) -> np.ndarray:
-    """All changes that are kept, by one of the functions ..._read_changes."""
+    """All kept changes, by one of the functions ..._read_changes."""
     pieces, count = [], ctypes.c_size_t(_PIECE)
     while count.value == _PIECE:
         piece = np.empty(_PIECE, CHANGE)
@@ -34,7 +34,7 @@ def taken(read: typing.Callable[..., typing.Any], source: Handle) -> np.ndarray:
 
 
 def of_pin(changes: np.ndarray, pin: int, station: typing.Optional[int] = None) -> np.ndarray:
-    """Those of one pin, of one station when it is given."""
+    """The changes of one pin, of one station if given."""
     chosen = changes["pin"] == pin
     if station is not None:
         chosen &= changes["station"] == station

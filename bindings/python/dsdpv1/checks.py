@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rules of a chip's user side (docs/checks.md), judged from any pins: those of a model, of RTL, of a recording."""
+"""The rules of a chip's user side (docs/checks.md), applied to pins from any source: a model, RTL or a recording."""
 import ctypes
 import dataclasses
 import typing
@@ -15,7 +15,7 @@ from .units import NEVER
 
 @dataclasses.dataclass(frozen=True)
 class Rule:
-    """One rule. `limit` in ticks; None: only measured, or kept or not."""
+    """One rule. `limit` in ticks; None: only measured, or kept or violated."""
 
     name: str  # stable: "TIMING_TS"
     rule: str  # what must hold
@@ -30,16 +30,16 @@ class Violation:
     """A rule that was broken. Ticks."""
 
     tick: int
-    found: int  # when that could be seen
+    found: int  # when it became visible
     rule: str  # its name
     margin: typing.Optional[int]  # below 0
     text: str
-    pins: str  # the last changes of the pins that the rule is about
+    pins: str  # the last changes of the pins that the rule concerns
 
 
 @dataclasses.dataclass(frozen=True)
 class CheckResult:
-    """Of one rule, so far. Ticks."""
+    """Result of one rule, so far. Ticks."""
 
     count: int  # how often it was applied
     violations: int
@@ -60,10 +60,10 @@ def rules(kind: typing.Optional[str] = None) -> typing.Tuple[Rule, ...]:
 
 
 class Checker(Handle):
-    """Feed it all changes of pins in order of time, at best also telegrams; ask for results at any time."""
+    """Feed it all changes of pins in order of time, if possible also telegrams; results may be read at any time."""
 
     def __init__(self, kind: typing.Optional[str] = None, limits: typing.Optional[typing.Mapping[str, typing.Optional[int]]] = None) -> None:
-        """`limits`: a rule's name to another limit in ticks; None: not checked at all."""
+        """`limits`: other limits by the rule's name, in ticks; None: not checked."""
         limits = limits or {}
         table = (_c.dpsim_limit * max(1, len(limits)))(*(_c.dpsim_limit(encoded(name), value or 0, int(value is None)) for name, value in limits.items()))
         options = sized(_c.dpsim_checker_options, kind=encoded(kind), limit_count=len(limits), limits=ctypes.cast(table, ctypes.POINTER(_c.dpsim_limit)))
@@ -71,7 +71,7 @@ class Checker(Handle):
         self._kind, self._rules = kind_of(kind), rules(kind)
 
     def on_violation(self, callback: typing.Optional[typing.Callable[[Violation], typing.Any]]) -> None:
-        """Told as soon as it can be seen, inside of the call that feeds; None: they are counted."""
+        """Calls `callback` as soon as a violation is visible, during the call that feeds the pins; None: violations are only counted."""
         def told(native: typing.Any) -> None:
             got = native[0]
             assert callback is not None
@@ -82,34 +82,34 @@ class Checker(Handle):
 
     @property
     def wants(self) -> typing.Tuple[str, ...]:
-        """The pins that it needs; others may be fed, too."""
+        """The pins that it needs; other pins may be fed as well."""
         mask = number(lambda into: lib.dpsim_checker_wants(self, into), ctypes.c_uint64)
         return tuple(each.name for each in self._kind.pins if mask >> each.number & 1)
 
     def pin(self, tick: int, pin: PinName, level: int) -> None:
-        """A change of a pin."""
+        """Feeds a change of a pin."""
         lib.dpsim_checker_pin(self, tick, self._kind.pin(pin).number, level)
 
     def pins(self, changes: typing.Any) -> None:
-        """Many of them, an array of CHANGE as Chip.changes() gives it, those of any station."""
+        """Feeds many changes: an array of CHANGE, as returned by Chip.changes(), of any station."""
         array = as_changes(changes)
         lib.dpsim_checker_pins(self, address(array), len(array), None)
 
     def sample(self, tick: int) -> None:
-        """The user begins a read now and samples D at `tick`; left out, the time is taken from the pins (P5)."""
+        """Announces, before a read that starts now, that the user samples D at `tick`; without this call the time is derived from the pins (P5)."""
         lib.dpsim_checker_sample(self, tick)
 
     def telegram(self, heard: Heard) -> None:
-        """A telegram on the chip's line, at its end: rules about cells and service need them."""
+        """Feeds a telegram on the chip's line, at its end: rules about cells and service need them."""
         lib.dpsim_checker_telegram(self, ctypes.byref(native_of(heard)))
 
     def finish(self, tick: int) -> None:
-        """Once, at the end; afterwards only results are asked."""
+        """Call once, at the end; after it only results may be read."""
         lib.dpsim_checker_finish(self, tick)
 
     @property
     def results(self) -> typing.Dict[str, CheckResult]:
-        """By the rule's name."""
+        """Results by the rule's name."""
         return {rule.name: self._result(index) for index, rule in enumerate(self._rules)}
 
     def _result(self, index: int) -> CheckResult:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""One chip, driven pin by pin, and what it says of itself; the model beside somebody's chip."""
+"""One chip, driven pin by pin, and its events; the model compared with a DUT."""
 import ctypes
 import dataclasses
 import enum
@@ -27,7 +27,7 @@ class DpState(enum.IntEnum):
 
 
 class Severity(enum.IntEnum):
-    """Of what a chip says: a state or service, something refused, a rule broken by the user's side."""
+    """Of a chip's event: a state or service, a refusal, a rule broken by the user's side."""
 
     INFO = _c.DPSIM_SEVERITY_INFO
     REFUSAL = _c.DPSIM_SEVERITY_REFUSAL
@@ -36,34 +36,34 @@ class Severity(enum.IntEnum):
 
 @dataclasses.dataclass(frozen=True)
 class ChipEvent:
-    """Something that happened at a chip."""
+    """An event of a chip."""
 
     tick: int
     station: int
-    code: str  # of docs/reasons.md, never changes: "PRM_IDENT"
+    code: str  # from docs/reasons.md, never changes: "PRM_IDENT"
     severity: Severity
     text: str
 
 
 @dataclasses.dataclass(frozen=True)
 class ChipStatus:
-    """States and counters of a chip, as dpsim_chip_status has them."""
+    """States and counters of a chip, as in dpsim_chip_status."""
 
     dp_state: DpState
-    baud: typing.Optional[str]  # None: it is being searched
+    baud: typing.Optional[str]  # None: the search is running
     address: int  # 0 before the initialisation
     master: typing.Optional[int]  # the parameterising one
     telegrams_received: int
     telegrams_answered: int
     data_exchanges: int
-    outputs_missed: int  # H5: blocks that newer ones replaced before the user had fetched them
+    outputs_missed: int  # H5: blocks that newer ones replaced before the user fetched them
     accesses: int
-    longest_wait: int  # H1: ticks that a due access waited for the user at most
+    longest_wait: int  # H1: the most ticks that a due access waited for the user
 
 
 @dataclasses.dataclass(frozen=True)
 class AccessTiming:
-    """When the pins move during an access of the host bus, in ticks (table 15, P5, P11); the defaults keep all limits. None: the default."""
+    """When the pins change during an access of the host bus, in ticks (table 15, P5, P11); the defaults keep all limits. None: the default."""
 
     address_setup: typing.Optional[int] = None  # A before the strobe falls (Tc >= 0)
     cs_lead: typing.Optional[int] = None  # CSR falls before the strobe
@@ -71,13 +71,13 @@ class AccessTiming:
     rd_sample: typing.Optional[int] = None  # D sampled after RD fell (Tw >= 375)
     wr_low: typing.Optional[int] = None  # > 0 (Ts >= 150)
     data_setup: typing.Optional[int] = None  # D before WR rises (Td >= 150)
-    data_hold: typing.Optional[int] = None  # D after it (Td >= 150)
-    address_hold: typing.Optional[int] = None  # A after the strobe rose (writes: Td >= 150)
+    data_hold: typing.Optional[int] = None  # D after WR rises (Td >= 150)
+    address_hold: typing.Optional[int] = None  # A after the strobe rises (writes: Td >= 150)
     cs_trail: typing.Optional[int] = None  # CSR rises after the strobe
     recovery: typing.Optional[int] = None  # from the last edge to the end of the access
 
     def complete(self) -> "AccessTiming":
-        """With the defaults in their places."""
+        """Replaces None by the defaults."""
         default = filled(lib.dpsim_access_timing_default, _c.dpsim_access_timing)
         return AccessTiming(**{each.name: getattr(default, each.name) if getattr(self, each.name) is None else getattr(self, each.name)
                                for each in dataclasses.fields(self)})
@@ -87,7 +87,7 @@ class AccessTiming:
 
 
 def event_maker(kind: Kind, tell: typing.Callable[[ChipEvent], typing.Any]) -> typing.Callable[[typing.Any], None]:
-    """A callback of the library for what is to be told in words."""
+    """A callback for the library that converts events to text."""
     raw, buffer = encoded(kind.name), ctypes.create_string_buffer(256)
 
     def told(event: typing.Any) -> None:
@@ -103,7 +103,7 @@ def _timing(timing: typing.Optional[AccessTiming]) -> typing.Any:
 
 
 def chip_options(engine: str, kind: typing.Optional[str], name: typing.Optional[str], parameters: typing.Mapping[str, int]) -> typing.Any:
-    """What Chip() and Bus.add_chip() give to the library."""
+    """The options of Chip() and Bus.add_chip() for the library."""
     if engine not in ENGINES:
         raise ValueError(f"engine is {engine}, allowed are {', '.join(ENGINES)}")
     table = (_c.dpsim_parameter * max(1, len(parameters)))(*(_c.dpsim_parameter(encoded(key), value) for key, value in parameters.items()))
@@ -118,17 +118,18 @@ def _unpickled(kind: str, engine: str, parameters: typing.Mapping[str, int], sta
 
 
 class Chip(Handle):
-    """A chip alone, fresh from power-on at tick 0: RESET is low.
+    """A chip without a bus, at power-on and tick 0: RESET is low.
 
-    A change of an input at tick t is seen by the first rising edge of CLK strictly after t (P9); the host port, which is asynchronous, sees it
-    at t. Calls come in order of time: a tick before the present one is a TimeError. `at` None is the present tick. Pins are given by name or
-    number. On a bus (Bus.add_chip) setting or advancing the chip runs the whole bus.
+    A change of an input at tick t is seen by the first rising edge of CLK strictly after t (P9); the host port, which is asynchronous, sees it at
+    t. Calls come in order of time: a tick before the present one is a TimeError. `at` None is the present tick. Pins are given by name or number.
+    On a bus (Bus.add_chip) setting or advancing the chip runs the whole bus.
 
-    A chip alone can be saved and restored, and so be copied and pickled: the copy goes on where the chip is; nobody watches or listens to it.
+    A chip without a bus can be saved and restored, and so be copied and pickled: the copy continues from the same state, without watched pins and
+    callbacks.
     """
 
     def __init__(self, kind: typing.Optional[str] = None, engine: str = "skip", parameters: typing.Optional[typing.Mapping[str, int]] = None) -> None:
-        """`engine` "step" evaluates each cycle: slow, with the same changes. `parameters`: those that are not to have their defaults."""
+        """`engine` "step" evaluates each cycle: slow, with the same changes. `parameters`: those that differ from the default."""
         options = chip_options(engine, kind, None, parameters or {})
         super().__init__(number(lambda into: lib.dpsim_chip_create(ctypes.byref(options), into), ctypes.c_void_p), lib.dpsim_chip_destroy)
         self._set_kind(kind)
@@ -136,7 +137,7 @@ class Chip(Handle):
 
     @classmethod
     def _of(cls, handle: int, kind: typing.Optional[str]) -> "Chip":
-        """A chip that its bus owns."""
+        """A chip owned by its bus."""
         self = cls.__new__(cls)
         Handle.__init__(self, handle, None)
         self._set_kind(kind)
@@ -159,26 +160,26 @@ class Chip(Handle):
 
     @property
     def next(self) -> int:
-        """The tick of the next thing that the chip does by itself; NEVER: until an input changes, nothing."""
+        """The tick of the chip's next activity that needs no call; NEVER: none until an input changes."""
         return int(number(lambda into: lib.dpsim_chip_next(self, into), ctypes.c_uint64))
 
     def set(self, pin: PinName, level: int, at: typing.Optional[int] = None) -> None:
-        """Runs up to `at`, then gives an input a level: 0 or 1, of several wires their value, of D_IN also Z."""
+        """Runs up to `at`, then sets an input: 0 or 1, the value of a pin with several wires, or Z for D_IN."""
         lib.dpsim_chip_set(self, self.now if at is None else at, self._number(pin), level)
 
     def set_many(self, changes: typing.Any) -> None:
-        """Many at once, an array of CHANGE or a list of (tick, station, pin, level); stations are not looked at."""
+        """Sets many at once: an array of CHANGE or a list of (tick, station, pin, level); stations are ignored."""
         array = as_changes(changes)
         lib.dpsim_chip_set_many(self, address(array), len(array), None)
 
     def receive(self, data: bytes, bit: int, at: typing.Optional[int] = None) -> int:
-        """Characters on PBRXD of a chip alone, with even parity, one after the other, each bit `bit` ticks long (bit_ticks). The end of the last
-        stop bit, which is the present tick then. StateError: it is on a bus."""
+        """Sends characters to PBRXD of a chip without a bus, with even parity, back to back, each bit `bit` ticks long (bit_ticks). Returns the
+        end of the last stop bit, which is then the present tick. StateError: the chip is on a bus."""
         start = self.now if at is None else at
         return int(number(lambda into: lib.dpsim_chip_receive(self, start, bit, bytes(data), len(data), into), ctypes.c_uint64))
 
     def advance(self, to: int) -> None:
-        """Runs everything up to and including tick `to`. Other threads of Python run meanwhile."""
+        """Runs up to and including tick `to`. Releases the GIL."""
         lib.dpsim_chip_advance(self, to)
 
     def level(self, pin: PinName) -> int:
@@ -186,33 +187,33 @@ class Chip(Handle):
         return int(number(lambda into: lib.dpsim_chip_level(self, self._number(pin), into), ctypes.c_int16))
 
     def sample(self, at: typing.Optional[int] = None) -> int:
-        """The user samples D at this tick. The chip hears of it: too early (Tw, P5) it is X, and a violation is reported."""
+        """Samples D at this tick as the user. Earlier than Tw (P5) the level is X, and a violation is reported."""
         return int(number(lambda into: lib.dpsim_chip_sample(self, self.now if at is None else at, into), ctypes.c_int16))
 
     # ---- accesses
     def read(self, cell: int, at: typing.Optional[int] = None, timing: typing.Optional[AccessTiming] = None) -> int:
-        """Reads a cell, 0 to 0x7FF, through the pins; the present tick is then the end of the access. X when the chip says so. Whether the user
-        owns the DPRAM is the caller's business (H2)."""
+        """Reads a cell, 0 to 0x7FF, through the pins; the present tick is then the end of the access. X if the chip does not define it. The caller
+        must own the DPRAM (H2)."""
         value, end = ctypes.c_int16(), ctypes.c_uint64()
         lib.dpsim_chip_read(self, self.now if at is None else at, cell, _timing(timing), ctypes.byref(value), ctypes.byref(end))
         return value.value
 
     def write(self, cell: int, value: int, at: typing.Optional[int] = None, timing: typing.Optional[AccessTiming] = None) -> None:
-        """Writes a cell, the same way."""
+        """Writes a cell in the same way."""
         lib.dpsim_chip_write(self, self.now if at is None else at, cell, value, _timing(timing), ctypes.byref(ctypes.c_uint64()))
 
     def peek(self, cell: int) -> int:
-        """A cell without pins, time or side effects."""
+        """Reads a cell without pins, time or side effects."""
         return int(number(lambda into: lib.dpsim_chip_peek(self, cell, into), ctypes.c_uint8))
 
     def poke(self, cell: int, value: int) -> None:
-        """Writes it so; the chip finds it at its next access."""
+        """Writes a cell without pins; the chip finds it at its next access."""
         lib.dpsim_chip_poke(self, cell, value)
 
-    # ---- saved and restored
+    # ---- save and restore
     def save(self) -> bytes:
-        """All that the chip is at the present tick, for restore() here or in another process. Not who watches and listens, and not changes that
-        are kept. StateError: it is on a bus, whose line, masters and time are no part of a chip.
+        """The complete state of the chip at the present tick, for restore() here or in another process. Callbacks, watched pins and kept changes
+        are not saved. StateError: the chip is on a bus, whose line, masters and time are not part of a chip.
 
             path.write_bytes(chip.save())
             ...
@@ -224,30 +225,29 @@ class Chip(Handle):
         return state.raw[:size]
 
     def restore(self, state: bytes) -> None:
-        """Goes on as the chip that was saved, from its tick on, which may be before the present one. Kind and parameters must be the same, the
-        engine need not. Who watches and listens stays; changes that are kept are forgotten. InputError: these bytes are no state of such a chip;
-        then it is what it was."""
+        """Resumes the saved chip at its tick, which may be before the present one. Kind and parameters must be the same, the engine need not.
+        Callbacks and watched pins stay; kept changes are discarded. InputError: the bytes are not a state of such a chip, which is then unchanged."""
         lib.dpsim_chip_restore(self, bytes(state), len(state))
 
     def __reduce__(self) -> typing.Any:
         state = self.save()
         return _unpickled, (self.kind.name, *self._made_with, state)
 
-    # ---- what is told
+    # ---- events
     def watch(self, pins: typing.Optional[typing.Iterable[PinName]] = None,
               callback: typing.Optional[typing.Callable[[int, str, int], typing.Any]] = None) -> None:
-        """From now on changes of these pins (None: all, []: none) are kept for changes(), or told: callback(tick, pin, level). In order of time.
-        In the callback the chip must not be changed."""
+        """Reports changes of these pins (None: all, []: none) from now on, in order of time: by callback(tick, pin, level), or by keeping them for
+        changes(). In the callback the chip must not be changed."""
         names = [each.name for each in self.kind.pins]
         told = None if callback is None else lambda change: callback(change[0].tick, names[change[0].pin], change[0].level)
         self._keep("watch", _c.dpsim_change_fn, told, lambda made: lib.dpsim_chip_watch(self, self.kind.mask(pins), made, None))
 
     def changes(self) -> np.ndarray:
-        """Takes what watch() has kept: an array of CHANGE. Memory grows until it is taken."""
+        """Takes the changes kept by watch(): an array of CHANGE. Memory grows until they are taken."""
         return taken(lib.dpsim_chip_read_changes, self)
 
     def on_event(self, callback: typing.Optional[typing.Callable[[ChipEvent], typing.Any]]) -> None:
-        """Told of states, refusals and violations; None: nobody listens."""
+        """Calls `callback` for states, refusals and violations; None: no callback."""
         told = None if callback is None else event_maker(self.kind, callback)
         self._keep("event", _c.dpsim_chip_event_fn, told, lambda made: lib.dpsim_chip_on_event(self, made, None))
 
@@ -260,15 +260,15 @@ class Chip(Handle):
 
     @property
     def station(self) -> int:
-        """Its number on the bus. StateError: it is on none."""
+        """Its number on the bus. StateError: the chip is not on a bus."""
         return int(number(lambda into: lib.dpsim_chip_station(self, into), ctypes.c_uint16))
 
 
 @dataclasses.dataclass(frozen=True)
 class Difference:
-    """The first one, and what was before it."""
+    """The first difference, and the events before it."""
 
-    tick: int  # since when
+    tick: int  # its start
     pin: str
     model: int  # its levels
     dut: int
@@ -277,12 +277,12 @@ class Difference:
 
 
 class Scoreboard(Handle):
-    """The model gets the DUT's inputs, and the DUT's outputs have to be its own at every tick (include/dsdpv1/chip.h has the rules)."""
+    """The model gets the DUT's inputs, and the DUT's outputs must equal the model's at every tick (include/dsdpv1/chip.h has the rules)."""
 
     def __init__(self, kind: typing.Optional[str] = None, parameters: typing.Optional[typing.Mapping[str, int]] = None, tolerance: int = 0,
                  warm_up: int = 0) -> None:
-        """`parameters`: those of the DUT. A difference that lasts no longer than `tolerance` ticks is none; it compares when RESET has been low for
-        `warm_up` ticks, in which RTL leaves X, 0: from tick 0 on."""
+        """`parameters`: those of the DUT. A difference that lasts at most `tolerance` ticks is ignored; comparison starts when RESET has been low
+        for `warm_up` ticks, during which RTL may have X, 0: from tick 0."""
         options = sized(_c.dpsim_scoreboard_options, tolerance=tolerance, warm_up=warm_up)
         model = chip_options("skip", kind, None, parameters or {})
         super().__init__(number(lambda into: lib.dpsim_scoreboard_create(ctypes.byref(model), ctypes.byref(options), into), ctypes.c_void_p),
@@ -291,8 +291,8 @@ class Scoreboard(Handle):
         self._result = sized(_c.dpsim_scoreboard_result)
 
     def compare(self, changes: typing.Any, until: int) -> typing.Optional[Difference]:
-        """The DUT has made these changes, an array of CHANGE or a list of (tick, station, pin's number, level), and no others up to `until`: all
-        ticks before it are judged. The first difference so far; after it nothing more is compared."""
+        """Feeds the DUT's changes: an array of CHANGE or a list of (tick, station, pin's number, level); it makes no others up to `until`. All
+        ticks before `until` are judged. Returns the first difference so far; after it comparison stops."""
         array, got, events = as_changes(changes), self._result, typing.cast(typing.List[ChipEvent], [])
         lib.dpsim_scoreboard_compare(self, address(array), len(array), until, ctypes.byref(got))
         if got.tick == NEVER:
@@ -305,5 +305,5 @@ class Scoreboard(Handle):
 
     @property
     def matched(self) -> int:
-        """Changes of the model's outputs that the DUT has made as well."""
+        """Changes of the model's outputs that the DUT made as well."""
         return int(self._result.matched)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the library says when it refuses something."""
+"""Exceptions for refused calls of the library."""
 from . import _c
 
 
@@ -21,7 +21,7 @@ class TimeError(Error, ValueError):
 
 
 class StateError(Error, RuntimeError):
-    """Not now: inside of a callback, after the run, of a master of the other class, of something closed."""
+    """Not now: inside a callback, after the run, for a master of the other class, for a closed object."""
 
 
 class InputError(Error, ValueError):
@@ -29,11 +29,11 @@ class InputError(Error, ValueError):
 
 
 class UnsupportedError(Error, NotImplementedError):
-    """The library cannot: an ARM board in a scenario, an access to a chip without a host bus."""
+    """Not supported by the library: an ARM board in a scenario, an access to a chip without a host bus."""
 
 
 class InternalError(Error):
-    """A fault of the library itself; its text is worth a report."""
+    """A fault of the library itself; please report its text."""
 
 
 _CLASSES = {

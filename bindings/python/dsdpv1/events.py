@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""What masters and monitor of a bus tell."""
+"""Events of a bus's masters and monitor."""
 import dataclasses
 import enum
 import typing
@@ -11,7 +11,7 @@ from .units import LINE
 
 
 class SlaveState(enum.IntEnum):
-    """A slave, as its class-1 master sees it."""
+    """The state of a slave in its class-1 master."""
 
     OFFLINE = _c.DPSIM_SLAVE_OFFLINE
     DIAGNOSE = _c.DPSIM_SLAVE_DIAGNOSE
@@ -25,7 +25,7 @@ class SlaveState(enum.IntEnum):
 
 
 class RingState(enum.IntEnum):
-    """A master in the token ring."""
+    """The state of a master in the token ring."""
 
     OFF = _c.DPSIM_RING_OFF
     LISTEN_TOKEN = _c.DPSIM_RING_LISTEN_TOKEN
@@ -38,7 +38,7 @@ class RingState(enum.IntEnum):
 
 
 class ConnectionState(enum.IntEnum):
-    """A connection of a class-2 master."""
+    """The state of a connection of a class-2 master."""
 
     CLOSED = _c.DPSIM_CONNECTION_CLOSED
     INITIATING = _c.DPSIM_CONNECTION_INITIATING
@@ -60,7 +60,7 @@ class ConnectionEndCause(enum.IntEnum):
 
 
 class Outcome(enum.IntEnum):
-    """Of a request out of the cycle."""
+    """The outcome of an acyclic request."""
 
     SENT = _c.DPSIM_OUTCOME_SENT
     ANSWERED = _c.DPSIM_OUTCOME_ANSWERED
@@ -70,7 +70,7 @@ class Outcome(enum.IntEnum):
 
 
 class AcyclicOutcome(enum.IntEnum):
-    """Of an acyclic service."""
+    """The outcome of an acyclic service."""
 
     POSITIVE = _c.DPSIM_ACYCLIC_POSITIVE
     NEGATIVE = _c.DPSIM_ACYCLIC_NEGATIVE
@@ -82,7 +82,7 @@ class AcyclicOutcome(enum.IntEnum):
 
 
 class EventType(enum.IntEnum):
-    """What an Event is about."""
+    """The subject of an Event."""
 
     FLAG = _c.DPSIM_EVENT_FLAG  # the monitor: text
     SLAVE_STATE = _c.DPSIM_EVENT_SLAVE_STATE
@@ -103,7 +103,7 @@ _OUTCOMES: typing.Dict[int, typing.Type[enum.IntEnum]] = {EventType.REQUEST_DONE
 
 @dataclasses.dataclass(frozen=True)
 class Event:
-    """One of them. `before` and `after` are states, `outcome` is of the enum that belongs to the type; None where a type has none."""
+    """One event. `before` and `after` are states, `outcome` is of the enum for the type; None if a type has none."""
 
     tick: int
     type: EventType
@@ -119,7 +119,7 @@ class Event:
 
 
 def event_of(native: typing.Any) -> Event:
-    """Of the library's struct."""
+    """Makes an event from the library's struct."""
     state, outcome = _STATES.get(native.type), _OUTCOMES.get(native.type)
     before, after = (None, None) if state is None else (state(getattr(native, "from")), state(native.to))
     return Event(native.tick, EventType(native.type), native.id, None if native.station == LINE else native.station,

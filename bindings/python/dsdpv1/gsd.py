@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""GSD files, and what a master has to know of a slave."""
+"""GSD files, and what a master has to know about a slave."""
 import ctypes
 import dataclasses
 import json
@@ -14,7 +14,7 @@ from .units import BAUDS
 
 @dataclasses.dataclass(frozen=True)
 class Slave:
-    """One slave, as a class-1 master has to know it (table 19). Gsd.slave() makes one; dataclasses.replace() changes it."""
+    """One slave, with the data that a class-1 master needs (table 19). Gsd.slave() makes one; dataclasses.replace() changes it."""
 
     address: int  # 0 to 126
     ident: int  # Ident_Number
@@ -53,7 +53,7 @@ class Slave:
 
 @dataclasses.dataclass(frozen=True)
 class GsdInfo:
-    """What a GSD file says of its device."""
+    """A GSD file's data about its device."""
 
     vendor: str
     model: str
@@ -69,21 +69,21 @@ def _chosen(modules: typing.Sequence[str]) -> typing.Any:
 
 
 class Gsd(Handle):
-    """A GSD file of revision 1 to 5. InputError has all errors, "file:line: ...", a line each."""
+    """A GSD file of revision 1 to 5. InputError has all errors as "file:line: ...", one per line."""
 
     def __init__(self, path: "str | os.PathLike[str]") -> None:
         super().__init__(number(lambda into: lib.dpsim_gsd_load(encoded(os.fspath(path)), into), ctypes.c_void_p), lib.dpsim_gsd_destroy)
 
     @classmethod
     def parse(cls, source: str, name: str = "gsd") -> "Gsd":
-        """From text; `name` stands for the file in messages."""
+        """From text; `name` replaces the file name in messages."""
         self, raw = cls.__new__(cls), source.encode("utf-8")
         Handle.__init__(self, number(lambda into: lib.dpsim_gsd_parse(raw, len(raw), encoded(name), into), ctypes.c_void_p), lib.dpsim_gsd_destroy)
         return self
 
     @property
     def warnings(self) -> typing.List[str]:
-        """Of a file that could be used, in the order of its lines."""
+        """Warnings about a usable file, in the order of its lines."""
         return text(number(lambda into: lib.dpsim_gsd_warnings(self, into), ctypes.c_char_p)).splitlines()
 
     @property
@@ -95,8 +95,9 @@ class Gsd(Handle):
         return GsdInfo(text(got.vendor), text(got.model), got.ident, got.revision, bool(got.dpv1), bauds, modules)
 
     def slave(self, address: int, modules: typing.Sequence[str] = (), dpv1: bool = False, **members: typing.Any) -> Slave:
-        """What a master makes of the file and these modules (names, or numbers as text, in the order of their slots; none: those that the file
-        presets). `members` are those of Slave that the file does not say: watchdog, sync. InputError: no such module, a limit exceeded, no DPV1."""
+        """Derives a master's data from the file and these modules (names, or numbers as text, in the order of their slots; none: those that the
+        file presets). `members` are those of Slave that the file does not define: watchdog, sync. InputError: no such module, a limit exceeded, no
+        DPV1."""
         names, count = _chosen(modules)
         got = filled(lambda into: lib.dpsim_gsd_slave(self, names, count, _c.DPSIM_PRM_DPV1 if dpv1 else 0, into), _c.dpsim_slave)
         return Slave(address, got.ident, bytes(got.cfg[:got.cfg_size]), got.input_length, got.output_length, bytes(got.user_prm[:got.user_prm_size]),

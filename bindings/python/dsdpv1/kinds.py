@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Kinds of chips: what the library has, their pins and parameters."""
+"""Kinds of chips in the library, with their pins and parameters."""
 import dataclasses
 import functools
 import typing
@@ -14,13 +14,13 @@ PinName = typing.Union[str, int]
 
 @dataclasses.dataclass(frozen=True)
 class Pin:
-    """A pin of a kind of chip: the datasheet's name, how many wires, which way, the level that it has before anything happened."""
+    """A pin of a kind of chip: the datasheet's name, number of wires, direction, and initial level."""
 
     number: int
     name: str
     width: int
     input: bool
-    bus: typing.Optional[str]  # of two pins that are the directions of one bus, its name: "D" of D_IN and D_OUT
+    bus: typing.Optional[str]  # the bus of which this pin is one direction: "D" for D_IN and D_OUT
     reset_level: int
 
 
@@ -46,7 +46,7 @@ class Kind:
     reasons: typing.Tuple[str, ...]  # codes by number: "PRM_IDENT"
 
     def pin(self, name: PinName) -> Pin:
-        """The pin of a name or number. NotFoundError: there is none."""
+        """The pin with a name or number. NotFoundError: unknown."""
         for each in self.pins:
             if name in (each.name, each.number):
                 return each
@@ -73,7 +73,7 @@ def _reason(kind: bytes, index: int) -> str:
 
 @functools.lru_cache(maxsize=None)
 def kind_of(name: typing.Optional[str] = None) -> Kind:
-    """The kind with this name, None: the first one. NotFoundError: there is none."""
+    """The kind with this name, None: the first one. NotFoundError: unknown."""
     names = kind_names()
     if name is None:
         name = names[0]
@@ -87,5 +87,5 @@ def kind_of(name: typing.Optional[str] = None) -> Kind:
 
 
 def kind_names() -> typing.List[str]:
-    """The kinds that the library has."""
+    """The kinds in the library."""
     return [text(lib.dpsim_kind_name(i)) for i in range(lib.dpsim_kind_count())]

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Masters of class 1 and 2. Their commands may be given in callbacks; they take effect between two requests, at the present tick at the earliest, and
-what comes of them is told by Bus.on_event."""
+"""Masters of class 1 and 2. Their commands may be given in callbacks; they take effect between two requests, at the present tick at the earliest.
+Bus.on_event reports their outcome."""
 import ctypes
 import dataclasses
 import typing
@@ -20,7 +20,7 @@ SERVICES = {"fdl_status": _c.DPSIM_SERVICE_FDL_STATUS, "read_inputs": _c.DPSIM_S
 
 @dataclasses.dataclass(frozen=True)
 class SlaveStatus:
-    """A slave, as its master has it."""
+    """A slave's status in its master."""
 
     state: SlaveState
     reason: str  # why the last bring-up failed or data exchange ended
@@ -38,7 +38,7 @@ class SlaveStatus:
 
 @dataclasses.dataclass(frozen=True)
 class MasterStatus:
-    """Of a master of class 1."""
+    """Status of a master of class 1."""
 
     running: bool
     clear: bool
@@ -48,7 +48,7 @@ class MasterStatus:
 
 @dataclasses.dataclass(frozen=True)
 class RingStatus:
-    """Of a master that shares the token. Rotations (T_RR) in ticks."""
+    """Status of a master that shares the token. Rotations (T_RR) in ticks."""
 
     state: RingState
     stations: typing.Tuple[int, ...]  # LAS, the list of active stations
@@ -65,7 +65,7 @@ class RingStatus:
 
 @dataclasses.dataclass(frozen=True)
 class ConnectionStatus:
-    """Of a connection of class 2."""
+    """Status of a connection of class 2."""
 
     state: ConnectionState
     sap: typing.Optional[int]  # of the channel
@@ -76,7 +76,7 @@ class ConnectionStatus:
 
 @dataclasses.dataclass(frozen=True)
 class WireFaults:
-    """What is broken in raw bytes on the wire; positions count bytes from 0, None: nothing."""
+    """Faults to inject into raw bytes on the wire; positions count bytes from 0, None: no fault."""
 
     wrong_parity_at: typing.Optional[int] = None
     missing_stop_at: typing.Optional[int] = None
@@ -101,7 +101,7 @@ def _id(function: typing.Any, *arguments: typing.Any) -> int:
 
 
 class Master(Handle):
-    """What both classes have in common. A request returns its id, which Event.id names when it is done."""
+    """Shared by both classes. A request returns its id, which Event.id repeats at its end."""
 
     def __init__(self, handle: int) -> None:
         super().__init__(handle, None)
@@ -112,20 +112,20 @@ class Master(Handle):
         return int(number(lambda into: lib.dpsim_master_station(self, into), ctypes.c_uint16))
 
     def start(self) -> None:
-        """Class 1: listens for T_TO, claims the token and brings its slaves up. Class 2: takes part in the ring."""
+        """Class 1: listens for T_TO, claims the token and brings its slaves up. Class 2: joins the ring."""
         lib.dpsim_master_start(self)
 
     def stop(self) -> None:
-        """Silent at once, also inside of a telegram: a dead master."""
+        """Stops the master at once, even inside a telegram, as if it had died."""
         lib.dpsim_master_stop(self)
 
     def set_baud(self, baud: str) -> None:
-        """All later telegrams at another rate of BAUDS; slaves keep their states."""
+        """Sends all later telegrams at another rate of BAUDS; slaves keep their states."""
         lib.dpsim_master_set_baud(self, baud_index(baud))
 
     @property
     def ring(self) -> RingStatus:
-        """StateError: a master that is alone."""
+        """StateError: a single master."""
         got = filled(lambda into: lib.dpsim_master_get_ring(self, into), _c.dpsim_ring_status)
         stations = tuple(a for a in range(128) if got.stations[a // 8] >> a % 8 & 1)
         return RingStatus(RingState(got.state), stations, got.rotations, got.rotation_min, got.rotation_max, got.rotation_mean, got.token_retries,
@@ -144,19 +144,19 @@ class Master1(Master):
     """A master of class 1 (Bus.add_master)."""
 
     def add_slave(self, slave: Slave) -> None:
-        """Before the start or in operation. ArgumentError: a value out of range, an address that it has."""
+        """Before the start or in operation. ArgumentError: a value out of range, or an address already in use."""
         lib.dpsim_master_add_slave(self, ctypes.byref(slave._native()))  # pylint: disable=protected-access
 
     def set_clear(self, clear: bool) -> None:
-        """Clear, or Operate, which it begins with."""
+        """Clear, or Operate, the initial mode."""
         lib.dpsim_master_set_clear(self, int(clear))
 
     def set_outputs(self, address: int, data: bytes) -> None:
-        """As many bytes as the slave's output_length; sent from the next exchange on."""
+        """Exactly output_length bytes of the slave; sent from the next exchange on."""
         lib.dpsim_master_set_outputs(self, address, bytes(data), len(data))
 
     def release(self, address: int) -> None:
-        """Set_Prm with Unlock, then the slave is left alone until activate()."""
+        """Sends Set_Prm with Unlock and then ignores the slave until activate()."""
         lib.dpsim_master_release(self, address)
 
     def activate(self, address: int) -> None:
@@ -164,7 +164,7 @@ class Master1(Master):
         lib.dpsim_master_activate(self, address)
 
     def slave(self, address: int) -> SlaveStatus:
-        """NotFoundError: it has none with this address."""
+        """NotFoundError: the master has none with this address."""
         got = filled(lambda into: lib.dpsim_master_get_slave(self, address, into), _c.dpsim_slave_status)
         return SlaveStatus(SlaveState(got.state), text(got.reason), as_bytes(got.inputs, got.input_count), as_bytes(got.outputs, got.output_count),
                            as_bytes(got.diagnosis, got.diagnosis_count), got.data_exchanges, got.diagnoses, got.parameterisations, got.retries,
@@ -172,11 +172,11 @@ class Master1(Master):
 
     @property
     def status(self) -> MasterStatus:
-        """Of the whole master."""
+        """Status of the whole master."""
         got = filled(lambda into: lib.dpsim_master_get_status(self, into), _c.dpsim_master_status)
         return MasterStatus(bool(got.running), bool(got.clear), got.cycles, got.cycle_time)
 
-    # ---- requests out of the cycle, in the order of the calls
+    # ---- acyclic requests, in the order of the calls
     def ask(self, service: str, address: int) -> int:
         """A service without data: one of SERVICES."""
         if service not in SERVICES:
@@ -192,15 +192,15 @@ class Master1(Master):
         return _id(lib.dpsim_master_global_control, self, command, group, address)
 
     def set_slave_address(self, address: int, new_address: int, ident: int, lock: bool = False) -> int:
-        """Set_Slave_Add; `lock`: no later change."""
+        """Set_Slave_Add; `lock`: forbids later changes."""
         return _id(lib.dpsim_master_set_slave_address, self, address, new_address, ident, int(lock))
 
     def request(self, telegram: Telegram) -> int:
-        """Any request; FC holds bit 6 and the function, FCB and FCV are added. `sa` is the master's own, whatever the telegram says."""
+        """Any request; FC holds bit 6 and the function, FCB and FCV are added. The master uses its own address as `sa`."""
         return _id(lib.dpsim_master_request, self, ctypes.byref(telegram._native()))  # pylint: disable=protected-access
 
     def send_raw(self, data: bytes, faults: typing.Optional[WireFaults] = None, wants_answer: bool = False) -> int:
-        """Any bytes, once, without repetition, broken as `faults` says."""
+        """Sends any bytes once, without repetition, with `faults`."""
         native = None if faults is None else faults._native()  # pylint: disable=protected-access
         return _id(lib.dpsim_master_send_raw, self, bytes(data), len(data), native, int(wants_answer))
 
@@ -209,8 +209,8 @@ class Master2(Master):
     """A master of class 2 (Bus.add_master2)."""
 
     def add_connection(self, slave: int, add_addr: bytes = b"", **members: typing.Any) -> int:
-        """Makes a connection known, closed, and gives its number. `members` are those of dpsim_connection_options: send_timeout and
-        response_timeout (unit 10 ms), poll_interval_us, profile_ident, features and profile_features (two bytes each)."""
+        """Adds a connection, closed, and returns its number. `members` are those of dpsim_connection_options: send_timeout and response_timeout
+        (unit 10 ms), poll_interval_us, profile_ident, features and profile_features (two bytes each)."""
         options = sized(_c.dpsim_connection_options, slave=slave, add_addr_size=len(add_addr))
         options.add_addr[:len(add_addr)] = add_addr
         known = {name for name, *_ in _c.dpsim_connection_options._fields_} - {"size", "slave", "add_addr", "add_addr_size"}
@@ -221,15 +221,15 @@ class Master2(Master):
         return _id(lib.dpsim_master_add_connection, self, ctypes.byref(options))
 
     def connect(self, connection: int) -> None:
-        """Initiate; nothing happens unless it is closed."""
+        """Initiate; does nothing unless it is closed."""
         lib.dpsim_master_connect(self, connection)
 
     def abort(self, connection: int, reason: int = 0) -> None:
-        """By this side, `reason` 0 to 15 of the user's instance; 0: an ordinary end."""
+        """Aborts the connection with `reason` 0 to 15 of instance user; 0: an ordinary end."""
         lib.dpsim_master_abort(self, connection, reason)
 
     def connection(self, connection: int) -> ConnectionStatus:
-        """NotFoundError: there is none."""
+        """NotFoundError: unknown connection."""
         got = filled(lambda into: lib.dpsim_master_get_connection(self, connection, into), _c.dpsim_connection_status)
         return ConnectionStatus(ConnectionState(got.state), None if got.sap < 0 else got.sap, got.send_timeout, got.max_length, got.open_requests)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Telegrams of the data link layer (EN 50170, IEC 61158-4 type 3): as fields, as bytes, in words."""
+"""Telegrams of the data link layer (EN 50170, IEC 61158-4 type 3) as fields, bytes and text."""
 import ctypes
 import dataclasses
 import enum
@@ -25,7 +25,7 @@ class Kind(enum.IntEnum):
 
 @dataclasses.dataclass(frozen=True)
 class Telegram:
-    """A telegram as fields. SAPs are None when there is no extension byte; `data` does not count them."""
+    """A telegram as fields. SAPs are None without an extension byte; `data` does not include them."""
 
     kind: Kind
     da: int = 0
@@ -54,9 +54,9 @@ class Telegram:
 class Decoded:
     """The first telegram of some bytes."""
 
-    telegram: typing.Optional[Telegram]  # also of one whose FCS or end delimiter alone are wrong
+    telegram: typing.Optional[Telegram]  # also set if only FCS or end delimiter are wrong
     error: str  # "wrong FCS"; "" for a right one
-    used: int  # bytes; of a wrong one up to where that was seen
+    used: int  # bytes; for an invalid one up to the place of the error
 
 
 def _sap(value: int) -> typing.Optional[int]:
@@ -64,7 +64,7 @@ def _sap(value: int) -> typing.Optional[int]:
 
 
 def decode(data: bytes) -> Decoded:
-    """The first telegram of `data`, right or wrong."""
+    """The first telegram of `data`, valid or not."""
     made, error, used = sized(_c.dpsim_telegram), ctypes.c_int32(), ctypes.c_size_t()
     lib.dpsim_telegram_decode(bytes(data), len(data), ctypes.byref(made), ctypes.byref(error), ctypes.byref(used))
     known = error.value in (_c.DPSIM_DECODE_OK, _c.DPSIM_DECODE_FCS, _c.DPSIM_DECODE_END_DELIMITER)
@@ -73,7 +73,7 @@ def decode(data: bytes) -> Decoded:
 
 
 def explain(data: bytes, style: str = "line", dpv1: typing.Optional[bool] = None) -> str:
-    """The first telegram of `data` in words: "line", "service" (its name alone), or "bytes" (a line for each byte). `dpv1` says whether the slave is
+    """The first telegram of `data` as text: "line", "service" (its name only), or "bytes" (a line for each byte). `dpv1` says whether the slave is
     parameterised for DPV1, which decides how a device related diagnosis is read; None: both ways are shown."""
     styles = ("line", "service", "bytes")
     if style not in styles:
@@ -85,20 +85,20 @@ def explain(data: bytes, style: str = "line", dpv1: typing.Optional[bool] = None
 
 @dataclasses.dataclass(frozen=True)
 class Heard:
-    """A telegram as the monitor of a bus or of a run has heard it."""
+    """A telegram as received by the monitor of a bus or run."""
 
     start: int  # tick of the falling edge of its first start bit
     end: int  # tick of the end of its last stop bit
-    tsdr: typing.Optional[int]  # of an answer: ticks from the end of the request
+    tsdr: typing.Optional[int]  # for an answer: ticks from the end of the request
     data: bytes  # all of it, from the start delimiter on
-    station: typing.Optional[int]  # address of who answered; None: not an answer
+    station: typing.Optional[int]  # address of the answering station; None: not an answer
     error: str  # "" for a right one
     character_errors: bool
     baud: str
 
     @property
     def line(self) -> str:
-        """In words, one line."""
+        """As one line of text."""
         return explain(self.data)
 
     @property
@@ -108,14 +108,14 @@ class Heard:
 
 
 def heard_of(native: typing.Any) -> Heard:
-    """Of the library's struct."""
+    """Makes a Heard from the library's struct."""
     return Heard(native.start, native.end, None if native.tsdr == NEVER else native.tsdr, as_bytes(native.bytes, native.count),
                  None if native.station == 255 else native.station, text(lib.dpsim_decode_error_text(native.error)),
                  bool(native.character_errors), BAUDS[native.baud])
 
 
 def native_of(heard: Heard) -> typing.Any:
-    """For the library; `heard` must outlive it."""
+    """For the library; `heard` must outlive the result."""
     errors = {text(lib.dpsim_decode_error_text(number)): number for number in range(_c.DPSIM_DECODE_TRUNCATED + 1)}
     return _c.dpsim_heard(heard.start, heard.end, NEVER if heard.tsdr is None else heard.tsdr,
                           ctypes.cast(ctypes.c_char_p(heard.data), ctypes.POINTER(ctypes.c_uint8)), len(heard.data),
@@ -123,7 +123,7 @@ def native_of(heard: Heard) -> typing.Any:
 
 
 def table(telegrams: typing.Iterable[Heard]) -> typing.Any:
-    """Telegrams as a pandas DataFrame (pandas has to be installed): start_us, end_us, tsdr_bits, bytes in hex, words."""
+    """Telegrams as a pandas DataFrame (pandas must be installed): start_us, end_us, tsdr_bits, bytes in hex, words."""
     import pandas  # type: ignore[import-untyped,unused-ignore]  # pylint: disable=import-outside-toplevel
 
     rows = [{"start_us": each.start / US, "end_us": each.end / US, "tsdr_bits": None if each.tsdr is None else each.tsdr / bit_ticks(each.baud),

@@ -11,10 +11,10 @@ US = 1000 * NS
 MS = 1000 * US
 S = 1000 * MS
 CYCLE = 250  # of the chip's 48 MHz clock
-NEVER = 2**64 - 1  # as an answer
+NEVER = 2**64 - 1  # result meaning "never"
 Z = -1  # a level: released
 X = -2  # a level: unknown
-LINE = 0xFFFF  # in the place of a station: the two wires of the segment
+LINE = 0xFFFF  # used instead of a station: the two wires of the segment
 
 BAUDS = ("12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k", "45.45k", "19.2k", "9.6k")  # by their number in B012 (table 5)
 _BIT_CYCLES = (4, 8, 16, 32, 96, 256, 512, 1056, 2500, 5000)  # S2
@@ -26,12 +26,12 @@ def bit_ticks(baud: str) -> int:
 
 
 def baud_index(baud: str) -> int:
-    """The number of a rate, as B012 codes it (table 5). ValueError for one that there is not."""
+    """The number of a rate, as B012 codes it (table 5). ValueError: unknown rate."""
     if baud not in BAUDS:
         raise ValueError(f"baud is {baud}, allowed are {', '.join(BAUDS)}")
     return BAUDS.index(baud)
 
 
 def baud_name(index: int) -> typing.Optional[str]:
-    """The rate with this number, None while it is being searched."""
+    """The rate with this number, None while the search is running."""
     return BAUDS[index] if 0 <= index < len(BAUDS) else None

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The user CPU's side of a DSDPV1: the handshake and the blocks of the DPRAM.
 
-What a user does is written as generators of actions, so that the same programs run on a Chip (User, here) and, in a simulator, on a DUT's pins
-(cocotbext.profibus.HostPort). An action is yielded, its answer comes back; times between actions are whose pins they are to say.
+Programs of a user are generators of actions, so that the same programs run on a Chip (User, here) and, in a simulator, on a DUT's pins
+(cocotbext.profibus.HostPort). A program yields an action and receives its answer; the driver of the pins determines the times between actions.
 """
 import dataclasses
 import typing
@@ -15,40 +15,40 @@ from .gsd import Slave
 from .units import CYCLE, NS, US
 
 SYNC_WINDOW = 63 * NS  # H2: after R_REQ rose the chip may still begin an access for 62.5 ns
-POLLS = 10_000  # of a flag or pin before it counts as dead
+POLLS = 10_000  # of a flag or pin before the chip counts as dead
 
 
 class UserError(Error):
-    """The chip did not do what the program waited for, or refused what it was given."""
+    """The chip did not respond as expected, or refused a block."""
 
 
 class Set(typing.NamedTuple):
-    """An input of the chip gets a level."""
+    """Sets an input of the chip."""
 
     pin: str
     level: int
 
 
 class Level(typing.NamedTuple):
-    """Answer: the level of an output."""
+    """Samples an output. Answer: its level."""
 
     pin: str
 
 
 class Wait(typing.NamedTuple):
-    """Ticks pass."""
+    """Waits so many ticks."""
 
     ticks: int
 
 
 class Read(typing.NamedTuple):
-    """Answer: a cell, read through the pins."""
+    """Reads a cell through the pins. Answer: its value."""
 
     cell: int
 
 
 class Write(typing.NamedTuple):
-    """A cell is written through the pins."""
+    """Writes a cell through the pins."""
 
     cell: int
     value: int
@@ -60,7 +60,7 @@ Program = typing.Generator[Action, int, T]
 
 
 def crc16(data: bytes) -> int:
-    """Of a block (4.2, D2): polynomial 0xA001 reflected, initial value 0xFFFF; 02 07 gives 0x1241."""
+    """CRC of a block (4.2, D2): polynomial 0xA001 reflected, initial value 0xFFFF; 02 07 gives 0x1241."""
     crc = 0xFFFF
     for byte in data:
         crc ^= byte
@@ -71,7 +71,7 @@ def crc16(data: bytes) -> int:
 
 # ---- the handshake
 def take() -> Program[None]:
-    """R_REQ, the window, L_REQ and L_STA seen low, R_STA (H2): the user owns the DPRAM."""
+    """Takes the DPRAM: R_REQ, the window, L_REQ and L_STA sampled low, R_STA (H2)."""
     yield Set("R_REQ", 1)
     yield Wait(SYNC_WINDOW)
     for _ in range(POLLS):
@@ -85,7 +85,7 @@ def take() -> Program[None]:
 
 
 def release() -> Program[None]:
-    """Both low again."""
+    """Releases the DPRAM: both low."""
     yield Set("R_STA", 0)
     yield Set("R_REQ", 0)
 
@@ -94,13 +94,13 @@ def hold(program: Program[T]) -> Program[T]:
     """A program with the DPRAM taken before and released after it."""
     yield from take()
     result = yield from program
-    yield Write(reg.ACCESS_COUNT, (yield Read(reg.ACCESS_COUNT)) + 1 & 0xFF)  # 4.1: who was at the DPRAM counts it
+    yield Write(reg.ACCESS_COUNT, (yield Read(reg.ACCESS_COUNT)) + 1 & 0xFF)  # 4.1: each access of a side to the DPRAM counts it
     yield from release()
     return result
 
 
 def write_block(cell: int, data: bytes, crc_cell: int) -> Program[None]:
-    """A block and its CRC, in a hold."""
+    """Writes a block and its CRC; in a hold."""
     crc = crc16(data)
     for offset, byte in enumerate(data):
         yield Write(cell + offset, byte)
@@ -109,7 +109,7 @@ def write_block(cell: int, data: bytes, crc_cell: int) -> Program[None]:
 
 
 def read_bytes(cell: int, count: int) -> Program[bytes]:
-    """Some cells, in a hold."""
+    """Reads some cells; in a hold."""
     data = bytearray()
     for offset in range(count):
         data.append((yield Read(cell + offset)))
@@ -117,14 +117,14 @@ def read_bytes(cell: int, count: int) -> Program[bytes]:
 
 
 def read_cell(cell: int) -> Program[int]:
-    """One, in a hold."""
+    """Reads one cell; in a hold."""
     return (yield Read(cell))
 
 
 # ---- start-up and initialisation (chapter 8)
 @dataclasses.dataclass(frozen=True)
 class Initialisation:
-    """Block B020 (table 12). The modes: who judges parameters and configuration."""
+    """Block B020 (table 12). The modes select who judges parameters and configuration."""
 
     address: int  # 0 to 126
     ident: int
@@ -141,21 +141,21 @@ class Initialisation:
 
     @classmethod
     def of(cls, slave: Slave, **members: typing.Any) -> "Initialisation":
-        """For the slave that a master has to know."""
+        """Makes the data that a master needs about this slave."""
         made = {"address": slave.address, "ident": slave.ident, "cfg": slave.cfg, "max_input": slave.input_length, "max_output": slave.output_length,
                 "dpv1": slave.dpv1}
         return cls(**{**made, **members})
 
     def block(self) -> bytes:
-        """From B020 on; B020 counts what follows it."""
+        """The block from B020 on; B020 counts the following bytes."""
         head = [self.address, self.ident >> 8, self.ident & 0xFF, self.command, 0, 0, self.max_input, self.max_output, self.max_diag, self.max_prm,
                 self.prm_mode, self.max_cfg, self.cfg_mode, len(self.cfg)]
         return bytes([len(head) + len(self.cfg), *head]) + self.cfg
 
 
 def wait_ready() -> Program[None]:
-    """After RESET rose: polls B004 until the chip's start-up is over (D1)."""
-    yield Wait(1 * US)  # H6: a request that the chip meets as it leaves its reset keeps it from its start-up
+    """After RESET rose: polls B004 until the chip's start-up is complete (D1)."""
+    yield Wait(1 * US)  # H6: a request that is high as the chip leaves its reset prevents its start-up
     for _ in range(POLLS):
         if (yield from hold(read_cell(reg.VALID_FLAG))) == reg.VALID_FLAG_VALID:
             return
@@ -171,14 +171,14 @@ def _write_initialisation(init: Initialisation) -> Program[None]:
 
 
 def _initialised() -> Program[typing.Optional[bool]]:
-    """In a hold: None while the chip has not looked yet."""
+    """In a hold: returns None until the chip has read the block."""
     if (yield Read(reg.USER_COMMAND_1)) & reg.USER_COMMAND_1_INIT:
         return None
     return bool((yield Read(reg.CHIP_STATUS_1)) & reg.CHIP_STATUS_1_INITIALISED)
 
 
 def initialise(init: Initialisation) -> Program[None]:
-    """Hands the block over and waits for the chip's answer, B00A.0. UserError: it refused it."""
+    """Writes the block and waits for the chip's answer, B00A.0. UserError: refused."""
     yield from hold(_write_initialisation(init))
     for _ in range(POLLS):
         yield Wait(2 * US)
@@ -208,7 +208,7 @@ def _exchange(inputs: typing.Optional[bytes]) -> Program[typing.Optional[bytes]]
 
 
 def exchange(inputs: typing.Optional[bytes] = None) -> Program[typing.Optional[bytes]]:
-    """Inputs to the chip and outputs from it in one hold; None: there are no new ones. `inputs` as long as configured (D10)."""
+    """Transfers inputs to the chip and outputs from it in one hold; returns None without new outputs. `inputs` have the configured length (D10)."""
     return hold(_exchange(inputs))
 
 
@@ -218,18 +218,18 @@ SERVICES = {reg.FUNCTION_NUM_READ: "read", reg.FUNCTION_NUM_WRITE: "write", reg.
 
 @dataclasses.dataclass(frozen=True)
 class Request:
-    """What a master asks of the user."""
+    """A master's acyclic request."""
 
     master_class: int  # 1: MSAC_C1, 2: MSAC_C2
     service: str  # "read", "write", "transport"
     slot: int
     index: int
-    length: int  # of a read: bytes that are asked for
-    data: bytes  # of a write or transport
+    length: int  # read: bytes requested
+    data: bytes  # write, transport
 
 
 class Refuse(Exception):
-    """To be raised by a handler: the request is refused (tables 28, 29)."""
+    """Raised by a handler to refuse the request (tables 28, 29)."""
 
     def __init__(self, error_code_1: int, error_code_2: int = 0) -> None:
         """`error_code_1`: 0xB0 invalid index, 0xB2 invalid slot, 0xB6 access denied, ..."""
@@ -237,12 +237,12 @@ class Refuse(Exception):
         self.codes = bytes([error_code_1, error_code_2])
 
 
-# Answers with what was read or transported; what it returns for a write is not looked at.
+# Returns the bytes read or transported; its result for a write is ignored.
 Handler = typing.Callable[[Request], typing.Optional[bytes]]
 
 
 class _Area(typing.NamedTuple):
-    """Where one class has its requests and answers."""
+    """The requests and answers of one class in the DPRAM."""
 
     master_class: int
     cell: int
@@ -257,7 +257,7 @@ _HEADER = 4  # Function_Num, slot, index, length
 
 
 def _fetch(area: _Area) -> Program[typing.Optional[bytes]]:
-    """In a hold: header and data of a request, its bit cleared; None: there is none."""
+    """In a hold: returns header and data of a request and clears its bit; None without one."""
     command = yield Read(reg.CHIP_COMMAND_2)
     if not command & area.asked:
         return None
@@ -271,7 +271,7 @@ def _fetch(area: _Area) -> Program[typing.Optional[bytes]]:
 
 
 def _send(area: _Area, block: bytes) -> Program[None]:
-    """In a hold. A newer request is not destroyed by the answer to an earlier one (V13)."""
+    """In a hold. Does not overwrite a newer request with the answer to an earlier one (V13)."""
     if not (yield Read(reg.CHIP_COMMAND_2)) & area.asked:
         command = yield Read(reg.USER_COMMAND_2)
         yield from write_block(area.cell, block, area.crc)
@@ -284,12 +284,12 @@ def _answer(request: Request, header: bytes, handler: Handler) -> bytes:
     except Refuse as refused:
         return bytes([header[0] | 0x80, 0x80]) + refused.codes
     if request.service == "write":
-        return header  # with the length that was written (V5)
+        return header  # with the length written (V5)
     return header[:3] + bytes([len(data)]) + data
 
 
 def serve(handler: Handler) -> Program[int]:
-    """Looks for requests of both classes and answers each with what `handler` makes of it, which may raise Refuse; how many there were."""
+    """Answers waiting requests of both classes with the result of `handler`, which may raise Refuse; returns their number."""
     served = 0
     for area in AREAS:
         block = yield from hold(_fetch(area))
@@ -303,18 +303,18 @@ def serve(handler: Handler) -> Program[int]:
 
 # ---- on a chip
 class User:
-    """The user CPU of a Chip: runs programs on its pins, each action after the other."""
+    """The user CPU of a Chip: runs programs on its pins, action by action."""
 
     def __init__(self, chip: Chip, timing: typing.Optional[AccessTiming] = None, pin_time: int = 50 * NS) -> None:
-        """`timing` of accesses; `pin_time`: ticks that setting or reading a handshake pin takes."""
+        """`timing` of accesses; `pin_time`: ticks for setting or reading a handshake pin."""
         self.chip, self._timing, self._pin_time = chip, timing, pin_time
 
     def wait(self, ticks: int) -> None:
-        """The chip, or the bus that it is on, runs on."""
+        """Advances the chip, or its bus."""
         self.chip.advance(self.chip.now + ticks)
 
     def act(self, action: Action) -> int:
-        """One action; its answer, or 0."""
+        """Executes one action; returns its answer, or 0."""
         if isinstance(action, Read):
             return self.chip.read(action.cell, timing=self._timing)
         if isinstance(action, Write):
@@ -329,7 +329,7 @@ class User:
         return self.chip.level(action.pin)
 
     def run(self, program: Program[T]) -> T:
-        """A whole program; what it returns."""
+        """Executes a whole program; returns its result."""
         answer = None
         while True:
             try:
@@ -338,20 +338,20 @@ class User:
                 return typing.cast(T, end.value)
 
     def power_on(self, init: typing.Optional[Initialisation] = None) -> None:
-        """RESET up now, the chip's start-up, and, when it is given, the initialisation."""
+        """Raises RESET, waits for the chip's start-up, and executes the initialisation, if given."""
         self.chip.set("RESET", 1)
         self.run(wait_ready())
         if init is not None:
             self.run(initialise(init))
 
     def exchange(self, inputs: typing.Optional[bytes] = None) -> typing.Optional[bytes]:
-        """Inputs to the chip, new outputs from it."""
+        """Writes inputs to the chip and returns new outputs."""
         return self.run(exchange(inputs))
 
     def serve(self, handler: Handler) -> int:
-        """Answers the acyclic requests that there are, as `handler` says; how many there were."""
+        """Answers the waiting acyclic requests with `handler`; returns their number."""
         return self.run(serve(handler))
 
     def read(self, cell: int) -> int:
-        """A cell, in a hold of its own."""
+        """Reads a cell in a separate hold."""
         return self.run(hold(read_cell(cell)))

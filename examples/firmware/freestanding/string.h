@@ -2,7 +2,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #ifndef FREESTANDING_STRING_H
 #define FREESTANDING_STRING_H
-/* For a build without a C library: the four functions that a compiler may call by itself, and strlen. In memory.c. */
+/* For a build without a C library: the four functions that a compiler may call implicitly, and strlen. In memory.c. */
 #include <stddef.h>
 
 void* memcpy(void* restrict to, const void* restrict from, size_t size);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """PROFIBUS and the DSDPV1 in cocotb: masters, source, sink, monitor, the user CPU at the host port, and the model as reference.
 
-Everything is at its tick of 1/12 ns; see docs/cocotb.md.
+All events are at their tick of 1/12 ns; see docs/cocotb.md.
 """
 from .checks import PinChecker
 from .host_port import HostPort

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rules of the user's side (docs/checks.md) on a DUT's pins."""
+"""The rules of the user's side (docs/checks.md), checked on a DUT's pins."""
 import typing
 
 import dsdpv1
@@ -11,15 +11,15 @@ from .ticks import now
 
 
 class PinChecker:
-    """Looks at whoever drives a DUT's host port: handshake, timing of table 15, cells, service.
+    """Checks the driver of a DUT's host port: handshake, timing of table 15, cells, service.
 
     Rules about cells and service also need the telegrams on the line: Segment(...).listeners.append(checker.telegram).
-    The first violation fails the test, at once.
+    The first violation fails the test at once.
     """
 
     def __init__(self, pins: ChipPins, limits: typing.Optional[typing.Mapping[str, typing.Optional[int]]] = None, mode: str = "fail") -> None:
-        """`limits`: of dsdpv1.Checker, ticks; None: the rule is not checked. `mode`: "fail", or "report": violations are kept, for `finish` or for
-        whoever looks at them."""
+        """`limits`: as in dsdpv1.Checker, ticks; None: the rule is not checked. `mode`: "fail", or "report": violations are kept for `finish` or
+        other readers."""
         if mode not in ("fail", "report"):
             raise ValueError(f"mode is {mode}, allowed are fail, report")
         self.violations: typing.List[dsdpv1.Violation] = []
@@ -44,11 +44,11 @@ class PinChecker:
 
     @property
     def results(self) -> typing.Dict[str, dsdpv1.CheckResult]:
-        """Of each rule: how often, the worst margin."""
+        """For each rule: how often it was applied, and the worst margin."""
         return self._checker.results
 
     def finish(self) -> None:
-        """At the end of a test: fails it when a rule was broken, also in mode "report", and when there was nothing to be judged."""
+        """Call at the end of a test: fails it if a rule was broken, even in mode "report", or if no rule was applied."""
         for task in self._tasks:
             task.kill()
         self._checker.finish(now())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The user CPU at a DUT's pins: the programs of dsdpv1.user, each edge at its tick."""
+"""The user CPU on a DUT's pins: the programs of dsdpv1.user, each edge at its tick."""
 import typing
 
 from cocotb.triggers import ReadWrite
@@ -18,8 +18,8 @@ T = typing.TypeVar("T")
 class HostPort:
     """Drives RESET, R_REQ, R_STA, CSR, RD, WR, A and D of a DUT.
 
-    Accesses have the edges of `timing` (table 15); handshake pins take `pin_time` ticks each to set or to look at. Everything else may be done
-    by programs: generators of actions, as dsdpv1.user has them.
+    Accesses have the edges of `timing` (table 15); setting or sampling a handshake pin takes `pin_time` ticks. Everything else may be done by
+    programs: generators of actions, as in dsdpv1.user.
     """
 
     def __init__(self, pins: ChipPins, timing: typing.Optional[AccessTiming] = None, pin_time: int = 50 * NS) -> None:
@@ -34,7 +34,7 @@ class HostPort:
         await until(end)
 
     async def read(self, cell: int, timing: typing.Optional[AccessTiming] = None) -> int:
-        """A cell through the pins; X when a bit is unknown. The user should own the DPRAM (hold)."""
+        """Reads a cell through the pins; X if a bit is unknown. The user should own the DPRAM (hold)."""
         t = self._timing if timing is None else timing.complete()
         fall = now() + max(0, t.address_setup or 0, t.cs_lead or 0)  # the first edge is now
         rise = fall + (t.rd_low or 0)
@@ -47,7 +47,7 @@ class HostPort:
         return value if value != dsdpv1.Z else dsdpv1.X
 
     async def write(self, cell: int, value: int, timing: typing.Optional[AccessTiming] = None) -> None:
-        """The same way."""
+        """Writes a cell in the same way."""
         t = self._timing if timing is None else timing.complete()
         fall = now() + max(0, t.address_setup or 0, t.cs_lead or 0, (t.data_setup or 0) - (t.wr_low or 0))
         rise = fall + (t.wr_low or 0)
@@ -62,7 +62,7 @@ class HostPort:
 
     # ---- programs
     async def act(self, action: Action) -> int:
-        """One action of a program."""
+        """Executes one action of a program."""
         if isinstance(action, Read):
             return await self.read(action.cell)
         if isinstance(action, Write):
@@ -78,7 +78,7 @@ class HostPort:
         return 0
 
     async def run(self, program: Program[T]) -> T:
-        """A whole program; what it returns."""
+        """Executes a whole program; returns its result."""
         answer: typing.Optional[int] = None
         while True:
             try:
@@ -88,7 +88,7 @@ class HostPort:
             answer = await self.act(action)
 
     async def power_on(self, init: typing.Optional[Initialisation] = None, at: int = 20 * CYCLE) -> None:
-        """RESET up at tick `at`; start-up; the initialisation, when it is given."""
+        """Raises RESET at tick `at` and waits for the start-up; then executes the initialisation, if given."""
         await until(at)
         self.pins.set("RESET", 1)
         await self.run(wait_ready())
@@ -96,13 +96,13 @@ class HostPort:
             await self.run(initialise(init))
 
     async def exchange(self, inputs: typing.Optional[bytes] = None) -> typing.Optional[bytes]:
-        """Inputs to the chip, new outputs from it."""
+        """Writes inputs to the chip and returns new outputs."""
         return await self.run(exchange(inputs))
 
     async def serve(self, handler: Handler) -> int:
-        """Answers the acyclic requests that there are, as `handler` says, which gets a Request and may raise Refuse; how many there were."""
+        """Answers the waiting acyclic requests with `handler`, which gets a Request and may raise Refuse; returns their number."""
         return await self.run(serve(handler))
 
     async def read_held(self, cell: int) -> int:
-        """A cell, in a hold of its own."""
+        """Reads a cell in a separate hold."""
         return await self.run(hold(read_cell(cell)))

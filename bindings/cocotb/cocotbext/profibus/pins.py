@@ -14,16 +14,16 @@ Told = typing.Callable[[int, int, int], typing.Any]
 
 
 def _number(handle: typing.Any) -> typing.Optional[int]:
-    """The value of a signal, None when a bit of it is X or Z."""
+    """The value of a signal, None if a bit of it is X or Z."""
     value = handle.value
     return int(value) if value.is_resolvable else None
 
 
 class ChipPins:
-    """The pins of a DUT by the names that its kind has for them (dsdpv1.kind_of): table 1, of a DSDPV1-RSU also straps, SPI and UART.
+    """The pins of a DUT by the names of its kind (dsdpv1.kind_of): table 1, and for a DSDPV1-RSU also straps, SPI and UART.
 
-    An output that can be released has a second port, which says when it is driven: D_OE beside D_OUT, MISO_OE beside MISO. A port is named like
-    rtl_ref's unless `names` says otherwise: {"RESET": "rst_n", "D_OE": "data_en"}. An inverted one begins with "~".
+    An output that can be released has a second port for its enable: D_OE beside D_OUT, MISO_OE beside MISO. Ports have rtl_ref's names unless
+    `names` gives others: {"RESET": "rst_n", "D_OE": "data_en"}. An inverted one begins with "~".
     """
 
     def __init__(self, dut: typing.Any, names: typing.Optional[typing.Mapping[str, str]] = None, kind: str = "dsdpv1") -> None:
@@ -43,11 +43,11 @@ class ChipPins:
         return (its.bus or pin).lower() + ("_i" if its.input else "_o")
 
     def port(self, pin: str) -> typing.Any:
-        """The handle behind a pin."""
+        """The handle of a pin."""
         return self._ports[pin][0]
 
     def level(self, pin: str) -> int:
-        """The present level; Z of what is not driven, X when a bit is unknown."""
+        """The present level; Z if it is not driven, X if a bit is unknown."""
         if pin in self.enables and self.level(self.enables[pin]) == 0:
             return dsdpv1.Z
         handle, inverted = self._ports[pin]
@@ -57,7 +57,7 @@ class ChipPins:
         return value ^ ((1 << len(handle)) - 1 if inverted else 0)
 
     def set(self, pin: str, level: int) -> None:
-        """Gives an input a level, at the end of the present time step; Z releases D_IN."""
+        """Sets an input at the end of the present time step; Z releases D_IN."""
         handle, inverted = self._ports[pin]
         if level < 0:
             handle.value = cocotb.binary.BinaryValue("z" * len(handle))
@@ -65,8 +65,8 @@ class ChipPins:
             handle.value = level ^ ((1 << len(handle)) - 1 if inverted else 0)
 
     async def power_on(self) -> None:
-        """All inputs as the model has them at power-on, RESET low: before anything else, before the clock. RESET falls within the first step, as a
-        simulator without X would see no edge else."""
+        """Sets all inputs to the model's power-on levels, RESET low. Call it first, before the clock. RESET falls within the first step, because a
+        simulator without X would otherwise see no edge."""
         for pin in self.kind.pins:
             if pin.input:
                 self._set_now(pin.name, max(pin.reset_level, 0))
@@ -79,7 +79,7 @@ class ChipPins:
         handle.setimmediatevalue(level ^ ((1 << len(handle)) - 1 if inverted else 0))
 
     def watch(self, pins: typing.Iterable[str], told: Told) -> typing.List[typing.Any]:
-        """Tells (tick, pin's number, level) of each change from now on, and the levels of now. The tasks, whose kill() ends it."""
+        """Reports (tick, pin's number, level) of each change from now on, after the present levels. Returns the tasks; their kill() stops it."""
         tasks = []
         for name in pins:
             number = self.kind.pin(name).number

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The model as reference: it gets the DUT's inputs, and each change of each output has to be the DUT's, at its cycle."""
+"""The model as reference: it gets the DUT's inputs, and the DUT must make each change of each output in the same cycle."""
 import collections
 import typing
 
@@ -27,7 +27,7 @@ class Difference(typing.NamedTuple):
 
     @property
     def cycle(self) -> int:
-        """Of the 48 MHz clock, counted from tick 0."""
+        """Cycle of the 48 MHz clock, counted from tick 0."""
         return self.tick // CYCLE
 
     def __str__(self) -> str:
@@ -38,7 +38,7 @@ class Difference(typing.NamedTuple):
 
 
 class ScoreboardError(AssertionError):
-    """Model and DUT differ; `difference` says where."""
+    """Model and DUT differ; see `difference`."""
 
     def __init__(self, difference: Difference) -> None:
         super().__init__(str(difference))
@@ -50,16 +50,16 @@ def _word(level: int) -> str:
 
 
 class Scoreboard:
-    """Runs beside any testbench: it only looks at the DUT's pins. The DUT's clock has to be exact (Clock), rising edge n at tick 250 n.
+    """Runs beside any testbench and only reads the DUT's pins. The DUT's clock must be exact (Clock), rising edge n at tick 250 n.
 
     Every 10 us of simulated time the changes of both sides are compared, by the rules of dsdpv1.Scoreboard. At the first difference the test fails
-    with a ScoreboardError; with `fails` False `difference` is set and nothing more is compared. Inputs must not change in the active phase of a
-    rising edge: an input of that tick counts for the next one (P9).
+    with a ScoreboardError; with `fails` False `difference` is set and comparison stops. Inputs must not change in the active phase of a rising
+    edge: an input of that tick counts for the next one (P9).
     """
 
     def __init__(self, pins: ChipPins, parameters: typing.Optional[typing.Mapping[str, int]] = None, fails: bool = True, tolerance: int = 0) -> None:
-        """`parameters` of the model (access_interval, ready_cycles, ...): those of the DUT. A difference that lasts no longer than `tolerance` ticks is
-        none: for RTL with delays."""
+        """`parameters` of the model (access_interval, ready_cycles, ...): those of the DUT. Differences that last at most `tolerance` ticks are
+        ignored: for RTL with delays."""
         if now() != 0:
             raise RuntimeError(f"the scoreboard begins at tick {now()}, allowed is 0, before anything has happened")
         self.difference: typing.Optional[Difference] = None
@@ -73,7 +73,7 @@ class Scoreboard:
 
     @property
     def matched(self) -> int:
-        """Changes of the model's outputs that the DUT has made as well."""
+        """Changes of the model's outputs that the DUT made as well."""
         return self._board.matched
 
     def _change(self, tick: int, pin: int, level: int) -> None:
@@ -92,7 +92,7 @@ class Scoreboard:
             horizon += PERIOD
 
     def check(self) -> None:
-        """Compares all up to now: call it at the end of a test."""
+        """Compares everything up to now: call it at the end of a test."""
         if self.difference is None:
             changes, self._changes = self._changes, []
             found = self._board.compare(changes, now())
@@ -100,7 +100,7 @@ class Scoreboard:
                 self._differ(found)
 
     def close(self) -> None:
-        """Compares no more."""
+        """Stops comparing."""
         self._task.kill()
         self._ignore()
 

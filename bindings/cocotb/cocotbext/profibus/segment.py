@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The line in a simulator: masters and monitor of the model, the DUT as a station."""
+"""The line in a simulator: the model's masters and monitor, with the DUT as a station."""
 import typing
 
 import cocotb
@@ -16,7 +16,7 @@ _DONE = (EventType.REQUEST_DONE, EventType.ACYCLIC_DONE)
 
 
 class Segment:
-    """A PROFIBUS segment whose line is a DUT's.
+    """A PROFIBUS segment that shares a DUT's line.
 
         segment = Segment(rxd=dut.pbrxd_i, txd=dut.pbtxd_o, rts=dut.pbrts_o)
         master = segment.add_master(address=2)
@@ -25,13 +25,13 @@ class Segment:
         await master.data_exchange(5)
         event = await master.ask("slave_diag", 5)
 
-    Bit times are exact: every edge is at its tick, converted once. What DUTs drive at a tick is on the line before monitor and masters look.
+    Bit times are exact: every edge is at its tick, converted once. Levels driven by DUTs at a tick are on the line before monitor and masters act.
     """
 
     def __init__(self, rxd: typing.Any = None, txd: typing.Any = None, rts: typing.Any = None, baud: str = "12M", name: str = "dut") -> None:
-        """`rxd` hears the line; `txd` drives it while `rts` is high. More DUTs: connect()."""
+        """`rxd` receives the line; `txd` drives it while `rts` is high. More DUTs: connect()."""
         self.bus = dsdpv1.Bus(baud)
-        self.telegrams: typing.List[dsdpv1.Heard] = []  # all, right and wrong
+        self.telegrams: typing.List[dsdpv1.Heard] = []  # all, valid or not
         self.events: typing.List[dsdpv1.Event] = []
         self.listeners: typing.List[typing.Callable[[dsdpv1.Heard], typing.Any]] = [self.telegrams.append]
         self._receivers: typing.List[typing.Any] = []
@@ -44,9 +44,9 @@ class Segment:
         if rxd is not None:
             self.connect(rxd, txd, rts, name)
 
-    # ---- who is on it
+    # ---- stations
     def connect(self, rxd: typing.Any, txd: typing.Any, rts: typing.Any, name: typing.Optional[str] = None) -> dsdpv1.Station:
-        """One more DUT. `txd` None: it only listens."""
+        """Connects another DUT. `txd` None: it only receives."""
         rxd.value = self._level
         self._receivers.append(rxd)
         station = self.bus.add_station(name)
@@ -56,23 +56,23 @@ class Segment:
         return station
 
     def add_master(self, address: int = 0, **options: typing.Any) -> "Master1":
-        """A master of class 1; the options of dsdpv1.Bus.add_master."""
+        """Adds a master of class 1; options as in dsdpv1.Bus.add_master."""
         return Master1(self, self.bus.add_master(address, **options))
 
     def add_master2(self, address: int = 0, **options: typing.Any) -> "Master2":
-        """A master of class 2."""
+        """Adds a master of class 2."""
         return Master2(self, self.bus.add_master2(address, **options))
 
     def add_scenario(self, path: typing.Any, settings: typing.Optional[typing.Mapping[str, typing.Any]] = None) -> typing.List["_Master"]:
-        """All masters of a scenario, which start and carry out the script by themselves (dsdpv1.Bus.add_scenario); the ends of the script's requests
-        are events with the id 0, what is left out says bus.left_out."""
+        """Adds all masters of a scenario, which start and execute the script automatically (dsdpv1.Bus.add_scenario); the ends of the script's
+        requests are events with id 0, and bus.left_out lists the ignored parts."""
         masters = self.bus.add_scenario(path, settings)
         self.plan()
         return [(Master1 if isinstance(each, dsdpv1.Master1) else Master2)(self, each) for each in masters]
 
     # ---- time
     def sync(self) -> None:
-        """Runs the bus up to now. Whoever gives a command to it calls this before, and plan() after."""
+        """Runs the bus up to now. Call it before giving commands to the bus, and plan() after."""
         tick = now()
         if tick > self.bus.now:
             self.bus.run(tick)
@@ -85,9 +85,9 @@ class Segment:
             cocotb.start_soon(self._sleep(wake))
 
     async def _sleep(self, wake: int) -> None:
-        while wake != NEVER and wake == self._planned:  # else somebody has planned an earlier one
+        while wake != NEVER and wake == self._planned:  # else an earlier one is planned
             await until(wake)
-            await ReadWrite()  # what the DUTs do at this tick comes first
+            await ReadWrite()  # changes of the DUTs at this tick come first
             if wake != self._planned:
                 return
             self.sync()
@@ -112,7 +112,7 @@ class Segment:
             station.drive(bool(enabled), int(level), at=now())
             self.plan()
 
-    # ---- what is told
+    # ---- events
     def _telegram(self, heard: dsdpv1.Heard) -> None:
         for listener in self.listeners:
             listener(heard)
@@ -129,18 +129,18 @@ class Segment:
         await self._told.wait()
 
     async def result(self, station: int, request: int) -> dsdpv1.Event:
-        """The end of a request of the master with this station."""
+        """The event that ends a request of the master with this station."""
         while (station, request) not in self._waiting:
             await self.told()
         return typing.cast(dsdpv1.Event, self._waiting.pop((station, request)))
 
     def heard(self, service: str) -> typing.List[dsdpv1.Heard]:
-        """The telegrams so far of a service: "Slave_Diag"."""
+        """The telegrams so far of one service, for example "Slave_Diag"."""
         return [each for each in self.telegrams if each.service == service]
 
 
 class _Master:
-    """The commands of the model's master, at the simulator's time. Requests are coroutines, whose result is the event that ends them."""
+    """Commands of the model's master, at the simulator's time. Requests are coroutines whose result is the event that ends them."""
 
     def __init__(self, segment: Segment, master: typing.Any) -> None:
         self._segment, self.model = segment, master

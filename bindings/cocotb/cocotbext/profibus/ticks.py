@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Time in a simulator: ticks of 1/12 ns, which every time of the chip and of PROFIBUS is a whole number of, against the simulator's steps.
+"""Converts between ticks of 1/12 ns, in which all times of the chip and of PROFIBUS are whole numbers, and the simulator's steps.
 
-Only absolute times are converted, each once, so that nothing drifts: an edge is at most half a step beside its tick, and a time that was made from a
-tick gives it back as long as a step is at most 40 ps. With a precision of 1 ps a bit at 12 Mbit/s begins within 0.5 ps of where it should, for ever.
+Only absolute times are converted, each once, so nothing drifts: an edge is at most half a step off its tick, and a tick converted to a time and
+back is the same tick if a step is at most 40 ps. With a precision of 1 ps a bit at 12 Mbit/s always begins within 0.5 ps of its exact time.
 """
 import functools
 import typing
@@ -14,7 +14,7 @@ from cocotb.utils import get_sim_steps, get_sim_time
 
 from dsdpv1 import CYCLE
 
-MOST_FS = 40_000  # of a step
+MOST_FS = 40_000  # per step
 
 
 @functools.lru_cache(maxsize=None)
@@ -37,36 +37,36 @@ def now() -> int:
 
 
 async def until(tick: int) -> None:
-    """Waits for an absolute tick; at once when it is the present one or gone."""
+    """Waits for an absolute tick; returns at once if it is the present one or past."""
     left = steps_of(tick) - int(get_sim_time("step"))
     if left > 0:
         await Timer(left, "step")
 
 
 async def wait(ticks: int) -> None:
-    """Lets so many ticks pass."""
+    """Waits so many ticks."""
     await until(now() + ticks)
 
 
 class Clock:
     """The 48 MHz clock: rising edge n at tick 250 n, whatever the simulator's precision.
 
-    An input that changes at the tick of a rising edge counts for the next one (P9): the clock is set at once, what testbenches write comes later
-    in the same time step.
+    An input that changes at the tick of a rising edge counts for the next one (P9): the clock is set at once, and testbenches write later in the
+    same time step.
     """
 
     def __init__(self, signal: typing.Any) -> None:
         self._signal = signal
 
     def start(self) -> typing.Any:
-        """From the next whole cycle on; the task, whose kill() stops it."""
+        """Starts at the next whole cycle. Returns the task; its kill() stops the clock."""
         return cocotb.start_soon(self._run())
 
     async def _run(self) -> None:
         cycle = -(-now() // CYCLE)
         while True:
             cycle = await self._three_cycles(cycle)
-            # Three cycles are 62.5 ns. Where that is a whole number of steps, the timers of their six halves can be used again.
+            # Three cycles are 62.5 ns. If that is a whole number of steps, the timers of their six halves can be reused.
             halves = [steps_of(cycle * CYCLE + half * CYCLE // 2) for half in range(7)]
             if (halves[6] - halves[0]) * 12_000 == 3 * CYCLE * _steps_per_us():
                 await until(cycle * CYCLE)

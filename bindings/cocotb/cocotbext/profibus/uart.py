@@ -25,7 +25,7 @@ class ProfibusSource:
         signal.value = 1
 
     async def write(self, data: "bytes | Telegram", idle_bits: int = 33, wrong_parity_at: typing.Optional[int] = None) -> int:
-        """Sends bytes, or a telegram, after `idle_bits` (T_SYN: 33) since its own last character. The tick at which the first start bit fell. The
+        """Sends bytes, or a telegram, after `idle_bits` (T_SYN: 33) since its last character. Returns the tick of the first start bit. The
         character with number `wrong_parity_at` has a wrong parity bit."""
         data = data.encode() if isinstance(data, Telegram) else data
         begin = start = max(now(), self._free + idle_bits * self.bit if self._free else 0)
@@ -47,7 +47,7 @@ class ProfibusSource:
 
 @dataclasses.dataclass(frozen=True)
 class Character:
-    """A character that was received."""
+    """A received character."""
 
     start: int  # tick at which its start bit fell
     byte: int
@@ -68,11 +68,11 @@ class ProfibusSink:
         return [await self._received.get() for _ in range(count)]
 
     def empty(self) -> bool:
-        """Whether none waits."""
+        """True if none waits."""
         return bool(self._received.empty())
 
     def close(self) -> None:
-        """Listens no more."""
+        """Stops receiving."""
         self._task.kill()
 
     async def _run(self) -> None:
@@ -92,10 +92,10 @@ class ProfibusSink:
 
 
 class ProfibusMonitor:
-    """Hears telegrams on a signal, right and wrong ones, with TSDR and errors, as the model's monitor does."""
+    """Receives telegrams on a signal, valid or not, with TSDR and errors, as the model's monitor does."""
 
     def __init__(self, line: typing.Any, baud: str = "12M", callback: typing.Optional[typing.Callable[[Heard], typing.Any]] = None) -> None:
-        """`callback` is told of each; else recv() gives them."""
+        """Calls `callback` for each telegram; without it recv() returns them."""
         self._line, self._received = line, Queue()  # type: typing.Any, typing.Any
         self._bus = dsdpv1.Bus(baud)
         self._station = self._bus.add_station("line")
@@ -109,7 +109,7 @@ class ProfibusMonitor:
 
     @property
     def statistics(self) -> dsdpv1.BusStatistics:
-        """What has been counted."""
+        """The counts so far."""
         return self._bus.statistics
 
     async def _run(self) -> None:
