@@ -52,7 +52,7 @@ def read_bits(text):
 
 
 def read_reasons(path):
-    """Lines `line | file | part of the source line | why` and `toggle | file | pattern of signals, [bits] behind it | why`."""
+    """Lines `line | file | part of the source line | why` and `toggle | file | pattern of signals, [bits] after it | why`."""
     reasons = []
     for number, text in enumerate(pathlib.Path(path).read_text(encoding="utf-8").splitlines(), 1):
         if not text.strip() or text.startswith("#"):
@@ -76,7 +76,7 @@ def signal(name):
 
 
 def bit(name):
-    """Number of the bit; 0 for a signal that is no vector."""
+    """Number of the bit; 0 for a scalar signal."""
     return int(name[name.index("[") + 1:-1]) if "[" in name else 0
 
 
@@ -162,7 +162,7 @@ def uncovered_toggles(counts, sources, reasons):
 
 
 def summary(counts, reasons, chip):
-    """What the page says below the table."""
+    """The page's text below the table."""
     lines, bits = (sum(counts[p] == 0 for p in counts if p.kind == kind) for kind in ("line", "toggle"))
     rules = collections.Counter(reason.kind for reason in reasons)
     return (f"{lines} lines and branches were not reached, explained by {rules['line']} reasons in `rtl_ref/{chip}/coverage.txt`; {bits} bits did\n"

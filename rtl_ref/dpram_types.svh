@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// What the DPRAM's blocks share (dpram/): areas and registers of the user's side, whatever port the chip gives him to it.
+// Declarations shared by the DPRAM's blocks (dpram/): areas and registers of the user's side, independent of the user's port.
 `ifndef DPRAM_TYPES_SVH
 `define DPRAM_TYPES_SVH
 `include "dsdpv1_regs.svh"
@@ -17,7 +17,7 @@
 `endif
 /* verilator lint_off UNUSED */
 
-// What the sequencer does in an access, in the order of 9.2.
+// The items of an access, in the order of 9.2.
 localparam integer ITEMS = 20;
 localparam logic [4:0] ITEM_INIT = 5'd0;
 localparam logic [4:0] ITEM_VERDICT_PRM = 5'd1;

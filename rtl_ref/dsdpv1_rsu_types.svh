@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// What the blocks of DSDPV1-RSU's serial ports share (dsdpv1_rsu/), beside what they have of the DSDPV1. Words are those of
+// Declarations shared by the blocks of DSDPV1-RSU's serial ports (dsdpv1_rsu/), in addition to the DSDPV1's. Words are those of
 // docs/microarchitecture_rsu.md, whose sections are meant by the numbers in these blocks.
 `ifndef DSDPV1_RSU_TYPES_SVH
 `define DSDPV1_RSU_TYPES_SVH
@@ -12,7 +12,7 @@
 localparam logic [1:0] MODE_SPI = 2'b01;
 localparam logic [1:0] MODE_UART = 2'b10;
 
-// What a telegram asks for, bits 7..5 of its first byte: 2 is SPI's read and write, and UART's exchange.
+// The request of a telegram, bits 7..5 of its first byte: 2 is SPI's read and write, and UART's exchange.
 localparam logic [1:0] ASK_READ = 2'd0;
 localparam logic [1:0] ASK_WRITE = 2'd1;
 localparam logic [1:0] ASK_EXCHANGE = 2'd2;
@@ -43,7 +43,7 @@ typedef struct packed {
   logic        claims;         // ... bit 1 of that byte
 } telegram_t;
 
-// What becomes of it, at the edge of its judgement.
+// Its outcome, at the edge of its judgement.
 typedef struct packed {
   logic       replies;     // also with an error
   logic       refused;     // error, or B014 does not allow it

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// What this chip's own blocks share (dsdpv1/), beside what they have of the DPRAM and of every DP slave.
+// Declarations shared by this chip's blocks (dsdpv1/), in addition to those of the DPRAM and of every DP slave.
 `ifndef DSDPV1_TYPES_SVH
 `define DSDPV1_TYPES_SVH
 `include "dpram_types.svh"

@@ -13,14 +13,14 @@ LEAST_MHZ = 48.0
 RTL = pathlib.Path(__file__).resolve().parent
 CHIPS = sorted(path.parent.name for path in RTL.glob("*/files.txt"))
 HEADERS = ("profibus_types.svh", "dpram_types.svh", "dsdpv1_types.svh")
-# What only another chip's build switches on: to the DSDPV1's it is nothing
+# Code that only another chip's build enables; the DSDPV1's build ignores it
 OPTION = re.compile(r"`ifdef DPRAM_CRC_MAY_NOT_COUNT.*?`endif|\s*`(CRC_COUNTS_PORT|AND_CRC_COUNTS)\b", re.S)
 PAGE = RTL.parent / "docs" / "rtl.md"
 MEASURED_ON = "Measured on RTL with the checksum `{}`."
 
 
 def checksum(chip):
-    """Of all that is synthesized, without comments and white space; of the registers those that it names."""
+    """The checksum of all synthesized text, without comments and white space, and of the registers that it names."""
     names = (RTL / chip / "files.txt").read_text(encoding="utf-8").split()
     texts = [code(file, chip) for file in [*(RTL / name for name in HEADERS), *(RTL / name for name in names)]]
     words = set(re.findall(r"\w+", " ".join(texts)))

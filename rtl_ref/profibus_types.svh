@@ -69,8 +69,8 @@ localparam logic [7:0] SAP_SLAVE_DIAG = 8'd60;
 localparam logic [7:0] SAP_SET_PRM = 8'd61;
 localparam logic [7:0] SAP_CHECK_CFG = 8'd62;
 
-// Most that a telegram to or from a SAP carries: data bytes behind the two SAPs; user parameters behind the standard bytes of Set_Prm;
-// data of a DPV1 PDU behind its four bytes. What a chip holds of the first two is a parameter of station, these at most.
+// The most bytes that a telegram to or from a SAP carries: data after the two SAPs; user parameters after the standard bytes of Set_Prm;
+// data of a DPV1 PDU after its four bytes. A chip's capacity for the first two is a parameter of station, up to these values.
 localparam logic [7:0] MOST_DATA = 8'd244;
 localparam logic [7:0] MOST_PRM = 8'd237;
 localparam logic [7:0] MOST_ACYCLIC = 8'd240;
@@ -82,7 +82,7 @@ localparam logic [2:0] SD_SD3 = 3'd2;
 localparam logic [2:0] SD_SD4 = 3'd3;
 localparam logic [2:0] SD_SC = 3'd4;
 
-// What an answer is.
+// The form of an answer.
 localparam logic [2:0] ANS_NONE = 3'd0;
 localparam logic [2:0] ANS_SC = 3'd1;
 localparam logic [2:0] ANS_SD1 = 3'd2;
@@ -119,12 +119,12 @@ localparam logic [2:0] ABORT_INVALID_PDU = 3'd2;
 localparam logic [2:0] ABORT_TIMEOUT = 3'd3;
 localparam logic [2:0] ABORT_ADDRESS = 3'd7;
 
-// Who asks with DPV1.
+// The requester in DPV1.
 localparam logic [1:0] MSAC_C1 = 2'd0;
 localparam logic [1:0] MSAC_30 = 2'd1;
 localparam logic [1:0] MSAC_2F = 2'd2;
 
-// What is wrong with a request or an Initiate (V9, V10).
+// Faults of a request or an Initiate (V9, V10).
 localparam logic [1:0] MSAC_RIGHT = 2'd0;
 localparam logic [1:0] MSAC_NOT_SUPPORTED = 2'd1;
 localparam logic [1:0] MSAC_INVALID_PARAMETER = 2'd2;
@@ -170,7 +170,7 @@ typedef struct packed {
   logic       dpv1;
 } prm_t;
 
-// What a telegram asks for (8.2).
+// The decision about a telegram (8.2).
 typedef struct packed {
   logic execute;      // its service is executed at this edge
   logic refuse;       // it is one that is always refused
@@ -187,7 +187,7 @@ typedef struct packed {
   logic [7:0] length;
 } answer_t;
 
-// What a service does to the DP slave at the edge of its execution (section 11).
+// Effects of a service on the DP slave at the edge of its execution (section 11).
 typedef struct packed {
   logic good_prm;          // Set_Prm is right: mail, and ...
   logic accept_prm;        // ... in force at once, without a verdict of the user

@@ -33,7 +33,7 @@ module dpram (
   assign head = first_valid_q ? first_q : settling;
   assign head_addr = head[18:8];
   assign head_data = head[7:0];
-  // The chip's write comes behind the user's at the same edge: it hides an equal address
+  // At the same edge the chip's write comes after the user's: it hides an equal address
   assign head_overwritten = chip_we_i && head_addr == chip_addr_i;
   assign head_blocked = chip_we_i && head_addr[1:0] == chip_addr_i[1:0] && !head_overwritten;
   assign head_goes = head_valid && !head_blocked;

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// What the sequencer does next in an access (9.2; H4): the first item that is due, and its first move.
+// The next item of an access (9.2; H4): the first that is due, and its first move.
 `include "dpram_types.svh"
 
 module dpram_choice (
   `FAULT_PORT
-  input  logic [ITEMS-1:0] candidates_i,  // due and behind the item done last; the first lowest
+  input  logic [ITEMS-1:0] candidates_i,  // due and after the item done last; the first lowest
   input  logic [6:0]  command_2_i,        // B011 as it was read, without bit 7
   /* verilator lint_off UNUSEDSIGNAL */
-  input  dp_mail_t    mail_i,             // what each item of mail begins with; candidates_i says whether it waits
+  input  dp_mail_t    mail_i,             // the first bytes of each item of mail; candidates_i tells which ones wait
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic [7:0]  c1_function_i,
   input  logic [7:0]  c2_function_i,

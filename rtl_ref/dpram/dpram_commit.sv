@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// What the commits of a DPRAM access command the station (section 10; H7, D7, D12 to D17), and how the CRC of each block is judged.
+// The commands that commits of a DPRAM access give the station (section 10; H7, D7, D12 to D17), and the judgement of each block's CRC.
 `include "dpram_types.svh"
 
 module dpram_commit (
@@ -57,7 +57,7 @@ module dpram_commit (
     .clk_i(clk_i), .rst_ni(rst_ni), .look_i(init_look), .valid_i(init_arrives_i), .index_i(index_i), .byte_i(byte_i),
     .last_i(init_last), .crc_right_i(init_crc_right), .initialise_o(initialise_o));
 
-  // What the commit is about is known an edge ahead
+  // The item of the commit is known an edge ahead
   logic commits, readable, commit_init_q, commit_inputs_q, commit_diag_q, commit_c1_q, commit_c2_q;
   logic verdict_prm_q, verdict_cfg_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -24,7 +24,7 @@ module dpram_move (
   input  logic [7:0]  errors_i,       // B00B as it was read
   input  logic [7:0]  clear_i,        // bits of it
   input  logic [7:0]  set_i,
-  output logic [7:0]  u_without_o,    // the copies behind the commit or flag of this item
+  output logic [7:0]  u_without_o,    // the copies after the commit or flag of this item
   output logic [7:0]  w_without_o,
   output logic [7:0]  e_with_o,
   output logic [7:0]  v_with_o,

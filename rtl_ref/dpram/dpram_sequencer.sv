@@ -12,7 +12,7 @@ module dpram_sequencer (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        user_holds_i,     // or asks for the DPRAM; by whatever port, in step with clk_i
-  output logic        owns_o,           // from the cycle behind the start to the last of an access
+  output logic        owns_o,           // from the cycle after the start to the last of an access
   output logic        interrupt_o,      // a flag of parameters or configuration is written at this edge
   // DPRAM
   output logic        we_o,
@@ -173,13 +173,13 @@ module dpram_sequencer (
     endcase
   end
 
-  // The choice looks it up, so that it is a register where it is used; behind the high byte it is that of the low byte
+  // The choice looks it up, so that its users read a register; after the high byte it is the address of the low byte
   always_ff @(posedge clk_i) begin
     if (chooses) crc_address_q <= crc_address;
     else if (state_q == SEQ_READ_CRC_HIGH || state_q == SEQ_WRITE_CRC_HIGH) crc_address_q <= crc_address_q + 11'd1;
   end
 
-  // A C1 or C2 answer has data behind its four bytes only where its Function_Num says so (V14)
+  // A C1 or C2 answer has data after its four bytes only for some values of its Function_Num (V14)
   logic answer_item, no_data_q;
   logic [7:0] block_length;
   assign answer_item = item_q == ITEM_C1_ANSWER || item_q == ITEM_C2_ANSWER;
@@ -199,7 +199,7 @@ module dpram_sequencer (
 
   // ---- next state
   logic no_bytes, header_ends;
-  logic [1:0] header_q;  // bytes of the header behind the next one
+  logic [1:0] header_q;  // bytes of the header after the next one
   assign no_bytes = left_q == 8'd0;
   assign header_ends = header_q == 2'd0;
   always_comb begin
@@ -362,7 +362,7 @@ module dpram_sequencer (
   assign interrupt_o = state_q == SEQ_FLAG && (item_q == ITEM_PRM || item_q == ITEM_CFG || (item_q == ITEM_OUTPUTS && `FAULT(58)));
   assign owns_o = own_q;
 
-  // ---- transfer from the station: parameters begin behind the seven standard bytes; of a request the choice writes the first
+  // ---- transfer from the station: parameters begin after the seven standard bytes; of a request the choice writes the first
   logic [7:0] transfer_q, transfer_start, transfer_index;
   assign transfer_start = take_prm ? 8'd7 : take_request ? 8'd1 : 8'd0;
   assign transfer_index = chooses ? transfer_start : state_q == SEQ_WRITE_BYTES ? transfer_q + 8'd1 : transfer_q;

@@ -8,7 +8,7 @@ module init_block (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        look_i,    // the length byte arrives
-  input  logic        valid_i,   // a byte behind it arrives
+  input  logic        valid_i,   // a byte after it arrives
   input  logic [7:0]  index_i,   // its number, from 0
   input  logic [7:0]  byte_i,
   input  logic        last_i,    // the edge before the commit

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// The four wires by which user and chip share the DPRAM (5.1; H1, H2, P9). Of R_REQ and R_STA the sequencer hears only that
-// the user holds it; whether the chip owns it goes out on L_REQ and L_STA alike.
+// The four wires by which user and chip share the DPRAM (5.1; H1, H2, P9). From R_REQ and R_STA the sequencer gets only whether
+// the user holds it. Both L_REQ and L_STA show whether the chip owns it.
 `include "dsdpv1_types.svh"
 
 module handshake (

@@ -3,7 +3,7 @@
 // The user's asynchronous port (section 12; 5.2, P5, P8, P11, P12).
 //
 // Writes go through a FIFO of four that WR clocks, with a Gray pointer through two flip-flops. Reads take A at the first rising edge
-// of CLK behind RD's fall and drive D from its falling edge on. What the document calls X is some value here.
+// of CLK after RD's fall and drive D from its falling edge on. The document's X is a definite value here.
 `include "dsdpv1_types.svh"
 
 module host_port (
@@ -23,7 +23,7 @@ module host_port (
   output logic [10:0] raddr_o,
   input  logic [7:0]  rdata_i
 );
-  // The port listens behind R, the first edge without reset (section 12)
+  // The port listens after R, the first edge without reset (section 12)
   logic listens_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) listens_q <= 1'b0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// INTR0 (section 13, P7): low for low_i cycles after a flag of parameters or configuration, and high for gap_i cycles at least between
+// INTR0 (section 13, P7): low for low_i cycles after a flag of parameters or configuration, and high for at least gap_i cycles between
 // two pulses.
 `include "dsdpv1_types.svh"
 
@@ -14,7 +14,7 @@ module interrupt (
   output logic        intr0_o
 );
   logic waiting_q, low_q, falls, rises;
-  logic [13:0] count_q;  // cycles until the pulse, or the gap behind it, may end
+  logic [13:0] count_q;  // cycles until the pulse, or the gap after it, may end
 
   assign falls = waiting_q && !low_q && (count_q == 14'd0 || `FAULT(45));
   assign rises = low_q && count_q == 14'd0;
@@ -38,7 +38,7 @@ module interrupt (
     end
   end
 
-  // A register of its own: 1 in reset
+  // A separate register: 1 in reset
   logic intr0_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) intr0_q <= 1'b1;

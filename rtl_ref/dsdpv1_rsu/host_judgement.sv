@@ -7,7 +7,7 @@ module host_judgement (
   `FAULT_PORT
   input  logic       spi_i,
   input  logic       judged_i,    // a telegram, at this edge
-  input  logic       replies_i,   // SPI: its frame goes on after this edge
+  input  logic       replies_i,   // SPI: its frame continues after this edge
   /* verilator lint_off UNUSEDSIGNAL */
   input  telegram_t  telegram_i,
   /* verilator lint_on UNUSEDSIGNAL */

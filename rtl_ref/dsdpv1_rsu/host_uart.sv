@@ -18,7 +18,7 @@ module host_uart (
   input  logic [2:0]   uiv_i,
   input  logic         rxd_i,
   output logic         txd_o,
-  input  logic [2:0]   interval_i,  // B019, 0 when it is no code
+  input  logic [2:0]   interval_i,  // B019, 0 unless it is a code
   input  logic [7:0]   tsdr_i,      // B01A
   // at this edge
   output logic         take_o,      // a right character

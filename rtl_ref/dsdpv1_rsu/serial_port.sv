@@ -138,7 +138,7 @@ module serial_port (
   assign load = gives;
   assign load_odd = odd ^ !judgement.replies;
 
-  // B014 is no cell, and before the start-up access has ended all others are read as 00 (5.4)
+  // B014 is a register, not a cell, and before the start-up access has ended all others are read as 00 (5.4)
   logic owned_q, started_q, started, register_q, blank_q, host_q, chip_q;
   assign started = started_q || (owned_q && !owns_i);
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Data of a telegram and, with UART, of its reply, as block RAM. A byte that is written and read at the same edge is read as some value:
-// nobody uses it then, and the RAM need not do more.
+// Data of a telegram and, with UART, of its reply, as block RAM. A byte that is written and read at the same edge reads as any value:
+// it is not used then, so the RAM need not define it.
 `include "dsdpv1_rsu_types.svh"
 
 module telegram_buffer (

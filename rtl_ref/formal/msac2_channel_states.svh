@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into msac2_channel (15.2). An answer is accepted only for a BUSY channel, Initiate takes a FREE one (msac2),
-// and Idle is no right request (request_check).
+// and Idle is not a valid request (request_check).
 initial assume (!rst_ni);
 always @* begin
   if (answer_i) assume (state_q == BUSY);

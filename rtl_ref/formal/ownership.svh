@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into dsdpv1. Ownership of the DPRAM (H1, H2, H6): never both sides at once, also through any reset.
 //
-// The user is free but for rule H2. He looks at L_REQ and at L_STA when he likes, once each while R_REQ is high, in the third cycle of
-// his hold at the earliest: up to then the chip may start, because of the synchroniser. R_STA rises only after both looks. He drops the two
-// when and in which order he likes, and raises R_REQ again when he likes. RESET is free, and he takes no notice of it.
+// The user is free except for rule H2. While R_REQ is high he reads L_REQ and L_STA once each, at any time from the third cycle of
+// his hold on: up to then the chip may start, because of the synchroniser. R_STA rises only after both reads. He drops R_REQ and R_STA
+// at any time and in any order, and raises R_REQ again at any time. RESET is free, and he ignores it.
 wire looks_at_l_req = $anyseq;
 wire looks_at_l_sta = $anyseq;
 reg [1:0] held_before = 2'b00;

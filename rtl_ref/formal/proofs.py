@@ -34,7 +34,7 @@ def states(block, file, edit, **more):
 
 
 def serial(name, title, top, bind, **more):
-    """Of DSDPV1-RSU's serial ports."""
+    """For DSDPV1-RSU's serial ports."""
     return Proof(name=name, title=title, top=top, bind={f"dsdpv1_rsu/{block}.sv": properties for block, properties in bind.items()},
                  chip="dsdpv1_rsu", **more)
 
@@ -78,7 +78,7 @@ PROOFS = (
     ),
     Proof(
         name="uart_rx_idle",
-        title="the receiver is IDLE 10.5 bit times behind the release of PBRXD",
+        title="the receiver is IDLE 10.5 bit times after the release of PBRXD",
         top="uart_rx",
         bind={"profibus/uart_rx.sv": "uart_rx_idle"},
         cut_wires=("w:start", "w:syn", "w:gap"),

@@ -4,7 +4,7 @@
 """Unbounded proofs of the reference RTL, each with broken twins that have to fail.
 
 A proof takes copies of the RTL, binds its properties into one block (in front of endmodule), makes its surroundings free and
-proves the properties for ever. A twin is the same with one defect, from a list of faults or an edit, and has to have a trace from
+proves the properties without a bound. A twin is the same with one defect, from a list of faults or an edit, and has to have a trace from
 RESET that violates them.
 """
 import argparse
@@ -65,12 +65,12 @@ def sources(proof, defect):
 
 
 def bound_assertions():
-    """What dsdpv1_bind.sv binds, as an instance: Yosys 0.23 reads a `bind` and forgets it."""
+    """The module that dsdpv1_bind.sv binds, as an instance: Yosys 0.23 reads a `bind` and forgets it."""
     return re.search(r"^bind `DSDPV1_TOP (.*;)$", (BINDINGS / "dsdpv1_bind.sv").read_text(encoding="utf-8"), re.M)[1]
 
 
 def only_asserts(proof):
-    """Commands that delete all other assertions of the chip: those of this proof are told by their lines."""
+    """Commands that delete all other assertions of the chip: those of this proof are known by their lines."""
     lines = (BINDINGS / ASSERTIONS).read_text(encoding="utf-8").splitlines()
     here = [number for number, line in enumerate(lines, 1) for name in proof.asserts if f"HOLDS({name}," in line or f": {name} assert" in line]
     if len(here) != len(proof.asserts):

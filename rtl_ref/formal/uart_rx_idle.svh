@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Bound into uart_rx. Behind the release of the line the receiver is IDLE within ten and a half bit times (section 6), at every rate.
+// Bound into uart_rx. After the release of the line the receiver is IDLE within ten and a half bit times (section 6), at every rate.
 //
 // Its surroundings: the rate is one of S2 and only changes where it is selected (baud_search_states), and the receiver runs again only
-// behind a restart (uart_tx_states, dp_slave_states). `released` counts cycles of a running receiver with PBRXD (synchronised) high,
-// `left` those that the character in progress still lasts. Their sum does not grow, which is the whole argument.
+// after a restart (uart_tx_states, dp_slave_states). `released` counts cycles of a running receiver with PBRXD (synchronised) high,
+// `left` the remaining cycles of the character in progress. Their sum does not grow, which proves the property.
 reg rate_selected = 1'b0, restarted = 1'b0, run_before = 1'b0;
 reg [3:0] rate_before = 4'd0;
 reg [16:0] released = 17'd0;

@@ -22,7 +22,7 @@ module answer_builder (
   input  logic [7:0]  length_i,
   input  logic [31:0] diag_i,
   input  logic [15:0] ident_i,
-  output logic [7:0]  characters_o,  // of the whole answer, from the edge behind the decision on
+  output logic [7:0]  characters_o,  // of the whole answer, from the edge after the decision on
   output logic        busy_o,
   output logic [7:0]  index_o,   // byte of the source that is needed at the next edge
   input  logic [7:0]  data_i,

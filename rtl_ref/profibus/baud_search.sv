@@ -17,7 +17,7 @@ module baud_search (
   output logic        found_o,      // at this edge
   output logic        br_o
 );
-  // The counter is loaded one edge behind the start and the end is seen one edge ahead: cycles of a window less two.
+  // The counter is loaded one edge after the start and the end is seen one edge ahead: cycles of a window less two.
   function automatic logic [31:0] window(input logic [31:0] ms, input logic [31:0] bits, input logic [31:0] len);
     window = (bits * len > ms * 32'd48000 ? bits * len : ms * 32'd48000) - 32'd2;
   endfunction

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// What a telegram's service is answered, and what it does to the DP slave (section 11; S5, S13, S16, S19 to S25, S33): decided at its
-// edge, without a register of its own. Inputs with _b are those behind the commits and the end of DP_CONTROL at the same edge.
+// The answer to a telegram's service, and its effect on the DP slave (section 11; S5, S13, S16, S19 to S25, S33), decided at its
+// edge, without a register here. Inputs with _b are valid after the commits and the end of DP_CONTROL at the same edge.
 `include "profibus_types.svh"
 
 module dp_service (
@@ -15,7 +15,7 @@ module dp_service (
   input  logic [1:0]  state_i,            // DP_..., _b
   input  logic        sync_i,             // _b
   input  logic        from_holder_i,      // _b
-  input  logic        other_holder_i,     // somebody else is, _b
+  input  logic        other_holder_i,     // another master is, _b
   input  logic        delivery_address_i, // S33
   input  logic        locked_i,           // No_Add_Chg
   input  logic        fail_safe_i,        // of the parameters in force

@@ -3,7 +3,7 @@
 // The DP slave (section 11; S1 to S33): state, holding master, and what commits and services do to them.
 //
 // Three things can happen at an edge, in this order: a commit of the user's side, the end of DP_CONTROL, a telegram. Each has its
-// group of next values: _q before the edge, _b behind commit and end, _d behind the telegram.
+// group of next values: _q before the edge, _b after commit and end, _d after the telegram.
 `include "profibus_types.svh"
 
 module dp_slave #(
@@ -44,7 +44,7 @@ module dp_slave #(
   input  service_t    service_i,
   input  logic [7:0]  dsap_i,
   output logic        from_holder_o,
-  output logic        data_exch_o,      // behind the commits
+  output logic        data_exch_o,      // after the commits
   output logic        left_o,           // DATA_EXCH is left at this edge
   output logic        dpv1_o,           // DPV1_Enable of the Set_Prm in force
   output answer_t     answer_o,
@@ -163,7 +163,7 @@ module dp_slave #(
     end
   end
 
-  // Is the telegram's SA the holder behind the commits? Both comparisons stand still long before.
+  // Is the telegram's SA the holder after the commits? Both comparisons stand still long before.
   logic sa_is_holder_q, sa_is_waiting_q, from_holder, other_holder;
   logic delivery_address_q;  // S33
   always_ff @(posedge clk_i) begin
@@ -339,7 +339,7 @@ module dp_slave #(
     end
   end
 
-  // What the user's side hears of Global_Control
+  // Global_Control for the user's side
   logic global_control_q;
   logic [7:0] control_command_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -20,7 +20,7 @@ module fdl (
   input  logic [7:0]  dsap_i,
   input  logic [7:0]  ssap_i,
   input  logic        saps_ok_i,
-  input  logic [7:0]  length_i,       // bytes behind the SAPs
+  input  logic [7:0]  length_i,       // bytes after the SAPs
   input  logic [7:0]  fcs_i,
   input  logic [6:0]  address_i,
   input  logic        from_holder_i,
@@ -37,9 +37,9 @@ module fdl (
   output logic        send_o,         // an answer to the telegram decided at this edge
   input  logic [7:0]  send_index_i,
   output logic [7:0]  send_data_o,
-  output logic [7:0]  send_length_o   // characters, from the second edge behind the decision on
+  output logic [7:0]  send_length_o   // characters, from the second edge after the decision on
 );
-  // Everything that only depends on the telegram stands still long before the decision: through registers
+  // Signals that depend only on the telegram are stable long before the decision, so they pass through registers
   logic own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcv_q, same_saps_q, same_rest_q;
   logic from_nobody_q;  // SA 127
   logic kind_q, default_sap_q;
@@ -50,7 +50,7 @@ module fdl (
   assign function_code = fc_i[3:0];
   assign fcv = fc_i[4];
 
-  // What makes a request the last one again (S26): SAPs, or that there is none; SA, FC, length and FCS
+  // The fields that identify a repetition of the last request (S26): SAPs, or their absence; SA, FC, length and FCS
   logic [17:0] saps, memory_saps_q;
   logic [7:0] memory_data_length_q, memory_fcs_q, dsap, ssap;
   logic [6:0] memory_sa_q, memory_fc_q;
@@ -106,7 +106,7 @@ module fdl (
   assign send_o = (legal && repetition_q) || sends;
 
   logic [7:0] built_length;
-  logic built_q;  // the edge behind the decision
+  logic built_q;  // the edge after the decision
   logic to_ssap, from_dsap;
   assign to_ssap = sa_i[7];
   assign from_dsap = sa_i[7] && da_i[7];

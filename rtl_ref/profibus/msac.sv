@@ -11,7 +11,7 @@ module msac (
   input  logic        init_i,           // an initialisation is committed
   // the DP slave
   input  logic        left_i,           // DATA_EXCH is left at this edge
-  input  logic        data_exch_i,      // behind the commits
+  input  logic        data_exch_i,      // after the commits
   input  logic        from_holder_i,
   input  logic        prm_dpv1_i,       // DPV1_Enable of the Set_Prm in force
   input  logic        dpv1_on_i,        // D17

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // MSAC_C2 (15.2; V2 to V13): Initiate on SAP 49, the two channels on SAPs 48 and 47, and whose turn it is with the user.
 //
-// Of two vectors bit 0 is the channel of SAP 48 (30), bit 1 that of SAP 47 (2F).
+// In vectors of two bits, bit 0 is the channel of SAP 48 (30), bit 1 that of SAP 47 (2F).
 `include "profibus_types.svh"
 
 module msac2 (

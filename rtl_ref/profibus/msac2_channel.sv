@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // A channel of MSAC_C2 (15.2; V2, V3, V8 to V13): its row of the RM registry, its state and its timers.
 //
-// At an edge: the user's answer, then the end of a timer, then the telegram: _q before the edge, _b behind the timers, _d behind
+// At an edge: the user's answer, then the end of a timer, then the telegram: _q before the edge, _b after the timers, _d after
 // the telegram.
 `include "profibus_types.svh"
 
@@ -42,8 +42,8 @@ module msac2_channel (
   output logic [31:0] reply_head_o,     // these four bytes, the first lowest; longer: four of 00 and Add_Addr
   output logic [7:0]  reply_length_o,
   // what it is
-  output logic        free_o,           // behind the timers
-  output logic        busy_o,           // behind the telegram
+  output logic        free_o,           // after the timers
+  output logic        busy_o,           // after the telegram
   output logic [23:0] request_o,
   output logic [7:0]  length_o,         // of what waits: the request, the user's answer, the answer to Initiate
   output logic        long_o,

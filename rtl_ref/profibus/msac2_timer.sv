@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// A timer of a C2 channel (15.2; V3, V12): units x 480 000 cycles from its start. It is loaded one edge behind the start, and its end
+// A timer of a C2 channel (15.2; V3, V12): units x 480 000 cycles from its start. It is loaded one edge after the start, and its end
 // is seen one edge ahead, so that neither lengthens the path through a decision.
 `include "profibus_types.svh"
 
@@ -9,7 +9,7 @@ module msac2_timer (
   input  logic        rst_ni,
   input  logic        start_i,  // at this edge, also when it runs
   input  logic        stop_i,
-  input  logic [15:0] units_i,  // of 10 ms, not 0; at the edge behind the start
+  input  logic [15:0] units_i,  // of 10 ms, not 0; at the edge after the start
   input  logic        late_i,   // one cycle more, at the same edge: for faults
   output logic        end_o     // it ends at this edge
 );

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bytes of DPV1 (section 15, section 3 on mail): requests and Initiates as they came, the user's answers, and the answer that the
-// builder fetches behind the decision.
+// builder fetches after the decision.
 //
 // Nothing is copied at a decision. Every telegram's bytes go into the spare one of four banks; where they become a request, that bank
 // and the requester's change places. A block of the user is read into its requester's answer, but only while that one has a request with the
@@ -34,7 +34,7 @@ module msac_buffers (
   input  logic        reply_i,
   input  logic [1:0]  requester_i,     // MSAC_C1, _30, _2F
   input  logic        user_i,          // the user's answer, else
-  input  logic [31:0] head_i,          // these four bytes, and behind eight the Add_Addr
+  input  logic [31:0] head_i,          // these four bytes, and after eight the Add_Addr
   input  logic        long_i,          // form of Add_Addr
   input  logic [7:0]  s_length_i,
   input  logic [7:0]  d_length_i,

@@ -127,7 +127,7 @@ module sap_buffers (
     end
   end
 
-  // Inputs and configuration behind the telegram
+  // Inputs and configuration after the telegram
   always_comb begin
     in1_d = in1_b;
     in2_d = in2_b;
@@ -157,7 +157,7 @@ module sap_buffers (
   logic take_output;
   assign take_output = take_i.outputs;
 
-  // Outputs. What was taken at this edge is gone before anything new arrives.
+  // Outputs. An item taken at this edge is removed before a new one arrives.
   always_comb begin
     out1_d = out1_q;
     out2_d = out2_q;
@@ -182,7 +182,7 @@ module sap_buffers (
     if (output_length_d == 8'd0) output_mail_d = 1'b0;
   end
 
-  // Banks that nobody uses
+  // Unused banks
   logic [6:0] used, bit_out1, bit_out2, bit_prm, bit_last, bit_in_use, bit_transfer;
   logic [2:0] free;
   assign bit_out1 = 7'd1 << out1_q;

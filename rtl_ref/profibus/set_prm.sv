@@ -9,7 +9,7 @@ module set_prm #(
   `FAULT_PORT
   input  logic        clk_i,
   /* verilator lint_off UNUSEDSIGNAL */
-  input  logic [63:0] head_i,          // first bytes of the telegram's data; reserved bits are not looked at
+  input  logic [63:0] head_i,          // first bytes of the telegram's data; reserved bits are ignored
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic [7:0]  length_i,
   /* verilator lint_off UNUSEDSIGNAL */

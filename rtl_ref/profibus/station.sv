@@ -4,7 +4,7 @@
 `include "profibus_types.svh"
 
 module station #(
-  // What the user's side and its buffers can take; the defaults are all that the protocol has
+  // Capacity of the user's side and its buffers; the defaults are the protocol's limits
   parameter logic [7:0] MAX_DATA = MOST_DATA,  // inputs, outputs
   parameter logic [7:0] MAX_PRM = MOST_PRM,    // user parameters
   parameter logic [7:0] MAX_CFG = MOST_DATA    // configuration

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // Assembles telegrams (section 7; S3, S10) from characters and says when one is decided.
 //
-// Fields are kept until the next telegram begins. The bytes behind the SAPs are handed on as they arrive; the first eight are
+// Fields are kept until the next telegram begins. The bytes after the SAPs are handed on as they arrive; the first eight are
 // also kept.
 `include "profibus_types.svh"
 
@@ -11,7 +11,7 @@ module telegram_rx (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        restart_i,  // a rate is selected at this edge: nothing is decided
-  input  logic        risen_i,    // PBRTS rose at the last edge, behind the decision
+  input  logic        risen_i,    // PBRTS rose at the last edge, after the decision
   input  logic        valid_i,    // a character, as uart_rx gives it
   input  logic [7:0]  char_i,
   input  logic        ok_i,
@@ -25,14 +25,14 @@ module telegram_rx (
   output logic        synced_o,
   output logic [7:0]  da_o,
   output logic [7:0]  sa_o,
-  output logic [6:0]  fc_o,       // bit 7 is not looked at
+  output logic [6:0]  fc_o,       // bit 7 is ignored
   output logic [7:0]  dsap_o,
   output logic [7:0]  ssap_o,
   output logic        saps_ok_o,  // the SAP bytes that DA and SA announce are there
-  output logic [7:0]  length_o,   // bytes behind the SAPs
+  output logic [7:0]  length_o,   // bytes after the SAPs
   output logic [7:0]  fcs_o,
   output logic [63:0] head_o,     // the first eight of them, the first lowest
-  output logic        data_valid_o,  // a byte behind the SAPs, at this edge
+  output logic        data_valid_o,  // a byte after the SAPs, at this edge
   output logic [7:0]  data_index_o,
   output logic [7:0]  data_o
 );

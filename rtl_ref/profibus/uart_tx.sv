@@ -5,14 +5,14 @@
 
 module uart_tx (
   `FAULT_PORT
-  input  logic [5:0]  rts_lead_i,     // 0 to 32: PBRTS has to rise behind the decision at every rate
+  input  logic [5:0]  rts_lead_i,     // 0 to 32: PBRTS has to rise after the decision at every rate
   input  logic [5:0]  rts_trail_i,    // 0 to 32
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        abort_i,        // initialisation
   input  logic        send_i,         // an answer, to the telegram decided at this edge
   input  logic [3:0]  rate_i,
-  input  logic [7:0]  min_tsdr_i,     // at the edge behind the decision
+  input  logic [7:0]  min_tsdr_i,     // at the edge after the decision
   input  logic [5:0]  clock_bits_i,   // of uart_rx, as of this edge
   input  logic [12:0] clock_phase_i,
   output logic [7:0]  index_o,
@@ -30,7 +30,7 @@ module uart_tx (
   localparam logic [2:0] TRAIL = 3'd4;
 
   logic [2:0] state_q;
-  logic fresh_q;  // the edge behind the decision
+  logic fresh_q;  // the edge after the decision
   logic [3:0] rate_q;
   logic [7:0] tsdr_q, tsdr_now, tsdr_limit;
   logic [8:0] bits_q;

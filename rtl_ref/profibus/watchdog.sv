@@ -3,7 +3,7 @@
 // Watchdog (8.1; S1, S22): BAUD_CONTROL watches for telegrams to this station, DP_CONTROL for those of the holding master.
 //
 // One timer of three nested counters, base time x WD_Fact_1 x WD_Fact_2; BAUD_CONTROL uses the innermost only. It is loaded one edge
-// behind its start, and its end is seen one edge ahead, so that neither lengthens the path through a decision.
+// after its start, and its end is seen one edge ahead, so that neither lengthens the path through a decision.
 `include "profibus_types.svh"
 
 module watchdog (
@@ -17,10 +17,10 @@ module watchdog (
   input  logic        commit_baud_i,     // ... without WD_On, or one that leads to WAIT_PRM
   input  logic        trigger_i,         // telegram to the own address
   input  logic        trigger_holder_i,  // ... of the holding master
-  input  logic        accept_dp_i,       // Set_Prm accepted with WD_On, behind an end at the same edge
+  input  logic        accept_dp_i,       // Set_Prm accepted with WD_On, after an end at the same edge
   input  logic        accept_baud_i,     // Set_Prm accepted without WD_On
   input  logic        wait_prm_i,        // WAIT_PRM entered by refusal, Unlock, wrong length
-  input  logic [7:0]  factor_1_i,        // of the parameters in use, at the edge behind their acceptance
+  input  logic [7:0]  factor_1_i,        // of the parameters in use, at the edge after their acceptance
   input  logic [7:0]  factor_2_i,
   input  logic        base_1ms_i,
   output logic        baud_end_o,        // BAUD_CONTROL ends at this edge

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Who owns the DPRAM with SPI (section 4, 5.3, 5.5; SP12 to SP17): claims, writes without one, read and write, U_Timer,
+// Ownership of the DPRAM with SPI (section 4, 5.3, 5.5; SP12 to SP17): claims, writes without one, read and write, U_Timer,
 // block CRCs.
 #include "rsu_bench.hpp"
 
@@ -21,7 +21,7 @@ void aim(RsuBench& b, int64_t judgement, size_t bytes) {
   b.tick = 250 * (judgement - 4) + 100 - b.lead - 2 * b.half * (bits - 1) - 1;
 }
 
-// The access that begins first at or after `from`, when nobody holds
+// The access that begins first at or after `from`, when neither side holds
 int64_t next_access(const RsuBench& b, int64_t from) {
   int64_t s = b.own.rise;
   while (s < from) s += 48;
@@ -163,7 +163,7 @@ void earlier_write(unsigned fault) {
   chip.write_gap = 0;
   RsuBench b(with(chip, fault));
   b.claim();
-  b.half = 125;  // 48 MHz, so that of replies only the last bytes are looked at
+  b.half = 125;  // 48 MHz, so that only the last bytes of replies are checked
   b.lead = b.lag = b.high = 500;
   for (const size_t data : {size_t{60}, size_t{200}}) {
     b.clock(2000);

@@ -219,7 +219,7 @@ void early_reads(unsigned fault) {
   expect_bytes(b.read(0x000, 1), {1}, "a frame after it");
 }
 
-// SCK at 24 MHz and 48 MHz: not legal (SP2), but ruled. Of the first byte some bits are sent before it is there.
+// SCK at 24 MHz and 48 MHz: not legal (SP2), but ruled. Some bits of the first byte are sent before it is loaded.
 void fast(RsuBench& b) {
   const Bytes wanted = with_crc({0x81, 0x00, 0x0D, 7, 1});
   for (const int64_t half : {250, 125}) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Test of DSDPV1-RSU's serial ports by themselves, under Verilator: what docs/microarchitecture_rsu.md says of pins,
+// Test of DSDPV1-RSU's serial ports alone, under Verilator: the statements of docs/microarchitecture_rsu.md about pins,
 // cells and cycles. With `faults FILE` it switches each fault of dsdpv1_rsu/faults.txt on and plays the group that the
 // file names for it, which has to fail.
 #include <cstdlib>

@@ -88,7 +88,7 @@ void characters(RsuBench& b) {
     b.clock(3000);
     expect_heard(b, "a silence after that");
   }
-  // a glitch is no character
+  // a glitch is not a character
   b.top.rxd_i = 0;
   b.clock(12);
   b.top.rxd_i = 1;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// What the RTL's own tests share that needs no chip: expectations, a pin's changes, telegrams of the bus.
+// Parts of the RTL's tests that need no chip: expectations, a pin's changes, telegrams of the bus.
 #pragma once
 
 #include <cstdint>
