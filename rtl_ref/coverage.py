@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0 OR MIT
-"""Coverage of the reference RTL: what Verilator counted, by file, and why the rest was not reached (coverage.txt of a chip)."""
+"""Coverage of the reference RTL: Verilator's counts by file, and the reasons for the rest (coverage.txt of a chip)."""
 import argparse
 import collections
 import fnmatch
@@ -23,7 +23,7 @@ BITS = re.compile(r"([^\[]+)\[(\d+(?::\d+)?(?:, *\d+(?::\d+)?)*)\]")
 
 
 def read_points(data, chip):
-    """Point -> count, of all blocks of the first chip, of the others' own; one that stands in several instances of a module is counted in all of them together."""
+    """Point -> count, of all blocks of the first chip, and of the other chips' additional blocks; a point in several instances of a module has their sum."""
     counts = collections.Counter()
     for record in pathlib.Path(data).read_text(encoding="utf-8").splitlines():
         if record.startswith("#"):

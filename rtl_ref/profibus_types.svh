@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Constants, functions and bundles that the blocks of every DP slave chip share (profibus/): the protocol, and the seam to the user's
+// Constants, functions and bundles shared by the blocks of every DP slave chip (profibus/): the protocol, and the seam to the user's
 // side. No address, size or register of a chip. Words and numbers are those of docs/microarchitecture.md.
 `ifndef PROFIBUS_TYPES_SVH
 `define PROFIBUS_TYPES_SVH
@@ -211,8 +211,8 @@ typedef struct packed {
   logic unfreeze;
 } decision_t;
 
-// ---- the user's side. Two bundles between station and whatever gives the user the bus: what that one commands, and what it hears. Every
-// command acts at the edge at which it is high; what is heard are registers.
+// ---- the user's side. Two bundles between station and the block that gives the user the bus: its commands and its inputs. Every
+// command acts at the edge at which it is high; the inputs are registers.
 
 // Kinds of the user's diagnosis (6.2.4).
 localparam logic [1:0] DIAG_UNKNOWN = 2'd0;   // is not taken
@@ -224,7 +224,7 @@ typedef struct packed {
   logic        commit;        // initialises, also again
   logic [6:0]  address;
   logic [15:0] ident;
-  logic        fail_safe;     // what the slave is to support: Fail_Safe, Sync, Freeze, Set_Slave_Address
+  logic        fail_safe;     // functions that the slave supports: Fail_Safe, Sync, Freeze, Set_Slave_Address
   logic        sync;
   logic        freeze;
   logic        set_address;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Notes of what the chip's status bytes are to say (9.2, section 10; D1, D5, D7, D16): which of them have to be written, and what.
+// Pending values of the chip's status bytes (9.2, section 10; D1, D5, D7, D16): which of them have to be written, and with which value.
 `include "dpram_types.svh"
 
 module chip_status (
@@ -14,7 +14,7 @@ module chip_status (
   input  logic        crc_wrong_i,
   input  logic [7:0]  error_bit_i,     // its bit in B00B
   input  logic        keeps_i,         // a right block does not clear it (D16)
-  input  logic        clear_inputs_i,  // the user has the inputs' bit cleared at this edge (D16)
+  input  logic        clear_inputs_i,  // the user clears the inputs' bit at this edge (D16)
   input  logic        init_i,          // an initialisation is read, and at this edge
   input  logic        init_right_i,    // ... accepted
   input  logic        init_limits_i,   // ... its limits were checked

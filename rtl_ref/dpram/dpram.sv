@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // The DPRAM of 2 KB (4.1, P4). Four block RAMs with one write port each, interleaved by the low address bits: the chip moves along
 // ascending addresses, so a user who writes without owning the DPRAM (P12) finds a free port at once or a cycle or two later. Until
-// then that write stands in a queue that reads look into: it counts as made at the cycle in which it settled.
+// then that write is in a queue that reads check: it counts as made in the cycle in which it settled.
 `include "dpram_types.svh"
 
 module dpram (

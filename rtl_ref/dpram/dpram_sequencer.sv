@@ -22,7 +22,7 @@ module dpram_sequencer (
   // station
   output user_commands_t commands_o,
   /* verilator lint_off UNUSEDSIGNAL */
-  input  user_hears_t hears_i           // its address and Global_Control are not told to the user
+  input  user_hears_t hears_i           // its address and Global_Control are not reported to the user
   /* verilator lint_on UNUSEDSIGNAL */
 );
   logic [4:0] state_q, state_d;

@@ -150,7 +150,7 @@ module dsdpv1_rsu #(
   // ---- the serial ports
   logic host_holds, host_owns;
   /* verilator lint_off UNUSEDSIGNAL */
-  logic [7:0] b014;  // for who looks at the DPRAM from outside: with SPI a register instead of the cell (5.4)
+  logic [7:0] b014;  // for external views of the DPRAM: with SPI a register instead of the cell (5.4)
   /* verilator lint_on UNUSEDSIGNAL */
   assign b014 = {6'd0, host_owns, spi && chip_owns};
   serial_port u_serial_port (

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Commits (4.2, 6.4; SP9, SP16, UA6, UA9 to UA12): what a telegram does to the DPRAM, one byte a cycle, when no access of the chip runs.
+// Commits (4.2, 6.4; SP9, SP16, UA6, UA9 to UA12): a telegram's changes to the DPRAM, one byte a cycle, while no access of the chip runs.
 //
 // The state says what the next edge does. A byte read at one edge is in rdata_i (bdata_i) at the next. With UART the bytes of a reply go into
 // the buffer's other half as they arrive.

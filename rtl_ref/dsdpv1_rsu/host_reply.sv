@@ -49,7 +49,7 @@ module host_reply (
   localparam logic [3:0] CRC_HIGH = 4'd8;
   localparam logic [3:0] CRC_LOW = 4'd9;
 
-  // ---- what is replied to, from its judgement on
+  // ---- the telegram that is replied to, from its judgement on
   logic [1:0] ask_q, ask;
   logic refused_q, refused, exchanges_q, uart_exchange;
   logic [3:0] code_q, code;

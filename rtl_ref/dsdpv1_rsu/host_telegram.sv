@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Telegrams of the host, byte by byte (5.3, 6.2): their fields, their CRC, and what is wrong with them. Data go into the buffer, from
+// Telegrams of the host, byte by byte (5.3, 6.2): their fields, their CRC, and their errors. Data go into the buffer, from
 // its byte 1 on; the length byte of SPI's read and write, which is written with them, is byte 0.
 //
 // Two bytes and more lie between the length byte and the judgement, at least eight cycles each: what address and length say is in registers by then.
@@ -126,7 +126,7 @@ module host_telegram (
     end
   end
 
-  // ---- what is wrong (SP10, UA5, UA9, UA13)
+  // ---- errors (SP10, UA5, UA9, UA13)
   logic [7:0] most_data, most_bytes, area_size;
   logic [11:0] end_address;
   logic [1:0] area;

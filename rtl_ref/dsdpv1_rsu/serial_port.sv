@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// The two serial host ports, SPI and UART, of which the mode chooses one or none: telegrams, their judgement, commit and reply.
+// The two serial host ports, SPI and UART, of which the mode selects one or none: telegrams, their judgement, commit and reply.
 //
 // A reply reads the DPRAM while the chip may be in an access (SP14), so there is a second copy of it, which all writes go to.
 `include "dsdpv1_rsu_types.svh"
@@ -54,7 +54,7 @@ module serial_port (
     .miso_o(miso_o), .miso_oe_o(miso_oe_o), .begins_o(frame_begins), .take_o(spi_take), .byte_o(spi_byte), .ends_o(frame_ends),
     .odd_o(odd), .deaf_i(commit_waits), .gap_i(gap), .load_i(load), .load_odd_i(load_odd), .load_byte_i(reply_byte));
 
-  // B015, B019 and B01A as the host wrote them last (5.5)
+  // the host's last values of B015, B019 and B01A (5.5)
   logic enable_q;
   logic [2:0] interval_q;
   logic [7:0] tsdr_q;

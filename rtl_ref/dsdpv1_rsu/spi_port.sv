@@ -20,7 +20,7 @@ module spi_port (
   output logic [7:0]  byte_o,
   output logic        ends_o,       // Y
   output logic        odd_o,        // the number of bytes handed over before is odd
-  input  logic        deaf_i,       // a write waits: no frame that begins now is heard
+  input  logic        deaf_i,       // a write waits: a frame that begins now is ignored
   input  logic        gap_i,        // the last byte of a telegram after which a gap has to be kept
   // load of the reply
   input  logic        load_i,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Looks at a telegram to SAP 51, 48 or 47 (15; V9, V11): what it is, and whether a request is right. The bytes stand still long before
+// Checks a telegram to SAP 51, 48 or 47 (15; V9, V11): its kind, and whether a request is valid. The bytes stand still long before
 // the decision: all results are registers.
 `include "profibus_types.svh"
 

@@ -178,7 +178,7 @@ module sap_buffers (
       out2_zero_d = out1_zero_d;
       if (output_length_now_o != 8'd0) output_mail_d = 1'b1;
     end
-    // Outputs of length 0 are never mail, also what waited when the length became 0
+    // Outputs of length 0 are never mail, nor are waiting ones when the length becomes 0
     if (output_length_d == 8'd0) output_mail_d = 1'b0;
   end
 

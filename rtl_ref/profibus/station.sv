@@ -123,7 +123,7 @@ module station #(
 
   assign answer = msac_replies ? msac_answer : slave_answer;
 
-  // Whose bytes the builder and the user's side fetch
+  // Selects the bytes for the builder and the user's side
   logic msac_built_q, msac_mail_q;
   always_ff @(posedge clk_i) begin
     if (send) msac_built_q <= msac_replies;

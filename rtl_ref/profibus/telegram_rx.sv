@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Assembles telegrams (section 7; S3, S10) from characters and says when one is decided.
+// Assembles telegrams (section 7; S3, S10) from characters and signals when one is decided.
 //
 // Fields are kept until the next telegram begins. The bytes after the SAPs are handed on as they arrive; the first eight are
 // also kept.

@@ -3,7 +3,7 @@
 // Receiver of characters (section 6; S2, S10): 11 bits, sampled at mid-bit from the synchronised falling edge.
 //
 // A character that is complete at edge C is handed on registered, that is, telegram_rx uses it at edge C+1; nothing can be decided
-// before C+7. Also here, because they start from C: the idle time, the deadline of the telegram and the clock of the answer.
+// before C+7. Three counters are here because they start from C: the idle time, the deadline of the telegram and the clock of the answer.
 `include "profibus_types.svh"
 
 module uart_rx (

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Ownership of the DPRAM with SPI (section 4, 5.3, 5.5; SP12 to SP17): claims, writes without one, read and write, U_Timer,
-// block CRCs.
+// Ownership of the DPRAM with SPI (section 4, 5.3, 5.5; SP12 to SP17): claims, writes without one, read and write,
+// U_Timer, block CRCs.
 #include "rsu_bench.hpp"
 
 namespace rtl {

@@ -101,7 +101,8 @@ def page_sentences(root):
 
 # -------------------------------------------------------------------------------------------------------- help, comments
 STRING = r'"(?:[^"\\\n]|\\.)*"'
-COMMENT_OR_STRING = re.compile(rf"{STRING}|'(?:[^'\\\n]|\\.)'|//[^\n]*(?:\n[ \t]*//[^\n]*)*|/\*.*?\*/", re.S)
+LINES = r"^[ \t]*//[^\n]*(?:\n[ \t]*//[^\n]*)*"
+COMMENT_OR_STRING = re.compile(rf"{STRING}|'(?:[^'\\\n]|\\.)'|{LINES}|//[^\n]*|/\*.*?\*/", re.S | re.M)
 
 
 def help_sentences(root):
@@ -115,7 +116,7 @@ def help_sentences(root):
 
 def comments_of_c(text):
     for found in COMMENT_OR_STRING.finditer(text):
-        if found.group().startswith("/"):
+        if found.group().lstrip().startswith("/"):
             words = re.sub(r"\*/$|^[ \t]*(?://[/!<]*|/\*+|\*(?!/))(?: SPDX-.*)?", "", found.group(), flags=re.M)
             yield text.count("\n", 0, found.start()) + 1, words
 
