@@ -1,4 +1,4 @@
-"""Whether the data of this folder are true and complete: one line a fault."""
+"""Checks that the data of this folder are true and complete: one line a fault."""
 import re
 
 import data as source

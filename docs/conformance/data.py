@@ -1,6 +1,6 @@
 """Reads the YAML files of this folder: rulings, documents with their clauses, the test plan's other parts.
 
-What is written badly is told with file and line (BadData). Whether it is true is check.py's business.
+Bad syntax is reported with file and line (BadData). check.py checks whether it is true.
 """
 import re
 from dataclasses import dataclass, field
@@ -68,7 +68,7 @@ class Document:
 
 @dataclass
 class Section:
-    """Of the test plan: text, then the rulings that begin with these letters, or rows."""
+    """A section of the test plan: text, then the rulings that begin with these letters, or rows."""
 
     title: str
     text: str
@@ -110,7 +110,7 @@ class Map(dict):
 
 
 def build(node, file):
-    """Scalars stay the text that they are in the file: 4.10 is no number here."""
+    """Scalars stay the text that they are in the file: 4.10 is not a number here."""
     if isinstance(node, yaml.ScalarNode):
         return node.value
     if isinstance(node, yaml.SequenceNode):
@@ -192,7 +192,7 @@ def joined(lists):
 
 
 def covers(clause, place):
-    """Whether a clause is at a place: at 5.1 are 5.1 and 5.1-3."""
+    """True if a clause is at a place: at 5.1 are 5.1 and 5.1-3."""
     return clause.name == place or clause.name.startswith(place + "-")
 
 

@@ -1,4 +1,4 @@
-"""What the last run says of the tests that the data name: read from ctest's JUnit report, or from the recorded run.
+"""The last run's results of the tests that the data name: read from ctest's JUnit report, or from the recorded run.
 
 The record (last_run.txt) has one line a name, its parts divided by tabs: the name, how many tests of it passed, how many there were, and the
 names of those that did not pass. docs/conformance.md is made from it, so that the page is a function of files under version control alone.
@@ -40,7 +40,7 @@ class Run:
 
 # -------------------------------------------------------------------------------------------------------- JUnit reports
 def short_name(case):
-    """CMake puts the parameter's value behind the name of a test."""
+    """CMake puts the parameter's value after the name of a test."""
     return re.sub(r"\s*# GetParam\(\) = .*", "", case.get("name"), flags=re.S)
 
 

@@ -79,7 +79,7 @@ class Vcd:
 
 
 def short(words):
-    """What fits above a telegram."""
+    """The text that fits above a telegram."""
     for text, name in (("token", "token"), ("SC", "SC"), ("Set Prm", "Set_Prm"), ("Chk Cfg", "Chk_Cfg")):
         if text in words:
             return name

@@ -190,7 +190,7 @@ TEST_F(BaudControl, IsKeptAliveInItsLastCycleAndNotInTheNext) {
     const Cycle end = bench.last(Reason::kBaudFound).at / kCycleTicks + 3 * kMs;
     send_decided_at(bench, in_time ? end - 1 : end, 0, kToChip);
     EXPECT_EQ(bench.count(Reason::kBaudLost), in_time ? 0 : 1);
-    // S22: the time is first. S9: the same telegram then only begins the search anew; it came before the restart and
+    // S22: the time is first. S9: the same telegram then only restarts the search; it came before the restart and
     // locks nothing.
     EXPECT_EQ(bench.chip.status().baud_index.code(), in_time ? 0 : 15);
   }

@@ -258,7 +258,7 @@ TEST_F(Fdl, SameFrameCountOfAnotherMasterIsNoRepetition) {
   ASSERT_TRUE(is_data(other)) << kind_of(other);
   EXPECT_EQ(other.answer().data.size(), 6U);
   const auto before = executed();
-  EXPECT_TRUE(dx(kFcb0, {5, 6}).answered());  // the memory is the other's now: stored anew, executed
+  EXPECT_TRUE(dx(kFcb0, {5, 6}).answered());  // the memory is the other's now: stored again, executed
   EXPECT_EQ(executed(), before + 1);
   EXPECT_EQ(bench.count(Reason::kRepetition), 0);
 }
@@ -349,7 +349,7 @@ TEST_F(Fdl, RequestBegunBeforeTheAnswerIsLostToIt) {
   bench.to_data_exch({}, prm);
   const auto executed_before = executed();
   bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFdlStatus), {.wants_answer = false});
-  // 66 bits long, begun 33 bits behind the first: the answer begins in its middle.
+  // 66 bits long, begun 33 bits after the first: the answer begins in its middle.
   bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFirst, {1, 2}), {.wants_answer = false});
   bench.run_for(bench.requester.bit() * 300);
   EXPECT_EQ(executed(), executed_before);

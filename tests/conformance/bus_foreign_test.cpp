@@ -1,4 +1,4 @@
-// What a telegram for another station costs a chip that is told it as a run: no event, and nothing else differs.
+// A telegram for another station that a chip receives as a run: it causes no event, and nothing else differs.
 #include <gtest/gtest.h>
 
 #include "model/dsdpv1/chip.hpp"

@@ -83,7 +83,7 @@ TEST_F(Telegrams, WithAWrongBitAreIgnoredWhereverItIs) {
     for (int bit = 0; bit < 8; ++bit) {  // parity made right again, so that the byte itself is wrong
       Bytes bytes = request();
       bytes[i] = static_cast<std::uint8_t>(bytes[i] ^ (1U << bit));
-      if (i == 4) continue;  // DA: traffic of other stations; its FCS is nobody's business below
+      if (i == 4) continue;  // DA: traffic of other stations, whose FCS does not matter
       expect_ignored(bus::characters(bytes), {}, "character " + std::to_string(i) + ", bit " + std::to_string(bit));
     }
   }
@@ -274,7 +274,7 @@ TEST_F(Telegrams, TruncatedInsideACharacterAreIgnored) {
       faults.truncate_after = i;
       faults.truncate_bits = bits;
       Bytes bytes = request();
-      // Idle line behind the last bit sent: the character may still be the right one.
+      // Idle line after the last bit sent: the character may still be correct.
       const unsigned rest = static_cast<unsigned>(Character::of(bytes[i]).bits) >> bits;
       const bool same = i + 1 == bytes.size() && rest == (0x7FFU >> bits);
       if (same) continue;

@@ -12,8 +12,8 @@ constexpr int kRates[] = {0, 1, 3, 5};  // 4, 8, 32, 256 cycles a bit
 
 Bytes fdl_status_request() { return bus::encode(bus::make_telegram(5, 2, kFdlStatus)); }
 
-/// What S2 and P9 demand of a receiver, computed on the wire of a sender with a wrong clock: the first edge strictly
-/// after the start edge starts the character; the edges half a bit and whole bits later sample it.
+/// The requirements of S2 and P9 for a receiver, computed on the wire of a sender with a wrong clock: the first edge
+/// strictly after the start edge starts the character; the edges half a bit and whole bits later sample it.
 class SamplingOracle {
  public:
   SamplingOracle(Tick start, Tick bit, std::int64_t ppm, const Bytes& bytes) : start_(start), bit_(bit), ppm_(ppm) {
@@ -54,7 +54,7 @@ class SamplingOracle {
 class ReceiverTolerance : public testing::TestWithParam<int> {
  protected:
   void SetUp() override { bench.to_wait_prm({}, GetParam()); }
-  /// An FDL status request from a clock that is wrong by `ppm`, its start edge `phase` ticks behind a rising edge of
+  /// An FDL status request from a clock that is wrong by `ppm`, its start edge `phase` ticks after a rising edge of
   /// CLK.
   bool answered(std::int64_t ppm, Tick phase) {
     const Tick bit = bus::baud(GetParam()).bit;
@@ -88,7 +88,7 @@ TEST_P(ReceiverTolerance, AcceptsExactlyWhatSamplingInMidBitCanRead) {
 }
 
 TEST_P(ReceiverTolerance, ReachesTheTheoreticalLimitButForTheQuantisation) {
-  // The start edge is seen up to one cycle late, so samples lie 0 to 1 cycle behind mid-bit. A slow clock must not
+  // The start edge is seen up to one cycle late, so samples lie 0 to 1 cycle after mid-bit. A slow clock must not
   // bring the parity bit to the stop sample: 10 b' < 10.5 b + d. A fast one not the next start bit: 11 b' >= 10.5 b +
   // d.
   const std::int64_t bit = bus::baud(GetParam()).bit;
@@ -136,7 +136,7 @@ TEST_F(Glitches, BesideTheSampleOfAnyBitAreIgnored) {
   const std::size_t size = fdl_status_request().size();
   for (std::size_t character = 0; character < size; ++character) {
     for (int bit = 0; bit < bus::kCharacterBits; ++bit) {
-      for (const int offset : {50, 560}) {  // before and behind mid-bit
+      for (const int offset : {50, 560}) {  // before and after mid-bit
         bus::WireFaults faults;
         faults.glitch_at = character;
         faults.glitch = {bit * 1000 + offset, 400};

@@ -223,7 +223,7 @@ TEST_F(GlobalControl, WithB024ZeroClearsAndNeitherSyncsNorFreezes) {
   EXPECT_EQ(output_area(bench), (Bytes{3, 4})) << "outputs go on";
 }
 
-// S24: what B024 does not support is told in the diagnosis, until the next good Set_Prm.
+// S24: the diagnosis reports functions that B024 does not support, until the next good Set_Prm.
 TEST_F(GlobalControl, SyncOrFreezeThatIsNotSupportedSetsNotSupported) {
   struct Case {
     int b024, command, group;

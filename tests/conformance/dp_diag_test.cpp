@@ -218,7 +218,7 @@ TEST_F(Diagnosis, IsReadOnlyByTheHolder) {
 TEST_F(Diagnosis, GivenBeforeDataExchangeWaitsForTheHolder) {
   bench.to_wait_prm();
   bench.give_diag(0x81, {9});
-  EXPECT_EQ(diag(bench).size(), 7U);  // nobody holds the slave
+  EXPECT_EQ(diag(bench).size(), 7U);  // the slave has no holder
   ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
   ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
   EXPECT_EQ(priority(), "DH");

@@ -215,7 +215,7 @@ TEST_F(SetPrm, WithoutLockAndUnlockChangesOnlyMinTsdr) {
     if (before == DpState::kWaitCfg) one.to_wait_cfg();
     if (before == DpState::kDataExch) one.to_data_exch();
     const auto master = one.chip.status().master;
-    Prm only = with(0x38, Bytes(200, 0xFF), 0xFFFF, 0, 0);  // S28: ident, flags and length are not looked at
+    Prm only = with(0x38, Bytes(200, 0xFF), 0xFFFF, 0, 0);  // S28: ident, flags and length are not checked
     only.min_tsdr = 44;
     EXPECT_TRUE(is_sc(ask(one, 61, only.bytes())));
     EXPECT_EQ(one.dp_state(), before);

@@ -29,8 +29,7 @@ void bring(SlaveBench& bench, Situation situation) {
 
 constexpr std::uint8_t kHolder = 2, kOther = 3;
 
-/// What a service must be answered, holder and other master, in WAIT_PRM (where nobody holds the slave), WAIT_CFG and
-/// DATA_EXCH.
+/// The required answer to a service, for holder and other master, in WAIT_PRM (no holder), WAIT_CFG and DATA_EXCH.
 struct Row {
   const char* name;
   int dsap;

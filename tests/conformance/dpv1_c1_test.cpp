@@ -143,7 +143,7 @@ TEST_F(C1, ReadsOfMoreThan240BytesReachTheUserWhoJudges) {
   EXPECT_EQ(bench.count(Reason::kAcyclicRequestRefused), 0);
 }
 
-// D17. Until an audit B005 was looked at again at each Set_Prm.
+// D17. An early version checked B005 again at each Set_Prm.
 TEST_F(C1, B005CountsAtTheInitialisationAndNotLater) {
   start();
   bench.enable_dpv1(false);

@@ -139,7 +139,7 @@ TEST_F(C2, TwoChannelsForOneMasterOrForTwoAndAThirdIsRefused) {
   }
 }
 
-// D17, V7. Until an audit Initiate looked at B005 as the chip had read it last.
+// D17, V7. An early version of Initiate used the B005 that the chip had read last.
 TEST_F(C2, NeedsB005AtTheInitialisationAndNoParameterising) {
   bench.power_on();
   ASSERT_TRUE(bench.initialise());
@@ -561,8 +561,7 @@ TEST_F(C2, PollDecidedInTheCycleInWhichFEndsIsTooLate) {
   }
 }
 
-// What a master sees of the end of a time is what the chip answers to a telegram decided in the cycle of it, and in the
-// one before.
+// A master sees the end of a time in the chip's answers to telegrams decided in that cycle and in the one before.
 TEST_F(C2, RequestDecidedInTheCycleInWhichIEndsIsTooLate) {
   for (const int late : {0, 1}) {
     SCOPED_TRACE(late);

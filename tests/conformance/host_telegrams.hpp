@@ -1,5 +1,5 @@
 #pragma once
-// What a host sends to the SPI and the UART port of a DSDPV1-RSU, and CRCs of what it gets.
+// Telegrams of a host to the SPI and the UART port of a DSDPV1-RSU, and CRCs of the replies.
 #include <cstdint>
 
 #include "bus/bytes.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// The master's side of the conformance tests in short words: single requests that start a frame count series of their
-// own (so that none is a repetition), the kinds of answers, and what the chip reported meanwhile.
+// The master's side of the conformance tests in short calls: single requests that start a separate frame count series
+// (so that none is a repetition), the kinds of answers, and the chip's reports meanwhile.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -84,10 +84,10 @@ inline Bytes diag(SlaveBench& bench, std::uint8_t master = 2) {
 /// B008/B009: how often the slave left DATA_EXCH.
 inline int offline_count(const SlaveBench& bench) { return bench.chip.peek(0x008) << 8 | bench.chip.peek(0x009); }
 
-/// What the output area of the DPRAM holds.
+/// The output area of the DPRAM.
 inline Bytes output_area(SlaveBench& bench) { return bench.peek(0x31A, bench.peek(0x319)); }
 
-/// Sends at a time such that the chip decides the telegram at this cycle (S10: 1 bit time behind its last stop bit),
+/// Sends at a time such that the chip decides the telegram at this cycle (S10: 1 bit time after its last stop bit),
 /// and runs two bit times beyond its end or that of the answer.
 inline void send_decided_at(SlaveBench& bench, profibus::Cycle decision, int baud, const bus::Telegram& telegram,
                             bool wants_answer = false) {

@@ -1,5 +1,5 @@
 // The core takes memory when it is made and at no other time: start-up, baud rate search, bring-up, data exchange and
-// a reset go by without a single allocation. A program of its own, because it replaces operator new.
+// a reset go by without a single allocation. A separate program, because it replaces operator new.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -84,7 +84,7 @@ class RsuBench {
   void send(std::uint8_t byte, const Character& how);
   /// The request, and what TXD gives from then on until it is silent for 100 bits; `limit` characters at most.
   Bytes talk(const Bytes& request);
-  /// What TXD has sent since `from`.
+  /// The characters that TXD has sent since `from`.
   Bytes sent_since(Tick from) const;
 
  private:

@@ -92,7 +92,7 @@ TEST(RsuStraps, CardAddress) {
   }
 }
 
-// R14: the parallel port is dead in SPI and UART mode, and nobody waits for R_REQ or R_STA.
+// R14: the parallel port is dead in SPI and UART mode, and nothing waits for R_REQ or R_STA.
 TEST(RsuPorts, ParallelPortIsDead) {
   for (const HostMode mode : {HostMode::kSpi, HostMode::kUart}) {
     Straps straps;

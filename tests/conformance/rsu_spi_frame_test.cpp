@@ -152,7 +152,7 @@ TEST_F(RsuSpiFrame, MosiAtTheTickOfTheRise) {
   bench_.xss(1);
 }
 
-// An edge of SCK at the tick of XSS's rise counts, whichever is told first; one at the tick of its fall does not.
+// An edge of SCK at the tick of XSS's rise counts, whichever is reported first; one at the tick of its fall does not.
 TEST_F(RsuSpiFrame, EdgesAtTheTickOfXss) {
   for (const bool xss_first : {false, true}) {
     bench_.forget_events();

@@ -329,7 +329,8 @@ TEST(RsuSpiStartUp, AFrameThatBeginsAtTheJudgementOfAWriteIsHeardUnlessTheWriteW
   }
 }
 
-// SP9: who keeps 2.7 us is heard at every phase of CLK, as is from 128 cycles on; below 31750 ticks nobody is.
+// SP9: a host that keeps 2.7 us is heard at every phase of CLK, and so is a gap of 128 cycles; none below 31750 ticks
+// is.
 TEST_F(RsuSpi, GapAfterAWrite) {
   bench_.claim();
   for (const Tick gap : {31'740, 31'760, 32'000, 32'390, 32'400}) {

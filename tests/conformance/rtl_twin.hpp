@@ -1,7 +1,7 @@
 #pragma once
-// The reference RTL as one more twin of a chip under test. Beside it stands a core of its own, so that every change of
-// an output pin, and the DPRAM after each access that can have changed it, is compared as in co-simulation: what a test
-// expects of the chip it expects of the RTL.
+// The reference RTL as one more twin of a chip under test. A separate core runs beside it. Every change of
+// an output pin, and the DPRAM after each access that can have changed it, is compared as in co-simulation. A test's
+// expectations of the chip thus apply to the RTL.
 #include <memory>
 
 #include "bus/time.hpp"

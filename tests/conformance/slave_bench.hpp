@@ -81,7 +81,7 @@ class SlaveBench {
   std::optional<Bytes> fetch_outputs();
 
   // --- the master
-  /// A baud rate (0 = 12M ... 9 = 9.6k), and one telegram after another to nobody until the chip has found it.
+  /// A baud rate (0 = 12M ... 9 = 9.6k), and one telegram after another to no station until the chip has found it.
   void find_baud(int index = 0);
   /// Request with SRD to the chip's address from `master` (default 2) with a right frame count bit.
   bus::Exchange srd(int dsap, int ssap, const Bytes& data);

@@ -48,7 +48,7 @@ unsigned restored_every(unsigned usual) {
   return given == nullptr ? usual : static_cast<unsigned>(std::max(1L, std::strtol(given, nullptr, 10)));
 }
 
-/// It goes on from what it has saved, which is what it saves again.
+/// The chip continues from its saved state, and saves the same state again.
 void save_and_restore(dsdpv1::Chip& chip) {
   const std::vector<std::uint8_t> state = chip.save();
   chip.restore(state.data(), state.size());
@@ -80,7 +80,7 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
   if (twin_) doze_station_ = segment.attach("doze", &ear_);
 }
 
-/// What came after the last comparison, which ends before its tick: for tests that end with an answer.
+/// Compares the rest after the last comparison, which ends before its tick: for tests that end with an answer.
 TwinChip::~TwinChip() {
   constexpr Tick kAfterwards = 100 * profibus::kTicksPerCycle;
   if (rtl_) rtl_->compare(skip_.now() + kAfterwards);
@@ -132,7 +132,7 @@ void TwinChip::leave_run_with_doze(Tick at) {
   doze_.leave_run(at);
 }
 
-/// With what it has not been told of the line; it is told all until filter_for_doze().
+/// With the line's pending changes; it receives all changes until filter_for_doze().
 dsdpv1::Chip& TwinChip::doze() {
   segment_.hear(doze_station_);
   segment_.set_filter(doze_station_, {});
@@ -151,7 +151,7 @@ Level TwinChip::sample(Tick at) {
 
 void TwinChip::run(Tick now) {
   skip_.advance(now);
-  if (!twin_ || doze_.next_event() > now) return;  // it sleeps longer than the others, and is told less
+  if (!twin_ || doze_.next_event() > now) return;  // it sleeps longer than the others, and receives less
   doze().advance(now);
   leave_run_with_doze(now);
   filter_for_doze();

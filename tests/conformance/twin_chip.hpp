@@ -1,10 +1,10 @@
 #pragma once
-// The chip under test, three times: one evaluated in every cycle (step), one sleeping between its actions (skip), and
-// one whose L_REQ and L_STA nobody watches, so that it sleeps through quiet accesses, too, and which hears whole runs
-// of characters, but for those of others, or else the line as late as it may (doze); fed with the same pins. Every
+// The chip under test, three times with the same pins: one evaluated in every cycle (step), one sleeping between its
+// actions (skip), and one that dozes. The third has no observer of L_REQ and L_STA, so it also sleeps through quiet
+// accesses. It takes whole runs of characters, except those for others, or else hears the line as late as it may. Every
 // difference of pins or events fails the test, so each conformance test also proves that they agree. From time to time
-// one of them goes on from what it has saved (Chip::save), so that it also proves that nothing is forgotten there.
-// Where the environment asks for it the reference RTL is a fourth (rtl_twin.hpp).
+// one of them continues from its saved state (Chip::save), which proves that the state is complete. If the environment
+// requests it, the reference RTL is a fourth (rtl_twin.hpp).
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
@@ -28,8 +28,8 @@ struct PinChange {
   bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
 };
 
-/// The twins of a bench go on from what they have saved, one after the other: one of them each time that so many
-/// comparisons are over, `usual` or what DSDPV1_RESTORED_EVERY in the environment says.
+/// The twins of a bench continue from their saved states, one after the other: one of them after so many comparisons,
+/// `usual` or DSDPV1_RESTORED_EVERY of the environment.
 class Restorer {
  public:
   explicit Restorer(unsigned usual);
@@ -39,7 +39,7 @@ class Restorer {
   unsigned every_, comparisons_ = 0;
 };
 
-/// Whether the chip has its twins. Alone, in skip, it keeps no trace either: for long campaigns.
+/// The engines of the chip under test. Alone, in skip, it keeps no trace either: for long campaigns.
 enum class Engines : std::uint8_t { kStepAndSkip, kSkipAlone };
 
 class TwinChip : public bus::Agent, public bus::Listener {

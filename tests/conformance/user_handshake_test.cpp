@@ -1,4 +1,4 @@
-// Who owns the DPRAM: figures 4 and 5; rulings H1, H2, H3, H8, P9.
+// Ownership of the DPRAM: figures 4 and 5; rulings H1, H2, H3, H8, P9.
 #include <random>
 #include <string>
 
@@ -376,7 +376,7 @@ class RandomUser : public bus::Agent {
     wait(draw(0, 300), &RandomUser::work);
   }
   void work() {
-    // The cells are looked at by the debug door, written through the pins: the strobes have their own tests.
+    // The cells are read by peek and written through the pins: the strobes have separate tests.
     const std::uint8_t flags = bench_.chip.peek(regs::kUserCommand1), command = bench_.chip.peek(regs::kChipCommand1);
     if ((bench_.chip.peek(regs::kChipStatus2) & regs::kChipStatus2InputCrc) != 0) ++refused;
     if ((flags & regs::kUserCommand1Input) == 0 && draw(0, 1) == 0) plan_inputs();

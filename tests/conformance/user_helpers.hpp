@@ -1,6 +1,6 @@
 #pragma once
-// What the tests of the user's side share: times of edges, accesses as they are seen at the pins, scripted pins, and a
-// CRC-16 of its own (steps 1 to 7 of chapter 4.2).
+// Shared by the tests of the user's side: times of edges, accesses as they are seen at the pins, scripted pins, and a
+// separate CRC-16 (steps 1 to 7 of chapter 4.2).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 namespace dsdpv1::conformance {
 namespace {
 
-/// What the user and the pins show of an initialisation.
+/// The effects of an initialisation that the user and the pins show.
 struct Shown {
   std::uint8_t status1, status2, status4;
   Level ready;
@@ -146,7 +146,7 @@ TEST(UserInit, EveryCoveredByteIsInTheCrc) {
   for (std::size_t flipped = 1; flipped < block.size() + 1; ++flipped) {
     bench.acquire();
     Bytes sent = block;
-    sent.push_back(0x55);  // one byte behind the block: not covered
+    sent.push_back(0x55);  // one byte after the block: not covered
     sent[flipped] = static_cast<std::uint8_t>(sent[flipped] ^ 0x10);
     for (std::size_t i = 0; i < sent.size(); ++i) bench.write(static_cast<std::uint16_t>(regs::kInit + i), sent[i]);
     bench.write(regs::kInitCrc, static_cast<std::uint8_t>(crc >> 8));

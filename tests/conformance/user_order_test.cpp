@@ -26,7 +26,7 @@ struct Recorded {
   std::vector<std::string> items;  ///< what waves show of the access, one after another
 };
 
-/// What waves show of this cycle is what happened: a cell that changed is the byte that was written.
+/// Waves show the true access of this cycle: a cell that changed is the byte that was written.
 void check_inside(const SlaveBench& bench, const Bytes& before, const Bytes& now) {
   const dpram::Inside seen = bench.chip.inside().access;
   Bytes expected = before;

@@ -505,7 +505,7 @@ TEST_F(UserPort, WritesToTheChipsCellsAreReportedAndCarriedOut) {
     bench.write(cell.first, 0xE7);
     bench.run_cycles(4);
     EXPECT_EQ(bench.peek(cell.first), 0xE7) << cell.name;
-    const bool reported = cell.chip_writes && !cell.user_writes;  // P6; reserved cells are nobody's (P13)
+    const bool reported = cell.chip_writes && !cell.user_writes;  // P6; reserved cells belong to neither side (P13)
     EXPECT_EQ(bench.count(dsdpv1::Reason::kReadOnlyWritten) - before, reported ? 1 : 0) << cell.name;
   }
   EXPECT_EQ(bench.last(dsdpv1::Reason::kReadOnlyWritten).a, 0x5CB);

@@ -465,7 +465,7 @@ TEST(UserReset, ACellWithAViolatedWriteIsKnownAgainAfterReset) {
   bench.chip.set(bench.now(), Pin::kCsr, 0);
   bench.chip.set(bench.now(), Pin::kWr, 0);
   bench.run_for(600);
-  bench.chip.set(bench.now(), Pin::kWr, 1);  // nobody drives D
+  bench.chip.set(bench.now(), Pin::kWr, 1);  // D is not driven
   bench.run_for(600);
   bench.chip.set(bench.now(), Pin::kCsr, 1);
   ASSERT_EQ(bench.count(dsdpv1::Reason::kWriteFloating), 1);

@@ -1,5 +1,5 @@
-// A user without manners: every pin of theirs at random times, with and without a reset, while the master works.
-// Whatever they do, step and skip agree in pins, events and DPRAM, the chip keeps its own rules, and it works again
+// A user without manners: every input pin at random times, with and without a reset, while the master works.
+// In every case step and skip agree in pins, events and DPRAM, the chip keeps its rules, and it works again
 // afterwards.
 #include <random>
 

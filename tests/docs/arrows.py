@@ -4,7 +4,7 @@
     arrows.py [--root FOLDER]
 
 A row of the page's table is a room (a folder with C or C++ files) and the rooms that it includes; `bus/*` is bus and all rooms in it. A row
-`apps/*` is one room of several folders, whose arrows among each other are not looked at. A room includes only rooms that stand above it, so there
+`apps/*` is one room of several folders, whose arrows among each other are not checked. A room includes only rooms that stand above it, so there
 is no circle. One line a fault, exit 1 when there is any.
 """
 import re

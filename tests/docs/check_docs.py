@@ -32,7 +32,7 @@ GENERATED = ("out/", "build/", ".venv/")
 
 
 def documents(root):
-    """The project's own documents; symbolic links are somebody's convenience and no part of it."""
+    """The project's own documents; symbolic links are not part of it."""
     found = [*root.glob("*.md"), *root.glob("docs/**/*.md"), *root.glob("*/README.md")]
     return sorted(path for path in found if not path.is_symlink())
 

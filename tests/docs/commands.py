@@ -18,7 +18,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"(?:^<!-- exit (\d+) -->\n)?^```sh\n(.*?)^```\n(?:\s*^```text\n(.*?)^```$)?", re.M | re.S)
 NOT_SHARED = {"build", "out", "run", "packages.txt", ".git"}
-# Whatever a page says of time and money, a block that takes longer hangs.
+# A block that takes longer hangs, regardless of the times on a page.
 DEADLINE = 900
 
 
@@ -87,7 +87,7 @@ def without_network(build):
 
 
 def session(page, build):
-    """Of each block its words, status and output, up to the first that is wrong."""
+    """Words, status and output of each block, up to the first that is wrong."""
     text = page.read_text(encoding="utf-8")
     all_blocks = blocks(text)
     with tempfile.TemporaryDirectory(prefix="dsdpv1_page_") as name:

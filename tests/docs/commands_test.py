@@ -1,4 +1,4 @@
-"""What commands.py finds in a page, in a session of its own for each."""
+"""The faults that commands.py finds in a page, in a separate session for each."""
 import pathlib
 import re
 import subprocess

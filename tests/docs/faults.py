@@ -1,4 +1,4 @@
-"""What the checks of this folder that look at a whole project have in common: --root, a line for each fault, exit 1 when there is any."""
+"""Shared by the checks of a whole project in this folder: --root, a line for each fault, exit 1 when there is any."""
 import argparse
 import pathlib
 

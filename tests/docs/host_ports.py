@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a cycle of an application costs over each host port: the table in docs/programmers_guide.md is what runs of dsdpv1-sim give.
+"""The cost of an application's cycle over each host port: compares the table in docs/programmers_guide.md with runs of dsdpv1-sim.
 
     host_ports.py SIM            runs the ports that are fast enough for a test and compares their rows
     host_ports.py SIM --write    runs all and writes the table

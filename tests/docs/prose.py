@@ -20,7 +20,7 @@ import tokenize
 AVERAGE, LONGEST, PAGES_AND_HELP, COMMENTS = "words a sentence, on average", "words of a sentence", "phrases in pages and help", "phrases in comments"
 LIMITS = {AVERAGE: 16, LONGEST: 40, PAGES_AND_HELP: 150, COMMENTS: 1800}
 
-# What to write instead, and the words that call for it. The first row is about the beginning of a sentence.
+# The better words, and those that they replace. The first row is about the beginning of a sentence.
 FIRST_WORDS = ("a noun as the subject", r"(What|Who|Whoever|Whatever|Whether|Of|As of)\b(?! to do:)(?!.*\?$)")
 PHRASES = [
     ("no station, no observer, the passive", r"nobody|anybody|somebody|everybody"),
@@ -86,7 +86,7 @@ def prose_of_page(text):
 
 
 def page_sentences(root):
-    """Of the paragraphs, and of the cells of tables."""
+    """Those of paragraphs, and those in the cells of tables."""
     running, cells = [], []
     for path in sorted([*root.glob("*.md"), *root.glob("docs/**/*.md")]):
         name = path.relative_to(root).as_posix()

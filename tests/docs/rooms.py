@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a room of the project must not name: one line a fault, exit 1 when there is any. What it may include: arrows.py.
+"""The names that a room of the project must not contain: one line a fault, exit 1 when there is any. For includes see arrows.py.
 
     rooms.py    looks for the words of FORBIDDEN in the source of each room
 
@@ -78,7 +78,7 @@ def names_no_chip_any_more(root):
 
 
 def unknown_rooms(root):
-    """Rooms that are neither a chip's own nor held to know none, and those whose headers clang-tidy would pass over in silence."""
+    """Rooms in neither list, and those whose headers clang-tidy would skip silently."""
     tidied = re.search(r"^HeaderFilterRegex: '(.*)'$", (root / ".clang-tidy").read_text(encoding="utf-8"), re.M).group(1)
     for room in sorted(path.name for path in root.iterdir() if path.is_dir()):
         if room in NO_ROOMS or room.startswith(".") or not sources(root, room):

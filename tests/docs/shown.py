@@ -1,4 +1,4 @@
-"""What a page shows is what dsdpv1-sim prints: of a test for a page, `docs_example.py SIM [--write]`."""
+"""Compares the outputs on a page with those of dsdpv1-sim: for a page's test, `docs_example.py SIM [--write]`."""
 import pathlib
 import re
 import subprocess

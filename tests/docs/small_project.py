@@ -1,4 +1,4 @@
-"""A small project in a folder of its own, which tests break on purpose."""
+"""A small project in a separate folder, which tests break on purpose."""
 import pathlib
 import tempfile
 import unittest
