@@ -528,7 +528,7 @@ TEST_F(C2, AnswerCommittedInTheCycleInWhichUEndsIsInTimeAndOneCycleLaterIsNot) {
     fetch(kC2Area);
     run_to_cycle(bench, end - 60'000);
     ASSERT_TRUE(is_sc(c2(kFirstChannel)));  // F anew
-    // The commit is at s + 7 + 4 + 1 + 4; the access starts when R_REQ is seen low, 3 cycles behind the tick of its
+    // The commit is at s + 7 + 4 + 1 + 4; the access starts when R_REQ is seen low, 3 cycles after the tick of its
     // fall.
     const Cycle commit = end + late;
     bench.acquire();
