@@ -25,7 +25,7 @@ void add(Hash& hash, const SlaveResult& slave) {
 
 }  // namespace
 
-/// Keeps the monitor at the rate of the masters. It hears of each edge, or of a run, before the monitor does.
+/// Keeps the monitor at the rate of the masters. It receives each edge, or a run, before the monitor does.
 class Bench::BaudFollower : private bus::Listener {
  public:
   explicit BaudFollower(Bench& bench) : bench_(bench) { bench.execution_->segment().attach("baud follower", this); }
@@ -77,14 +77,14 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
 
 Bench::~Bench() = default;
 
-/// What the bench itself needs a chip watches anyway.
+/// Pins needed by the bench itself are watched anyway.
 PinMask Bench::watched_pins() const {
   const bool wave = !options_.wave.path.empty() && !options_.wave.asleep;
   const bool all = wave || !options_.trace.empty() || !options_.observers.empty();
   return all ? all_of(kind_.pins()) : checks_.pins() | hosts_.pins();
 }
 
-/// Nobody but the wave wants each change of each pin, or looks at each cycle.
+/// True if only the wave, at most, needs each change of each pin or each cycle.
 bool Bench::takes_runs() const { return !options_.wave.inside && options_.trace.empty() && options_.observers.empty(); }
 
 void Bench::add_slave(const scenario::Slave& slave) {
@@ -103,8 +103,7 @@ void Bench::add_slave(const scenario::Slave& slave) {
   made.chip().listen(observers_, slaves.size() - 1, wanted);
 }
 
-/// Nobody but the wave wants to hear of runs, of the inside (where it shows that) and of actions, nobody without checks
-/// of reads.
+/// Runs, internal signals (if shown) and actions are only needed by the wave, reads only by checks.
 ChipNews Bench::wanted_news(const ChipView& chip) const {
   const bool wave = waves_.has_value();
   return {wave && takes_runs() && chip.tells_runs(), checks_.on() || !options_.observers.empty(),
@@ -171,7 +170,7 @@ void Bench::connect(MasterStation& entry) {
   };
 }
 
-/// The chips are in the timeline already; then in the order of who answers whom, the script last.
+/// The chips are already in the timeline; then stations in the order in which they answer each other, the script last.
 void Bench::add_agents() {
   bus::Timeline& timeline = execution_->timeline();
   timeline.add(*monitor_);
@@ -183,8 +182,8 @@ void Bench::add_agents() {
   timeline.add(periodic_poll_);
 }
 
-/// Checks before what they are shown by, the script last: it acts on what the others have noted. Each costs
-/// a call at each change of a pin.
+/// Checks come before the observers that show their findings, the script last, because it acts on what the others have
+/// noted. Each observer costs a call at each change of a pin.
 void Bench::add_observers() {
   observers_.add(*this);
   observers_.add(exchange_);
@@ -199,7 +198,7 @@ void Bench::add_observers() {
   observers_.add(*script_);
 }
 
-// --- what happens ----------------------------------------------------------------------------------------------------
+// --- events ----------------------------------------------------------------------------------------------------------
 
 void Bench::text(std::size_t slave, Tick at, const std::string& line) {
   if (options_.on_text && at >= options_.from) options_.on_text(stations_.slaves[slave]->name(), line);
@@ -244,7 +243,8 @@ void Bench::add_marks() {
 void Bench::marked(Tick now) {
   const bool wanted = std::find(options_.marks.begin(), options_.marks.end(), now) != options_.marks.end();
   if (wanted && !options_.on_mark(now, digest(now))) leave_nothing();
-  if (waves_ && waves_->asleep() && now == sleeps_until())  // not before the digest, which is the one without a wave
+  if (waves_ && waves_->asleep() &&
+      now == sleeps_until())  // not before the digest, which has the value of a run without a wave
     wake_wave(options_.wave.selection.from, options_.wave.selection.to);
 }
 
@@ -253,7 +253,7 @@ void Bench::leave_nothing() {
   periodic_poll_.stop();
 }
 
-/// A wave that begins late.
+/// For a wave that begins late.
 Tick Bench::sleeps_until() const {
   const Tick from = options_.wave.selection.from;
   return from == bus::kNever ? bus::kNever : std::max<Tick>(from - kAwakeBefore, 0);
@@ -279,9 +279,9 @@ void Bench::keep_only_wave() {
   if (capture_) capture_->mute();
 }
 
-/// Nobody has acted at `now` yet but chips of the TLM view. All others are looked at as they are, and the line as it
-/// was just before, in the place of the pins at it: what is carried as a whole does not move them. Then each chip has
-/// its turn at `now`, which is the next one anyway.
+/// Only chips of the TLM view have acted at `now`. All others are summed as they are, and the line with its level just
+/// before, instead of the pins at it, because runs do not move them. Then each chip has its turn at `now`, which is the
+/// next one anyway.
 std::uint64_t Bench::digest(Tick now) {
   Hash hash;
   hash.add(digest_.before(now));
@@ -345,8 +345,8 @@ SlaveResult Bench::collect(SlaveStation& slave, Tick at) const {
   return result;
 }
 
-/// Once a second of wall time what was written goes to disk, for the case that the process is killed. False: an output
-/// cannot be written any more (a full disk), so the run need not go on.
+/// Once a second of wall time the outputs are flushed to disk, in case the process is killed. Returns false if an
+/// output cannot be written any more (a full disk), so that the run can stop.
 bool Bench::keep_outputs(Tick at) {
   RunLog* log = journal_.run_log();
   const auto now = std::chrono::steady_clock::now();
@@ -361,7 +361,7 @@ bool Bench::keep_outputs(Tick at) {
          !(capture_ && capture_->failed());
 }
 
-/// A run that one of them has ended early leaves none of them.
+/// A run that an output error has ended early leaves none of them.
 void Bench::finish_outputs() {
   RunLog* log = only_wave_ ? nullptr : journal_.run_log();
   if (waves_ && waves_->asleep()) waves_.reset();

@@ -1,6 +1,6 @@
 #pragma once
-// A scenario carried out: builds the stations, runs the timeline, collects what happened. The script is in script.hpp,
-// the judging of conditions in conditions.hpp.
+// Runs a scenario: builds the stations, runs the timeline, collects events. The script is in script.hpp, the evaluation
+// of conditions in conditions.hpp.
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -36,18 +36,19 @@ struct RunOptions {
   Engine engine = Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
   WaveOptions wave;
-  std::string log, trace;         ///< paths, empty: not wanted
-  bool log_whole = false;         ///< no bytes are left out in the log
+  std::string log, trace;         ///< paths, empty: none
+  bool log_whole = false;         ///< the log contains all bytes
   CaptureRequest capture;         ///< of the telegrams
-  std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
-  std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
-  std::optional<ChecksMode> checks;                                                  ///< absent: as the scenario says
-  Tick from = 0;            ///< log, trace, capture, wave and what user CPUs print have what happens from then on
-  std::vector<Tick> marks;  ///< when `on_mark` is called, before anybody acts there; a digest costs some time
-  /// `digest`: of all before `now`. False: the run ends and leaves no file.
+  std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that supports one
+  std::function<void(const std::string& station, const std::string& line)> on_text;  ///< lines printed by user CPUs
+  std::optional<ChecksMode> checks;                                                  ///< absent: as in the scenario
+  Tick from = 0;  ///< start of log, trace, capture, wave and the output of user CPUs
+  std::vector<Tick>
+      marks;  ///< times at which `on_mark` is called, before any agent acts there; a digest costs some time
+  /// `digest`: of everything before `now`. Return false to end the run without files.
   std::function<bool(Tick now, std::uint64_t digest)> on_mark;
-  std::vector<Observer*> observers;  ///< more of them, told of all pins; they must outlive the bench
-  bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
+  std::vector<Observer*> observers;  ///< additional observers of all pins; they must outlive the bench
+  bool open_ended = false;           ///< `poll` ends the run; expectations for the end are judged then
 };
 
 class Bench : private Observer {
@@ -58,32 +59,33 @@ class Bench : private Observer {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  /// Runs to the scenario's end, or until `poll`, which is called every 100 us of simulated time, returns false. The
-  /// files of the options are complete afterwards.
+  /// Runs to the scenario's end, or until `poll`, called every 100 us of simulated time, returns false. The output
+  /// files are complete afterwards.
   RunResult run(const std::function<bool(Tick now)>& poll);
-  /// A line in the log, of somebody beside the bench.
+  /// Writes a line into the log for a part outside the bench.
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text) {
     journal_.log(at, station, kind, text);
   }
-  /// Hands a command to the user CPU of a slave of the scenario, which does it as soon as it can.
+  /// Passes a command to the user CPU of a slave, which executes it as soon as it can.
   void command(const std::string& slave, const user_cpu::Command& command) {
     stations_.slave(slave).command(now(), command);
   }
-  /// Told, after all others, of what is watched anyway; RunOptions::observers are told of all pins, which costs time.
+  /// Adds an observer after all others; it receives what is watched anyway. RunOptions::observers receive all pins,
+  /// which costs time.
   void add_observer(Observer& observer) { observers_.add(observer); }
-  /// Where the log grows until the run ends; empty without a log.
+  /// The file in which the log grows until the run ends; empty without a log.
   std::string log_grows_at() const { return journal_.run_log() != nullptr ? journal_.run_log()->grows_at() : ""; }
-  /// Lets a sleeping wave (WaveOptions::asleep) begin to follow all pins, see WaveRecorder::wake.
+  /// Makes a sleeping wave (WaveOptions::asleep) follow all pins, see WaveRecorder::wake.
   void wake_wave(Tick from, Tick to);
   /// See WaveRecorder::triggered; null without a sleeping wave.
   const WaveRecorder::Trigger* wave_trigger() const;
-  /// This process is a copy of one that goes on by itself: of all files it writes the wave only.
+  /// Call in a copy of a process that itself continues: of all files it writes only the wave.
   void keep_only_wave();
-  /// The unfinished wave is removed; nothing is recorded any more.
+  /// Removes the unfinished wave; recording stops.
   void drop_wave() { waves_.reset(); }
-  /// The run ends and leaves no file.
+  /// Ends the run without files.
   void leave_nothing();
-  /// There is a wave, but nothing opened a window of it.
+  /// There is a wave, but no window of it was opened.
   bool wave_is_empty() const { return waves_ && waves_->is_empty(); }
 
  private:
@@ -116,13 +118,13 @@ class Bench : private Observer {
   RunResult collect();
   void add_expectations(RunResult& result);
   SlaveResult collect(SlaveStation& slave, Tick at) const;
-  /// A wave that begins late wakes so long before: what is told late, and an access under way, are over then.
+  /// A wave that begins late wakes this long before: late reports and a running access have ended by then.
   static constexpr Tick kAwakeBefore = bus::kTicksPerMs;
 
   Tick sleeps_until() const;
   void marked(Tick now);
   std::uint64_t digest(Tick now);
-  /// A debugger goes back: the run is to be done again.
+  /// A debugger goes back: the run must be repeated.
   bool goes_back() const { return options_.gdb && options_.gdb->history && options_.gdb->history->back; }
   bool keep_outputs(Tick at);
   void finish_outputs();
@@ -139,20 +141,21 @@ class Bench : private Observer {
   Journal journal_;
   Replies replies_;
   Stations stations_;
-  std::set<const void*> left_out_;  ///< of the scenario, by address: what a user CPU's program cannot do or tell
+  std::set<const void*>
+      left_out_;  ///< by address in the scenario: parts that a user CPU's program cannot execute or report
   std::unique_ptr<BaudFollower> baud_follower_;
   std::unique_ptr<bus::Monitor> monitor_;
   std::unique_ptr<Script> script_;
   PeriodicPoll periodic_poll_;
   Marks marks_;
   RunDigest digest_;
-  bool leaves_nothing_ = false;  ///< of the files of the options
+  bool leaves_nothing_ = false;  ///< of the output files
   bool only_wave_ = false;
   std::optional<PinTrace> trace_;
   std::optional<WaveRecorder> waves_;
   std::optional<CaptureRecorder> capture_;
   std::chrono::steady_clock::time_point next_save_ = {};
-  std::string registers_;  ///< of the processor that cannot go on; the run ends with it
+  std::string registers_;  ///< of the failed processor, which ends the run
 };
 
 }  // namespace dsdpv1::tb

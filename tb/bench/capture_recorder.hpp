@@ -11,15 +11,15 @@
 namespace dsdpv1::tb {
 
 struct CaptureRequest {
-  std::string path;  ///< empty: not wanted
+  std::string path;  ///< empty: none
   std::uint16_t link = 257;
   std::string application;
 };
 
 class CaptureRecorder : public Observer {
  public:
-  /// `baud`: of the line at the start. Telegrams that begin before `from` are left out. Throws InputError when the file
-  /// cannot be created.
+  /// `baud`: rate of the line at the start. Telegrams that begin before `from` are skipped. Throws InputError if the
+  /// file cannot be created.
   CaptureRecorder(const CaptureRequest& request, int baud, Tick from);
 
   void telegram(const HeardTelegram& telegram) override;

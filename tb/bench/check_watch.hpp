@@ -1,5 +1,5 @@
 #pragma once
-// The checks of a run: one set a slave, what counts against the scenario, and what is kept for the report.
+// The checks of a run: one set per slave, the violations that fail the scenario, and the data for the report.
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,8 +13,8 @@ namespace dsdpv1::tb {
 
 class CheckWatch : public Observer {
  public:
-  /// `scenario` and `observers`, who are told of violations, must outlive it.
-  /// Throws InputError when an expectation, or what an action waits for, is on a check that is not made.
+  /// `scenario` and `observers`, which receive violations, must outlive it. Throws InputError if an expectation, or the
+  /// condition of an action, refers to a check that is not made.
   CheckWatch(const scenario::Scenario& scenario, ChecksMode mode, const Observers& observers);
   CheckWatch(const CheckWatch&) = delete;
   CheckWatch& operator=(const CheckWatch&) = delete;
@@ -23,7 +23,7 @@ class CheckWatch : public Observer {
   /// The pins that must be watched, none when off.
   PinMask pins() const;
 
-  /// Slaves are numbered in the order in which they are added. Nothing happens when off.
+  /// Slaves are numbered in the order in which they are added. Does nothing when off.
   void add(const std::string& slave, ChipView& chip);
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     if (on()) slaves_[slave]->checks->pin(at, pin, level);
@@ -35,7 +35,7 @@ class CheckWatch : public Observer {
   void finish(Tick end);
 
   ChecksMode mode() const { return mode_; }
-  /// Checks that the scenario leaves out.
+  /// Number of checks that the scenario disables.
   std::uint64_t left_out() const;
   /// Violations that fail the run.
   std::uint64_t failures() const { return failures_; }
@@ -55,7 +55,7 @@ class CheckWatch : public Observer {
   const scenario::Scenario& scenario_;
   ChecksMode mode_;
   const Observers& observers_;
-  bool on_;  ///< asked at every change of a pin
+  bool on_;  ///< tested at every change of a pin
   std::vector<std::unique_ptr<Slave>> slaves_;
   std::uint64_t failures_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// A class 2 master of the scenario with its connections, by their names.
+// A class 2 master of the scenario with its connections by name.
 #include <map>
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ struct Stations;
 
 class Class2Station {
  public:
-  /// All of them must outlive it. `slaves` has those of the scenario. Throws InputError for values that the bus
+  /// All arguments must outlive it. `slaves` has those of the scenario. Throws InputError for values that the bus
   /// refuses.
   Class2Station(const scenario::Scenario& scenario, const scenario::Master2& spec, const Stations& slaves,
                 bus::Segment& segment, Journal& journal, Replies& replies, const Observers& observers);
@@ -34,7 +34,7 @@ class Class2Station {
   const bus::Connection& connection(const std::string& connection) const {
     return master_.connection(ids_.at(connection));
   }
-  /// Carries out an action of the script that is about one of the connections.
+  /// Executes an action of the script on one of the connections.
   void act(const scenario::Action& action, Tick now);
 
  private:

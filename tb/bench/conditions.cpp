@@ -14,13 +14,13 @@ using scenario::Condition;
 
 constexpr std::size_t kShownBytes = 16;
 
-/// Collects the parts of a condition: whether they hold, or in words what is wanted and what is there.
+/// Collects the parts of a condition: whether they hold, or as text the wanted and the actual values.
 class Parts {
  public:
   enum class In : std::uint8_t { kTruth, kWords };
   explicit Parts(In in) : in_(in) {}
 
-  /// `wanted` and `seen` make the words, and are called for these only.
+  /// `wanted` and `seen` make text, and are called only for that.
   template <class Wanted, class Seen>
   void add(bool holds, const Wanted& wanted, const Seen& seen) {
     holds_ = holds_ && holds;
@@ -41,7 +41,7 @@ class Parts {
 
 std::string shown(const bus::Bytes& bytes) { return bytes.empty() ? "none" : bytes_text(bytes, kShownBytes); }
 
-// Each function handles one group of keys; `facts` is null when only the words are wanted.
+// Each function handles one group of keys; `facts` is null if only the wanted text is needed.
 
 void add_state(Parts& parts, const Condition& c, const ChipStatus& status) {
   if (c.dp_state)
@@ -151,7 +151,7 @@ void add_connection(Parts& parts, const Condition& c, const Facts* facts) {
       [&] { return fmt::format("connection {}", bus::name(state)); });
 }
 
-/// Of a slave that is elsewhere what its master knows: data exchange or not, how often.
+/// The state of a slave outside the bench as known to its master: data exchange or not, and its count.
 ChipStatus status_at_master(const Stations& stations, const std::string& slave) {
   ChipStatus status;
   const bus::Master1* master = stations.master_of(slave);

@@ -1,5 +1,5 @@
 #pragma once
-// Judging of a scenario's conditions.
+// Evaluates a scenario's conditions.
 #include <string>
 
 #include "tb/bench/journal.hpp"
@@ -9,19 +9,19 @@
 
 namespace dsdpv1::tb {
 
-/// What conditions are about.
+/// The data that conditions refer to.
 struct Facts {
   const Stations& stations;
   const Journal& journal;
   const Replies& replies;
 };
 
-/// Asked at every change of anything, so it makes no words.
+/// Called at every change, so it makes no text.
 bool holds(const scenario::Condition& condition, const Facts& facts);
-/// What is there instead or as well: "dp_state WAIT_CFG, data_exchanges 0".
+/// The actual values: "dp_state WAIT_CFG, data_exchanges 0".
 std::string seen(const scenario::Condition& condition, const Facts& facts);
 
-/// The condition in words: "demo: dp_state DATA_EXCH, data_exchanges >= 10".
+/// The condition as text: "demo: dp_state DATA_EXCH, data_exchanges >= 10".
 std::string describe(const scenario::Condition& condition);
 /// ... with its time: "... by 9ms".
 std::string describe(const scenario::Expectation& expectation);

@@ -17,7 +17,7 @@ std::string microseconds(Tick tick) {
   return fmt::format("{:.3f} us", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
 }
 
-constexpr std::array<std::string_view, 2> kEnds = {"WD_EXPIRED", "BAUD_LOST"};  ///< data exchange
+constexpr std::array<std::string_view, 2> kEnds = {"WD_EXPIRED", "BAUD_LOST"};  ///< events that end data exchange
 
 bool is_end(std::string_view code) { return std::find(kEnds.begin(), kEnds.end(), code) != kEnds.end(); }
 
@@ -26,12 +26,12 @@ bool is_away(const Expectation& expectation) {
          (expectation.baud && !*expectation.baud) || expectation.data_exchanges_at_most == 0;
 }
 
-/// That the slave is not in data exchange at the end, or never.
+/// Expects that the slave is not in data exchange at the end, or never.
 bool is_away_at_the_end(const Expectation& expectation) {
   return is_away(expectation) && !expectation.at && !expectation.by;
 }
 
-/// That it is not in data exchange at some time, or that something happens that ends it.
+/// Expects that it is not in data exchange at some time, or an event that ends data exchange.
 bool leaves(const Expectation& expectation) {
   const bool never = expectation.count_at_most == 0;
   return (is_away(expectation) && expectation.at) || (is_end(expectation.event.text) && !never);
@@ -39,9 +39,9 @@ bool leaves(const Expectation& expectation) {
 
 enum class Effect : std::uint8_t {
   kNone,
-  kDisturbs,   ///< the slave may leave data exchange, and comes back by itself
-  kKeepsAway,  ///< until another action ends that
-  kRestores,   ///< that an earlier action keeps it away
+  kDisturbs,   ///< the slave may leave data exchange and returns automatically
+  kKeepsAway,  ///< until another action restores it
+  kRestores,   ///< ends the effect of an earlier action that keeps it away
 };
 
 Effect effect_of(const Action& action) {
@@ -64,7 +64,7 @@ Effect effect_of(const Action& action) {
   }
 }
 
-/// In whose list a master's action is: of the first one without a name.
+/// Whether a master's action applies to an entry in its list; without a name it is for the first master.
 bool concerns(const Action& action, const std::string& first_master, const std::string& master,
               const std::string& slave) {
   if (!action.slave.empty()) return action.slave.text == slave;
@@ -73,7 +73,7 @@ bool concerns(const Action& action, const std::string& first_master, const std::
   return everybody || master == (action.master.empty() ? first_master : action.master.text);
 }
 
-/// The step to data exchange that an event of this code is about; absent: none.
+/// The step to data exchange for events of this code; absent: none.
 std::optional<std::size_t> step_of(std::string_view code) {
   static constexpr std::array<std::string_view, 4> kSteps = {"INIT", "BAUD_", "PRM_", "CFG_"};
   for (std::size_t i = 0; i < kSteps.size(); ++i)
@@ -103,7 +103,7 @@ ExchangeWatch::ExchangeWatch(const scenario::Scenario& scenario, const Stations&
     for (const scenario::MasterSlave& listed : master.slaves) add(master, listed);
 }
 
-/// A slave that is listed by its address alone is the scenario's that has it; with another address nobody is meant.
+/// A slave listed only by its address is the scenario's slave with that address; for another address there is none.
 void ExchangeWatch::add(const scenario::Master& master, const scenario::MasterSlave& listed) {
   const auto slave = std::find_if(scenario_.slaves.begin(), scenario_.slaves.end(), [&listed](const auto& each) {
     return listed.slave.empty() ? listed.address == each.address : listed.slave.text == each.name.text;
@@ -127,7 +127,7 @@ void ExchangeWatch::event(std::size_t slave, const profibus::Event& event) {
   std::optional<profibus::Event>& stands = steps_[slave][*step];
   if (is_done(code))
     stands.reset();
-  else if (!stands || stands->reason != event.reason)  // else it stands since the first time
+  else if (!stands || stands->reason != event.reason)  // else the first one is kept
     stands = event;
 }
 

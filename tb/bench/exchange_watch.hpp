@@ -1,6 +1,6 @@
 #pragma once
-// What is expected of each slave that a master of class 1 has, without a word in the scenario: it comes to data
-// exchange, is in it at the end, and does not leave it but for the script.
+// Expectations for each slave of a class 1 master that apply without being in the scenario: it reaches data exchange,
+// is in it at the end, and leaves it only because of the script.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -23,7 +23,7 @@ class ExchangeWatch : public Observer {
   void master_state(Tick now, const std::string& master, const std::string& member, const std::string& state) override;
   void acts(const scenario::Action& action, Tick now) override;
 
-  /// At the end of a run; none where the scenario wants none.
+  /// At the end of a run; empty if the scenario disables them.
   std::vector<ExpectationResult> finish(const std::vector<SlaveResult>& slaves) const;
   /// See SlaveResult::waits_for.
   std::string waits_for(const SlaveResult& slave) const;
@@ -32,19 +32,19 @@ class ExchangeWatch : public Observer {
   /// A slave in the list of a master.
   struct Entry {
     std::string master, slave;
-    std::string member;  ///< what the master calls it
+    std::string member;  ///< the master's name for it
     int line = 0;
-    bool may_leave = false;          ///< the scenario says so
-    bool in = false;                 ///< data exchange, as its master has it
-    bool disturbed = false;          ///< by the script since it came to data exchange: it may leave it
-    bool kept_away = false;          ///< by the script, until the script ends that
-    std::optional<Tick> since = {};  ///< when it came to data exchange last
+    bool may_leave = false;          ///< the scenario allows it
+    bool in = false;                 ///< data exchange, according to its master
+    bool disturbed = false;          ///< by the script since it reached data exchange: it may leave it
+    bool kept_away = false;          ///< by the script, until the script restores it
+    std::optional<Tick> since = {};  ///< when it last reached data exchange
     std::uint64_t left = 0;          ///< how often it left without the script
     Tick first_left = 0;
     std::string why = {};  ///< the first time
   };
   void add(const scenario::Master& master, const scenario::MasterSlave& listed);
-  /// Of each step to data exchange what stands in the way of it, as the chip has said; empty when nothing does.
+  /// For each step to data exchange, the chip's event that blocks it; empty if none does.
   using Steps = std::array<std::optional<profibus::Event>, 4>;
   ExpectationResult judged(const Entry& entry, const SlaveResult& slave) const;
   std::size_t index_of(const std::string& slave) const;

@@ -1,5 +1,5 @@
 #pragma once
-// How a run is carried out: makes the chips and moves time.
+// The way a run is executed: makes the chips and advances time.
 #include <functional>
 #include <memory>
 #include <string>
@@ -13,17 +13,17 @@ namespace dsdpv1::tb {
 class Execution {
  public:
   virtual ~Execution() = default;
-  /// By default by the pins of its core. Chips are made before anything else is added to the timeline.
+  /// By default by the pins of its core. Chips are made before other agents are added to the timeline.
   virtual std::unique_ptr<ChipView> make_chip(const ChipKind& kind, const ChipRequest& request) {
     return add_chip(kind, request, kind.make_device(request));
   }
-  /// Runs the timeline up to and including `end`, or until `stopped` says so.
+  /// Runs the timeline up to and including `end`, or until `stopped` returns true.
   virtual void run(Tick end, const std::function<bool()>& stopped) = 0;
 
-  /// It has ended the run before its time, by itself.
+  /// True if the execution has ended the run early.
   virtual bool broken_off() { return false; }
 
-  /// As bus::Timeline has them; 0 and false: each action has a turn of its own.
+  /// As in bus::Timeline; 0 and false: each action has a separate turn.
   virtual Tick quiet_until(const bus::Agent& /*agent*/) { return 0; }
   virtual bool go_on(const bus::Agent& /*agent*/, Tick /*tick*/) { return false; }
 
@@ -31,7 +31,7 @@ class Execution {
   bus::Timeline& timeline() { return timeline_; }
 
  protected:
-  /// The chip by the pins of `device`.
+  /// The chip with the pins of `device`.
   std::unique_ptr<ChipView> add_chip(const ChipKind& kind, const ChipRequest& request,
                                      std::unique_ptr<PinDevice> device);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The telegrams between chips and their users, where these have a serial host port: one reader a slave.
+// The telegrams between chips with a serial host port and their users: one reader per slave.
 #include <memory>
 #include <vector>
 
@@ -12,14 +12,14 @@ namespace dsdpv1::tb {
 
 class HostWatch : public Observer {
  public:
-  /// Both must outlive it. `wanted`: somebody listens.
+  /// Both must outlive it. `wanted`: a listener needs the telegrams.
   HostWatch(const scenario::Scenario& scenario, bool wanted, const Observers& observers);
   HostWatch(const HostWatch&) = delete;
   HostWatch& operator=(const HostWatch&) = delete;
 
-  /// As HostReader has it; null: nothing is read.
+  /// As in HostReader; null: nothing is read.
   const char* port() const { return readers_.empty() ? nullptr : readers_.front()->port(); }
-  /// The pins that must be watched, none when nothing is read.
+  /// The pins that must be watched, none if nothing is read.
   PinMask pins() const { return readers_.empty() ? 0 : readers_.front()->pins(); }
   void add_to(bus::Timeline& timeline);
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {

@@ -67,7 +67,7 @@ void Journal::telegram(const HeardTelegram& telegram) {
   if (log_) log(log_entry(telegram.telegram, telegram.words()));
 }
 
-// An unanswered request is how masters find out that nobody is there.
+// Masters use unanswered requests to find out that a station is absent.
 void Journal::flag(const bus::Flag& flag) {
   const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
   happened({flag.at, "bus", scenario::flag_code(flag.kind),

@@ -1,5 +1,5 @@
 #pragma once
-// What has happened in a run: counted, kept for the report, written into the log.
+// The events of a run: counted, kept for the report, written into the log.
 #include <map>
 #include <optional>
 #include <string>
@@ -14,20 +14,19 @@ namespace dsdpv1::tb {
 
 class Journal : public Observer {
  public:
-  /// `scenario` and `observers`, who are told of each code that is counted, must outlive it.
+  /// `scenario` and `observers`, which receive each counted code, must outlive it.
   Journal(const scenario::Scenario& scenario, const Observers& observers, const LogForm& form)
       : scenario_(scenario), observers_(observers), form_(form) {}
-  /// From now on there is a log; throws InputError when it cannot be created.
+  /// Starts a log; throws InputError if it cannot be created.
   void open(const std::string& path) { log_.emplace(path, form_); }
 
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text) {
     log({at, station, kind, text});
   }
   void log(LogEntry entry);
-  /// Bytes as the log shows them inside of a text.
+  /// Bytes as shown inside a text of the log.
   std::string in_log(const bus::Bytes& bytes) const;
-  /// An error of the program, a flag of the monitor; `event`: an event of the chip, whose words are written when
-  /// somebody wants them.
+  /// An error of the program, a flag of the monitor; `event`: an event of the chip, whose text is made on demand.
   void happened(Occurrence occurrence, const profibus::Event* event = nullptr);
 
   // Observer
@@ -42,7 +41,7 @@ class Journal : public Observer {
   void user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& registers) override;
 
   std::uint64_t count(const std::string& station, const std::string& code) const;
-  /// Violations that the scenario does not allow, those of checks apart.
+  /// Violations that the scenario does not allow, without those of checks.
   std::uint64_t violations() const { return violations_; }
   void fill(RunResult& result) const;
 
@@ -60,7 +59,7 @@ class Journal : public Observer {
   std::optional<RunLog> log_;
   struct Kept {
     Occurrence occurrence;
-    std::optional<profibus::Event> event;  ///< whose words are not written yet
+    std::optional<profibus::Event> event;  ///< its text has not been made yet
   };
   std::vector<Kept> kept_;
   std::uint64_t occurrences_dropped_ = 0, violations_ = 0, allowed_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Times of a run at which somebody looks at it before anybody acts there.
+// Times of a run at which a function is called before any agent acts.
 #include <algorithm>
 #include <functional>
 #include <vector>
@@ -27,7 +27,7 @@ class Marks : public bus::Agent {
   std::function<void(bus::Tick now)> on_mark;
 
  private:
-  std::vector<bus::Tick> times_;  ///< the earliest at the end
+  std::vector<bus::Tick> times_;  ///< the earliest last
 };
 
 }  // namespace dsdpv1::tb

@@ -1,6 +1,6 @@
 #pragma once
-// Who hears what happens in a run, at chips, on the line, to user programs and masters: log, waves, checks, trace,
-// script, the bench itself. Whoever knows it first tells all of them the same, in the order in which they were added.
+// Observers receive the events of a run at chips, on the line, of user programs and masters: log, waves, checks, trace,
+// script, the bench itself. All receive the same events, in the order in which they were added.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@
 
 namespace dsdpv1::tb {
 
-/// A telegram that has ended, heard at `now`; its words are made for the first who asks.
+/// A telegram that has ended, at `now`; its text is made for the first caller.
 class HeardTelegram {
  public:
   HeardTelegram(Tick at, const bus::WireTelegram& wire) : now(at), telegram(wire) {}
@@ -30,46 +30,48 @@ class HeardTelegram {
   mutable std::optional<std::string> words_;
 };
 
-/// Overrides what concerns it, of chips what they tell (ChipListener). Slaves are numbered as in the scenario.
+/// Derived classes override the calls that they need, including those of ChipListener. Slaves are numbered as in the
+/// scenario.
 class Observer : public ChipListener {
  public:
-  /// The run begins, `chip` has the levels of power-on.
+  /// The run begins, `chip` has its power-on levels.
   virtual void begins(std::size_t /*slave*/, const ChipView& /*chip*/) {}
   virtual void telegram(const HeardTelegram& /*telegram*/) {}
-  /// What the checks of tb/chip/checks find, as soon as it can be seen. `kind`: "check" when it is only reported, else
-  /// "violation" or "allowed".
+  /// A violation found by the checks of tb/chip/checks, as soon as it is visible. `kind`: "check" if it is only
+  /// reported, else "violation" or "allowed".
   virtual void violated(const std::string& /*slave*/, const checks::Violation& /*violation*/, const char* /*kind*/) {}
-  /// What the monitor flags; what is flagged of a telegram comes before it.
+  /// A flag of the monitor; flags of a telegram come before it.
   virtual void flag(const bus::Flag& /*flag*/) {}
-  /// A character after a wrong telegram, see bus::Monitor::on_skipped.
+  /// A character after an invalid telegram, see bus::Monitor::on_skipped.
   virtual void skipped(const bus::ReceivedCharacter& /*character*/) {}
-  /// Between the slave and its user, on a serial host port; told when it has ended, which a silence may have to show.
+  /// A telegram between the slave and its user, on a serial host port; called when it has ended, which may be known
+  /// only after a silence.
   virtual void host_telegram(std::size_t /*slave*/, const HostTelegram& /*telegram*/) {}
-  /// Right or not.
+  /// A character, valid or not.
   virtual void character(Tick /*now*/, const bus::ReceivedCharacter& /*heard*/) {}
-  // What the slave's user program says and does, as user_cpu::StationCpu has it.
+  // Output and actions of the slave's user program, see user_cpu::StationCpu.
   virtual void error(std::size_t /*slave*/, const user_cpu::ProgramError& /*error*/) {}
   virtual void text(std::size_t /*slave*/, Tick /*at*/, const std::string& /*line*/) {}
-  /// It has fetched outputs, other ones than before when `changed`.
+  /// It has fetched outputs; `changed`: they differ from the previous ones.
   virtual void outputs(std::size_t /*slave*/, Tick /*at*/, const bus::Bytes& /*outputs*/, bool /*changed*/) {}
-  /// Its processor cannot go on, and has these registers.
+  /// Its processor cannot continue; `registers` has its state.
   virtual void user_failed(std::size_t /*slave*/, Tick /*at*/, const std::string& /*why*/,
                            const std::string& /*registers*/) {}
-  /// Its debugger wants the run to end.
+  /// Its debugger ends the run.
   virtual void killed() {}
   /// A code of the log was counted at a chip or "bus", `count` times so far.
   virtual void counted(Tick /*at*/, const std::string& /*station*/, const std::string& /*code*/, bool /*violation*/,
                        std::uint64_t /*count*/) {}
-  /// The script is about to carry out an action.
+  /// The script is about to execute an action.
   virtual void acts(const scenario::Action& /*action*/, Tick /*now*/) {}
-  /// What a master makes of a slave (class 1), or the state of a connection (class 2): `member` is its name.
+  /// The state of a slave in its master (class 1), or of a connection (class 2): `member` is its name.
   virtual void master_state(Tick /*now*/, const std::string& /*master*/, const std::string& /*member*/,
                             const std::string& /*state*/) {}
-  /// Something that a condition of the scenario may be about has changed.
+  /// A value that conditions of the scenario may refer to has changed.
   virtual void changed(Tick /*at*/) {}
 };
 
-/// What chips tell, all of them are told.
+/// Passes the chips' events to all observers.
 class Observers : public ChipListener {
  public:
   /// `timeline` must outlive it.

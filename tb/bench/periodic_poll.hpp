@@ -1,5 +1,5 @@
 #pragma once
-// Lets somebody look at the run from time to time, and end it.
+// Calls a function periodically during a run, which may end it.
 #include <functional>
 
 #include "bus/timeline.hpp"
@@ -21,7 +21,7 @@ class PeriodicPoll : public bus::Agent {
   }
   bool stopped() const { return stopped_; }
 
-  std::function<bool(bus::Tick now)> poll;  ///< false: the run ends
+  std::function<bool(bus::Tick now)> poll;  ///< false: ends the run
 
  private:
   bus::Tick next_ = 0;

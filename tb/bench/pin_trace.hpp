@@ -1,5 +1,5 @@
 #pragma once
-// The text that step, skip, TLM and RTL are compared by: every change of every output pin.
+// The text for comparing step, skip, TLM and RTL: every change of every output pin.
 #include <map>
 #include <string>
 
@@ -10,11 +10,11 @@
 
 namespace dsdpv1::tb {
 
-/// Lines "cycle slave pin level", in order of time and at equal times of the slaves' numbers, so that it does not
-/// matter which chip was evaluated first; D with its ticks behind the cycle: "cycle+ticks".
+/// Lines "cycle slave pin level", in order of time and at equal times of the slaves' numbers, so that the order of
+/// evaluation of chips does not matter; D with its ticks after the cycle: "cycle+ticks".
 class PinTrace : public Observer {
  public:
-  /// `scenario` must outlive it. What is before `from` is left out.
+  /// `scenario` must outlive it. Changes before `from` are skipped.
   PinTrace(const std::string& path, const scenario::Scenario& scenario, bus::Tick from)
       : file_(path), scenario_(scenario), from_(from) {}
   void pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) override;

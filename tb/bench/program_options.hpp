@@ -4,7 +4,7 @@
 
 namespace dsdpv1::tb {
 
-/// The settings of the standard user program, as the scenario has them.
+/// The settings of the standard user program from the scenario.
 user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const user_cpu::StationConfig& station);
 
 }  // namespace dsdpv1::tb

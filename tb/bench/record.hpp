@@ -1,5 +1,5 @@
 #pragma once
-// What a run has brought, as plain values: for expectations, the result file and the table.
+// The result of a run as plain values: for expectations, the result file and the table.
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -20,24 +20,24 @@ namespace dsdpv1::tb {
 
 using bus::Tick;
 
-/// Something that happened: an event of a chip, an error of a driver, a flag of the bus monitor.
+/// An event of a chip, an error of a driver, or a flag of the bus monitor.
 struct Occurrence {
   Tick at = 0;
   std::string station;  ///< name of the slave, "bus" for the monitor
   std::string code;     ///< stable: "PRM_IDENT", "DSDPV1_ERR_INIT_CRC", "BUS_COLLISION"
   profibus::Severity severity = profibus::Severity::kInfo;
   std::string text;
-  std::string place = {};  ///< the cell that it is about, as its documents write it; empty: none
+  std::string place = {};  ///< the cell concerned, as written in the chip's documents; empty: none
   bool allowed = false;    ///< a violation that the scenario lists
 };
 
 /// "info", "refusal", "violation".
 const char* name(profibus::Severity severity);
 
-/// What happened at one station with one code at one place: however long the run, none is forgotten.
+/// All occurrences at one station with one code at one place, counted over the whole run.
 struct Repeated {
   std::string station, code, place;
-  std::string text;  ///< of the first time
+  std::string text;  ///< of the first occurrence
   Tick first = 0, last = 0;
   std::uint64_t count = 0;
   bool allowed = false;
@@ -45,7 +45,7 @@ struct Repeated {
 
 class Repetitions {
  public:
-  /// `text` writes the words of one that comes for the first time.
+  /// `text` makes the text of a first occurrence.
   void count(const Occurrence& occurrence, const std::function<std::string()>& text);
   /// By the first time.
   std::vector<Repeated> list() const;
@@ -64,14 +64,14 @@ struct Tsdr {
 struct SlaveResult {
   std::string name;
   ChipStatus status;
-  std::string master_state;   ///< what its master makes of it, empty without one
-  std::string master_reason;  ///< what it has met, empty when all is well
-  std::string waits_for;      ///< of a slave that is not in data exchange: what stands in the way, as its chip has said
+  std::string master_state;   ///< state in its master, empty without one
+  std::string master_reason;  ///< reason given by the master; empty without a problem
+  std::string waits_for;      ///< for a slave that is not in data exchange: the blocking event of its chip
   Tsdr tsdr;
   user_cpu::UserCounters user;
-  std::optional<user_cpu::BoardReport> board;  ///< of a board with a processor of its own
+  std::optional<user_cpu::BoardReport> board;  ///< of a board with a processor
   bus::Bytes inputs;
-  std::optional<bus::Bytes> outputs;  ///< absent: its program does not tell
+  std::optional<bus::Bytes> outputs;  ///< absent: its program does not report
 };
 
 struct MasterResult {
@@ -79,7 +79,7 @@ struct MasterResult {
   int address = 0;
   std::uint64_t cycles = 0;
   std::int64_t min_slave_interval_us = 0;
-  bool interval_given = false;  ///< by the scenario; else it is the greatest of the slaves' GSD files
+  bool interval_given = false;  ///< by the scenario; else the greatest of the slaves' GSD files
 };
 
 using scenario::ChecksMode;
@@ -90,7 +90,7 @@ struct CheckResult {
   const checks::Rule* rule = nullptr;
   checks::Limit limit;
   checks::Record record;
-  std::uint64_t allowed = 0;              ///< violations that the scenario lists
+  std::uint64_t allowed = 0;              ///< violations that the scenario allows
   std::vector<checks::Violation> listed;  ///< the first kListed
 
   static constexpr std::size_t kListed = 20;
@@ -101,43 +101,43 @@ struct ExpectationResult {
   int line = 0;
   bool passed = false;
   std::string seen;
-  bool left_out = false;  ///< not judged: of firmware that does not tell, or the script keeps the slave away
-  bool implied = false;   ///< by a master that has the slave; `line`: of the slave in the master's list
+  bool left_out = false;  ///< not judged: firmware does not report it, or the script keeps the slave away
+  bool implied = false;   ///< from a master that has the slave; `line`: of the slave in the master's list
 };
 
-/// What a host outside has sent and heard (serve).
+/// Bytes and telegrams of an external host (serve).
 struct HostLineStatistics {
-  std::uint64_t telegrams = 0;    ///< handed over by the host
+  std::uint64_t telegrams = 0;    ///< received from the host
   std::uint64_t sent_bytes = 0;   ///< by the host
   std::uint64_t heard_bytes = 0;  ///< by the host
-  std::uint64_t held_back = 0;    ///< its telegrams that came before T_SYN or the slot time had ended
+  std::uint64_t held_back = 0;    ///< telegrams delayed because they came before T_SYN or the slot time had ended
   Tick longest_held_back = 0;
 };
 
-/// How simulated time kept to real time (serve).
+/// How well simulated time followed real time (serve).
 struct PaceStatistics {
   std::uint64_t samples = 0;
-  double error_sum_us = 0, error_max_us = 0;  ///< how long after its simulated time an instant was carried out
-  std::uint64_t losses = 0;                   ///< how often the computer was too slow, and time was given up
+  double error_sum_us = 0, error_max_us = 0;  ///< delay of execution after the simulated time
+  std::uint64_t losses = 0;                   ///< how often the computer was too slow and time was given up
   Tick lost = 0;                              ///< simulated time given up in total
 
   double error_mean_us() const { return samples == 0 ? 0 : error_sum_us / static_cast<double>(samples); }
 };
 
-/// A run against a host outside (serve).
+/// A run with an external host (serve).
 struct Pacing {
   std::string port;
   HostLineStatistics line;
   PaceStatistics pace;
 };
 
-/// Model and RTL side by side: what was the same, and where they first differ.
+/// Lockstep of model and RTL: counts of matches, and the first difference.
 struct LockstepResult {
   std::uint64_t cycles = 0, pin_changes = 0, dpram_images = 0;
   struct Difference {
     std::string slave;
     Tick at = 0;
-    std::string what, last_telegram, last_access, dpram;  ///< in words
+    std::string what, last_telegram, last_access, dpram;  ///< as text
   };
   std::optional<Difference> difference;
 };
@@ -146,19 +146,19 @@ struct RunResult {
   std::string scenario, file, engine, view;
   bool interrupted = false;
   ChecksMode checks_mode = ChecksMode::kFail;
-  bool expects_exchange = true;  ///< see ExchangeWatch; false: the scenario wants none
-  std::uint64_t checks_off = 0;  ///< that the scenario leaves out, each counted once
+  bool expects_exchange = true;  ///< see ExchangeWatch; false: disabled by the scenario
+  std::uint64_t checks_off = 0;  ///< disabled by the scenario, each counted once
   Tick simulated = 0;
   double wall_s = 0;
   std::uint64_t telegrams = 0, wrong_telegrams = 0;
-  std::uint64_t violations = 0;       ///< those that are not allowed, and with ChecksMode::kFail those of checks
-  std::uint64_t allowed = 0;          ///< those that the scenario lists, those of checks apart
+  std::uint64_t violations = 0;       ///< those that are not allowed, including those of checks with ChecksMode::kFail
+  std::uint64_t allowed = 0;          ///< those that the scenario allows, without those of checks
   std::vector<MasterResult> masters;  ///< of class 1
   std::vector<SlaveResult> slaves;
   std::vector<Occurrence> occurrences;
   std::uint64_t occurrences_dropped = 0;  ///< beyond the first kKept
   std::vector<Repeated> refused;          ///< by the first time
-  std::vector<Repeated> violated;         ///< likewise, those that are allowed too; those of checks apart
+  std::vector<Repeated> violated;         ///< by the first time, including allowed ones; without those of checks
   std::vector<ExpectationResult> expectations;
   std::vector<CheckResult> checks;  ///< by slave, then in the order of the chip's rules
   std::optional<Pacing> pacing;
@@ -166,13 +166,13 @@ struct RunResult {
   std::string fault_registers;             ///< of the processor whose fault ended the run, a few lines; else empty
 
   static constexpr std::size_t kKept = 10'000;
-  /// Simulated time over wall time, 0 when nothing was measured.
+  /// Simulated time divided by wall time, 0 without a measurement.
   double real_time_factor() const;
 };
 
 /// The word for a baud index of Status: "12M" ... "9.6k", "searching".
 std::string baud_text(std::optional<int> baud);
-/// "fail", "report", "off", as scenarios and options have them.
+/// "fail", "report", "off", as in scenarios and options.
 const char* name(ChecksMode mode);
 /// "OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH".
 const char* name(profibus::DpState state);

@@ -1,5 +1,5 @@
 #pragma once
-// A run up to a tick as one number: two runs that have the same did the same up to there.
+// A run up to a tick as one number: runs with the same number did the same up to there.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace dsdpv1::tb {
 
-/// Sums up what the bench tells. What happens at one tick is told in another order where nobody wants each change of
-/// each pin, and some of it later: the sum is the same.
+/// Sums up the bench's events. Events at one tick come in another order if not every change of every pin is needed, and
+/// some come later: the sum is the same.
 class RunDigest : public Observer {
  public:
   void event(std::size_t slave, const profibus::Event& event) override;
@@ -19,7 +19,7 @@ class RunDigest : public Observer {
   void flag(const bus::Flag& flag) override;
   void master_state(Tick now, const std::string& master, const std::string& member, const std::string& state) override;
 
-  /// Of all before `now`; nothing comes for a time before it any more.
+  /// Digest of everything before `now`; no later event may have an earlier time.
   std::uint64_t before(Tick now);
 
  private:

@@ -24,7 +24,7 @@ const scenario::Slave* find_slave(const Scenario& scenario, const std::string& n
   return nullptr;
 }
 
-/// Whether a class 1 master has it among its slaves.
+/// Whether a class 1 master lists the slave.
 bool is_listed(const Scenario& scenario, const std::string& slave) {
   for (const scenario::Master& master : scenario.masters)
     for (const scenario::MasterSlave& each : master.slaves)
@@ -32,7 +32,7 @@ bool is_listed(const Scenario& scenario, const std::string& slave) {
   return false;
 }
 
-/// The key of a condition that no master can tell; empty: all can be told.
+/// The key of a condition that no master can evaluate; empty: all can be evaluated.
 std::string untold(const Scenario& scenario, const Condition& c) {
   if (c.dp_state && *c.dp_state != profibus::DpState::kDataExch) return fmt::format("dp_state {}", name(*c.dp_state));
   if (c.baud) return "baud";
@@ -55,7 +55,7 @@ void check(const Scenario& scenario, const Action& action) {
                                  key));
 }
 
-/// What the bench takes from the slave itself.
+/// Fills in the values that the bench takes from the slave.
 Action resolved(const Scenario& scenario, Setup& setup, Action action) {
   const scenario::Slave* slave = find_slave(scenario, action.slave.text);
   if (slave == nullptr) return action;

@@ -141,7 +141,7 @@ std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
 
 namespace {
 
-/// As the log has always had it: bit 7 for a diagnosis that comes, the low bits for its kind.
+/// The code as always shown in the log: bit 7 for a diagnosis that begins, the low bits for its kind.
 int diagnosis_code(user_cpu::DiagnosisKind kind) {
   using user_cpu::DiagnosisKind;
   switch (kind) {
@@ -275,7 +275,7 @@ std::uint8_t Script::target(const Action& action) const {
   return listed ? *listed : stations_.slave(action.slave.text).chip().address();
 }
 
-/// A service out of the cycle; its answer is kept for `reply`.
+/// An acyclic request; its answer is kept for `reply`.
 void Script::ask(const Action& action) {
   bus::Master1& master = stations_.master(action.master.text);
   const auto keep = [this, name = action.master.text, what = action.what](const bus::FdlResult& result) {

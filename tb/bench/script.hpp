@@ -1,6 +1,5 @@
 #pragma once
-// The scenario's script and expectations as the last agent of the timeline: it acts when everybody else has acted at a
-// tick.
+// The scenario's script and expectations, as the last agent of the timeline: it acts after all other agents at a tick.
 #include <cstddef>
 #include <set>
 #include <vector>
@@ -18,20 +17,20 @@ namespace dsdpv1::tb {
 
 class Script : public bus::Agent, public Observer {
  public:
-  /// All of them must outlive it. `left_out`: actions and expectations, by address, that are neither carried out nor
+  /// All arguments must outlive it. `left_out`: addresses of actions and expectations that are neither executed nor
   /// judged.
   Script(const scenario::Scenario& scenario, Stations& stations, bus::Segment& segment, Journal& journal,
          Replies& replies, const std::set<const void*>& left_out, const Observers& observers);
 
-  /// Conditions are looked at again at `at`.
+  /// Conditions are evaluated again at `at`.
   void changed(Tick at) override {
     changed_at_ = at;
     announce();
   }
   Tick next() const override;
   void run(Tick now) override;
-  /// Judges what is to be judged at the end; an expectation whose time did not come has failed, when interrupted also
-  /// those of the end.
+  /// Judges the expectations for the end; an expectation whose time did not come has failed, as have those for the end
+  /// if interrupted.
   std::vector<ExpectationResult> finish(Tick now, bool interrupted);
 
  private:
@@ -77,7 +76,7 @@ class Script : public bus::Agent, public Observer {
   Replies& replies_;
   const Observers& observers_;
   std::vector<Due> agenda_;           ///< latest first; equal times in the order of planning
-  std::vector<std::size_t> waiting_;  ///< actions whose condition has not come true
+  std::vector<std::size_t> waiting_;  ///< actions whose condition does not hold yet
   std::vector<ExpectationResult> expectations_;
   std::vector<bool> judged_;
   Tick changed_at_ = bus::kNever;

@@ -14,7 +14,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-constexpr int kStandardDiag = 6;     // bytes of Slave_Diag in front of the user's
+constexpr int kStandardDiag = 6;     // bytes of Slave_Diag before the user's
 constexpr int kGsdIntervalUs = 100;  // unit of Min_Slave_Intervall
 
 template <class To, class From>
@@ -30,7 +30,7 @@ std::vector<std::string> module_names(const bus::Gsd& gsd) {
 
 std::uint8_t limited(int value, int most) { return static_cast<std::uint8_t>(std::clamp(value, 0, most)); }
 
-/// What the GSD says about the station, before the scenario's own values.
+/// The station's values from the GSD, before those of the scenario.
 user_cpu::StationConfig from_gsd(const bus::Gsd& gsd, const bus::GsdSetup& setup, int prm_mode) {
   user_cpu::StationConfig station;
   station.ident = gsd.ident;
@@ -43,7 +43,7 @@ user_cpu::StationConfig from_gsd(const bus::Gsd& gsd, const bus::GsdSetup& setup
   station.max_diag = limited(gsd.max_diag.value_or(kStandardDiag) - kStandardDiag, 238);
   const int prm = static_cast<int>(setup.user_prm.size());
   station.max_prm =
-      limited(prm_mode == 1 ? prm : gsd.max_user_prm.value_or(prm), 237);  // table 13: mode 1 wants exactly so many
+      limited(prm_mode == 1 ? prm : gsd.max_user_prm.value_or(prm), 237);  // table 13: mode 1 needs exactly this number
   station.cfg = setup.chk_cfg;
   return station;
 }
@@ -64,7 +64,7 @@ const bus::Gsd& Setup::gsd(const scenario::Name& path) {
   if (known != files_.end()) return known->second;
   const ReadFile read = try_read_file(file, kGsdFile.most_mb);
   if (!read.wrong.empty()) {
-    // Of the command line it is absolute: relative to where the user stands.
+    // A path from the command line is absolute: relative to the user's working folder.
     const bool of_scenario = std::filesystem::path(path.text).is_relative();
     fail(path.line, fmt::format("gsd {}: {}, allowed is {}{}", path.text, read.wrong, kGsdFile.what,
                                 of_scenario ? ", its path relative to the scenario" : ""));
@@ -138,7 +138,7 @@ void Setup::take_init(bus::SlaveParameters& parameters, const scenario::Slave& s
   const user_cpu::StationConfig config = station(slave);
   parameters.ident = config.ident;
   parameters.cfg = config.cfg;
-  if (config.prm_mode == 1) parameters.user_prm.assign(config.max_prm, 0);  // table 13: exactly so many
+  if (config.prm_mode == 1) parameters.user_prm.assign(config.max_prm, 0);  // table 13: exactly this number
 }
 
 void Setup::take_lengths(bus::SlaveParameters& parameters, int line) const {
@@ -192,7 +192,7 @@ void Setup::take_dpv1(bus::SlaveParameters& parameters, const scenario::MasterSl
 Watchdog watchdog_factors(bus::Tick time) {
   if (time == 0) return {};
   Watchdog best;
-  // The 1 ms base needs the first DPV1 byte in Set_Prm: only where 10 ms is too coarse.
+  // The 1 ms base needs the first DPV1 byte in Set_Prm, so it is only used if 10 ms is too coarse.
   best.base_1ms = time % (10 * bus::kTicksPerMs) != 0 && time <= 65025 * bus::kTicksPerMs;
   const bus::Tick base = (best.base_1ms ? 1 : 10) * bus::kTicksPerMs;
   const std::int64_t units = std::min<std::int64_t>((time + base - 1) / base, 255 * 255);

@@ -1,6 +1,6 @@
 #pragma once
-// From a scenario and its GSD files to what the user CPUs and the masters are given. All errors are InputErrors with
-// file and line.
+// Derives the data for user CPUs and masters from a scenario and its GSD files. All errors are InputErrors with file
+// and line.
 #include <map>
 #include <string>
 
@@ -17,11 +17,11 @@ class Setup {
   /// `scenario` must outlive it.
   explicit Setup(const scenario::Scenario& scenario) : scenario_(scenario) {}
 
-  /// The initialisation data of a slave: those of its GSD and modules, with the scenario's own on top.
+  /// The initialisation data of a slave: from its GSD and modules, overridden by the scenario.
   user_cpu::StationConfig station(const scenario::Slave& slave);
-  /// What a master sends to a slave.
+  /// A master's parameters for a slave.
   bus::SlaveParameters parameters(const scenario::MasterSlave& slave);
-  /// The scenario's slave that a master's slave names; null when it names none.
+  /// The scenario's slave named in a master's list; null without one.
   const scenario::Slave* named(const scenario::MasterSlave& slave) const;
 
  private:
@@ -38,7 +38,7 @@ class Setup {
   std::map<std::string, bus::Gsd> files_;
 };
 
-/// WD_Fact_1, WD_Fact_2 and the base for a watchdog time: the least time that is not shorter. Off for 0.
+/// WD_Fact_1, WD_Fact_2 and the base for a watchdog time: the shortest that is at least this long. Off for 0.
 struct Watchdog {
   std::uint8_t fact_1 = 0, fact_2 = 0;
   bool base_1ms = false;

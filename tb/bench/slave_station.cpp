@@ -46,7 +46,7 @@ void SlaveStation::release_reset(Tick now) {
 }
 
 void SlaveStation::command(Tick now, const user_cpu::Command& command) {
-  if (!user_) return;  // held in reset: nobody listens
+  if (!user_) return;  // held in reset: no program
   user_->command(now, command);
   announce();
 }
@@ -63,7 +63,7 @@ void SlaveStation::interrupt_changed(Tick at, bool level) {
   announce();
 }
 
-/// Outputs that the user CPU has fetched are told before it does something else.
+/// Outputs that the user CPU has fetched are reported before its next action.
 bool SlaveStation::go_on(Tick tick) {
   return user_->outputs_received() == outputs_seen_ && execution_.go_on(*this, tick);
 }
@@ -75,7 +75,7 @@ void SlaveStation::run(Tick now) {
   outputs_seen_ = received;
   const bool changed = outputs_ != user_->outputs();
   outputs_ = user_->outputs();
-  observers_.tell(&Observer::outputs, number_, observers_.now(), outputs_, changed);  // the turn may have gone on
+  observers_.tell(&Observer::outputs, number_, observers_.now(), outputs_, changed);  // the turn may have been extended
   observers_.changed();
 }
 

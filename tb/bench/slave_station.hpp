@@ -1,5 +1,5 @@
 #pragma once
-// One slave on the bench: the chip and the user CPU that runs the driver.
+// One slave on the bench: the chip, and the user CPU that runs the driver.
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace dsdpv1::tb {
 
-/// The agent is the user CPU; the chip is the execution's business. What it does is told to the observers.
+/// The agent is the user CPU; the execution runs the chip. Its actions are reported to the observers.
 class SlaveStation : public bus::Agent, private user_cpu::Others {
  public:
   /// `number`: of the slave in the scenario. `execution` and `observers` must outlive it.
@@ -29,11 +29,11 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   ChipView& chip() { return *chip_; }
   const user_cpu::StationConfig& station() const { return station_; }
 
-  /// RESET of the board: the chip, and the user CPU that starts from the beginning when it is released.
+  /// RESET of the board: of the chip and of the user CPU, which restarts when it is released.
   void hold_in_reset(Tick now);
   void release_reset(Tick now);
 
-  /// Hands a command to the user program and wakes it.
+  /// Passes a command to the user program and wakes it.
   void command(Tick now, const user_cpu::Command& command);
   void reinitialise(Tick now, std::optional<int> address, const std::optional<bus::Bytes>& cfg);
   void interrupt_changed(Tick at, bool level);
@@ -41,11 +41,11 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   Tick next() const override { return user_ ? user_->next() : bus::kNever; }
   void run(Tick now) override;
 
-  /// What the user CPU has fetched last.
+  /// The outputs that the user CPU fetched last.
   const bus::Bytes& outputs() const { return outputs_; }
   Tsdr& tsdr() { return tsdr_; }
   const Tsdr& tsdr() const { return tsdr_; }
-  /// Everything but the master's side.
+  /// Everything except the master's side.
   SlaveResult result() const;
 
  private:
@@ -60,9 +60,9 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   Execution& execution_;
   const Observers& observers_;
   std::unique_ptr<user_cpu::StationCpu> user_;
-  user_cpu::UserCounters before_reset_;  ///< of user CPUs that a reset has ended
+  user_cpu::UserCounters before_reset_;  ///< of user CPUs ended by a reset
   std::optional<user_cpu::BoardReport> board_before_reset_;
-  bool tells_ = true;  ///< the user CPU: what its program does
+  bool tells_ = true;  ///< the user CPU reports what its program does
   std::uint64_t outputs_seen_ = 0;
   bus::Bytes outputs_;
   Tsdr tsdr_;

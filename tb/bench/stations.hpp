@@ -1,5 +1,5 @@
 #pragma once
-// Who is on the bench's segment, by the names that the scenario gives them.
+// The stations on the bench's segment, by their names in the scenario.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -22,8 +22,8 @@ struct MasterStation {
   std::map<std::uint8_t, std::string> slaves;  ///< names by address
 };
 
-/// With its slaves, silent. `scenario` gives the rate, `setup` the slaves' parameters; `spec` must outlive it. Throws
-/// InputError for values that the bus refuses.
+/// Makes it with its slaves, silent. `scenario` gives the rate, `setup` the slaves' parameters; `spec` must outlive it.
+/// Throws InputError for values that the bus refuses.
 MasterStation make_master(const scenario::Scenario& scenario, const scenario::Master& spec, Setup& setup,
                           bus::Segment& segment);
 
@@ -33,19 +33,19 @@ struct Stations {
   std::vector<std::unique_ptr<Class2Station>> masters2;
 
   SlaveStation& slave(const std::string& name) const;
-  /// The same, null when the slave is not on this bench.
+  /// As above, null if the slave is not on this bench.
   SlaveStation* find_slave(const std::string& name) const;
   /// The first one for an empty name.
   bus::Master1& master(const std::string& name) const;
-  /// The class 2 master with this name, null when there is none; and the one that has this connection.
+  /// The class 2 master with this name, null without one; and the one that has this connection.
   Class2Station* class2(const std::string& name) const;
   Class2Station& owner_of(const std::string& connection) const;
   const bus::Connection& connection(const std::string& name) const { return owner_of(name).connection(name); }
-  /// The master that exchanges data with a slave, null when none does.
+  /// The master that exchanges data with a slave, null without one.
   const bus::Master1* master_of(const std::string& slave) const;
-  /// What masters call the slave: the address in their lists.
+  /// The slave's address in the masters' lists.
   std::optional<std::uint8_t> listed_address(const std::string& slave) const;
-  /// All masters go on with this rate (bus/baud.hpp).
+  /// Changes the rate of all masters (bus/baud.hpp).
   void change_baud(int index);
 };
 

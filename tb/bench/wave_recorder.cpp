@@ -10,13 +10,13 @@ namespace dsdpv1::tb {
 
 namespace {
 
-/// A bus as everybody on it sees it: two drivers at once are X.
+/// The level of a bus: two drivers at once give X.
 Level resolved(Level user, Level chip) {
   if (user == kLevelZ) return chip;
   return chip == kLevelZ || chip == user ? user : kLevelX;
 }
 
-/// The pin of the same bus, `pin` itself when it is of none.
+/// The other direction's pin of the same bus; `pin` itself if it is on none.
 std::size_t other_direction(const PinTable& pins, std::size_t pin) {
   for (std::size_t i = 0; i < pins.size(); ++i)
     if (i != pin && pins[pin].bus != nullptr && pins[i].bus != nullptr &&
@@ -131,7 +131,7 @@ void WaveRecorder::begin() {
   for (const auto& [name, state] : master_states_) say(0, state.signal, state.initial);
 }
 
-/// Words were noted in its sleep, levels are looked at now.
+/// Words were recorded during sleep; levels are read now.
 void WaveRecorder::wake(bus::Tick now, bus::Tick from, bus::Tick to, bool line) {
   asleep_ = false;
   deferred_->open();
@@ -192,7 +192,7 @@ void WaveRecorder::end_run() {
   sender_ = Turn::kMaster;
 }
 
-/// A sender moves its own pin before the line.
+/// A sender's pin changes before the line.
 void WaveRecorder::follows(std::size_t slave, PinNumber pin) {
   if (asleep_) return;
   PinSignal& own = chips_[slave].pins[pin];
@@ -203,12 +203,12 @@ void WaveRecorder::follows(std::size_t slave, PinNumber pin) {
   followers_.insert(followers_.begin(), follower);
 }
 
-/// The user's side moves inputs, and a bus when it likes.
+/// The user's side changes inputs, and a bus at any time.
 std::size_t WaveRecorder::turn_of(const PinInfo& pin, std::size_t chip) const {
   return pin.input || pin.bus != nullptr ? Turn::kLast : chip;
 }
 
-/// A chip that hears the line has done by then what it does itself at that time.
+/// A chip that receives the line has already made its own changes at that time.
 std::size_t WaveRecorder::turn_of(const Follower& follower) const {
   return follower.is_input ? std::max(sender_, follower.chip) : sender_;
 }
@@ -246,7 +246,7 @@ void WaveRecorder::character(bus::Tick now, const bus::ReceivedCharacter& heard)
   say(now, character_, fmt::format("{:02X}{}", heard.byte, wrong));
 }
 
-/// A service is shown at the slave that is asked for it, or that answers.
+/// A service is shown at the slave to which it is addressed, or that answers.
 void WaveRecorder::telegram(const HeardTelegram& heard) {
   make_changes(heard.now, Turn::kMonitor);
   say(heard.now, telegram_, heard.words());
@@ -254,7 +254,7 @@ void WaveRecorder::telegram(const HeardTelegram& heard) {
     if (concerns(heard.telegram, chip.chip->address())) say(heard.now, chip.service, heard.words());
 }
 
-/// One that a silence has ended is known of late: it is shown then.
+/// A telegram that ends with a silence is known late, and shown then.
 void WaveRecorder::host_telegram(std::size_t slave, const HostTelegram& telegram) {
   const ChipSignals& chip = chips_[slave];
   make_changes(telegram.known, Turn::kLast);

@@ -1,5 +1,5 @@
 #pragma once
-// What a run puts into its wave file: the pins of every chip, the line, and decoded states as words.
+// Writes a run's wave file: the pins of every chip, the line, and decoded states as words.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -21,60 +21,60 @@
 
 namespace dsdpv1::tb {
 
-/// Of WaveOptions::on, beside the codes: any violation.
+/// In WaveOptions::on, besides codes: any violation.
 inline constexpr const char* kAnyViolation = "violation";
 
-/// `--wave` and what goes with it.
+/// `--wave` and its options.
 struct WaveOptions {
-  std::string path;  ///< empty: no wave
+  std::string path;  ///< empty: none
   WaveSelection selection;
   /// Codes that open a window, "violation" for any violation; empty: `selection` has one window.
   std::vector<std::string> on;
-  bool inside = false;  ///< inner signals of the chips, too
-  std::string date;     ///< that the file is to have; empty: none
-  /// Pins are not followed, and there is no file, until `WaveRecorder::wake`; `on` is told by `triggered` then.
+  bool inside = false;  ///< also internal signals of the chips
+  std::string date;     ///< date in the file; empty: none
+  /// pins are not followed, and there is no file, until `WaveRecorder::wake`; `triggered` then reports `on`
   bool asleep = false;
 };
 
-/// A run of characters: nobody tells its changes one by one, so they are made when something behind them is written.
+/// A run of characters: its changes are not reported one by one, so they are generated when a later event is written.
 class LineRun {
  public:
-  /// Its changes, in the place of what is left of the one before.
+  /// Begins with its changes and drops those left of the previous run.
   void begin(const bus::CharacterRun& run) {
     end();
     bus::for_each_change(run, [this](bus::Tick at, bool /*level*/) { edges_.push_back(at); });
   }
-  /// What is left does not happen.
+  /// Drops the remaining changes.
   void end() { edges_.clear(), next_ = 0; }
   bool is_under_way() const { return next_ < edges_.size(); }
-  /// Of the next change, while the run is under way.
+  /// Time of the next change during the run.
   bus::Tick at() const { return edges_[next_]; }
   bool level() const { return next_ % 2 != 0; }
   void go_on() { ++next_; }
 
  private:
-  std::vector<bus::Tick> edges_;  ///< falling and rising in turn
+  std::vector<bus::Tick> edges_;  ///< falling and rising alternately
   std::size_t next_ = 0;
 };
 
 class WaveRecorder : public Observer, private bus::Listener {
  public:
-  /// Listens to the line as a station of its own. `timeline` and `kind` must outlive it.
+  /// Attaches to the line as a separate station. `timeline` and `kind` must outlive it.
   WaveRecorder(const WaveOptions& options, bus::Segment& segment, const bus::Timeline& timeline, const ChipKind& kind);
 
   // Declarations, before `begin`.
-  /// Slaves are numbered in the order in which they are added.
-  /// `host_port`: the serial port whose telegrams are told, null: none.
+  // Slaves are numbered in the order in which they are added.
+  // `host_port`: the serial port whose telegrams are reported, null: none.
   void add_chip(const std::string& name, const ChipView& chip, const char* host_port);
-  /// `members`: its slaves or connections, all in the state `initial`.
+  /// `members`: its slaves or connections, all with the state `initial`.
   void add_master(const std::string& master, const std::vector<std::string>& members, const std::string& initial);
   /// Writes the first values.
   void begin();
-  /// Before a run, or in it, where chips tell all pins from now on and `now` is before `from` by 1 ms or more: opens
-  /// the file, throws InputError.
+  /// Opens the file; throws InputError. Call it before a run, or during one, if chips report all pins from now on and
+  /// `now` is at least 1 ms before `from`.
   void wake(bus::Tick now, bus::Tick from, bus::Tick to, bool line);
   bool asleep() const { return asleep_; }
-  /// While asleep: when the first of WaveOptions::on happened, its code and its station.
+  /// While asleep: time of the first event in WaveOptions::on, its code and station.
   struct Trigger {
     bus::Tick at = 0;
     std::string station, code;
@@ -82,7 +82,7 @@ class WaveRecorder : public Observer, private bus::Listener {
   const std::optional<Trigger>& triggered() const { return triggered_; }
 
   void pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) override;
-  /// From now on the changes of runs are made here. Where chips tell theirs it is the same wave, and takes longer.
+  /// Generates the changes of runs here from now on. The wave is the same as with reported changes, which take longer.
   void take_runs() { takes_runs_ = true; }
   void follows(std::size_t slave, PinNumber pin) override;
   void event(std::size_t slave, const profibus::Event& event) override;
@@ -96,10 +96,10 @@ class WaveRecorder : public Observer, private bus::Listener {
   void host_telegram(std::size_t slave, const HostTelegram& telegram) override;
   void master_state(bus::Tick now, const std::string& master, const std::string& member,
                     const std::string& state) override;
-  /// `count` is shown with the code, so that each is a change.
+  /// `count` is shown with the code, so that each occurrence is a change.
   void counted(bus::Tick at, const std::string& station, const std::string& code, bool violation,
                std::uint64_t count) override;
-  /// Nothing has opened a window.
+  /// No window was opened.
   bool is_empty() const { return !writer_->has_window(); }
   // See WaveWriter.
   void save(bus::Tick at) {
@@ -120,24 +120,24 @@ class WaveRecorder : public Observer, private bus::Listener {
   struct PinSignal {
     Signal signal = 0;
     const PinInfo* pin = nullptr;
-    PinNumber other = 0;  ///< of a bus: the pin of the other direction
+    PinNumber other = 0;  ///< for a bus: the pin of the other direction
     Level level = kLevelZ;
-    bool follows = false;       ///< the run that is under way
-    bool has_followed = false;  ///< a run, so that a change may be told that was made already
+    bool follows = false;       ///< the present run
+    bool has_followed = false;  ///< a run, so that a change may be reported that was already made
   };
   struct ChipSignals {
     const ChipView* chip = nullptr;
     std::vector<PinSignal> pins;
     std::vector<Signal> inside;
     Signal dp_state = 0, service = 0, user = 0;
-    std::optional<Signal> request, reply;  ///< of the serial host port, if it has one
+    std::optional<Signal> request, reply;  ///< of the serial host port, if any
     std::array<Signal, profibus::kC2Channels> rm_entries{};
   };
   // At equal times chips have their turns first, in order, then the monitor, masters, and all others (bus::Timeline).
   struct Turn {
     static constexpr std::size_t kMonitor = SIZE_MAX - 2, kMaster = SIZE_MAX - 1, kLast = SIZE_MAX;
   };
-  /// Of what a run changes: a pin, or the line.
+  /// A signal changed by a run: a pin, or the line.
   struct Follower {
     std::size_t chip;
     PinNumber pin;
@@ -150,7 +150,7 @@ class WaveRecorder : public Observer, private bus::Listener {
   }
   bool run_begins(const bus::CharacterRun& run) override;
   void run_cut(bus::Tick at, bool level) override;
-  /// Those of the run that come before what is written at `at`, or found out now, in this turn.
+  /// Writes the run's changes that come before an event written at `at`, or found now, in this turn.
   void make_changes(bus::Tick at, std::size_t turn) {
     if (run_.is_under_way()) make_changes_before(std::max(at, timeline_.now()), turn);
   }
@@ -164,7 +164,7 @@ class WaveRecorder : public Observer, private bus::Listener {
     writer_->set(at, signal, level);
     last_ = at;
   }
-  /// What is found out late is shown where the wave is.
+  /// Events found late are shown at the wave's present time.
   void say(bus::Tick at, Signal signal, const std::string& word) {
     last_ = std::max(at, last_);
     writer_->say(last_, signal, word);
@@ -191,9 +191,9 @@ class WaveRecorder : public Observer, private bus::Listener {
   };
   std::map<std::string, MasterState> master_states_;  // by "master.member"
   LineRun run_;
-  std::size_t sender_ = Turn::kMaster;  ///< whose turn makes the run's changes
+  std::size_t sender_ = Turn::kMaster;  ///< the turn in which the run's changes are made
   std::vector<Follower> followers_;     ///< of the run, in the order in which they change
-  std::size_t next_follower_ = 0;       ///< who makes the run's next change
+  std::size_t next_follower_ = 0;       ///< the maker of the run's next change
   bool takes_runs_ = false;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
-// One chip as the bench drives and sees it, whichever kind it is and whichever way it is executed (pins of the core,
-// TLM module, RTL).
+// The bench's interface to one chip of any kind in any execution (pins of the core, TLM module, RTL).
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,7 +15,7 @@ namespace dsdpv1::tb {
 
 using bus::Tick;
 
-/// What every slave chip can say of itself.
+/// Status values of every slave chip.
 struct ChipStatus {
   profibus::DpState dp_state = profibus::DpState::kOffline;
   std::optional<int> baud;               ///< index of bus/baud.hpp, absent while it searches
@@ -25,13 +24,13 @@ struct ChipStatus {
   std::uint64_t telegrams_received = 0;  ///< error-free telegrams of all stations
   std::uint64_t telegrams_answered = 0;  ///< answers sent
   std::uint64_t data_exchanges = 0;      ///< executed data exchanges, repetitions not counted
-  std::uint64_t outputs_missed = 0;      ///< outputs that newer ones replaced before the user had fetched them
-  profibus::RmRegistry c2 = {};          ///< table 30: who has the C2 channels
-  std::uint64_t accesses = 0;            ///< of the chip to the memory that it shares with the user, if it does
-  Tick longest_wait = 0;                 ///< longest time that it waited there for the user
+  std::uint64_t outputs_missed = 0;      ///< outputs that newer ones replaced before the user fetched them
+  profibus::RmRegistry c2 = {};          ///< table 30: the masters that hold the C2 channels
+  std::uint64_t accesses = 0;            ///< of the chip to the memory shared with the user, if any
+  Tick longest_wait = 0;                 ///< longest wait there for the user
 };
 
-/// What the status of any chip on the blocks of model/profibus has in common.
+/// The common part of the status of all chips with the blocks of model/profibus.
 template <class Status>
 ChipStatus common_status(const Status& own) {
   ChipStatus status;
@@ -46,32 +45,33 @@ ChipStatus common_status(const Status& own) {
   return status;
 }
 
-/// Who hears what happens at chips; overrides what concerns it. `slave`: the number with which it listens to the chip.
+/// Receives the events of chips; derived classes override the calls that they need. `slave`: the number given to
+/// listen().
 class ChipListener {
  public:
   virtual ~ChipListener() = default;
 
   /// Changes of the watched pins, in order of time.
   virtual void pin(std::size_t /*slave*/, Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
-  /// The pin that interrupts the user CPU, told before pin().
+  /// The pin that interrupts the user CPU, reported before pin().
   virtual void interrupt(std::size_t /*slave*/, Tick /*at*/, bool /*level*/) {}
   virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
-  // What follows is told to whom wants it: ChipNews.
-  /// The pin has the levels of the run that begins on the line now, until its end or until it is cut: changes up to
-  /// then may be told or not, also one to the level that the pin has already.
+  // The following are only reported on request: ChipNews.
+  // The pin follows the run that begins on the line now, until its end or until it is cut: changes up to then may be
+  // reported or not, even one to the present level.
   virtual void follows(std::size_t /*slave*/, PinNumber /*pin*/) {}
-  /// The user CPU begins a read, whose first edge is still to come, and samples the data at `sample`: no pin shows
-  /// that.
+  /// The user CPU begins a read, whose first edge is still to come, and samples the data at `sample`, which no pin
+  /// shows.
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
-  /// An inner signal (ChipKind::inner_signals) has changed; one of words has no level, any other no word. Only where
-  /// ChipRequest::inside wants it.
+  /// An internal signal (ChipKind::inner_signals) has changed; signals of words have no level, others no word. Only
+  /// with ChipRequest::inside.
   virtual void inside(std::size_t /*slave*/, Tick /*at*/, std::size_t /*signal*/, Level /*level*/,
                       const std::string& /*word*/) {}
-  /// What the user CPU does at the chip's pins, in words: an access, a pin that it moves.
+  /// An action of the user CPU at the chip's pins, as text: an access, or a change of a pin.
   virtual void action(std::size_t /*slave*/, Tick /*at*/, const std::string& /*words*/) {}
 };
 
-/// News that are not made where nobody wants them. Without runs all changes are told.
+/// Optional reports. Without runs all changes are reported.
 struct ChipNews {
   bool runs = false, reads = false, inside = false, actions = false;
 };
@@ -81,32 +81,32 @@ class ChipView {
   virtual ~ChipView() = default;
 
   virtual void set_reset(Tick at, bool level) = 0;
-  /// The user CPU was reset at `at`: its bus is idle again, an access begun is forgotten.
+  /// The user CPU was reset at `at`: its bus idles, an access in progress is dropped.
   virtual void reset_host(Tick at) = 0;
   virtual bus::StationId station() const = 0;
-  /// Status and levels as of the last evaluation; `sync` brings them to the present time.
+  /// Status and levels at the last evaluation; `sync` advances them to the present time.
   virtual ChipStatus status() const = 0;
-  /// Of the station, as in `status`.
+  /// Address of the station, as in `status`.
   virtual std::uint8_t address() const = 0;
   virtual Level level(PinNumber pin) const = 0;
-  /// A cell of the memory that chip and user share, without side effects.
+  /// A cell of the memory shared by chip and user, without side effects.
   virtual std::uint8_t peek(std::uint16_t address) const = 0;
   virtual void sync(Tick now) = 0;
 
-  /// What the user CPU of this kind has hold of; null: no user CPU of the bench can.
+  /// The interface for a user CPU of this kind; null: the bench cannot connect one.
   virtual user_cpu::UserSide* user_side() { return nullptr; }
 
-  /// Whether ChipListener::follows is told.
+  /// Whether it reports ChipListener::follows.
   virtual bool tells_runs() const { return false; }
 
-  /// Somebody else acts before the next edge of an access under way.
+  /// Another agent acts before the next edge of the present access.
   virtual void pause_access() {}
 
-  /// From now on changes of these pins are told, all of them; a telegram and an access under way, too. Only of cores
+  /// Reports all changes of these pins from now on, including those of a telegram or access in progress. Only for cores
   /// by their pins.
   virtual void watch(Tick /*now*/, PinMask /*pins*/) {}
 
-  /// From now on `listener`, which must outlive the calls, is told, and nobody else.
+  /// From now on reports only to `listener`, which must outlive the calls.
   void listen(ChipListener& listener, std::size_t number, const ChipNews& wanted = {}) {
     listener_ = &listener;
     number_ = number;
@@ -116,7 +116,7 @@ class ChipView {
  protected:
   ChipListener* listener_ = nullptr;
   std::size_t number_ = 0;
-  ChipNews wanted_;  ///< none without a listener
+  ChipNews wanted_;  ///< empty without a listener
 };
 
 }  // namespace dsdpv1::tb

@@ -1,5 +1,5 @@
 #pragma once
-// Telegrams between a chip and its user over a serial host port, read from the pins alone: the same for every engine,
+// Telegrams between a chip and its user over a serial host port, derived only from the pins: the same for every engine,
 // user CPU and RTL.
 #include <functional>
 #include <string>
@@ -10,27 +10,27 @@
 
 namespace dsdpv1::tb {
 
-/// A telegram, or what was to be one.
+/// A telegram, complete or not.
 struct HostTelegram {
   bus::Tick start = 0, end = 0;
-  bool reply = false;  ///< of the chip; else a request of the user
+  bool reply = false;  ///< from the chip; else a request of the user
   std::string words;   ///< its kind, address, length, error code, card and CRC
   bus::Bytes bytes;
-  std::string wrong;    ///< what is wrong with it; empty: nothing
-  bus::Tick known = 0;  ///< when the pins have said so: its end, or later
+  std::string wrong;    ///< its fault; empty: none
+  bus::Tick known = 0;  ///< when the pins have shown it: its end, or later
 };
 
 /// Reads one chip's pins.
 class HostReader : public bus::Agent {
  public:
-  /// "spi", "uart": what waves and logs call the port.
+  /// "spi", "uart": the port's name in waves and logs.
   virtual const char* port() const = 0;
-  /// Pins that it has to be told of.
+  /// Pins that must be reported to it.
   virtual PinMask pins() const = 0;
   /// In order of time; pins that change at the same tick in any order.
   virtual void pin(bus::Tick at, PinNumber pin, Level level) = 0;
 
-  /// Each telegram when it has ended, at the latest when it is known that it has.
+  /// Called for each telegram when it has ended, at the latest when that is known.
   std::function<void(const HostTelegram&)> on_telegram;
 
  protected:
@@ -39,7 +39,7 @@ class HostReader : public bus::Agent {
     on_telegram(telegram);
   }
 
-  bus::Tick now_ = 0;  ///< of the turn or the change under way
+  bus::Tick now_ = 0;  ///< of the present turn or change
 };
 
 }  // namespace dsdpv1::tb

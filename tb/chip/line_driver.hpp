@@ -1,13 +1,13 @@
 #pragma once
-// How a chip's two sending pins reach the line on a board with an RS-485 driver.
+// Connects a chip's two sending pins to the line through a board's RS-485 driver.
 #include <vector>
 
 #include "bus/wire/segment.hpp"
 
 namespace dsdpv1::tb {
 
-/// One pin enables the driver, the other is what it drives. What the chip does inside of a call is told to the line
-/// after the call, because the line answers, which may change the chip again.
+/// One pin enables the driver, the other is its input. Changes made inside a call of the chip are passed to the line
+/// after the call, because the line reacts, which may change the chip again.
 class LineDriver {
  public:
   LineDriver(bus::Segment& segment, bus::StationId station) : segment_(segment), station_(station) {}
@@ -20,11 +20,11 @@ class LineDriver {
     level_ = level;
     due_.push_back({at, enabled_, level_});
   }
-  /// Whether something has not been told yet, and since when.
+  /// Whether changes are pending, and since when.
   bool waits() const { return next_ < due_.size(); }
   bus::Tick since() const { return due_[next_].at; }
-  /// What the chip does to the line from now on is told otherwise, up to a `resume` with the level of then, or the end:
-  /// the one change that waits, of the level, is not told.
+  /// The chip's changes of the line are reported in another way from now on, up to a `resume` with the level of that
+  /// time, or the end: the one pending change, of the level, is dropped.
   bool only_level_waits() const { return waits() && next_ + 1 == due_.size() && enabled_; }
   void forget_level() {
     due_.clear();
@@ -32,7 +32,7 @@ class LineDriver {
     level_ = true;
   }
   void resume(bool level) { level_ = level; }
-  /// Tells the line; the list may grow meanwhile.
+  /// Passes the changes to the line; the list may grow meanwhile.
   void pass_on() {
     for (; next_ < due_.size(); ++next_) {
       const Change change = due_[next_];

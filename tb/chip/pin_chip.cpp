@@ -47,7 +47,7 @@ void PinChip::begin_watch(PinMask pins) {
   for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_[pin] = device_->level(static_cast<PinNumber>(pin));
 }
 
-// A telegram under way is told by its changes from here on.
+// A telegram in progress is reported by its changes from here on.
 void PinChip::watch(Tick now, PinMask pins) {
   segment_.cut_run(now);
   device();
@@ -81,7 +81,7 @@ void PinChip::run(Tick now) {
   update_hearing();
 }
 
-// An answer begins: its first start bit waits to be told, or the whole of it is told in its place.
+// An answer begins: passes on its first start bit, or instead the whole answer.
 void PinChip::send_run() {
   if ((reports_txd_ && !wanted_.runs) || !line_.only_level_waits() || !device_->begins_to_send()) return;
   const profibus::CharacterRun run = device_->hide_txd();
@@ -96,7 +96,7 @@ void PinChip::send_run() {
 
 void PinChip::pin_changed(Tick at, PinNumber pin, Level level) {
   const PinMask changed = mask_of(pin);
-  if ((changed & data_) == 0) pause_access();  // data are recorded and checked, nobody else looks at them
+  if ((changed & data_) == 0) pause_access();  // data are only recorded and checked
   tell(at, pin, level);
   if ((changed & places_.told) != 0) host_pin_changed(at, pin, level);
   if (pin == places_.txd) line_.drive(at, level != 0);
@@ -127,12 +127,12 @@ bool PinChip::run_begins(const bus::CharacterRun& run) {
     listener_->follows(number_, places_.rxd);
   }
   if (own_run_ && reports_txd_) listener_->follows(number_, places_.txd);
-  if (own_run_) return true;  // while it sends, it does not listen
+  if (own_run_) return true;  // the chip does not receive while it sends
   if (run.bit % bus::kTicksPerCycle != 0) return false;
   catch_up(run.start);
   const bool taken =
       device_->hear(run.start, {run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
-  plan_again();  // the same as before, as long as the telegram is not for this station
+  plan_again();  // unchanged as long as the telegram is not for this station
   return taken;
 }
 
@@ -153,7 +153,7 @@ void PinChip::run_cut(Tick at, bool level) {
   update_hearing();
 }
 
-// Who shows the pin wants each change of it in time.
+// If the pin is watched, each change of it is needed in time.
 void PinChip::update_hearing() {
   if (reports_rxd_) return;
   const profibus::Unheard unheard = device_->unheard();

@@ -1,5 +1,5 @@
 #pragma once
-// Any chip driven by its pins as a station of the segment. What its kind has between pins and user CPU is derived.
+// Any chip driven by its pins as a station of the segment. Kinds derive the connection between pins and user CPU.
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,17 +11,17 @@
 
 namespace dsdpv1::tb {
 
-/// Which of a chip's pins are wired to what on its board.
+/// The wiring of a chip's pins on its board.
 struct BoardPins {
   PinNumber reset = 0, rxd = 0, txd = 0, rts = 0, interrupt = 0;
-  PinMask told = 0;  ///< outputs whose changes PinChip::host_pin_changed is told of
+  PinMask told = 0;  ///< outputs whose changes are reported to PinChip::host_pin_changed
 };
 
-/// Wired as on a board with an RS-485 driver: the pin `rts` enables it, `txd` is what it drives, `rxd` hears the line
-/// at all times.
+/// Wired as on a board with an RS-485 driver: the pin `rts` enables it, `txd` is its input, `rxd` always receives the
+/// line.
 class PinChip : public ChipView, public bus::Agent, private bus::Listener {
  public:
-  /// `watched`: pins whose changes are told (ChipRequest::watched).
+  /// `watched`: pins whose changes are reported (ChipRequest::watched).
   PinChip(const std::string& name, std::unique_ptr<PinDevice> device, const PinTable& pins, const BoardPins& places,
           PinMask watched, bus::Segment& segment);
 
@@ -37,7 +37,7 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   void pause_access() override { pauses_ = true; }
   void watch(Tick now, PinMask pins) override;
 
-  // --- For somebody at the user's pins who is no user CPU of the bench. The bench has come to `at`.
+  // --- For drivers of the user's pins outside the bench. The bench has advanced to `at`.
   void set_pin(Tick at, PinNumber pin, Level level);
   Level sample(Tick at) { return device().sample(at); }
   void poke(Tick now, std::uint16_t address, std::uint8_t value);
@@ -46,7 +46,7 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   void run(Tick now) override;
 
  protected:
-  /// Whoever moves the chip takes it from here: the device is first told what it was not told of the line.
+  /// Access for all calls that advance the chip: first passes pending changes of the line to the device.
   PinDevice& device() {
     announce();
     hear_line();
@@ -57,29 +57,29 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
     segment_.hear(station_);
     catching_up_ = false;
   }
-  /// What was done to the device is over.
+  /// Call after each operation on the device.
   void plan_again() {
     announce(next());
     update_hearing();
   }
-  /// The chip is about to act at `at`, or to hear something: edges that were put off, `put_off_`, come first.
+  /// The chip is about to act at `at`, or to receive a change: apply edges that were put off (`put_off_`) first.
   virtual void catch_up_host(Tick /*at*/) {}
   /// One of BoardPins::told has changed.
   virtual void host_pin_changed(Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
-  /// Whether changes of the user's pins are told.
+  /// Whether changes of the user's pins are reported.
   bool reports_host() const { return reports_host_; }
-  /// Tells those inputs from `first` to `last` that have changed since they were told last, in the order of their
-  /// numbers; all but `rxd`: if they are wanted.
+  /// Reports the inputs from `first` to `last` that have changed since their last report, in the order of their
+  /// numbers; all except `rxd`, if they are wanted.
   void report_host(Tick at, PinNumber first, PinNumber last) {
     if (reports_host_) report_inputs(at, first, last);
   }
   void report_inputs(Tick at, PinNumber first, PinNumber last);
-  /// An input has this level without a report.
+  /// Sets an input to this level without a report.
   void begin_input(PinNumber pin, Level level) { inputs_.at(pin) = level; }
 
   const std::unique_ptr<PinDevice> device_;
-  bool put_off_ = false;  ///< an access is under way whose edges are set when the chip goes beyond them
-  bool pauses_ = false;   ///< since an edge of an access, somebody was told something on which they may act
+  bool put_off_ = false;  ///< an access is in progress whose edges are set when the chip advances beyond them
+  bool pauses_ = false;   ///< since an edge of an access, something was reported that may cause an action
 
  private:
   void catch_up(Tick at) {
@@ -97,13 +97,13 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
 
   const PinTable& pins_;
   const BoardPins places_;
-  const PinMask data_;  ///< pins of a bus, whose changes nobody acts on
+  const PinMask data_;  ///< pins of a bus, whose changes cause no action
   bus::Segment& segment_;
   bus::StationId station_;
   LineDriver line_;
   bool reports_host_ = false, reports_rxd_ = false, reports_txd_ = false, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
-  std::vector<Level> inputs_;  ///< by pin, as told last
+  std::vector<Level> inputs_;  ///< by pin, as last reported
 };
 
 }  // namespace dsdpv1::tb

@@ -41,7 +41,7 @@ class Checker {
  private:
   [[noreturn]] void fail(int line, const std::string& text) const { throw InputError(scenario_.file, line, text); }
 
-  /// Names stand in logs, waves and result files: letters, digits and underscores, each only once.
+  /// Names appear in logs, waves and result files: letters, digits and underscores, each only once.
   void check_names() const {
     std::map<std::string, int> seen;
     const auto check = [&](const Name& name) {

@@ -3,7 +3,8 @@
 
 namespace dsdpv1::tb::scenario {
 
-/// What the keys alone cannot say: names that refer to each other, values that must fit together. Throws InputError.
+/// Checks that the keys cannot express: names that refer to each other, values that must fit together. Throws
+/// InputError.
 void check(const Scenario& scenario);
 
 }  // namespace dsdpv1::tb::scenario

@@ -34,7 +34,7 @@ keys::Field kind_field() {
   field.doc =
       "Which chip it is. The other keys, some keys of `user_cpu`, the checks and some actions are those of this chip.";
   field.read = [self = field](void*, const YAML::Node& node, const keys::Source& source) {
-    keys::read_word(self, node, source);  // `kind_of` has taken it
+    keys::read_word(self, node, source);  // `kind_of` has already read it
   };
   return field;
 }
@@ -64,7 +64,7 @@ keys::Field chip_field(const ChipKind& kind) {
   return field;
 }
 
-/// What is left out keeps the chip's own limit.
+/// Missing keys leave the chip's limits unchanged.
 keys::Field checks_field(const ChipKind& kind) {
   keys::Field field;
   field.name = "checks";

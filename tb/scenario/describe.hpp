@@ -1,5 +1,5 @@
 #pragma once
-// The parts of the description of a scenario's keys, one function for each mapping.
+// The parts of the description of a scenario's keys, one function per mapping.
 #include <map>
 
 #include "io/keys/keys.hpp"
@@ -12,7 +12,7 @@ using keys::ObjectOf;
 using keys::Range;
 using keys::WordFor;
 
-/// What `describe` makes for this kind of chip, made once.
+/// The result of `describe` for this kind of chip, made once.
 template <class T>
 const ObjectOf<T>& per_kind(const ChipKind& kind, ObjectOf<T> (*describe)(const ChipKind& kind)) {
   static std::map<const ChipKind*, ObjectOf<T>> all;
@@ -35,7 +35,7 @@ const ObjectOf<Checks>& check_keys(const ChipKind& kind);
 
 /// The ten baud rates, fastest first.
 std::vector<WordFor<int>> baud_words();
-/// ... and the word for a chip that has found none.
+/// ... and the word for a chip without a rate.
 std::vector<WordFor<std::optional<int>>> found_baud_words();
 
 constexpr bus::Tick kLongestTime = 3600 * bus::kTicksPerSecond;

@@ -1,4 +1,4 @@
-// Keys of the checks: a key a check of the chip, with what can be said about it.
+// Keys of the checks: one per check of the chip, with its settings.
 #include "tb/scenario/describe.hpp"
 
 namespace dsdpv1::tb::scenario {
@@ -6,7 +6,7 @@ namespace {
 
 using checks::Bound;
 
-/// What a scenario says about one check.
+/// A scenario's setting for one check.
 struct CheckLimit {
   std::optional<bus::Tick> min, max;
   bool enabled = true;

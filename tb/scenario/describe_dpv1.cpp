@@ -1,4 +1,4 @@
-// Keys of DPV1 at the user CPU: its objects by slot and index, I&M0, how it answers.
+// Keys of DPV1 at the user CPU: its objects by slot and index, I&M0, its answers.
 #include "tb/scenario/describe.hpp"
 
 namespace dsdpv1::tb::scenario {

@@ -1,4 +1,4 @@
-// Keys of conditions: expectations, and what an action waits for.
+// Keys of conditions: for expectations and for actions that wait.
 #include "tb/scenario/describe.hpp"
 
 namespace dsdpv1::tb::scenario {

@@ -139,7 +139,7 @@ std::vector<Choice> class2_choices() {
   };
 }
 
-/// What each word of `do` means and takes, in the order of the words.
+/// The meaning and keys of each word of `do`, in the order of the words.
 std::vector<Choice> action_choices(const ChipKind& kind) {
   std::vector<Choice> choices = user_choices();
   for (const std::vector<Choice>& more : {master_choices(), class2_choices()})
@@ -201,7 +201,7 @@ void describe_global_control(ObjectOf<Action>& o) {
   o.integer("group", &Action::group, {0, 255}, "", "Group_Select, a bit for each group; 0 means all.");
 }
 
-/// The word itself is kept: all orders of a kind of chip are one ActionKind.
+/// The word is kept, because all orders of a kind of chip are one ActionKind.
 void describe_action(ObjectOf<Action>& o, const ChipKind& kind) {
   std::vector<WordFor<ActionKind>> words = action_words();
   for (const Order& order : kind.orders()) words.push_back({ActionKind::kOfChip, order.choice.word.c_str(), ""});

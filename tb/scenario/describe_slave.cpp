@@ -45,7 +45,7 @@ ObjectOf<InitData> describe_init(const ChipKind& kind) {
   return o;
 }
 
-/// The chip's keys are read into settings of its own.
+/// Reads the chip's keys into separate settings.
 void add_own_keys(ObjectOf<UserCpu>& o, const ChipKind& kind) {
   const keys::Object& own = kind.user_keys();
   for (keys::Field field : own.fields) {

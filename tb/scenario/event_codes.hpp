@@ -1,5 +1,5 @@
 #pragma once
-// The stable codes by which scenarios, logs and result files name what can happen.
+// The stable codes for events in scenarios, logs and result files.
 #include <string>
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace dsdpv1::tb::scenario {
 
-/// "BUS_T_SYN", "BUS_COLLISION", ...: what the bus monitor flags.
+/// "BUS_T_SYN", "BUS_COLLISION", ...: flags of the bus monitor.
 std::string flag_code(bus::FlagKind kind);
 /// The program of a user CPU stopped with a fault.
 constexpr const char* kFirmwareFault = "ARM_FAULT";

@@ -1,5 +1,5 @@
-// The JSON Schema from the description of the keys. Every mapping becomes a definition of its own; those of another
-// kind of chip bear its name.
+// Generates the JSON Schema from the description of the keys. Every mapping becomes a separate definition; those of
+// another kind of chip contain its name.
 #include <nlohmann/json.hpp>
 
 #include <map>
@@ -19,7 +19,7 @@ using keys::Object;
 
 class SchemaWriter {
  public:
-  /// `prefix` of the names of definitions.
+  /// `prefix` for the names of definitions.
   explicit SchemaWriter(std::string prefix) : prefix_(std::move(prefix)) {}
 
   const Json& definitions() const { return definitions_; }
@@ -27,7 +27,7 @@ class SchemaWriter {
   Json reference(const Object& described) {
     const std::string id = definition_name(described);
     if (!definitions_.contains(id)) {
-      definitions_[id] = nullptr;  // keeps the place while its own parts are written
+      definitions_[id] = nullptr;  // reserves the place while its parts are written
       definitions_[id] = object(described);
     }
     return {{"$ref", "#/$defs/" + id}};

@@ -17,7 +17,7 @@
 namespace dsdpv1::tb::scenario {
 namespace {
 
-/// Keeps where a document's first node stands.
+/// Records the position of a document's first node.
 class FirstNode : public YAML::EventHandler {
  public:
   std::optional<YAML::Mark> mark;
@@ -47,7 +47,8 @@ class FirstNode : public YAML::EventHandler {
   }
 };
 
-/// Where a second document begins. Not by YAML::LoadAll, which finds documents for ever in what begins with a comma.
+/// Where a second document begins. YAML::LoadAll is not used: it finds documents endlessly in text that begins with a
+/// comma.
 std::optional<YAML::Mark> second_document(const std::string& text) {
   std::istringstream in(text);
   YAML::Parser parser(in);
@@ -85,7 +86,7 @@ void collect_files(const keys::Object& object, const YAML::Node& node, std::vect
   }
 }
 
-/// The kind of chip that a scenario is about. What is no word is left to the reader of the key.
+/// The kind of chip in a scenario. Anything but a word is left to the reader of the key.
 const ChipKind& kind_of(const YAML::Node& root, const std::string& file) {
   const YAML::Node chip = root.IsMap() ? root["chip"] : YAML::Node();
   const YAML::Node name = chip.IsDefined() && chip.IsMap() ? chip["kind"] : YAML::Node();

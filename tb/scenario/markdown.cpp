@@ -30,7 +30,7 @@ const char* const kIntroduction =
     "0xA0]`.\n"
     "- **Numbers** may be hexadecimal: `0x1D`.\n";
 
-/// The section of an object in the file; GitHub's rule for anchors.
+/// Link to the section of an object, by GitHub's rule for anchors.
 std::string link(const Object& object) {
   std::string anchor = object.name;
   for (char& c : anchor) c = c == ' ' ? '-' : c;
@@ -103,7 +103,7 @@ bool is_check(const Field& field) {
   return false;
 }
 
-/// The checks that have the keys `object`, in one row: checks.md says what they are.
+/// The checks with the keys `object`, in one row: checks.md describes them.
 std::string row_of_checks(const std::vector<const Field*>& fields, const Object& object) {
   std::string names;
   for (const Field* field : fields)
@@ -177,7 +177,7 @@ bool has(const Object& object, const std::string& key) {
   return false;
 }
 
-/// Keys of `own` that `usual` has not; empty: none.
+/// Keys of `own` that `usual` does not have; empty: none.
 std::string keys_besides(const Object& usual, const Object& own, const char* kind) {
   std::vector<const Field*> fields;
   for (const Field& field : own.fields)
@@ -204,7 +204,7 @@ std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
          (fields.empty() ? "" : "\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows(fields));
 }
 
-/// What scenarios with chips of another kind may say besides.
+/// Additional keys in scenarios with chips of another kind.
 std::string besides(const ChipKind& usual, const ChipKind& kind) {
   std::string text = keys_besides(usual.chip_keys(), kind.chip_keys(), kind.name()) +
                      keys_besides(usual.user_keys(), kind.user_keys(), kind.name()) +

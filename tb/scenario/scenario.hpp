@@ -1,5 +1,5 @@
 #pragma once
-// A scenario as typed values. What each key means, with unit, range and default, is said once, in describe.cpp.
+// A scenario as typed values. describe.cpp defines the meaning, unit, range and default of each key.
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,7 +22,7 @@ namespace dsdpv1::tb::scenario {
 
 using keys::Name;
 
-/// Values that a master takes from the baud rate (bus/baud.hpp) when they are absent.
+/// Values that follow the baud rate (bus/baud.hpp) if absent.
 struct BusParameters {
   std::optional<int> slot_time;   ///< T_SL, bit times
   std::optional<int> setup_time;  ///< T_SET, bit times
@@ -41,7 +41,7 @@ struct BusParameters {
 /// A slave as a master sees it.
 struct MasterSlave {
   std::optional<int> address;  ///< absent: that of the scenario's slave
-  Name slave;                  ///< the scenario's slave, empty when nobody is meant to be there
+  Name slave;                  ///< the scenario's slave, empty if none is meant
   Name gsd;
   std::vector<Name> modules;
   std::optional<bus::Bytes> user_prm, cfg;
@@ -86,7 +86,7 @@ struct Master2 {
   int line = 0;
 };
 
-/// What the user CPU hands to the chip at the initialisation (table 2).
+/// The user CPU's initialisation data for the chip (table 2).
 struct InitData {
   std::optional<int> ident, max_inputs, max_outputs, max_diag, max_prm, max_cfg;
   std::optional<bus::Bytes> cfg;
@@ -100,7 +100,7 @@ struct InitData {
 using Behaviour = user_cpu::InputSource;
 using user_cpu::Judgement;
 
-/// An object of the user CPU that masters reach by slot and index.
+/// An object of the user CPU that masters access by slot and index.
 struct Dpv1Object {
   int slot = 0, index = 0, min_length = 0;
   bool read = true, write = true, transport = false;
@@ -124,7 +124,7 @@ struct Dpv1User {
   int line = 0;
 };
 
-/// The program of the user CPU; what it runs on, and how that reaches the chip, is said with keys of the kind of chip.
+/// The program of the user CPU; keys of the kind of chip define its processor and its connection to the chip.
 struct UserCpu {
   Behaviour behaviour = Behaviour::kLoopBack;
   Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
@@ -137,7 +137,7 @@ struct UserCpu {
   bus::Tick judge_delay = 0;
   bus::Tick retry_delay = bus::kTicksPerMs;
   Dpv1User dpv1;
-  std::shared_ptr<OwnSettings> own;  ///< of ChipKind::make_user_settings
+  std::shared_ptr<OwnSettings> own;  ///< from ChipKind::make_user_settings
   std::vector<keys::Given> given;
 };
 
@@ -189,17 +189,16 @@ enum class ActionKind : std::uint8_t {
   kGlitch,
 };
 
-/// What the program on the user CPU has to carry out itself.
+/// Actions that the program on the user CPU must execute.
 constexpr bool is_for_user_cpu(ActionKind what) {
   return what <= ActionKind::kAnswerAcyclic && what != ActionKind::kResetChip;
 }
 
-/// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must
-/// hold.
+/// A condition on a slave (or the telegrams of the bus) at a point of time; all given parts must hold.
 struct Condition {
   Name slave;
   std::optional<profibus::DpState> dp_state;
-  std::optional<std::optional<int>> baud;  ///< the inner one: index of bus/baud.hpp, absent while the chip searches
+  std::optional<std::optional<int>> baud;  ///< the inner one: index of bus/baud.hpp, absent during the search
   std::optional<int> station_address;
   std::optional<std::int64_t> data_exchanges, data_exchanges_at_most;
   std::optional<bus::Bytes> inputs, outputs;
@@ -226,7 +225,7 @@ struct When : Condition {
 
 enum class Verdict : std::uint8_t { kPrm, kCfg };
 
-/// What is broken in a telegram on the wire; byte positions count from 0.
+/// Faults to inject into a telegram on the wire; byte positions count from 0.
 struct Faults {
   std::optional<int> wrong_parity_at, missing_stop_at, gap_before, truncate_after, glitch_at;
   double gap_bits = 2;
@@ -238,7 +237,7 @@ struct Action {
   std::optional<bus::Tick> at;
   std::optional<When> when;
   ActionKind what = ActionKind::kSetInputs;
-  std::string word;  ///< of `do`
+  std::string word;  ///< for `do`
   Name slave, master, connection;
   bus::Bytes bytes;
   user_cpu::DiagnosisKind diagnosis = user_cpu::DiagnosisKind::kExtended;
@@ -268,14 +267,14 @@ struct Allow {
   int line = 0;
 };
 
-/// What is done with violations that the checks of tb/chip/checks find.
+/// Treatment of violations found by the checks of tb/chip/checks.
 enum class ChecksMode : std::uint8_t {
-  kFail,    ///< listed, and those that the scenario does not allow fail the run
+  kFail,    ///< listed, and those not allowed by the scenario fail the run
   kReport,  ///< listed
-  kOff,     ///< nothing is checked
+  kOff,     ///< no checks
 };
 
-/// What is checked, and limits other than the chip's own, for all slaves.
+/// The checks, and limits that replace the chip's, for all slaves.
 struct Checks : checks::Limits {
   ChecksMode mode = ChecksMode::kFail;
   int line = 0;
@@ -283,18 +282,18 @@ struct Checks : checks::Limits {
 
 struct Scenario {
   std::string file;                ///< as given to `load`
-  std::vector<std::string> files;  ///< that it names (GSD files and the like), as the program can open them
+  std::vector<std::string> files;  ///< files that it names (GSD files and the like), with paths usable by the program
   std::string name;
   int baud = 0;  ///< index of bus/baud.hpp
   bus::Tick end = 0;
   const ChipKind* kind = nullptr;           ///< of all slaves
-  std::shared_ptr<const OwnSettings> chip;  ///< of ChipKind::make_chip_settings
+  std::shared_ptr<const OwnSettings> chip;  ///< from ChipKind::make_chip_settings
   std::vector<Master> masters;
   std::vector<Master2> masters2;
   std::vector<Slave> slaves;
   std::vector<Action> script;
   std::vector<Expectation> expect;
-  bool expects_exchange = true;  ///< of each slave that a master has, see tb/bench/exchange_watch.hpp
+  bool expects_exchange = true;  ///< for each slave of a master, see tb/bench/exchange_watch.hpp
   std::vector<Allow> allow;
   Checks checks;
   int line = 0;
@@ -303,16 +302,16 @@ struct Scenario {
 /// Reads and checks a scenario; throws InputError. GSD files are not opened here. The settings replace keys of the
 /// file.
 Scenario load(const std::string& path, const std::vector<Setting>& settings = {});
-/// The same from text; `file` is used in errors and as the base of relative paths.
+/// As load(), from text; `file` is used in errors and as the base of relative paths.
 Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings = {});
-/// Scenario::files of a scenario that need not be right otherwise.
+/// Scenario::files of a scenario that may be wrong otherwise.
 std::vector<std::string> files(const std::string& path, const std::vector<Setting>& settings = {});
-/// The text of a scenario's file; throws InputError when there is none.
+/// The text of a scenario's file; throws InputError if there is none.
 std::string read_file(const std::string& path);
-/// `path` of a scenario as the program can open it: relative to the scenario's folder.
+/// `path` of a scenario, resolved by the program: relative to the scenario's folder.
 std::string resolve(const Scenario& scenario, const Name& path);
 
-/// Whether the scenario lists this violation of `station` (a slave's name, "bus").
+/// Whether the scenario allows this violation of `station` (a slave's name, "bus").
 bool allows(const Scenario& scenario, const std::string& code, const std::string& station);
 
 /// The description of a whole scenario with chips of this kind.

@@ -36,7 +36,7 @@ std::vector<std::string> names_of(const Object& object) {
   return names;
 }
 
-/// Whether a path with this first step is meant for every slave.
+/// Whether a path with this first step applies to every slave.
 bool of_every_slave(const std::string& first, const ChipKind& kind) {
   return description(kind).find(first) == nullptr && slave_keys(kind).find(first) != nullptr;
 }
@@ -68,7 +68,7 @@ void check_end(const Field& field, const std::string& origin) {
                              field.type.object->fields.front().name));
 }
 
-/// The same for the middle of one.
+/// As above for the middle of a path.
 void check_middle(const Field& field, const std::string& next, const std::string& origin) {
   if (has_keys(field) || has_items(field)) return;
   fail(origin, fmt::format("{} is one value, allowed is no key {} below it", field.name, next));
@@ -78,7 +78,7 @@ const Field& walk(const Object& object, const Steps& steps, std::size_t at, cons
                   const std::string& origin) {
   const Field& field = find(object, steps[at], kind, origin);
   if (at + 1 == steps.size()) {
-    if (field.type.words.empty()) check_end(field, origin);  // else a word may stand in its place
+    if (field.type.words.empty()) check_end(field, origin);  // else a word may replace it
     return field;
   }
   check_middle(field, steps[at + 1], origin);
@@ -103,8 +103,8 @@ void check_value(const Field& field, const YAML::Node& value, const std::string&
   }
 }
 
-/// What is given on a command line is text, hexadecimal where bytes are wanted, unless it is a list in brackets.
-/// A path is relative to where the user stands; the scenario's own are relative to its folder.
+/// A value from the command line is text, hexadecimal for bytes, unless it is a list in brackets. A path is relative to
+/// the user's working folder; paths in the scenario are relative to its folder.
 YAML::Node value_of(const Field& field, const Setting& setting) {
   const bool list = field.type.kind == Kind::kList || field.type.kind == Kind::kBytes;
   YAML::Node value(setting.value);
@@ -156,7 +156,7 @@ class Writer {
   }
 
  private:
-  /// Text goes into the node that is there, which so keeps its line for errors; it counts as quoted.
+  /// Assigns text to the existing node, which keeps its line for errors; the text counts as quoted.
   void put(YAML::Node slot) const {
     if (value_.IsScalar())
       slot = value_.Scalar();
@@ -213,7 +213,7 @@ const Field& field_of_any(const std::string& path, const std::string& origin) {
       if (kind == chip_kinds().back()) break;
     }
   }
-  return field_of(path, *chip_kinds().front(), origin);  // which says what is wrong
+  return field_of(path, *chip_kinds().front(), origin);  // it reports the error
 }
 
 void check(const Setting& setting) { value_of(field_of_any(setting.path, setting.origin), setting); }
@@ -225,7 +225,7 @@ void apply(const Setting& setting, const ChipKind& kind, YAML::Node& root) {
   const Writer writer(setting, kind, steps, value);
   if (!of_every_slave(steps[0], kind)) return writer.write(root, description(kind), 0);
   const YAML::Node slaves = root.IsMap() ? root["slaves"] : YAML::Node();
-  if (!slaves.IsDefined() || !slaves.IsSequence()) return;  // the reader says what is wrong with it
+  if (!slaves.IsDefined() || !slaves.IsSequence()) return;  // the reader reports its fault
   for (const YAML::Node& slave : slaves) writer.write(slave, slave_keys(kind), 0);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Bytes that come at the back and go from the front.
+// A queue of bytes.
 #include <cstddef>
 #include <cstdint>
 
@@ -7,9 +7,8 @@
 
 namespace dsdpv1::tb::serve {
 
-/// One piece of memory, so that what waits can be handed to a system call. What has gone is moved out of the way only
-/// when it is more than half, so that taking all that ever came costs time in proportion to it, however small the
-/// pieces.
+/// One block of memory, so that waiting bytes can be passed to a system call. Taken bytes are removed only when they
+/// are more than half, so the total cost is proportional to the bytes, however small the pieces.
 class ByteQueue {
  public:
   bool empty() const { return size() == 0; }
@@ -17,7 +16,7 @@ class ByteQueue {
   const std::uint8_t* data() const { return bytes_.data() + gone_; }
 
   void push(const bus::Bytes& bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
-  /// The first `count` go; not more than there are.
+  /// Drops the first `count` bytes; at most as many as there are.
   void drop(std::size_t count) {
     gone_ += count;
     if (gone_ <= size()) return;
@@ -36,7 +35,7 @@ class ByteQueue {
 
  private:
   bus::Bytes bytes_;
-  std::size_t gone_ = 0;  ///< at the front
+  std::size_t gone_ = 0;  ///< dropped at the front
 };
 
 }  // namespace dsdpv1::tb::serve

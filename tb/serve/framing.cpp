@@ -5,7 +5,7 @@
 namespace dsdpv1::tb::serve {
 namespace {
 
-/// 68 LE LEr 68: LE counts DA, SA, FC and the data; the header, FCS and ED come on top.
+/// 68 LE LEr 68: LE counts DA, SA, FC and the data, but not the header, FCS and ED.
 Frame variable_frame(const std::uint8_t* bytes, std::size_t count) {
   constexpr std::size_t kLeast = 4, kMost = 249, kAround = 6;
   const auto wrong = [=](std::size_t at, std::uint8_t expected) { return count > at && bytes[at] != expected; };
@@ -38,7 +38,7 @@ void Intake::take(const bus::Bytes& bytes, WallTime now) {
 std::optional<bus::Bytes> Intake::next(WallTime now) {
   if (bytes_.empty()) return std::nullopt;
   const Frame frame = frame_of(bytes_.data(), bytes_.size());
-  // First of all: what is complete is a telegram of its own, however late this is called.
+  // First check: complete bytes are a telegram, however late this is called.
   if (frame.length != 0 && bytes_.size() >= frame.length) return take_out(frame.length);
   if (!frame.telegram || now >= give_up_at()) return take_out(bytes_.size());
   return std::nullopt;
@@ -51,7 +51,7 @@ std::size_t Intake::missing() const {
 }
 
 bus::Bytes Intake::take_out(std::size_t count) {
-  begun_ = last_;  // of what follows
+  begun_ = last_;  // of the next telegram
   return bytes_.take(count);
 }
 

@@ -22,7 +22,7 @@ bool left_to_read(int fd) {
 
 }  // namespace
 
-/// The events that poll tells of unasked, and the end of a connection.
+/// The events that poll always reports, including the end of a connection.
 bool hung_up(int fd) {
   pollfd other{fd, POLLRDHUP, 0};
   return ::poll(&other, 1, 0) > 0;
@@ -71,8 +71,8 @@ bus::Bytes HostConnection::read(std::size_t most) {
   while (has_peer() && got < most) {
     const ssize_t count = ::read(peer_, bytes.data() + got, most - got);
     if (count < 0 && for_later(errno)) break;
-    if (count <= 0 && got != 0) break;  // what it has left comes first
-    // EIO is how a pseudo-terminal says that its other end was closed.
+    if (count <= 0 && got != 0) break;  // first return the bytes that it left
+    // A pseudo-terminal reports the close of its other end as EIO.
     if (count <= 0) forget_peer(count == 0 || errno == EIO || errno == ECONNRESET ? "" : std::strerror(errno));
     got += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
   }

@@ -1,6 +1,5 @@
 #pragma once
-// Where the host's bytes come from and go to: a file descriptor that is never waited for, with somebody at its other
-// end or not.
+// The connection to the host's byte stream: a file descriptor that never blocks, with or without a peer.
 #include <poll.h>
 
 #include <chrono>
@@ -14,12 +13,12 @@
 
 namespace dsdpv1::tb::serve {
 
-/// The other end has gone, whatever it has left to be read.
+/// The peer has gone, although bytes may be left to read.
 bool hung_up(int fd);
 
 class HostConnection {
  public:
-  /// Output that a host has not read is kept up to this size.
+  /// Limit of kept output that a host has not read.
   static constexpr std::size_t kMostKept = 1U << 20;
 
   virtual ~HostConnection() = default;
@@ -28,43 +27,42 @@ class HostConnection {
 
   /// "pseudo-terminal /dev/pts/3", for messages.
   virtual std::string name() const = 0;
-  /// A UART gives the characters their times, on both ways; else bytes have none.
+  /// A UART gives the characters their times, in both directions; otherwise bytes have no times.
   virtual bool timed() const { return false; }
 
-  /// What has come, at most `most` bytes: the rest waits where it is, with the peer in the end. Also looks after
-  /// comings and goings of the peer; of one that has gone, what can be read at once is the last.
+  /// Reads at most `most` received bytes: the rest stays in the system, and finally with the peer. Also handles the
+  /// peer's arrival and departure; after a departure only bytes that can be read at once are returned.
   bus::Bytes receive(std::size_t most);
-  /// Hands over to the peer, at once or as soon as it takes more; without a peer nobody hears it.
+  /// Sends to the peer, at once or as soon as it accepts more; dropped without a peer.
   void send(const bus::Bytes& bytes);
-  /// For poll(2): what to wait for, bytes of the peer only while `reading`; the descriptor is -1 while there is no
-  /// peer.
+  /// For poll(2): the events to wait for, bytes of the peer only while `reading`; the descriptor is -1 without a peer.
   virtual pollfd watched(bool reading) const;
 
-  /// One line for the user about comings, goings and losses.
+  /// Prints one line for the user about connections and losses.
   std::function<void(const std::string&)> say = [](const std::string&) {};
-  /// The peer has gone: what was meant for it is for nobody, and so is half a telegram.
+  /// Called when the peer has gone: drop data meant for it, and an incomplete telegram.
   std::function<void()> on_gone = [] {};
 
  protected:
   HostConnection() = default;
-  /// Accepts, reopens, and whatever else is due.
+  /// Accepts, reopens, and other due work.
   virtual void look() = 0;
-  /// The peer has gone, `why` in words; the port waits for the next one.
+  /// The peer has gone, `why` as text; the port waits for the next one.
   virtual void lost(const std::string& why) = 0;
-  /// The first bytes of a peer have come.
+  /// The first bytes of a peer have arrived.
   virtual void first_bytes() {}
-  /// Called around a write that goes out on a wire.
+  /// Called around a write to a wire.
   virtual void before_write() {}
   virtual void after_write() {}
 
   bool has_peer() const { return peer_ >= 0; }
   int peer() const { return peer_; }
   void set_peer(int fd);
-  /// Since when nothing has come of the peer: its last bytes, its beginning, or now while there is something to read.
+  /// The begin of the peer's silence: its last bytes, its connection, or now while there is something to read.
   std::chrono::steady_clock::time_point silent_since() const;
-  /// The port is done with the peer.
+  /// Disconnects the peer.
   void drop_peer();
-  /// Lets the peer go when it has hung up and left nothing; that shows also when it is not read from now.
+  /// Drops a peer that has hung up and left no bytes; called even while it is not being read.
   void check_peer();
 
  private:
@@ -75,8 +73,8 @@ class HostConnection {
   int peer_ = -1;
   std::chrono::steady_clock::time_point last_bytes_;
   bool heard_ = false, told_of_loss_ = false;
-  bool last_read_ = false;  ///< it has gone and what it left was read
-  ByteQueue kept_;          ///< not yet taken by the peer
+  bool last_read_ = false;  ///< it has gone and its last bytes were read
+  ByteQueue kept_;          ///< not yet accepted by the peer
 };
 
 }  // namespace dsdpv1::tb::serve

@@ -8,7 +8,7 @@
 namespace dsdpv1::tb::serve {
 namespace {
 
-/// The telegram of `bytes` when they are one, else nothing.
+/// The telegram in `bytes` if they are one, else nullopt.
 std::optional<bus::Telegram> telegram_of(const bus::Bytes& bytes) {
   bus::TelegramDecoder decoder;
   for (const std::uint8_t byte : bytes)
@@ -94,7 +94,7 @@ void HostLine::start(Tick now) {
   sender_.run(now);
 }
 
-/// Like a transceiver whose receiver is off while it sends, the host does not hear itself.
+/// The host does not receive itself, like a transceiver whose receiver is off while it sends.
 void HostLine::line_changed(Tick at, bool level) {
   if (!sender_.busy() && receiver_.line_changed(at, level)) announce();
 }
@@ -103,7 +103,7 @@ void HostLine::heard(const bus::ReceivedCharacter& character) {
   if (character.start >= std::max(last_activity_ + bits(bus::kSynBits), slot_end_)) deaf_ = false;
   if (!deaf_) heard_.push_back(character.byte);
   last_activity_ = character.end;
-  slot_end_ = 0;  // answered; what follows has to keep T_SYN
+  slot_end_ = 0;  // answered; the next telegram must keep T_SYN
 }
 
 }  // namespace dsdpv1::tb::serve

@@ -6,7 +6,7 @@
 namespace dsdpv1::tb::serve {
 
 namespace {
-constexpr Tick kNoLag = 2 * bus::kTicksPerMs;  ///< what sleeping and waking take anyway
+constexpr Tick kNoLag = 2 * bus::kTicksPerMs;  ///< normal delay of sleeping and waking
 }
 
 std::chrono::nanoseconds to_wall(Tick ticks) { return std::chrono::nanoseconds(ticks / bus::kTicksPerNs); }

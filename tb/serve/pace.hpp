@@ -1,6 +1,6 @@
 #pragma once
-// Simulated time held to real time. The computer is never ahead on purpose; when it is behind it catches up, and what
-// it cannot catch up is given up: simulated time then lags for good, by an amount that is reported.
+// Keeps simulated time at real time. The computer is never ahead intentionally; when it is behind it catches up, and
+// lag beyond a limit is given up: simulated time then stays behind by a reported amount.
 #include <functional>
 #include <optional>
 
@@ -14,26 +14,26 @@ using bus::Tick;
 
 class Pace {
  public:
-  /// Lag that is still caught up.
+  /// The largest lag that is made up; more is given up.
   static constexpr Tick kMostLag = 100 * bus::kTicksPerMs;
 
-  /// Time that was given up, and how fast the computer was meanwhile (1 = real time).
+  /// Time given up, and the speed of the computer meanwhile (1 = real time).
   struct Loss {
     Tick lag = 0;
     double speed = 0;
   };
 
-  /// `now` is the clock; simulated time is `simulated` at this moment.
+  /// `now` is the clock; simulated time is `simulated` at present.
   Pace(std::function<WallTime()> now, Tick simulated);
 
   WallTime now() const { return now_(); }
-  /// Where simulated time should be now.
+  /// The present target of simulated time.
   Tick target() const;
-  /// When simulated time `at` should be.
+  /// The real time for simulated time `at`.
   WallTime wall(Tick at) const;
-  /// Simulated time stood still on purpose for `held`: so much more lag may be caught up.
+  /// Simulated time was stopped intentionally for `held`: so much more lag may be made up.
   void hold(Tick held) { allowed_ = kMostLag + held; }
-  /// Simulated time is `simulated` now. A loss when it lags too much; the lag is then forgotten.
+  /// Simulated time is now `simulated`. Returns a loss if it lags too much; the lag is then dropped.
   std::optional<Loss> check(Tick simulated);
 
   const PaceStatistics& statistics() const { return statistics_; }

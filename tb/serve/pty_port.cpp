@@ -1,4 +1,4 @@
-// A pseudo-terminal whose slave side the host opens like a serial port.
+// A pseudo-terminal whose slave side the host opens as a serial port.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -20,12 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A symbolic link for as long as the object lives.
+/// A symbolic link during the object's lifetime.
 class Link {
  public:
   Link(const std::string& path, const std::string& target) : path_(path), target_(target) {
     if (path.empty()) return;
-    // What an earlier run that was killed has left points to a pseudo-terminal that is gone.
+    // A link left by a killed run points to a pseudo-terminal that no longer exists.
     std::error_code error;
     if (fs::is_symlink(fs::symlink_status(path, error)) && !fs::exists(path, error)) fs::remove(path, error);
     if (::symlink(target.c_str(), path.c_str()) != 0) {
@@ -43,7 +43,7 @@ class Link {
 
  private:
   std::string path_, target_;
-  std::optional<NameToRemove> while_starting_;  ///< a signal that ends the program then leaves no link
+  std::optional<NameToRemove> while_starting_;  ///< removes the link if a signal ends the program
 };
 
 int open_master() {
@@ -69,7 +69,7 @@ class PtyPort : public HostConnection {
         link_name_(link),
         speed_(bits_per_second) {
     set_raw(master_.get());
-    // Opened and closed once, the other end counts as hung up until a host opens it.
+    // After being opened and closed once, the other end counts as hung up until a host opens it.
     const Descriptor once(open_slave());
   }
 
@@ -89,7 +89,7 @@ class PtyPort : public HostConnection {
   void lost(const std::string& why) override {
     was_lost_ = true;
     set_raw(master_.get());
-    // The kernel keeps both ways for whoever opens it next.
+    // The kernel keeps data of both directions for the next opener.
     discard_input(master_.get());
     discard_input(Descriptor(open_slave()).get());
     say(fmt::format("{}: the host hung up{}; the next one may open it", name(), why.empty() ? "" : " (" + why + ")"));

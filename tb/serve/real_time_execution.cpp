@@ -47,7 +47,7 @@ std::size_t RealTimeExecution::room() const {
 
 void RealTimeExecution::take_from_host() {
   intake_.take(port_->receive(room()), pace_->now());
-  // Late looks at the clock must not make a telegram late that came meanwhile.
+  // A late read of the clock must not delay a telegram that came meanwhile.
   const Tick at = std::clamp(pace_->target(), timeline_.now(), timeline_.now() + kSlice);
   while (auto telegram = intake_.next(pace_->now()))
     line_.send(held_since_ ? timeline_.now() : at, std::move(*telegram));
@@ -66,7 +66,7 @@ void RealTimeExecution::hold_time() {
   }
 }
 
-/// Up to where simulated time may go now.
+/// The limit of simulated time at present.
 Tick RealTimeExecution::limit() const {
   const Tick now = timeline_.now();
   if (intake_.holding()) return now;

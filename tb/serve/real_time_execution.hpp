@@ -1,5 +1,5 @@
 #pragma once
-// A run held to real time, with a host on the segment.
+// A run in real time, with a host on the segment.
 #include <memory>
 #include <string>
 
@@ -13,30 +13,28 @@
 
 namespace dsdpv1::tb::serve {
 
-/// Simulated time follows real time in slices of at most 1 ms, 0.1 ms while something is on the line, and sleeps in
-/// between. It stands still while a telegram of the host has begun and is not complete (Intake), and catches up
-/// afterwards; so a telegram that came slowly, from a real UART, ends on the segment when it ended on the wire. Behind
-/// a UART simulated time does not wait while the answer is awaited and sent: nothing can come from the host meanwhile,
-/// and the UART gives the answer its times.
+/// Simulated time follows real time in slices of at most 1 ms, 0.1 ms while the line is in use, with sleep in between.
+/// It stops while a telegram of the host is incomplete (Intake), and catches up afterwards. So a telegram that arrives
+/// slowly, from a real UART, ends on the segment when it ended on the wire. With a UART simulated time does not stop
+/// while the answer is awaited and sent: the host sends nothing meanwhile, and the UART gives the answer its times.
 ///
-/// No more is read from the host than waits for the line, up to kMostWaiting; what it writes faster than the line sends
-/// stays in the socket or pseudo-terminal, and in the end the host waits. After a hold longer than Intake::kPatience
-/// nothing is read until simulated time has caught up, or for as long as the hold was: so a host that sends ever so
-/// slowly cannot stop it.
+/// The host is read only up to kMostWaiting bytes waiting for the line; further bytes stay in the socket or
+/// pseudo-terminal, and finally the host waits. After a hold longer than Intake::kPatience nothing is read until
+/// simulated time has caught up, or for as long as the hold was, so that a slow host cannot stop simulated time.
 class RealTimeExecution : public Execution {
  public:
   /// Eight of the longest telegrams; at 12 Mbit/s nearly two slices of 1 ms, so that the line never waits for the
-  /// program. The rest of a telegram begun is read beyond that.
+  /// program. The rest of an incomplete telegram is read beyond that.
   static constexpr std::size_t kMostWaiting = 8 * kLongestTelegram;
 
   /// `baud` as in bus/baud.hpp.
   RealTimeExecution(std::unique_ptr<HostConnection> port, int baud);
 
-  /// Call after the last make_chip and before `run`: the host acts behind the chips.
+  /// Call after the last make_chip and before `run`: the host acts after the chips.
   void join();
   void run(Tick end, const std::function<bool()>& stopped) override;
 
-  /// One line about the port or about the pace.
+  /// Prints one line about the port or the pace.
   std::function<void(Tick at, const std::string& text)> say = [](Tick, const std::string&) {};
   Pacing pacing() const;
 
@@ -58,7 +56,7 @@ class RealTimeExecution : public Execution {
   std::optional<Pace> pace_;
   LineLimit lines_;
   std::optional<WallTime> held_since_;
-  WallTime rest_until_{};  ///< until then nothing is read, so that simulated time catches up
+  WallTime rest_until_{};  ///< nothing is read until then, so that simulated time catches up
   WallTime told_at_{};
   bool told_ = false;
 };

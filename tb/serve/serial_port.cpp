@@ -1,4 +1,4 @@
-// A serial port with an RS-485 transceiver behind it.
+// A serial port with an RS-485 transceiver.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -50,7 +50,7 @@ class SerialPort : public HostConnection {
  private:
   static constexpr std::chrono::milliseconds kRetry{500};
 
-  /// Empty when that went well, else what is wrong.
+  /// Returns an empty text on success, else the error.
   std::string open() {
     const auto failed = [this](const std::string& text) {
       device_.reset();

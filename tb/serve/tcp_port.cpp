@@ -1,4 +1,4 @@
-// A TCP port: each byte of the connection is a character of the segment. One host has it; others wait for their turn.
+// A TCP port: each byte of the connection is a character of the segment. One host uses it; others wait for their turn.
 #include <fmt/format.h>
 #include <sys/socket.h>
 
@@ -15,14 +15,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A host that has connected.
+/// A connected host.
 struct Host {
   std::string address;
   Descriptor connection;
   Clock::time_point came = Clock::now();
 };
 
-/// The other side is told of a fault, not of an end; and nothing of the connection stays in the system.
+/// Resets the connection, so that the peer sees a fault, not an end, and the system keeps nothing of it.
 void reset_at_close(int connection) {
   const linger at_once{1, 0};
   ::setsockopt(connection, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
@@ -53,8 +53,8 @@ class TcpPort : public HostConnection {
 
  private:
   static constexpr std::size_t kMostWaiting = 16;  ///< hosts
-  static constexpr int kBacklog = 128;             ///< those that come within one look, even a late one
-  static constexpr int kMostAtOnce = 64;           ///< so that a storm does not stop the simulation
+  static constexpr int kBacklog = 128;             ///< arrivals within one poll, even a late one
+  static constexpr int kMostAtOnce = 64;           ///< limits the effect of a storm on the simulation
 
   void accept_all() {
     for (int i = 0; i < kMostAtOnce; ++i) {
@@ -66,7 +66,7 @@ class TcpPort : public HostConnection {
 
   void arrived(int descriptor, const std::string& from) {
     Descriptor connection(descriptor);
-    check_peer();  // who hangs up and connects again need not wait
+    check_peer();  // so that a host that reconnects need not wait
     if (waiting_.size() >= kMostWaiting) forget_gone();
     if (!has_peer() && waiting_.empty()) {
       begin(std::move(connection));
@@ -92,7 +92,7 @@ class TcpPort : public HostConnection {
     }
   }
 
-  /// It has been silent since the one that has waited longest came, and may be dead, or have been forgotten.
+  /// It has been silent since the host waiting longest arrived, and may be dead or abandoned.
   bool its_turn_is_over() const {
     return turn_.count() != 0 && !waiting_.empty() &&
            Clock::now() - std::max(silent_since(), waiting_.front().came) >= turn_;

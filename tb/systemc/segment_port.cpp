@@ -11,7 +11,7 @@ SegmentPort::SegmentPort(const sc_core::sc_module_name& name, bus::Segment& segm
   SC_METHOD(drive);
   sensitive << PBTXD << PBRTS;
   dont_initialize();
-  SC_METHOD(hear);  // the only process that writes PBRXD, whoever has changed the line
+  SC_METHOD(hear);  // the only process that writes PBRXD, whichever station has changed the line
   sensitive << heard_;
   dont_initialize();
 }

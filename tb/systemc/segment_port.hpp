@@ -1,5 +1,5 @@
 #pragma once
-// A chip of a SystemC platform as a station of a PROFIBUS segment, by its pins: any view of it, or its RTL.
+// Connects the pins of a chip in a SystemC platform, in any view or as RTL, to a PROFIBUS segment as a station.
 #include <systemc>
 
 #include "bus/wire/segment.hpp"
@@ -7,8 +7,8 @@
 
 namespace dsdpv1::systemc_bench {
 
-/// The RS-485 transceiver between a chip and the segment. What the chip drives is on the line, and what is on the line
-/// at PBRXD, at the tick of the change.
+/// The RS-485 transceiver between a chip and the segment. The chip's levels are on the line, and the line's levels at
+/// PBRXD, at the tick of the change.
 class SegmentPort : public sc_core::sc_module, private bus::Listener {
  public:
   sc_core::sc_in<bool> PBTXD{"PBTXD"}, PBRTS{"PBRTS"};  ///< from the chip; PBRTS high enables the driver

@@ -7,7 +7,7 @@
 namespace dsdpv1::systemc_bench {
 namespace {
 
-// A wait that is woken stays in the kernel's queue until its time has come: few do when none is long.
+// A wait that is woken stays in the kernel's queue until its time: with short waits only few do.
 constexpr bus::Tick kFarthest = 100 * bus::kTicksPerUs;
 
 }  // namespace
@@ -27,7 +27,7 @@ void TimelineModule::run() {
       continue;
     }
     if (sc_core::sc_pending_activity_at_current_time())
-      wait(sc_core::SC_ZERO_TIME);  // every process that this time has woken goes first
+      wait(sc_core::SC_ZERO_TIME);  // processes woken at this time run first
     follow_accesses();
     in_turn_ = true;
     while (timeline_.next() <= dsdpv1::systemc::current_tick()) {

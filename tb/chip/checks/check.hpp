@@ -1,5 +1,5 @@
 #pragma once
-// A check as a row of its chip's table: what it asks for, where that stands, what it measures, and its limit.
+// A check as a row of its chip's table: its rule, clause, measurement and limit.
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -11,7 +11,7 @@ namespace dsdpv1::checks {
 
 using bus::Tick;
 
-/// What the limit is.
+/// Meaning of the limit.
 enum class Bound : std::uint8_t {
   kMin,   ///< the least allowed value: margin = value - limit
   kMax,   ///< the greatest allowed value: margin = limit - value
@@ -25,7 +25,7 @@ struct Rule {
   const char* id;  ///< stable: in scenarios, logs and result files
   Bound bound;
   Tick limit;          ///< default, in ticks of 1/12 ns; kNoLimit, or 0 for Bound::kRule
-  std::uint32_t pins;  ///< whose history is shown with a violation, a bit for each pin of the chip
+  std::uint32_t pins;  ///< pins whose history is shown with a violation, a bit for each pin of the chip
   const char* rule;    ///< what must hold, one sentence without its stop
   const char* clause;  ///< of the datasheet, and rulings
   const char* formula;
@@ -36,13 +36,13 @@ struct Rule {
 /// The checks of a chip, in the order in which they are reported.
 using RuleTable = std::vector<Rule>;
 
-/// The place of a check in its chip's table; made from the enumerators of that chip.
+/// The index of a check in its chip's table; made from the chip's enumerators.
 struct CheckId {
   std::size_t index = 0;
 
   CheckId() = default;
   explicit constexpr CheckId(std::size_t place) : index(place) {}
-  /// The enumerators of a chip stand for it.
+  /// Converts a chip's enumerators.
   template <class E, class = std::enable_if_t<std::is_enum_v<E>>>
   // NOLINTNEXTLINE(google-explicit-constructor)
   constexpr CheckId(E check) : index(static_cast<std::size_t>(check)) {}
@@ -51,10 +51,10 @@ struct CheckId {
 inline bool operator==(CheckId a, CheckId b) { return a.index == b.index; }
 inline bool operator!=(CheckId a, CheckId b) { return a.index != b.index; }
 
-/// The limit of a run: the default, or what a scenario says.
+/// The limit in a run: the default, or the scenario's.
 struct Limit {
   bool on = true;
-  Tick value = 0;  ///< of Bound::kMin and Bound::kMax, ticks
+  Tick value = 0;  ///< for Bound::kMin and Bound::kMax, ticks
 };
 
 class Limits {

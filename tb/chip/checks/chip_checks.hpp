@@ -1,6 +1,6 @@
 #pragma once
-// The rules of one chip's user side, judged from outside: its pins and the telegrams on the line, nothing of what is
-// behind the pins. So they hold the same way for every user CPU, every engine and foreign RTL.
+// The rules of one chip's user side, judged only from its pins and the telegrams on the line. So they apply equally to
+// every user CPU, every engine and foreign RTL.
 #include <functional>
 
 #include "bus/monitor/monitor.hpp"
@@ -13,18 +13,18 @@ class ChipChecks {
  public:
   virtual ~ChipChecks() = default;
 
-  /// A change of a pin. The first changes are those from the levels of a chip fresh from construction. Ticks never go
-  /// back; pins that change at the same tick may come in any order.
+  /// A change of a pin. The first changes are relative to the levels of a newly constructed chip. Ticks never decrease;
+  /// pins that change at the same tick may come in any order.
   virtual void pin(Tick at, tb::PinNumber pin, tb::Level level) = 0;
-  /// The user begins a read, told before its first edge, and samples the data at `sample`. Only for a user CPU that
-  /// tells: at the pins nobody sees it.
+  /// Announces, before its first edge, a read that samples the data at `sample`. Only for user CPUs that report it,
+  /// because the pins do not show it.
   virtual void read(Tick /*sample*/) {}
-  /// A telegram that has ended, of any station, heard at `now`.
+  /// A telegram of any station that has ended, at `now`.
   virtual void telegram(Tick now, const bus::WireTelegram& telegram) = 0;
   /// Once, at the end of the run.
   virtual void finish(Tick end) = 0;
 
-  /// Whether a check is about the port that the chip's user has; a report leaves out the others.
+  /// Whether a check concerns the port that the chip's user has; a report omits the others.
   virtual bool applies(CheckId /*check*/) const { return true; }
   virtual const Record& record(CheckId check) const = 0;
   virtual const Limit& limit(CheckId check) const = 0;

@@ -16,7 +16,7 @@ class Histogram {
 
   void add(bus::Tick margin) { ++counts_.at(bin_of(margin)); }
   std::uint64_t count(std::size_t bin) const { return counts_.at(bin); }
-  /// Least margin of a bin in ticks; bin 0 (violated) has none and gives -kNever.
+  /// Minimum margin of a bin in ticks; bin 0 (violated) has none and returns -kNever.
   static bus::Tick from(std::size_t bin) {
     if (bin == 0) return -bus::kNever;
     return bin == 1 ? 0 : edges().at(bin - 2);

@@ -1,5 +1,5 @@
 #pragma once
-// The last changes of each pin, for whoever has to see how a violation came about.
+// The last changes of each pin, to show the cause of a violation.
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -11,16 +11,16 @@ namespace dsdpv1::checks {
 
 struct PinChange {
   bus::Tick at = 0;
-  const tb::PinInfo* pin = nullptr;  ///< of the chip's table
+  const tb::PinInfo* pin = nullptr;  ///< in the chip's table
   tb::Level level = 0;
 };
 
-/// Keeps kDepth changes a pin, so that a busy strobe does not push out the handshake.
+/// Keeps kDepth changes per pin, so that a busy strobe does not displace the handshake.
 class PinHistory {
  public:
   static constexpr std::size_t kDepth = 4;
 
-  /// `pins` must outlive it and what it returns.
+  /// `pins` must outlive it and the results.
   explicit PinHistory(const tb::PinTable& pins) : pins_(pins), rings_(pins.size()) {}
 
   void add(bus::Tick at, tb::PinNumber pin, tb::Level level) {

@@ -66,7 +66,8 @@ void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::s
   if (!on_violation) return;
   const Tick found = std::max(now_, history_.now());
   std::vector<PinChange> history = history_.last(rule(check).pins);
-  // Of what is found later, by any change, the changes at that time are no part; they are told in different orders.
+  // The history of a violation found later, by any change, excludes the changes at that time, whose order differs
+  // between views.
   const auto is_later = [&](const PinChange& change) { return at < found && change.at >= found; };
   history.erase(std::remove_if(history.begin(), history.end(), is_later), history.end());
   on_violation({check, at, found, margin, std::move(text), std::move(history)});

@@ -1,5 +1,5 @@
 #pragma once
-// Where the checks put what they found: counts, worst margins, histograms, and the violations in words.
+// Collects the findings of the checks: counts, worst margins, histograms, and the violations as text.
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace dsdpv1::checks {
 
-/// What a check has found so far. Values and margins are ticks of 1/12 ns.
+/// The results of a check so far. Values and margins are ticks of 1/12 ns.
 struct Record {
   std::uint64_t count = 0;           ///< how often it was evaluated
-  std::uint64_t violations = 0;      ///< how often in vain
+  std::uint64_t violations = 0;      ///< how often it failed
   std::optional<Tick> worst_margin;  ///< the least one, positive = kept; absent without a limit, and for Bound::kRule
   std::optional<Tick> worst_value;   ///< measured then; without a limit the greatest one
   std::optional<Tick> at;            ///< when that was; for Bound::kRule the first violation
@@ -24,14 +24,14 @@ struct Record {
 
 struct Violation {
   CheckId check;
-  Tick at = 0;     ///< where the rule was broken
-  Tick found = 0;  ///< when that could be seen, not before `at`
+  Tick at = 0;     ///< when the rule was broken
+  Tick found = 0;  ///< when that became visible, not before `at`
   std::optional<Tick> margin;
   std::string text;
-  std::vector<PinChange> history;  ///< the last changes of the pins that the check is about
+  std::vector<PinChange> history;  ///< the last changes of the pins that the check concerns
 };
 
-/// "SCK=1 -62.500 ns, XSS=1 0.000 ns": the violation's history, times counted from it.
+/// "SCK=1 -62.500 ns, XSS=1 0.000 ns": the violation's history, with times relative to it.
 std::string history_text(const Violation& violation);
 
 /// "12.500 ns".
@@ -43,13 +43,12 @@ class Recorder {
   Recorder(const RuleTable& rules, Limits limits, const PinHistory& history)
       : rules_(rules), limits_(std::move(limits)), history_(history), records_(rules.size()) {}
 
-  /// A measured value of a check with Bound::kMin or kMax; `context()` names what it was about, asked for when it is
-  /// violated.
+  /// A measured value of a check with Bound::kMin or kMax; `context()` describes the case, called only for a violation.
   template <class Context>
   void value(CheckId check, Tick at, Tick measured, const Context& context) {
     if (limits_[check].on && !add(check, at, measured)) report_value(check, at, measured, context());
   }
-  /// The outcome of a check with Bound::kRule; `text()` says what was wrong.
+  /// The outcome of a check with Bound::kRule; `text()` describes the violation.
   template <class Text>
   void kept(CheckId check, Tick at, bool is_kept, const Text& text) {
     if (limits_[check].on && !add_outcome(check, at, is_kept)) report(check, at, std::nullopt, text());
@@ -57,7 +56,7 @@ class Recorder {
 
   const Record& record(CheckId check) const { return records_.at(check.index); }
   const Limit& limit(CheckId check) const { return limits_[check]; }
-  /// Time goes on without a change of a pin (a telegram, the end of the run).
+  /// Time advances without a change of a pin (a telegram, the end of the run).
   void now(Tick at) { now_ = at; }
 
   std::function<void(const Violation&)> on_violation;

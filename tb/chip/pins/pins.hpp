@@ -1,13 +1,13 @@
 #pragma once
-// The pins of a chip as the bench knows them: numbered, with a name and a width. What each of them means is the
-// business of the chip's own room.
+// The pins of a chip as known to the bench: numbered, with a name and a width. Their meaning is defined in the chip's
+// room.
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace dsdpv1::tb {
 
-/// Its place in the chip's PinTable.
+/// Index in the chip's PinTable.
 using PinNumber = std::uint8_t;
 /// Bit n: the pin with number n.
 using PinMask = std::uint32_t;
@@ -17,11 +17,11 @@ constexpr Level kLevelZ = -1;  ///< released
 constexpr Level kLevelX = -2;  ///< unknown
 
 struct PinInfo {
-  const char* name = nullptr;  ///< the datasheet's
+  const char* name = nullptr;  ///< from the datasheet
   int width = 1;               ///< number of wires, 1..15
   bool input = false;
-  const char* bus = nullptr;  ///< of two pins that are the two directions of one bus: its name, shown in waves
-  bool line = false;          ///< sends to the bus or hears it
+  const char* bus = nullptr;  ///< for two pins that are the directions of one bus: its name, shown in waves
+  bool line = false;          ///< sends to the bus or receives it
   bool released = false;      ///< an output that may be kLevelZ
 };
 
@@ -29,14 +29,14 @@ struct PinInfo {
 using PinTable = std::vector<PinInfo>;
 constexpr std::size_t kMostPins = 32;
 
-/// Pins that a viewer of waves shows together, by the names that they have in waves.
+/// Pins shown together in waveform viewers, by their names in waves.
 struct PinGroup {
   const char* title;  ///< one word
   std::vector<const char*> pins;
 };
 
 constexpr PinMask mask_of(PinNumber pin) { return PinMask{1} << pin; }
-/// Those of a chip's pins that are `wanted`.
+/// A chip's pins that are `wanted`.
 template <class Wanted>
 PinMask pins_where(const PinTable& pins, const Wanted& wanted) {
   PinMask mask = 0;
@@ -49,7 +49,7 @@ inline PinMask inputs_of(const PinTable& pins) {
   return pins_where(
       pins, [](const PinInfo& pin) { return pin.input; });
 }
-/// Those that are a direction of a bus.
+/// Pins that are a direction of a bus.
 inline PinMask data_of(const PinTable& pins) {
   return pins_where(
       pins, [](const PinInfo& pin) { return pin.bus != nullptr; });

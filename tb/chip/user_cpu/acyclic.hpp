@@ -1,5 +1,5 @@
 #pragma once
-// What a user program answers to acyclic requests (DPV1), whatever chip they come through.
+// A user program's answers to acyclic requests (DPV1), for any chip.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,12 +17,12 @@ constexpr std::uint8_t kClass1 = 0x01, kClass2 = 0x02, kBothClasses = 0x03;
 /// Error_Code_1: "invalid parameter" of class "access".
 constexpr std::uint8_t kInvalidParameter = 0xB8;
 
-/// One object. A read gives its bytes, a write replaces its first bytes, a transport writes and answers with what was
-/// there before.
+/// One object. A read returns its bytes, a write replaces its first bytes, a transport writes and returns the previous
+/// bytes.
 struct AcyclicObject {
   std::uint8_t slot = 0, index = 0;
   std::uint8_t services = kMayRead | kMayWrite;
-  std::uint8_t classes = kBothClasses;  ///< of masters that reach it
+  std::uint8_t classes = kBothClasses;  ///< of masters with access
   std::uint8_t min_length = 0;          ///< 0..240
   std::vector<std::uint8_t> data;       ///< 0..240 bytes, its size is the largest length
 };

@@ -57,7 +57,7 @@ void Fiber::resume() {
 }
 
 void Fiber::suspend() {
-  if (unwinding_) return;  // a destructor on its way out may still call; nobody is going to resume
+  if (unwinding_) return;  // a destructor may still call during unwinding; there will be no resume
   switch_out(false);
   if (unwinding_) throw Unwind{};
 }
@@ -69,7 +69,7 @@ void Fiber::switch_in() {
 }
 
 void Fiber::switch_out(bool last) {
-  // A null pointer tells the sanitizer that this stack is left for good.
+  // A null pointer tells the sanitizer that this stack will not be used again.
   start_switch(last ? nullptr : &fake_inside_, outside_stack_, outside_bytes_);
   outside_ = jump_fcontext(outside_, nullptr).fctx;
   finish_switch(fake_inside_, &outside_stack_, &outside_bytes_);

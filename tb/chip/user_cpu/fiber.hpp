@@ -1,9 +1,9 @@
 #pragma once
-// A program on a stack of its own, so that code written as one thread of control (the driver, its application) can be
-// suspended inside of a call and go on later. The switch itself is Boost.Context's jump_fcontext: it exchanges
-// registers and stack pointer without a system call, where POSIX swapcontext makes two for the signal mask. The layer
-// is named `detail` because it does not unwind; that is done here, and so are the announcements of the stacks to
-// AddressSanitizer, which Debian's Boost is built without.
+// A program on a separate stack, so that code written as one thread of control (the driver, its application) can be
+// suspended inside a call and resumed later. The switch is Boost.Context's jump_fcontext: it exchanges registers and
+// stack pointer without a system call, while POSIX swapcontext makes two for the signal mask. The layer is named
+// `detail` because it does not unwind; this class does that, and announces the stacks to AddressSanitizer, for which
+// Debian's Boost is not built.
 #include <boost/context/detail/fcontext.hpp>
 #include <cstddef>
 #include <exception>
@@ -16,13 +16,13 @@ namespace dsdpv1::user_cpu {
 class Fiber {
  public:
   explicit Fiber(std::function<void()> body, std::size_t stack_bytes = 256 * 1024);
-  /// A body that has begun and not ended is unwound: its pending `suspend` throws, its objects are destroyed.
+  /// Unwinds a body that has begun and not ended: its pending `suspend` throws, its objects are destroyed.
   ~Fiber();
   Fiber(const Fiber&) = delete;
   Fiber& operator=(const Fiber&) = delete;
 
-  /// Runs the body until it suspends or ends. An exception that leaves the body is thrown here. Not from inside the
-  /// body, and not after its end.
+  /// Runs the body until it suspends or ends. Rethrows an exception of the body. Not from inside the body, and not
+  /// after its end.
   void resume();
   /// From inside the body: returns to the caller of `resume` until it is called again.
   void suspend();
@@ -38,7 +38,7 @@ class Fiber {
   std::function<void()> body_;
   std::size_t stack_bytes_;
   std::unique_ptr<unsigned char[]> stack_;
-  boost::context::detail::fcontext_t inside_, outside_ = nullptr;  ///< where the two stacks go on
+  boost::context::detail::fcontext_t inside_, outside_ = nullptr;  ///< resume points of the two stacks
   std::exception_ptr failure_;
   bool begun_ = false, ended_ = false, unwinding_ = false;
   // AddressSanitizer's bookkeeping of the two stacks; unused without it.

@@ -1,5 +1,5 @@
 #pragma once
-// What the bench asks of the program on a user CPU, and what such a program counts, whatever chip it serves.
+// The bench's commands to the program on a user CPU, and the program's counters, for any chip.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -13,11 +13,11 @@
 
 namespace dsdpv1::user_cpu {
 
-/// What the inputs are made of.
+/// Source of the inputs.
 enum class InputSource : std::uint8_t {
-  kLoopBack,  ///< the last outputs, zeros where the inputs are longer
+  kLoopBack,  ///< the last outputs, padded with zeros
   kCount,     ///< each byte counts the exchanges, modulo 256
-  kConstant,  ///< ProgramOptions::constant, zeros where it is shorter
+  kConstant,  ///< ProgramOptions::constant, padded with zeros
   kIdle,      ///< inputs are written only once set by command::SetInputs
 };
 
@@ -29,21 +29,21 @@ struct ProgramOptions {
   Tick period = 50 * bus::kTicksPerUs;  ///< from the start of one exchange to the next, > 0
   InputSource inputs = InputSource::kLoopBack;
   std::vector<std::uint8_t> constant;
-  bool overwrite_inputs = true;        ///< false: inputs that the chip has not taken yet stay
+  bool overwrite_inputs = true;        ///< false: inputs not taken by the chip yet are kept
   Judgement prm = Judgement::kAccept;  ///< judging mode 2 only
   Judgement cfg = Judgement::kAccept;
-  Tick judge_delay = 0;                 ///< time that a judgement takes
-  bool judge_in_handler = true;         ///< false: the interrupt's handler notes it, the main loop judges
+  Tick judge_delay = 0;                 ///< duration of a judgement
+  bool judge_in_handler = true;         ///< false: the interrupt's handler only notes it, the main loop judges
   Tick retry_delay = bus::kTicksPerMs;  ///< pause before a failed initialisation is repeated
   int init_attempts = 0;                ///< 0: until it succeeds; else the program ends after so many
-  AcyclicOptions acyclic;               ///< DPV1; polled behind each exchange
+  AcyclicOptions acyclic;               ///< DPV1; polled after each exchange
 };
 
 enum class DiagnosisKind : std::uint8_t { kExtended, kExternal, kExternalGone, kStatic, kStaticGone };
 
-/// What the bench may ask for while the program runs.
+/// Commands of the bench while the program runs.
 namespace command {
-/// From now on these are the inputs, whatever ProgramOptions::inputs says; their length is sent as it is.
+/// Sets the inputs from now on, replacing ProgramOptions::inputs; sent with exactly this length.
 struct SetInputs {
   std::vector<std::uint8_t> bytes;
 };
@@ -54,21 +54,21 @@ struct SetDiagnosis {
 struct Reinitialise {
   StationConfig station;
 };
-/// The program does nothing at all until Resume, not even judge.
+/// The program stops until Resume; it does not even judge.
 struct Stop {};
 struct Resume {};
-/// The next block of inputs is one byte longer than configured, shorter where that is impossible.
+/// Makes the next block of inputs one byte longer than configured, or shorter if that is impossible.
 struct WrongLength {};
-/// A verdict that Judgement::kNever kept back.
+/// Sends a verdict withheld by Judgement::kNever.
 struct SendVerdict {
   bool cfg = false;  ///< on the configuration; else on the parameters
   bool refuse = false;
 };
-/// How acyclic requests are answered from now on.
+/// Sets how acyclic requests are answered from now on.
 struct SetAnswering {
   Answering answering = Answering::kNormal;
 };
-/// An order that only programs for one kind of chip know (tb::ChipKind::orders).
+/// An order supported only by programs for one kind of chip (tb::ChipKind::orders).
 struct OfChip {
   std::string order;
   Tick duration = 0;
@@ -92,7 +92,7 @@ struct ProgramError {
 
 struct ProgramCounters {
   std::uint64_t exchanges = 0;         ///< of cyclic data with the chip
-  std::uint64_t outputs_received = 0;  ///< blocks of outputs that arrived right
+  std::uint64_t outputs_received = 0;  ///< blocks of outputs received correctly
   std::uint64_t inputs_written = 0;    ///< blocks of inputs announced to the chip
   std::uint64_t initialisations = 0;   ///< successful ones
   std::uint64_t judgements = 0;        ///< blocks of parameters and configuration judged
@@ -109,11 +109,11 @@ struct ProgramCounters {
   }
 };
 
-/// Holds of a memory that chip and user share. Times in ticks: a wait from asking to having, a hold from having to
-/// having given back. Zeros where nothing is shared.
+/// Holds of a memory shared by chip and user. Times in ticks: a wait from request to ownership, a hold from ownership
+/// to release. Zeros if nothing is shared.
 struct HoldCounters {
   std::uint64_t holds = 0;
-  std::uint64_t given_up = 0;  ///< asked for and given up without having had it
+  std::uint64_t given_up = 0;  ///< requested and given up without ownership
   Tick longest_wait = 0;
   Tick longest_hold = 0;
 
@@ -126,7 +126,7 @@ struct HoldCounters {
   }
 };
 
-/// What the CPU did on its bus to the chip since the start.
+/// The CPU's activity on its bus to the chip since the start.
 struct CpuCounters {
   std::uint64_t accesses = 0;    ///< reads and writes
   std::uint64_t bad_reads = 0;   ///< of these, reads that sampled X or Z
@@ -140,10 +140,10 @@ struct CpuCounters {
   }
 };
 
-/// What a user CPU has done since its start.
+/// A user CPU's activity since its start.
 struct UserCounters {
   HoldCounters port;
-  std::optional<ProgramCounters> program = ProgramCounters();  ///< absent: the program does not tell
+  std::optional<ProgramCounters> program = ProgramCounters();  ///< absent: the program does not report
   CpuCounters cpu;
 
   UserCounters& operator+=(const UserCounters& other) {

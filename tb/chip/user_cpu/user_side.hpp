@@ -2,7 +2,7 @@
 
 namespace dsdpv1::user_cpu {
 
-/// What a user CPU has hold of at its chip. Each kind of chip derives its own.
+/// A user CPU's interface to its chip. Each kind of chip derives its own.
 struct UserSide {
   virtual ~UserSide() = default;
 };
