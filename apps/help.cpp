@@ -36,7 +36,7 @@ std::string option_name(const CLI::Option& option, bool is_positional) {
 
 std::string option_text(const CLI::Option& option) {
   std::string text = option.get_description();
-  if (takes_value(option) && !option.get_default_str().empty()) text += " (left out: " + option.get_default_str() + ")";
+  if (takes_value(option) && !option.get_default_str().empty()) text += " (default: " + option.get_default_str() + ")";
   return option.nonpositional() && option.get_required() ? text + " (required)" : text;
 }
 

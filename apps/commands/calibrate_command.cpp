@@ -57,37 +57,36 @@ void take_map(const std::string& path, calibrate::Names& names) {
 
 class Calibrate : public Command {
  public:
-  Calibrate()
-      : Command("calibrate", "Checks a capture of a real chip against the rulings and measures its parameters") {}
+  Calibrate() : Command("calibrate", "Check a capture of a real chip by the rulings and measure its parameters") {}
 
   void options(CLI::App& app) override {
     constexpr double kMostJitter = 1000, kMostPpm = 20'000;  // ns; 2 %
     constexpr int kMostStation = 126;
     app.add_option(
            "CAPTURE", file_,
-           "Logic analyser's session (sigrok), CSV, VCD, FST with any of the chip's pins, known by what is in it")
+           "Logic analyser's session (sigrok), CSV, VCD or FST with any of the chip's pins; the format is detected")
         ->required();
     app.add_option("--signal", signals_,
-                   "PIN=NAME: the pin of table 1 (A0 to A10, D0 to D7, or A and D as vectors) is called NAME, "
-                   "PIN=!NAME when it is inverted; left out: as the pin")
+                   "PIN=NAME: the pin of table 1 (A0 to A10, D0 to D7, or A and D as vectors) is called NAME; "
+                   "PIN=!NAME: it is inverted (default: the pin's name)")
         ->allow_extra_args(false);
     app.add_option("--map", map_, "The same as a map of pins (docs/cosim.md)");
-    app.add_option("--scope", names_.scope, "Only signals in this scope of a wave: the station of a wave of run");
-    app.add_option("--station", station_, "The chip's address; left out: the one that is answered")
+    app.add_option("--scope", names_.scope,
+                   "Use only signals in this scope of a wave, such as the station in a wave of run");
+    app.add_option("--station", station_, "The chip's address (default: the one that is answered)")
         ->check(CLI::Range(0, kMostStation));
-    app.add_option("--rate", rate_,
-                   "Samples a second, such as 24MHz; left out: what the file says, or its changes show");
+    app.add_option("--rate", rate_, "Samples a second, such as 24MHz (default: from the file, or from its changes)");
     app.add_option("--jitter", sampling_.jitter_ns,
-                   "How far an edge may be off besides the sampling, skew between channels included, ns")
+                   "Largest error of an edge besides the sampling, including skew between channels, in ns")
         ->check(CLI::Range(0.0, kMostJitter))
         ->capture_default_str();
-    app.add_option("--ppm", sampling_.clock_ppm, "How far the clocks of chip and capture may differ")
+    app.add_option("--ppm", sampling_.clock_ppm, "Largest difference between the clocks of chip and capture")
         ->check(CLI::Range(0.0, kMostPpm))
         ->capture_default_str();
-    app.add_option("--chip", chip_, "The parameters as a chip: block for scenarios");
+    app.add_option("--chip", chip_, "Write the parameters as a chip: block for scenarios");
     app.add_option("--json", json_, "The result for programs");
-    app.add_option("--table", table_, "What is printed with --all, into this file");
-    app.add_flag("--all", all_, "Also the claims that the capture does not show, and why");
+    app.add_option("--table", table_, "Write the output of --all into this file");
+    app.add_flag("--all", all_, "Print also the claims that the capture does not show, with reasons");
     add_quiet_option(app, quiet_);
     app.footer(
         "\nExamples:\n"

@@ -35,14 +35,14 @@ std::optional<Femtoseconds> duration(const std::string& option, const std::strin
 
 class Compare : public Command {
  public:
-  Compare() : Command("compare", "Compares two waves, VCD or FST of any simulator") {}
+  Compare() : Command("compare", "Compare two waves, VCD or FST of any simulator") {}
 
   void options(CLI::App& app) override {
-    app.add_option("A", a_, "Wave of what is expected, such as the model's")->required();
-    app.add_option("B", b_, "Wave that is held to it")->required();
+    app.add_option("A", a_, "The expected wave, such as the model's")->required();
+    app.add_option("B", b_, "The wave to compare with it")->required();
     add_what_is_compared(app);
     add_how_it_is_compared(app);
-    app.add_option("--wave", wave_, "Both sides and where they differ: FILE.vcd or FILE.fst");
+    app.add_option("--wave", wave_, "Write a wave of both sides and their differences: FILE.vcd or FILE.fst");
     app.add_option("--json", json_, "The result for programs");
     app.add_option("--junit", junit_, "The result in JUnit's XML, a case for each signal");
     add_output_options(app, progress_, quiet_);
@@ -74,34 +74,33 @@ class Compare : public Command {
 
  private:
   void add_what_is_compared(CLI::App& app) {
-    app.add_option("--scope", scope_, "Only signals in this scope and below it; left out: all");
+    app.add_option("--scope", scope_, "Compare only signals in this scope and below it (default: all)");
     app.add_option("--scope-a", given_.scope_a, "The same for A alone");
     app.add_option("--scope-b", given_.scope_b, "The same for B alone");
     app.add_option("--pins", pins_,
-                   "The pins of the chip, B's by this map (docs/cosim.md) or, with rtl_ref, as the reference RTL calls "
-                   "them; left out: all signals of one name");
+                   "Compare the chip's pins, named in B by this map (docs/cosim.md) or, with rtl_ref, as in the "
+                   "reference RTL (default: all signals with equal names)");
     app.add_option("--signal", signals_, "A=B: this signal of A and that of B, A=!B when B has the other level")
         ->allow_extra_args(false);
-    app.add_option("--from", from_, "Compare from this time on, such as 100us; left out: what both have");
+    app.add_option("--from", from_, "Compare from this time on, such as 100us (default: the part that both have)");
     app.add_option("--to", to_, "... and up to this one, which both must reach");
   }
 
   void add_how_it_is_compared(CLI::App& app) {
     app.add_option("--shift", shift_, "Added to B's times: 20ns, -3cycles");
-    app.add_option("--tolerance", tolerance_,
-                   "What differs for no longer is no difference; left out: the coarser time scale's unit where the two "
-                   "are not the same, else 0");
+    app.add_option(
+        "--tolerance", tolerance_,
+        "Ignore differences up to this time (default: the coarser time scale's unit if the two differ, else 0)");
     app.add_option("--clock", clock_,
                    "SIGNAL, SIGNAL:fall: compare what there is just before its rising (falling) edges");
     app.add_option("--x", x_,
-                   "What an unknown bit matches: expected (A's anything, B's only X), any (either side's anything), "
-                   "equal (X), never (nothing)")
+                   "Match unknown bits: expected (A's with anything, B's only with X), any (either side's with "
+                   "anything), equal (with X), never (nothing)")
         ->capture_default_str();
-    app.add_option("--z", z_, "What a released bit matches: equal (Z), expected and any as of --x")
-        ->capture_default_str();
-    app.add_option(
-           "--mask", masks_,
-           "SIGNAL=VALUE or SIGNAL!=VALUE: nothing is compared while it is so; with @SIGNAL after it, that one is not")
+    app.add_option("--z", z_, "Match released bits: equal (with Z), expected and any like --x")->capture_default_str();
+    app.add_option("--mask", masks_,
+                   "SIGNAL=VALUE or SIGNAL!=VALUE: compare nothing while this is true; with @SIGNAL after it, ignore "
+                   "only that signal")
         ->allow_extra_args(false);
   }
 

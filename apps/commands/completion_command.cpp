@@ -99,7 +99,7 @@ std::string zsh(const CLI::App& app) {
 
 class Completion : public Command {
  public:
-  Completion() : Command("completion", "Prints what completes this program's command line in a shell") {}
+  Completion() : Command("completion", "Print the completion of this program's command line for a shell") {}
 
   void options(CLI::App& app) override {
     program_ = app.get_parent();

@@ -18,20 +18,20 @@ constexpr const char* kCosim = "dsdpv1-sim cosim";
 
 class Cosim : public Command {
  public:
-  Cosim() : Command("cosim", "Builds RTL of your own with Verilator and holds it against the model") {
+  Cosim() : Command("cosim", "Build your RTL with Verilator and compare it with the model") {
     run_.engine = "lockstep";
   }
 
   void options(CLI::App& app) override {
     app.add_option("SCENARIO", run_.scenario, "Scenario in YAML");
     CLI::Option* replay =
-        app.add_option("--replay", replay_, "A stimulus file in its place: a case of rtl-random, with its --set");
+        app.add_option("--replay", replay_, "Play a stimulus file instead: a case of rtl-random, with its --set");
     add_own_rtl_options(app, own_, true);
-    app.add_option("--difference", run_.difference, "Wave of both sides' pins, written when they differ")
+    app.add_option("--difference", run_.difference, "Write a wave of both sides' pins when they differ")
         ->capture_default_str();
     CLI::Option* wave =
         app.add_option("--wave", run_.wave.file,
-                       "Wave of the run with the inside of your RTL beside the model's: FILE.vcd or FILE.fst");
+                       "Write a wave of the run with internal signals of your RTL and the model: FILE.vcd or FILE.fst");
     app.add_option("--wave-from", run_.wave.from, "Only from this time on")->needs(wave)->excludes(replay);
     app.add_option("--wave-to", run_.wave.to, "Only up to this time")->needs(wave)->excludes(replay);
     add_wave_save_option(app, wave_save_, wave);

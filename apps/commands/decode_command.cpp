@@ -182,19 +182,19 @@ int decode_text(std::istream& in, const std::string& name) {
 
 class Decode : public Command {
  public:
-  Decode() : Command("decode", "Explains every byte of telegrams: text, logs, captures, recordings of the line") {}
+  Decode() : Command("decode", "Explain every byte of telegrams in text, logs, captures and recordings of the line") {}
 
   void options(CLI::App& app) override {
     app.add_option("FILE", file_,
                    "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session of "
-                   "sigrok, CSV of a logic analyser, known by what is in it; left out or -: standard input");
-    app.add_option("--baud", baud_, "Baud rate of a recording of the line; left out: it is found");
+                   "sigrok or CSV of a logic analyser; the format is detected (default and -: standard input)");
+    app.add_option("--baud", baud_, "Baud rate of a recording of the line (default: detected)");
     app.add_option("--signal", settings_.signal,
-                   "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
+                   "The line's signal in a recording (default: the only one, or line, PBRXD, PBTXD)");
     app.add_flag("--invert", settings_.inverted, "The recording's idle level is low");
-    app.add_option("--table", table_, "Of a capture or recording: a line a telegram, separated by tabs");
-    app.add_option("--json", json_, "The same as JSON, with words");
-    app.add_flag("--quiet,-q", quiet_, "Nothing is printed");
+    app.add_option("--table", table_, "Write a capture or recording as one line per telegram, separated by tabs");
+    app.add_option("--json", json_, "Write the same as JSON, with explanations");
+    app.add_flag("--quiet,-q", quiet_, "Print nothing");
     app.footer(
         "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
         "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "

@@ -11,12 +11,12 @@ namespace {
 
 class Gsd : public Command {
  public:
-  Gsd() : Command("gsd", "Checks a PROFIBUS GSD file and prints what a master makes of it") {}
+  Gsd() : Command("gsd", "Check a PROFIBUS GSD file and print a master's settings from it") {}
 
   void options(CLI::App& app) override {
     app.add_option("FILE", file_, "GSD file, revision 1 to 5")->required();
     app.add_option("--module,-m", given_.choice.modules,
-                   "Module by name or number, once for each slot; left out: the file's presets")
+                   "Module by name or number, once for each slot (default: the file's presets)")
         ->allow_extra_args(false);
     app.add_flag("--json", json_, "As JSON");
     app.footer(

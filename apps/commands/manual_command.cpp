@@ -32,7 +32,7 @@ std::string italic(const std::string& text) { return "\\fI" + roff(text) + "\\fR
 std::string value(const CLI::Option& option) {
   if (!takes_value(option)) return "";
   const std::string usual = option.get_default_str();
-  return " " + italic(value_word(option)) + (usual.empty() ? "" : roff(" (left out: " + usual + ")"));
+  return " " + italic(value_word(option)) + (usual.empty() ? "" : roff(" (default: " + usual + ")"));
 }
 
 std::string paragraph(const std::string& head, const std::string& text) {
@@ -77,7 +77,7 @@ std::string manual_page(const CLI::App& app) {
 
 class Manual : public Command {
  public:
-  Manual() : Command("manual", "Prints the manual page of this program, in roff") {}
+  Manual() : Command("manual", "Print the manual page of this program, in roff") {}
 
   void options(CLI::App& app) override {
     program_ = app.get_parent();

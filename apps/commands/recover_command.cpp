@@ -43,12 +43,12 @@ std::uint64_t recover_wave(tb::WaveFormat format, const std::string& part, const
 
 class Recover : public Command {
  public:
-  Recover() : Command("recover", "Makes a complete wave of what a killed run has left") {}
+  Recover() : Command("recover", "Rebuild a complete wave from the partial file of a killed run") {}
 
   void options(CLI::App& app) override {
     app.add_option("FILE", part_, "The wave's temporary file, NAME.PID.part; FST needs FILE.hier beside it")
         ->required();
-    app.add_option("--output,-o", output_, "The wave; left out: NAME, when there is none yet");
+    app.add_option("--output,-o", output_, "The wave (default: NAME, if it does not exist)");
     app.footer(
         "\nIt says until when the wave is complete. The files that it reads stay.\n"
         "\nExamples:\n  dsdpv1-sim recover out/demo.fst.4711.part\n"

@@ -186,17 +186,18 @@ int status_of(const Report& report) {
 
 class Regress : public Command {
  public:
-  Regress() : Command("regress", "Runs scenarios by engines, views and settings, and judges each run") {}
+  Regress()
+      : Command("regress", "Run scenarios with all combinations of engines, views and settings, and judge each run") {}
 
   void options(CLI::App& app) override {
     const std::vector<CLI::Option*> of_plan = add_plan_options(app);
-    CLI::Option* failed = app.add_flag("--failed", failed_, "Again what has not passed the last time in --out");
+    CLI::Option* failed = app.add_flag("--failed", failed_, "Repeat the runs in --out that did not pass");
     for (CLI::Option* other : of_plan) failed->excludes(other);
-    app.add_option("--time-limit", time_limit_, "Seconds after which a run is killed and has failed; 0: none")
+    app.add_option("--time-limit", time_limit_, "Kill a run after so many seconds and count it as failed; 0: no limit")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    app.add_option("--junit", junit_, "The report for CI as JUnit's XML");
-    app.add_flag("--json", json_, "The table as JSON");
+    app.add_option("--junit", junit_, "Write the report for CI as JUnit's XML");
+    app.add_flag("--json", json_, "Write the table as JSON");
     add_campaign_options(app, campaign_, "regression");
     app.footer(
         "\nExamples:\n"
@@ -205,7 +206,7 @@ class Regress : public Command {
         "  dsdpv1-sim regress my.yaml --set user_cpu.fsmc.datast=2..5 --set baud=12M,6M --wave fst --report\n"
         "  dsdpv1-sim regress --engine rtl --seed 1..8 --shard 2/5 --out part_2\n"
         "  dsdpv1-sim regress --failed\n"
-        "The same command again goes on with an interrupted regression. docs/regress.md explains the results.\n"
+        "The same command resumes an interrupted regression. docs/regress.md explains the results.\n"
         "\nExit codes: 0 all runs passed, 1 some did not, 2 wrong input, 3 none failed, but some judged nothing, 130 "
         "interrupted.\n");
   }
@@ -238,25 +239,27 @@ class Regress : public Command {
   /// Those that say what is run.
   std::vector<CLI::Option*> add_plan_options(CLI::App& app) {
     CLI::Option* scenarios = app.add_option("SCENARIO", request_.scenarios,
-                                            "Scenarios, and folders of them (.yaml, .yml); left out: ./scenarios");
+                                            "Scenarios, and folders of them (.yaml, .yml; default: ./scenarios)");
     CLI::Option* engine =
-        app.add_option("--engine", request_.engines, "Of run, several with commas; left out: skip")->delimiter(',');
+        app.add_option("--engine", request_.engines, "Engines of run, separated by commas (default: skip)")
+            ->delimiter(',');
     CLI::Option* view =
-        app.add_option("--view", request_.views, "Of run, several with commas; left out: pins")->delimiter(',');
-    CLI::Option* seed = app.add_option("--seed", seeds_, "Of run with RTL: 1..4,7; left out: the usual one");
+        app.add_option("--view", request_.views, "Views of run, separated by commas (default: pins)")->delimiter(',');
+    CLI::Option* seed =
+        app.add_option("--seed", seeds_, "Seeds of runs with RTL, such as 1..4,7 (default: the usual one)");
     CLI::Option* set =
         app.add_option(
                "--set", set_,
                "PATH=VALUES, once for each key, lists and ranges as --param of sweep: user_cpu.fsmc.datast=2..5")
             ->allow_extra_args(false);
-    CLI::Option* checks = app.add_option("--checks", description_.checks, "As of run");
+    CLI::Option* checks = app.add_option("--checks", description_.checks, "As for run");
     CLI::Option* shard = app.add_option("--shard", shard_, "2/5: the second fifth of the runs, always the same");
-    CLI::Option* wave = app.add_option("--wave", description_.wave, "Each run writes waves: vcd, fst; left out: none")
+    CLI::Option* wave = app.add_option("--wave", description_.wave, "Write waves of each run: vcd, fst (default: none)")
                             ->type_name("WORD");
     CLI::Option* report = app.add_flag("--report", description_.report,
-                                       "Each run writes its page of charts and timing diagrams (docs/report.md)");
+                                       "Write a page of charts and timing diagrams for each run (docs/report.md)");
     CLI::Option* keep = app.add_option(
-        "--keep", keep_, "Of which runs log, result, wave and report are kept: none, failed, all; left out: failed");
+        "--keep", keep_, "Keep log, result, wave and report of these runs: none, failed, all (default: failed)");
     return {scenarios, engine, view, seed, set, checks, shard, wave, report, keep};
   }
 

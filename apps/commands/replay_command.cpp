@@ -64,16 +64,16 @@ int status_of(const tb::replay::Result& result, const tb::RunResult& run) {
 
 class Replay : public Command {
  public:
-  Replay() : Command("replay", "Plays a capture to the model as one of its slaves, and compares the answers") {}
+  Replay() : Command("replay", "Play a capture to the model as one of its slaves, and compare the answers") {}
 
   void options(CLI::App& app) override {
     add_what_is_played(app);
     add_how_it_is_compared(app);
-    app.add_option("--table", table_, "Each request with both answers, separated by tabs");
+    app.add_option("--table", table_, "Write each request with both answers, separated by tabs");
     app.add_option("--json", json_, "The result for programs");
     add_wave_options(app, wave_);
     add_log_options(app, run_.log, run_.log_whole);
-    app.add_option("--result", result_, "Measurements of the run as JSON, as of run");
+    app.add_option("--result", result_, "Write the run's measurements as JSON, as for run");
     add_checks_option(app, checks_);
     add_capture_options(app, capture_out_);
     add_output_options(app, progress_, quiet_);
@@ -116,30 +116,30 @@ class Replay : public Command {
                    "pcapng, pcap, VCD or FST of any simulator, a session of sigrok, CSV of a logic analyser, a log of "
                    "run or serve with all bytes")
         ->required();
-    app.add_option("--as", slave_, "Address of the slave whose part the model takes")
+    app.add_option("--as", slave_, "Address of the slave that the model replaces")
         ->required()
         ->check(CLI::Range(0, 126));
-    app.add_option("--gsd", gsd_, "The slave's GSD file: ident number and limits as it says");
-    app.add_option(
-        "--scenario", scenario_,
-        "Take its slave with this address (or the only one), with its user CPU, in place of what the capture shows");
+    app.add_option("--gsd", gsd_, "The slave's GSD file, with its ident number and limits");
+    app.add_option("--scenario", scenario_,
+                   "Use this scenario's slave with this address (or the only one), and its user CPU, instead of the "
+                   "capture's data");
     app.add_option("--inputs", inputs_,
-                   "What the user CPU gives: recorded (inputs and diagnoses as the slave answered them) or scenario; "
-                   "left out: scenario with --scenario, else recorded");
+                   "Data of the user CPU: recorded (inputs and diagnoses from the slave's answers) or scenario "
+                   "(default: scenario with --scenario, else recorded)");
   }
 
   void add_how_it_is_compared(CLI::App& app) {
     app.add_option("--tsdr-tolerance", options_.judge.tsdr.tolerance_bits,
-                   "TSDR of both at most so many bit times apart; left out: both from min_TSDR to max_TSDR")
+                   "Largest difference of both TSDRs in bit times (default: both from min_TSDR to max_TSDR)")
         ->check(CLI::Range(0.0, 10'000.0));
-    app.add_option("--from", from_, "Compare from this time of the capture on; what is before is played, too");
+    app.add_option("--from", from_, "Compare from this time of the capture on; earlier telegrams are also played");
     app.add_option("--to", to_, "End at this time of the capture");
-    app.add_option("--baud", baud_, "Baud rate; left out: the capture's, or found in a recording");
-    app.add_option("--signal", line_.signal, "As of decode");
-    app.add_flag("--invert", line_.inverted, "As of decode");
+    app.add_option("--baud", baud_, "Baud rate (default: the capture's, or detected in a recording)");
+    app.add_option("--signal", line_.signal, "As for decode");
+    app.add_flag("--invert", line_.inverted, "As for decode");
     app.add_flag("--no-lead-in", no_lead_in_,
-                 "Nothing before the capture: the model has to find its baud rate and its parameters there");
-    app.add_option("--engine", run_.engine_name, "step, skip or rtl (the reference RTL), as of run")
+                 "Play nothing before the capture: the model must find its baud rate and its parameters there");
+    app.add_option("--engine", run_.engine_name, "step, skip or rtl (the reference RTL), as for run")
         ->capture_default_str();
   }
 

@@ -29,21 +29,20 @@ std::string given_or_own(const std::string& path, const std::string& own) {
 
 class RtlFaults : public Command {
  public:
-  RtlFaults() : Command("rtl-faults", "Checks the lockstep itself: every single fault in the RTL must be found") {}
+  RtlFaults() : Command("rtl-faults", "Test the lockstep: it must find every single fault in the RTL") {}
 
   void options(CLI::App& app) override {
     add_chip_options(app, chip_);
     app.add_option(
         "--list", list_,
-        "The list of faults; left out: rtl_ref/dsdpv1/faults.txt or dsdpv1_rsu/faults.txt of this source tree");
-    app.add_option(
-        "--directed", directed_,
-        "Folder of stimulus files that are played first; left out: tests/cosim/stimuli/dsdpv1 or dsdpv1_rsu of "
-        "this source tree");
-    app.add_option("--cycles", cycles_, "Random cycles for each fault at most")->capture_default_str();
-    app.add_option("--seed", seed_, "Of the random cases")->capture_default_str();
-    app.add_option("--jobs", jobs_, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
-    app.add_option("--tsv", tsv_, "The table also as tab-separated text into this file");
+        "The list of faults (default: rtl_ref/dsdpv1/faults.txt or dsdpv1_rsu/faults.txt of this source tree)");
+    app.add_option("--directed", directed_,
+                   "Folder of stimulus files to play first (default: tests/cosim/stimuli/dsdpv1 or dsdpv1_rsu of this "
+                   "source tree)");
+    app.add_option("--cycles", cycles_, "Most random cycles for each fault")->capture_default_str();
+    app.add_option("--seed", seed_, "Seed of the random cases")->capture_default_str();
+    app.add_option("--jobs", jobs_, "Threads (default: one per processor)")->check(CLI::Range(1, 256));
+    app.add_option("--tsv", tsv_, "Write the table also as tab-separated text into this file");
     app.footer(
         "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --chip dsdpv1_rsu --mode spi\n  "
         "dsdpv1-sim rtl-faults --list my_faults.txt --cycles 5000000\n"

@@ -343,21 +343,21 @@ class RtlRandom : public Command {
  private:
   void add_what_is_played(CLI::App& app) {
     add_chip_options(app, given_.chip);
-    app.add_option("--cycles", given_.cycles, "How many cycles to compare")->capture_default_str();
-    app.add_option("--seed", given_.seed, "The same cases for the same seed")->capture_default_str();
-    app.add_option("--jobs", given_.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
+    app.add_option("--cycles", given_.cycles, "Number of cycles to compare")->capture_default_str();
+    app.add_option("--seed", given_.seed, "Seed; equal seeds give equal cases")->capture_default_str();
+    app.add_option("--jobs", given_.jobs, "Threads (default: one per processor)")->check(CLI::Range(1, 256));
     app.add_option("--replay", given_.replay, "This stimulus file instead of random cases");
     add_own_rtl_options(app, given_.own, false);
     add_fault_option(app, given_.fault)->excludes("--rtl");
     campaign_ = app.add_flag("--campaign", given_.campaign,
-                             "At the DSDPV1 and at each port of the DSDPV1-RSU in turn; goes on where --state ends");
+                             "Use the DSDPV1 and each port of the DSDPV1-RSU in turn; resume from --state");
     for (const char* each : {"--chip", "--mode", "--replay", "--rtl"}) campaign_->excludes(each);
-    app.add_option("--state", given_.state, "Folder that keeps what a campaign has compared")
+    app.add_option("--state", given_.state, "Folder that keeps a campaign's progress")
         ->capture_default_str()
         ->needs(campaign_);
     app.add_option("--set", given_.set,
-                   "chip.KEY=VALUE, once for each: a parameter of the model, as a scenario has it; left out: those of "
-                   "scenarios, with the reference RTL short times")
+                   "chip.KEY=VALUE, once for each: a parameter of the model, as in a scenario (default: those of "
+                   "scenarios; with the reference RTL, short times)")
         ->allow_extra_args(false);
   }
 
@@ -366,16 +366,16 @@ class RtlRandom : public Command {
     app.add_option("--difference", given_.difference, "Wave of both sides' pins for it")->capture_default_str();
     CLI::Option* wave =
         app.add_option("--wave", given_.wave,
-                       "Wave of it with the inside of your RTL beside the model's: FILE.vcd or FILE.fst")
+                       "Wave of it with internal signals of your RTL and the model: FILE.vcd or FILE.fst")
             ->needs("--rtl");
     add_wave_save_option(app, given_.wave_save, wave);
     app.add_option("--log", given_.log,
                    "Log of it: every change of every pin, events, telegrams; FILE.jsonl: for programs");
-    app.add_option("--result", given_.result, "The result as JSON, also when nothing differs (docs/cosim.md)")
+    app.add_option("--result", given_.result, "Write the result as JSON, also without a difference (docs/cosim.md)")
         ->excludes(campaign_);
     app.add_option("--tsv", given_.tsv,
-                   "What occurred, and what did not: states, services, refusals, situations at the host port, with "
-                   "their counts")
+                   "Write the counts of states, services, refusals and situations at the host port, also those that "
+                   "did not occur")
         ->excludes("--replay");
   }
 

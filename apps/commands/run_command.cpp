@@ -25,16 +25,17 @@ constexpr const char* kRunExamples =
 
 class Run : public Command {
  public:
-  Run() : Command("run", "Runs a scenario and says whether it passed") {}
+  Run() : Command("run", "Run a scenario and report whether it passed") {}
 
   void options(CLI::App& app) override {
     add_what_to_run(app);
     add_wave_options(app, given_.wave);
     add_log_options(app, given_.log, given_.log_whole);
-    app.add_option("--result", given_.result, "Result and measurements as JSON");
+    app.add_option("--result", given_.result, "Write result and measurements as JSON");
     add_report_option(app, given_.report);
-    app.add_option("--junit", given_.junit,
-                   "The verdict for CI as JUnit's XML: a case for the run, its violations, each check and expectation");
+    app.add_option(
+        "--junit", given_.junit,
+        "Write the verdict for CI as JUnit's XML: a case for the run, its violations, each check and expectation");
     add_capture_options(app, given_.capture);
     of_whole_run_.push_back(add_checks_option(app, given_.checks));
     add_checks_table_option(app, given_.check_rows);
@@ -51,20 +52,20 @@ class Run : public Command {
   void add_what_to_run(CLI::App& app) {
     CLI::Option* scenario = app.add_option("SCENARIO", given_.scenario, "Scenario in YAML, see docs/scenarios.md");
     CLI::Option* engine = app.add_option("--engine", given_.engine,
-                                         "How the chips are executed: step (every cycle), skip (from event to event), "
-                                         "rtl (the reference RTL), lockstep (model and RTL side by side, compared)")
+                                         "Execution of the chips: step (every cycle), skip (from event to event), rtl "
+                                         "(the reference RTL), lockstep (model and RTL side by side, compared)")
                               ->capture_default_str();
     CLI::Option* view = app.add_option("--view", given_.view,
-                                       "How the user CPUs reach them: pins, tlm (SystemC; not with an ARM board)")
+                                       "Access of the user CPUs to them: pins, tlm (SystemC; not with an ARM board)")
                             ->capture_default_str();
     of_whole_run_ = {scenario, engine, view};
   }
 
   /// What a run is held against, and with what RTL.
   void add_comparison_options(CLI::App& app) {
-    app.add_option("--trace", given_.trace, "Every change of every output pin, for comparisons");
+    app.add_option("--trace", given_.trace, "Write every change of every output pin, for comparisons");
     app.add_option("--difference", given_.difference,
-                   "Wave of both sides, written when --engine lockstep finds a difference")
+                   "Write a wave of both sides when --engine lockstep finds a difference")
         ->capture_default_str();
     CLI::Option* golden = app.add_option("--golden", given_.golden,
                                          "Folder of golden traces (traces): every change of every pin is compared, the "
@@ -72,30 +73,31 @@ class Run : public Command {
     CLI::Option* fault =
         app.add_option(
                "--fault", given_.fault,
-               "With this single fault of rtl_ref/dsdpv1/faults.txt, or dsdpv1_rsu/faults.txt, in the reference RTL")
+               "Enable this single fault of rtl_ref/dsdpv1/faults.txt, or dsdpv1_rsu/faults.txt, in the reference RTL")
             ->check(CLI::Range(0, 255));
     CLI::Option* seed =
         app.add_option("--seed", given_.seed,
-                       "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
+                       "With --engine rtl or lockstep: seed of RTL's initial values that are not reset (default: 1)");
     of_whole_run_.insert(of_whole_run_.end(), {golden, fault, seed});
   }
 
   /// To a time of the run, or to one before it.
   void add_ways_back(CLI::App& app) {
     app.add_option("--save-at", given_.save_at,
-                   "Saves the run as it is then, for --restore; once for each time (docs/save_restore.md)")
+                   "Save the run at this time, for --restore; once for each time (docs/save_restore.md)")
         ->type_name("TIME FILE")
         ->allow_extra_args(false);
-    CLI::Option* rewind = app.add_option("--rewind-on", given_.rewind_on,
-                                         "The wave only from TIME before the first event with this CODE of the log, or "
-                                         "violation, to TIME after it; the run goes back for it (docs/save_restore.md)")
-                              ->type_name("CODE TIME")
-                              ->needs(app.get_option("--wave"));
+    CLI::Option* rewind =
+        app.add_option("--rewind-on", given_.rewind_on,
+                       "Write the wave only from TIME before the first event with this CODE of the log, or violation, "
+                       "to TIME after it, by re-running from a snapshot (docs/save_restore.md)")
+            ->type_name("CODE TIME")
+            ->needs(app.get_option("--wave"));
     for (const char* each : {"--wave-on", "--wave-from", "--wave-to", "--wave-inside"})
       rewind->excludes(app.get_option(each));
-    CLI::Option* restore = app.add_option(
-        "--restore", given_.restore,
-        "A saved run in the place of a scenario: it goes on from there, and log, wave, trace and capture begin there");
+    CLI::Option* restore =
+        app.add_option("--restore", given_.restore,
+                       "Resume a saved run instead of a scenario; log, wave, trace and capture begin there");
     for (CLI::Option* each : of_whole_run_) restore->excludes(each);
     rewind->excludes(restore);
     app.add_option(

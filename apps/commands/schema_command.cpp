@@ -10,14 +10,15 @@ namespace {
 
 class Schema : public Command {
  public:
-  Schema() : Command("schema", "Prints the JSON Schema of a scenario, or of a result") {}
+  Schema() : Command("schema", "Print the JSON Schema of a scenario, or of a result") {}
 
   void options(CLI::App& app) override {
-    CLI::Option* result = app.add_flag("--result", result_, "Of result files of run instead");
-    app.add_flag("--rtl-random", rtl_random_, "Of the file that rtl-random --result writes")->excludes(result);
+    CLI::Option* result = app.add_flag("--result", result_, "Print the schema of run's result files instead");
+    app.add_flag("--rtl-random", rtl_random_, "Print the schema of rtl-random's result files instead")
+        ->excludes(result);
     app.add_flag("--markdown", markdown_,
-                 "Prints docs/scenarios.md, docs/result.md, or the table of docs/cosim.md instead");
-    app.add_option("--output,-o", output_, "Into this file");
+                 "Print docs/scenarios.md, docs/result.md, or the table of docs/cosim.md instead");
+    app.add_option("--output,-o", output_, "Write into this file");
     app.footer(
         "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n  dsdpv1-sim schema --result > result.schema.json\n"
         "  and in the first line of a scenario, for editors with the YAML language server:\n"

@@ -30,19 +30,19 @@ constexpr tb::Tick kOpenEnd = 5LL * 365 * 24 * 3600 * bus::kTicksPerSecond;
 
 class Serve : public Command {
  public:
-  Serve() : Command("serve", "Lets a real master talk to a scenario's slaves, in real time") {}
+  Serve() : Command("serve", "Let a real master talk to a scenario's slaves, in real time") {}
 
   void options(CLI::App& app) override {
-    app.add_option("SCENARIO", scenario_, "Scenario in YAML; it needs no masters, and its end is not looked at")
-        ->required();
+    app.add_option("SCENARIO", scenario_, "Scenario in YAML; it needs no masters, and its end is ignored")->required();
     add_port_options(app);
-    app.add_option("--baud", baud_, "Baud rate; left out: that of the scenario");
-    app.add_option("--for", duration_, "Ends after this time, for example 10s; left out: Ctrl-C");
+    app.add_option("--baud", baud_, "Baud rate (default: that of the scenario)");
+    app.add_option("--for", duration_, "End after this time, for example 10s (default: Ctrl-C)");
     add_wave_options(app, wave_);
-    add_log_options(app, run_.log, run_.log_whole, "As of run; where it grows is said at the start", "As of run");
-    app.add_option("--result", result_, "As of run, and how well real time was kept");
+    add_log_options(app, run_.log, run_.log_whole, "As for run; the name of the growing file is printed at the start",
+                    "As for run");
+    app.add_option("--result", result_, "As for run, with measurements of real time");
     add_report_option(app, report_);
-    app.add_option("--junit", junit_, "As of run");
+    app.add_option("--junit", junit_, "As for run");
     add_checks_option(app, checks_);
     add_checks_table_option(app, check_rows_);
     add_set_option(app, set_);
@@ -97,20 +97,20 @@ class Serve : public Command {
 
  private:
   void add_port_options(CLI::App& app) {
-    CLI::Option* pty =
-        app.add_option("--pty", link_, "At a pseudo-terminal (default) with this name as a link to it")->expected(0, 1);
-    CLI::Option* tcp = app.add_option("--tcp", tcp_, "At this TCP port (0: any free one), a byte a character")
+    CLI::Option* pty = app.add_option("--pty", link_, "Use a pseudo-terminal (default) with this name as a link to it")
+                           ->expected(0, 1);
+    CLI::Option* tcp = app.add_option("--tcp", tcp_, "Use this TCP port (0: any free one), one byte per character")
                            ->check(CLI::Range(0, 65535));
-    CLI::Option* serial = app.add_option("--serial", serial_, "At this serial port, 8E1, with an RS-485 transceiver");
+    CLI::Option* serial = app.add_option("--serial", serial_, "Use this serial port, 8E1, with an RS-485 transceiver");
     pty->excludes(tcp)->excludes(serial);
     tcp->excludes(serial);
     app.add_option("--bind", bind_, "IPv4 address of --tcp")->capture_default_str()->needs(tcp);
     app.add_option("--turn", turn_,
-                   "Seconds; a host that sends nothing for so long while others wait loses the TCP port (0: keeps it)")
+                   "A host that sends nothing for so many seconds while others wait loses the TCP port (0: keeps it)")
         ->check(CLI::Range(0, 86400))
         ->capture_default_str()
         ->needs(tcp);
-    app.add_flag("--rts", rts_, "RTS of the serial port switches the transceiver; else it does so by itself")
+    app.add_flag("--rts", rts_, "Switch the transceiver by RTS of the serial port (default: it switches automatically)")
         ->needs(serial);
   }
 

@@ -157,7 +157,7 @@ int status_of(const std::vector<Point>& points) {
 
 class Sweep : public Command {
  public:
-  Sweep() : Command("sweep", "Runs a scenario at every combination of some keys' values") {}
+  Sweep() : Command("sweep", "Run a scenario with every combination of some keys' values") {}
 
   void options(CLI::App& app) override {
     app.add_option("SCENARIO", plan_.scenario, "Scenario in YAML")->required();
@@ -166,9 +166,9 @@ class Sweep : public Command {
                    "user_cpu.cycle=40us..100us/20us, baud=12M,6M,500k")
         ->allow_extra_args(false);
     add_set_option(app, plan_.settings);
-    app.add_option("--checks", plan_.checks, "As of run, report or fail; left out: as run does");
-    app.add_flag("--strict", strict_, "Exit 1 when a point does not hold, 3 when one judged nothing");
-    app.add_option("--map", map_, "Check whose margin the pictures show; left out: the worst of all")
+    app.add_option("--checks", plan_.checks, "As for run, report or fail (default: as for run)");
+    app.add_flag("--strict", strict_, "Exit with 1 when a point does not hold, with 3 when one judged nothing");
+    app.add_option("--map", map_, "Check whose margin the pictures show (default: the worst of all)")
         ->type_name("CHECK");
     add_campaign_options(app, campaign_, "sweep_ and the scenario's name");
     app.footer(
@@ -178,7 +178,7 @@ class Sweep : public Command {
         "  dsdpv1-sim sweep my.yaml --set user_cpu.fsmc.mode=A --param user_cpu.fsmc.datast=1..8 --out mode_a\n"
         "  dsdpv1-sim sweep my.yaml --param baud=12M,6M,500k --param slaves.plant.user_cpu.cycle=40us..200us/20us "
         "--jobs 4\n"
-        "The same command again goes on with an interrupted sweep. docs/sweep.md explains the results.\n"
+        "The same command resumes an interrupted sweep. docs/sweep.md explains the results.\n"
         "\nExit codes: 0 all points were run, whatever they showed (--strict: and hold, else 1 or 3), 2 wrong input, "
         "130 interrupted.\n");
   }

@@ -236,18 +236,18 @@ int wave(const TracesArguments& given) {
 
 class Traces : public Command {
  public:
-  Traces() : Command("traces", "Checks, regenerates or exports golden traces of all pins") {}
+  Traces() : Command("traces", "Check, regenerate or export golden traces of all pins") {}
 
   void options(CLI::App& app) override {
     app.require_subcommand(0, 1);  // carry_out says in its own words what is missing
-    CLI::App* check_them = add_action(app, "check", "Runs scenarios and compares every change of every pin", check);
+    CLI::App* check_them = add_action(app, "check", "Run scenarios and compare every change of every pin", check);
     add_scenarios(*check_them);
-    check_them->add_option("--engine", given_.engine, "As of run: step, skip, rtl, lockstep")->capture_default_str();
+    check_them->add_option("--engine", given_.engine, "As for run: step, skip, rtl, lockstep")->capture_default_str();
     add_fault_option(*check_them, given_.fault);
     add_scenarios(*add_action(app, "regenerate",
-                              "Makes goldens again, writes those that are others, and says what changed", regenerate));
-    add_action(app, "list", "What there is", list);
-    CLI::App* as_wave = add_action(app, "wave", "Writes a golden as a wave", wave);
+                              "Regenerate goldens, write those that differ and summarise the changes", regenerate));
+    add_action(app, "list", "List the goldens", list);
+    CLI::App* as_wave = add_action(app, "wave", "Write a golden as a wave", wave);
     as_wave->add_option("SCENARIO", given_.golden, "Its name, or the scenario's path")->required();
     as_wave->add_option("FILE", given_.output, "FILE.vcd or FILE.fst")->required();
     app.footer(kTracesFooter);
@@ -267,13 +267,13 @@ class Traces : public Command {
     app->callback([this, action] { action_ = action; });
     app->add_option(
         "--folder", given_.folder,
-        "Folder of the golden traces; left out: traces of this source tree, whose scenarios are meant by names");
+        "Folder of the golden traces (default: traces of this source tree, whose scenarios have the names)");
     app->footer(kTracesFooter);
     return app;
   }
 
   void add_scenarios(CLI::App& app) {
-    app.add_option("SCENARIO", given_.scenarios, "Scenarios by name or path; left out: all of scenarios/");
+    app.add_option("SCENARIO", given_.scenarios, "Scenarios by name or path (default: all of scenarios/)");
     app.add_flag_callback(
         "--no-progress", [this] { given_.progress = false; }, "Show no progress bar");
   }

@@ -21,7 +21,7 @@ Carrying carrying_of(const CampaignArguments& arguments, const Kind& kind,
 }
 
 void say_interrupted(const Kind& kind, std::size_t done, std::size_t all) {
-  std::cerr << fmt::format("{}: interrupted, {} of {} {} are kept; the same command goes on from there\n", kind.word,
+  std::cerr << fmt::format("{}: interrupted, {} of {} {} are kept; the same command resumes from there\n", kind.word,
                            done, all, kind.items);
 }
 
@@ -45,10 +45,11 @@ bool run_all(Runner&& runner, const Kind& kind, std::size_t all) {
 }  // namespace
 
 void add_campaign_options(CLI::App& app, CampaignArguments& arguments, const std::string& usual_folder) {
-  app.add_option("--out", arguments.out, "Folder for the runs and results; left out: " + usual_folder);
-  app.add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")->check(CLI::Range(1, 256));
+  app.add_option("--out", arguments.out, "Folder for the runs and results; default: " + usual_folder);
+  app.add_option("--jobs", arguments.jobs, "Parallel processes (default: one per processor)")
+      ->check(CLI::Range(1, 256));
   CLI::Option* slurm = app.add_flag("--slurm", arguments.slurm,
-                                    "As a job array of a Slurm cluster (sbatch); the folder must be seen by its nodes");
+                                    "Run as a job array of a Slurm cluster (sbatch), whose nodes must see the folder");
   app.add_option("--slurm-options", arguments.slurm_options, "More options for sbatch: \"--partition=x --time=10\"")
       ->needs(slurm);
   app.add_option("--slurm-task", arguments.slurm_task)->group("");  // what the tasks of an array call

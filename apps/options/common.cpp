@@ -15,22 +15,22 @@ namespace dsdpv1::app {
 CLI::Option* add_set_option(CLI::App& app, std::vector<std::string>& settings) {
   return app
       .add_option("--set", settings,
-                  "Instead of what the scenario says, once for each key: slaves.0.user_cpu.cycle=40us, "
-                  "slaves.plant.init.dpv1=true, or of every slave user_cpu.fsmc.datast=3")
+                  "Override the scenario, once for each key: slaves.0.user_cpu.cycle=40us, "
+                  "slaves.plant.init.dpv1=true, or for every slave user_cpu.fsmc.datast=3")
       ->allow_extra_args(false);
 }
 
 CLI::Option* add_checks_option(CLI::App& app, std::string& word) {
-  return app.add_option("--checks", word,
-                        "The checks of docs/checks.md on handshake, bus timing and DPRAM: fail (exit 1 on a violation "
-                        "that the scenario does not allow), report (listed, and counted beside the verdict), off; left "
-                        "out: as the scenario says, else fail");
+  return app.add_option(
+      "--checks", word,
+      "The checks of docs/checks.md on handshake, bus timing and DPRAM: fail (exit 1 on a violation that the scenario "
+      "does not allow), report (listed, and counted beside the verdict), off (default: the scenario's, else fail)");
 }
 
 void add_checks_table_option(CLI::App& app, tb::CheckRows& rows) {
   app.add_flag_callback(
       "--checks-table", [&rows] { rows = tb::CheckRows::kAll; },
-      "A row for each check in the summary, not only for those that were violated");
+      "Show a row for each check in the summary, not only for violated ones");
 }
 
 std::optional<tb::ChecksMode> checks_mode(const std::string& command, const std::string& word) {
@@ -49,13 +49,13 @@ CLI::Option* add_log_options(CLI::App& app, std::string& log, bool& whole, const
 void add_report_option(CLI::App& app, std::string& report) {
   app.add_option(
       "--report", report,
-      "The run as one HTML page with its charts and timing diagrams, which needs no network (docs/report.md)");
+      "Write the run as one HTML page with charts and timing diagrams, which needs no network (docs/report.md)");
 }
 
 void add_capture_options(CLI::App& app, CaptureArguments& arguments) {
   CLI::Option* capture =
       app.add_option("--capture", arguments.file,
-                     "Every telegram with its time as FILE.pcapng, for Wireshark and tshark (docs/captures.md)");
+                     "Write every telegram with its time as FILE.pcapng, for Wireshark and tshark (docs/captures.md)");
   app.add_option("--capture-link", arguments.link,
                  "Its link type: profibus (257), or user0 to user15 for a Wireshark that does not know 257")
       ->capture_default_str()
@@ -70,7 +70,7 @@ tb::CaptureRequest capture_request(const std::string& command, const CaptureArgu
   return {arguments.file, *number, "dsdpv1-sim " DSDPV1_VERSION};
 }
 
-void add_quiet_option(CLI::App& app, bool& quiet) { app.add_flag("--quiet,-q", quiet, "No table at the end"); }
+void add_quiet_option(CLI::App& app, bool& quiet) { app.add_flag("--quiet,-q", quiet, "Show no table at the end"); }
 
 void add_output_options(CLI::App& app, std::optional<bool>& progress, bool& quiet) {
   app.add_flag_callback(

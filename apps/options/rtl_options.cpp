@@ -25,7 +25,7 @@ void add_chip_options(CLI::App& app, RtlChip& chip) {
   app.add_option("--chip", chip.chip, "The chip of the reference RTL: dsdpv1, dsdpv1_r, dsdpv1_rsu")
       ->type_name("WORD")
       ->capture_default_str();
-  app.add_option("--mode", chip.mode, "Of the dsdpv1_rsu, for random cases: the host's port, parallel, spi or uart")
+  app.add_option("--mode", chip.mode, "The dsdpv1_rsu's host port in random cases: parallel, spi or uart")
       ->capture_default_str();
 }
 
@@ -52,19 +52,17 @@ const cosim::HostPort& RtlChip::port() const {
 }
 
 CLI::Option* add_fault_option(CLI::App& app, unsigned& fault) {
-  return app.add_option("--fault", fault, "With this single fault of rtl_ref/dsdpv1/faults.txt in the reference RTL")
+  return app.add_option("--fault", fault, "Enable this single fault of rtl_ref/dsdpv1/faults.txt in the reference RTL")
       ->check(CLI::Range(0, 255));
 }
 
 void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool required) {
-  CLI::Option* rtl =
-      app.add_option("--rtl", arguments.rtl,
-                     required ? "Folder of the RTL" : "Folder of RTL of your own, in place of the reference RTL");
+  CLI::Option* rtl = app.add_option(
+      "--rtl", arguments.rtl, required ? "Folder of the RTL" : "Folder of your RTL, which replaces the reference RTL");
   CLI::Option* top = app.add_option("--top", arguments.top, "Its top module")->needs(rtl);
   CLI::Option* pins =
       app.add_option("--pins", arguments.pins, "Names, polarities and tolerances of its pins, see docs/cosim.md");
-  CLI::Option* build =
-      app.add_option("--build", arguments.build, "Folder for what is built of it")->capture_default_str();
+  CLI::Option* build = app.add_option("--build", arguments.build, "Folder for its build")->capture_default_str();
   if (required) {
     rtl->required();
     top->required();

@@ -152,7 +152,7 @@ void SavedRuns::refuse() const {
   throw tb::InputError(
       path_, 0,
       fmt::format("the run up to {} is not the one that was saved: {}", tb::time_text(restored_->at),
-                  same ? "this same program does otherwise here, which is a fault of its own"
+                  same ? "this same program does otherwise here, which is its fault"
                        : fmt::format("{} saved it, this is {}, allowed is a program that does the same",
                                      restored_->program, this_program())));
 }

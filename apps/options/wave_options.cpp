@@ -37,47 +37,47 @@ void check_code(const std::string& command, const char* option, const std::strin
 
 void add_wave_options(CLI::App& command, WaveArguments& arguments) {
   CLI::Option* wave = command.add_option("--wave", arguments.file,
-                                         "Waves of all pins, the line, states and events: FILE.vcd or FILE.fst");
+                                         "Write waves of all pins, the line, states and events: FILE.vcd or FILE.fst");
   command
       .add_option("--wave-signals", arguments.signals,
-                  "Only signals that fit: patterns of \"station.signal\" with * and ?, once for each")
+                  "Write only matching signals: patterns of \"station.signal\" with * and ?, once for each")
       ->allow_extra_args(false)
       ->needs(wave);
   CLI::Option* from = command.add_option("--wave-from", arguments.from, "Only from this time on")->needs(wave);
   CLI::Option* to = command.add_option("--wave-to", arguments.to, "Only up to this time")->needs(wave);
-  CLI::Option* on = command
-                        .add_option("--wave-on", arguments.on,
-                                    "Only round each event with this code of the log, or each violation; once for each")
-                        ->allow_extra_args(false)
-                        ->needs(wave)
-                        ->excludes(from)
-                        ->excludes(to);
-  command.add_option("--wave-around", arguments.around, "Up to this long before and after it")
+  CLI::Option* on =
+      command
+          .add_option("--wave-on", arguments.on,
+                      "Write only around each event with this code of the log, or each violation; once for each")
+          ->allow_extra_args(false)
+          ->needs(wave)
+          ->excludes(from)
+          ->excludes(to);
+  command.add_option("--wave-around", arguments.around, "Length of the part before and after it")
       ->capture_default_str()
       ->needs(on);
   CLI::Option* wires =
       command
           .add_flag("--wave-wires", arguments.wires_only,
-                    "No words, and each wire of a bus as a signal of its own: for sigrok and PulseView")
+                    "Write no words, and each wire of a bus as a separate signal: for sigrok and PulseView")
           ->needs(wave);
-  command.add_flag("--wave-clk", arguments.clock, "CLK as well, which changes 96 times a microsecond")->needs(wave);
+  command.add_flag("--wave-clk", arguments.clock, "Write also CLK, which changes 96 times a microsecond")->needs(wave);
   command
       .add_flag("--wave-inside", arguments.inside,
-                "Inner signals of the chips as well: owner of the DPRAM, item and byte that is moved, flags, CRC "
-                "verdicts, baud and watchdog states; every cycle is evaluated then")
+                "Write also inner signals of the chips: owner of the DPRAM, item and byte that is moved, flags, CRC "
+                "verdicts, baud and watchdog states; every cycle is then evaluated")
       ->needs(wave);
   add_wave_save_option(command, arguments.save, wave)->excludes(wires);
   command
       .add_flag("--wave-date", arguments.date,
-                "With date and time of day; without it the same run writes the same bytes")
+                "Write date and time of day; without it the same run writes the same bytes")
       ->needs(wave);
 }
 
 CLI::Option* add_wave_save_option(CLI::App& command, bool& save, CLI::Option* wave) {
   return command
-      .add_flag(
-          "--wave-save", save,
-          "Beside the wave also NAME.gtkw for GTKWave and NAME.sucl for Surfer: its signals in groups and in order")
+      .add_flag("--wave-save", save,
+                "Write also NAME.gtkw for GTKWave and NAME.sucl for Surfer: the wave's signals in groups and in order")
       ->needs(wave);
 }
 

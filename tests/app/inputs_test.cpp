@@ -112,7 +112,7 @@ TEST_F(Inputs, OneThatComesThroughADescriptorIsNotReplaced) {
   write("s.yaml", scenario_named("x"));
   const Called called = in_shell("\"$SIM\" run /dev/stdin --log s.yaml <s.yaml");
   EXPECT_EQ(called.status, 2);
-  EXPECT_EQ(called.err, "dsdpv1-sim run: --log would replace the scenario, s.yaml, allowed is a file of its own\n");
+  EXPECT_EQ(called.err, "dsdpv1-sim run: --log would replace the scenario, s.yaml, allowed is a separate file\n");
   EXPECT_EQ(read(folder_.path() / "s.yaml"), scenario_named("x"));
 }
 

@@ -159,7 +159,7 @@ class Regression(Folder):
                 process.send_signal(number)
                 code, lines = self.end(process)
                 self.assertEqual(code, 130)
-                self.assertRegex(lines[-1], "^regression: interrupted, [01] of 2 runs are kept; the same command goes on from there$")
+                self.assertRegex(lines[-1], "^regression: interrupted, [01] of 2 runs are kept; the same command resumes from there$")
                 self.assertFalse([name for name in self.found("out") if "PID" in name])
         self.write("other.yaml", SCENARIO % ("other", "3ms"))
         self.assert_the_same_command_goes_on()

@@ -149,7 +149,7 @@ TEST_F(RegressCommand, InterruptedItExits130AndTheSameCommandGoesOn) {
            "kill -INT $regress; wait $regress\n"),
       130);
   EXPECT_THAT(file("err"),
-              HasSubstr("regression: interrupted, 1 of 2 runs are kept; the same command goes on from there\n"));
+              HasSubstr("regression: interrupted, 1 of 2 runs are kept; the same command resumes from there\n"));
   EXPECT_FALSE(fs::exists(folder_.file("regression/index.html")));
   const auto before = times();
   EXPECT_EQ(before.size(), 1U);

@@ -361,7 +361,7 @@ def outputs(folder):
            ["replay.fst", "replay.gtkw", "replay.json", "replay.log", "replay.pcapng", "replay.sucl", "replay.tsv", "result.json"])
     clash = sim(folder, "replay", capture, "--as", "5", "--json", "run.pcapng", status=2)
     expect("an output is no input", clash.stderr,
-           "dsdpv1-sim replay: --json would replace the capture, run.pcapng, allowed is a file of its own\n")
+           "dsdpv1-sim replay: --json would replace the capture, run.pcapng, allowed is a separate file\n")
 
 
 CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, changed_byte, missing_answer, answer_without_syn,
