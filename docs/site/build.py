@@ -52,7 +52,7 @@ def copy_pages(source, lists):
 
 
 def linked_files(source):
-    """Files of the project that pages link to and that are no pages."""
+    """Files of the project that pages link to, except pages."""
     for page in sorted(source.rglob("*.md")):
         for target in LINK.findall(page.read_text(encoding="utf-8")):
             path = os.path.normpath(page.parent.relative_to(source) / target)
@@ -103,7 +103,7 @@ def headers(source, folder):
 
 
 def python_module(source, packages, copy):
-    """Of a copy of the package whose comments on members autodoc reads, too."""
+    """For a copy of the package in which autodoc also reads comments on members."""
     shutil.copytree(packages / "dsdpv1", copy / "dsdpv1", ignore=shutil.ignore_patterns("__pycache__"))
     for path in (copy / "dsdpv1").glob("*.py"):
         write(path, re.sub(r"^( +\w+(?:: [^=#\n]+)?(?: = [^#\n]+)?)  # ", r"\1  #: ", path.read_text(encoding="utf-8"), flags=re.M))

@@ -3,7 +3,7 @@
 
     comments.py HEADER
 
-The first comment that is no licence is the file's. A comment that a declaration follows is the declaration's, one behind code is the code's. Rulers
+The first comment after the licence is the file's. A comment before a declaration is the declaration's, one after code on its line is the code's. Rulers
 (---- errors ----) and comments above an empty line stay what they are. Lines that are indented are an example.
 """
 import pathlib
@@ -27,7 +27,7 @@ def opening(comment, before, after, file):
 
 
 def plain(comment):
-    """I&M0 is no entity; lines of an example stand far enough to the right to be one."""
+    """I&M0 is not an entity; the indentation of an example's lines makes them one."""
     return re.sub(r"^( \*)(?=  )", r"\1      ", re.sub(r"(?<=\w)&(?=\w)", r"\&", comment), flags=re.M)
 
 

@@ -103,7 +103,7 @@ class Counting(unittest.TestCase):
 
 
 class Measuring(unittest.TestCase):
-    """The whole program with rows and a calibration of its own."""
+    """The whole program with separate rows and calibration."""
 
     def bench(self, *words, measured=(), times=lambda: 20.0):
         with mock.patch.object(rows, "ROWS", tuple(measured)), mock.patch.object(rows, "NAMES", tuple(each.name for each in measured)), \
@@ -129,7 +129,7 @@ class Measuring(unittest.TestCase):
         self.assertEqual(calls, ["time", "one", "time", "two", "time"])
 
     def test_what_is_measured_while_others_use_the_machine_is_measured_again(self):
-        values, times = iter([5, 11]), iter([20.0, 30.0, 31.0, 21.0, 20.0])  # busy behind the first value, then quiet
+        values, times = iter([5, 11]), iter([20.0, 30.0, 31.0, 21.0, 20.0])  # busy after the first value, then quiet
         measured = [row(measure=lambda turn: next(values))]
         status, out, _ = self.bench("--rounds", "1", "--wait", "1", measured=measured, times=lambda: next(times))
         self.assertEqual(status, 0)

@@ -34,9 +34,9 @@ class Core {
   dsdpv1::Chip chip_;
 };
 
-/// What of the C API is used.
+/// The calls of the C API to use.
 struct Use {
-  bool receives = true;  ///< requests are told by dpsim_chip_receive, else each edge by a call
+  bool receives = true;  ///< requests are passed by dpsim_chip_receive, else each edge by a call
   bool keeps = false;  ///< changes of all pins are kept and taken after each advance, else those of PinCounter counted
 };
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What cocotbext.profibus adds to the time of a simulation of the reference RTL in Icarus under cocotb, in percent. Prints ROW<TAB>VALUE.
+"""The time that cocotbext.profibus adds to a simulation of the reference RTL in Icarus under cocotb, in percent. Prints ROW<TAB>VALUE.
 
     cocotb_speed.py FOLDER
 """
@@ -26,7 +26,7 @@ def build(folder):
 
 
 def run(runner, folder, test):
-    """CPU seconds of one of cocotb_speed_tests.py, in a simulator of its own."""
+    """CPU seconds of one of cocotb_speed_tests.py, in a separate simulator."""
     results = runner.test(hdl_toplevel="dsdpv1", test_module="cocotb_speed_tests", test_dir=folder, build_dir=folder, testcase=test,
                           results_xml=str(folder / f"{test}.xml"), extra_env={"FAULT": "0", "COCOTB_LOG_LEVEL": "ERROR"})
     if get_results(results) != (1, 0):
@@ -37,7 +37,7 @@ def run(runner, folder, test):
 def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
     output = os.dup(1)
-    os.dup2(2, 1)  # what simulators say is no row
+    os.dup2(2, 1)  # simulators' output is not a row
     runner = build(folder)
     if not (folder / "stimulus.json").is_file():
         run(runner, folder, "record")

@@ -1,4 +1,4 @@
-// How fast the core runs by itself, and what it takes of the memory. Speeds are simulated time by CPU time.
+// Speed of the core alone, and its memory. Speeds are simulated time by CPU time.
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -24,7 +24,7 @@ using dsdpv1::profibus::Tick;
 constexpr Tick kSlice = 12'000'000;  // a millisecond
 constexpr double kMeasured = 0.3;    // seconds
 
-/// A chip that is told every change of the line.
+/// A chip that receives every change of the line.
 struct EdgeChip : Chip {
   static bool hear(Tick /*at*/, const dsdpv1::profibus::CharacterRun& /*run*/) { return false; }
 };

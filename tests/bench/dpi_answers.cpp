@@ -1,5 +1,5 @@
-// Between a simulator and the DPI library (LD_PRELOAD): what the model answers to each of its calls is written to the
-// file DSDPV1_RECORD, or comes from the file DSDPV1_REPLAY, in the place of a chip that computes it.
+// Between a simulator and the DPI library (LD_PRELOAD): the model's answers to its calls are written to the file
+// DSDPV1_RECORD, or read from the file DSDPV1_REPLAY instead of computed by a chip.
 #include <dlfcn.h>
 
 #include <cstdint>

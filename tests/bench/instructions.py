@@ -1,5 +1,5 @@
-"""Host instructions that each thing takes, counted by callgrind: they are the same on a busy machine. What starts a run is out of it, as the
-difference of two lengths of the run is taken. instructions.tsv has the counts of the last record."""
+"""Host instructions that each thing takes, counted by callgrind: they are the same on a busy machine. The difference of two lengths of the run
+excludes its start. instructions.tsv has the counts of the last record."""
 import concurrent.futures
 import dataclasses
 import json
@@ -28,8 +28,8 @@ class Row:
     lengths: tuple  # short and long, in ms of simulated time, or what `command` takes
     options: tuple = OFF
     units: typing.Callable = lambda short, long: (long["simulated_ns"] - short["simulated_ns"]) / 1e6  # of the results of both runs
-    start: bool = False  # not the difference, but what is left of the short run without it
-    command: typing.Callable = None  # or what is run in the place of a scenario, in a folder, at a length
+    start: bool = False  # not the difference, but the rest of the short run without it
+    command: typing.Callable = None  # or the command to run instead of a scenario, in a folder, at a length
 
 
 def arm(short, long):

@@ -1,5 +1,5 @@
 #pragma once
-// What the programs of the speed table have in common: `PROGRAM ROW...` prints ROW<TAB>VALUE, a line a row.
+// Shared by the programs of the speed table: `PROGRAM ROW...` prints ROW<TAB>VALUE, a line a row.
 #include <cstdio>
 #include <cstring>
 #include <exception>

@@ -82,7 +82,7 @@ def replayed_pin_changes(folder, *command):
 
 
 def samples(folder, command, keys):
-    """What perf prints of a run: a share and what `keys` name a line."""
+    """perf's output for a run: per line a share and the fields of `keys`."""
     if shutil.which("perf") is None:
         raise Failed("perf is not installed")
     data = folder / "perf.data"
@@ -92,7 +92,7 @@ def samples(folder, command, keys):
 
 def run_command(scenario, *options):
     """A quiet run of dsdpv1-sim; `scenario` is one of scenarios/ or of scenarios.py."""
-    shipped, file = ROOT / "scenarios" / f"{scenario}.yaml", f"{scenario}.yaml"  # of its own folder, so that an error names no place of this machine
+    shipped, file = ROOT / "scenarios" / f"{scenario}.yaml", f"{scenario}.yaml"  # in its own folder, so that an error names no path of this machine
     return [SIM, "run", shipped if shipped.exists() else file, "--quiet", "--no-progress", *options]
 
 

@@ -1,7 +1,7 @@
 #pragma once
-// The Verilated reference RTL with as little round it as it can do with: for measurements of what RTL simulation costs
-// by itself. It is compiled together with what Verilator makes of rtl_ref/, into a library of its own that shows
-// nothing else: the library for lockstep has classes of the same names.
+// The Verilated reference RTL with as little around it as possible, to measure the cost of RTL simulation alone. It
+// is compiled together with Verilator's output for rtl_ref/, into a separate library that exports nothing else: the
+// library for lockstep has classes of the same names.
 #include <cstdint>
 #include <memory>
 
@@ -12,7 +12,7 @@ namespace dsdpv1::speed {
 
 using profibus::Tick;
 
-/// Pins as dsdpv1::Chip has them. Changes of L_REQ and PBTXD are counted, and reported to nobody.
+/// Pins as dsdpv1::Chip has them. Changes of L_REQ and PBTXD are counted, but not reported.
 class [[gnu::visibility("default")]] RtlAlone {
  public:
   RtlAlone();
@@ -24,7 +24,7 @@ class [[gnu::visibility("default")]] RtlAlone {
   /// RTL hears changes.
   bool hear(Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
   void advance(Tick to);
-  /// Of L_REQ, L_STA and PBTXD; others are not asked for.
+  /// The level of L_REQ, L_STA or PBTXD; others are not requested.
   Level level(Pin pin) const;
   std::uint64_t line_changes() const;
   std::uint64_t request_changes() const;

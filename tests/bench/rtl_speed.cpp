@@ -67,7 +67,7 @@ constexpr std::uint64_t kSeed = 1, kCycles = 1'000'000;
 
 using Levels = std::array<Level, dsdpv1::kPinCount>;
 
-/// What was at the inputs of one RTL: evaluations in a row with nothing new but the clock, then other levels.
+/// The inputs of one RTL: evaluations in a row that change only the clock, then other levels.
 struct Recording {
   struct Span {
     bool clk = false;

@@ -1,7 +1,7 @@
 #pragma once
 // A saturated 12 Mbit/s bus for one chip and nothing round it: data exchanges of one size, back to back at T_SYN. The
 // edges of the requests are made beforehand and the user is idle, so that a measurement has the chip in it and little
-// else. The core is told its requests as runs of characters, the RTL the changes of PBRXD that they are.
+// else. The core receives its requests as runs of characters, the RTL as changes of PBRXD.
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
@@ -46,7 +46,7 @@ inline Wave wave_of(const Bytes& telegram) {
   return wave;
 }
 
-/// A request, whichever way it is told.
+/// A request, in either form.
 struct Request {
   explicit Request(const Bytes& bytes) : telegram(bytes), wave(wave_of(bytes)) {}
   Bytes telegram;
@@ -60,7 +60,7 @@ inline Bytes identifiers(int io) {
   return cfg;
 }
 
-/// What the user writes at start-up: a cell and its value, in order.
+/// The user's writes at start-up: a cell and its value, in order.
 struct Cell {
   std::uint16_t address;
   std::uint8_t value;
@@ -183,7 +183,7 @@ class SaturatedBus {
   std::uint64_t exchanges_ = 0;
 };
 
-/// Counts the changes of the pins that it watches: what somebody at L_REQ and PBTXD costs at least.
+/// Counts the changes of its pins: the least cost of an observer of L_REQ and PBTXD.
 struct PinCounter {
   static constexpr std::uint32_t kWatched = dsdpv1::mask(Pin::kLReq) | dsdpv1::mask(Pin::kPbtxd);
   std::uint64_t line = 0, requests = 0;
@@ -195,7 +195,7 @@ struct PinCounter {
   bool operator==(const PinCounter& other) const { return line == other.line && requests == other.requests; }
 };
 
-/// What a program says when its measurement would mean nothing.
+/// A program's error when its measurement would be meaningless.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -4,7 +4,7 @@ import json
 import programs
 
 IDENT = 0x0CC9
-IDLE = 8  # slaves that nobody addresses, beside the busy one
+IDLE = 8  # slaves that are not addressed, beside the busy one
 
 
 def identifiers(io):
@@ -51,7 +51,7 @@ def with_idle(count):
 
 
 def loop(name):
-    """A board whose firmware loops and never initialises its chip; nobody is on the bus."""
+    """A board whose firmware loops and never initialises its chip, on an empty bus."""
     return {"name": name, "baud": "12M", "end": "1ms", "allow": [{"event": "HOST_NOT_OWNER", "slave": "board"}], "expect": [{"slave": "board", "dp_state": "offline"}],
             "slaves": [{"name": "board", "address": 5, "gsd": str(programs.ROOT / "scenarios" / "dsdpv1.gsd"), "modules": ["8 bytes in, 8 bytes out"],
                         "user_cpu": {"kind": "arm", "elf": str(programs.FOLDER / "firmware" / f"{name}.elf"), "fsmc": {"hclk": 72}}, "release_reset": "20us"}]}

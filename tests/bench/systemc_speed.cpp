@@ -30,7 +30,7 @@ class Requests {
     ++exchanges_;
     return cyclic_[exchanges_ & 1U];
   }
-  /// From the begin of the request that `next` has given to that of the one behind it.
+  /// From the begin of the request that `next` has given to that of the one after it.
   Tick period(const Bytes& request) const {
     const int idle = exchanges_ > 0 ? answer_and_syn_bits(kIo) : 1000;
     return (static_cast<int>(request.size()) * bus::kCharacterBits + idle) * kBit;
@@ -160,7 +160,7 @@ double tlm_module(bool handshake) {
 
 double systemc_pins() {
   PinBench pins("chip");
-  pins.chip.on_pin = {};  // nobody records the changes
+  pins.chip.on_pin = {};  // the changes are not recorded
   EdgeMaster master("master", pins.pbrxd);
   pins.reset.write(true);
   return measure(pins.chip, master.requests);
@@ -223,7 +223,7 @@ struct Ear : sc_core::sc_module {
   void run() {}
 };
 
-/// Signals and changes of systemc_pins, and somebody who hears PBRXD; nobody behind them.
+/// Signals and changes of systemc_pins, and a process sensitive to PBRXD, without a chip.
 double kernel_pins() {
   sc_core::sc_signal<bool> pbrxd("pbrxd");
   const Ear ear("ear", pbrxd);
@@ -239,7 +239,7 @@ struct Sink : sc_core::sc_module, private tlm::tlm_analysis_if<BusCharacter> {
   void write(const BusCharacter& /*character*/) override {}
 };
 
-/// Characters and changes of systemc_tlm_handshake, nobody behind them.
+/// Characters and changes of systemc_tlm_handshake, without a chip.
 double kernel_handshake() {
   CharacterMaster master("master");
   Sink sink("sink");

@@ -1,4 +1,4 @@
-"""What has been measured, judged: median, least and greatest of the rounds against the goal; as text and for machines."""
+"""Judgement of the measurements: median, minimum and maximum of the rounds against the goal; as text and for programs."""
 import dataclasses
 import statistics
 

@@ -1,4 +1,4 @@
-"""What docs/site/ makes of headers and pages before Doxygen and Sphinx see them; ./run nightly makes the whole site."""
+"""The output of docs/site/ for headers and pages, before Doxygen and Sphinx; ./run nightly makes the whole site."""
 import pathlib
 import sys
 import unittest

@@ -40,7 +40,7 @@ class Output:
         return [word for word in [*self.words, path or self.file, *(self.endless if endless else self.finite), *more] if word]
 
     def wait_until_it_runs(self, process, place):
-        """What was read meanwhile of its error channel."""
+        """The part of its error channel read meanwhile."""
         place.part(of=".%d" % process.pid)
         return b""
 
@@ -66,7 +66,7 @@ class OfRun(Output):
 
 
 class SaveFile(Output):
-    """Of --wave-save: it is beside the wave, which is there before it is written."""
+    """For --wave-save: its file is beside the wave, which is written first."""
 
     other_input = "device.gsd"
 
@@ -101,7 +101,7 @@ class OfServe(Output):
 
 
 class OfCapture(Output):
-    """Of a command that reads a capture; compare holds two against each other."""
+    """For a command that reads a capture; compare reads two."""
 
     OTHERS = {"calibrate": {"--chip": "--json", "--json": "--table", "--table": "--chip"},
               "replay": {"--wave": "--log", "--log": "--result", "--result": "--capture", "--capture": "--json", "--json": "--table", "--table": "--log"},
@@ -114,7 +114,7 @@ class OfCapture(Output):
 
 
 class OfReplay(Output):
-    """What a difference leaves: of a case that is there already, which is quicker."""
+    """The files of a difference: of an existing case, which is quicker."""
 
     usual = 1
     other_input = "case.stimulus"

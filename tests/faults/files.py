@@ -70,7 +70,7 @@ def other_input(place):
 
 
 def twice(place):
-    """By another spelling, or where the other needs an ending of its own, a link."""
+    """By another spelling, or a link if the other needs a different ending."""
     same_file = "./" + place.output.file
     if place.output.other == "--difference":
         same_file = "same.vcd"

@@ -36,7 +36,7 @@ class OfSweep(Output):
 
 
 def statement(content):
-    """What a point's file says; how long its run took is another thing each time."""
+    """The contents of a point's file, except the duration of its run."""
     point = json.loads(content)
     for key in ("wall_s", "real_time_factor"):
         point["result"].pop(key)
@@ -45,7 +45,7 @@ def statement(content):
 
 
 def undisturbed(program, output, path):
-    """The files of a sweep that is let alone in a folder of its own."""
+    """The files of an undisturbed sweep in a separate folder."""
     words = [word if word != FOLDER else "whole" for word in output.command()]
     done = subprocess.run([program, *words], cwd=path, capture_output=True, check=False)
     check(done.returncode == 0, "a sweep that was let alone: exit %d, %s" % (done.returncode, done.stderr.decode()))
@@ -93,7 +93,7 @@ class SweepPlace(Place):
         return sweep, self.hold(sweep)
 
     def runs(self):
-        """Of the second point; a temporary file has the number of the process that writes it."""
+        """The file of the second point; a temporary file has the number of the process that writes it."""
         names = os.listdir(self.own("points")) if os.path.isdir(self.own("points")) else []
         return [int(match[1]) for match in map(RUN.fullmatch, names) if match]
 

@@ -1,4 +1,4 @@
-"""What faults do to the outputs of dsdpv1-sim: each fault is done to each output, and docs/robustness.md has the table.
+"""Effects of faults on the outputs of dsdpv1-sim: causes each fault for each output; docs/robustness.md has the table.
 
     outputs.py DSDPV1_SIM           does all and compares the table with the page
     outputs.py DSDPV1_SIM --write   ... and writes it
@@ -108,7 +108,7 @@ def one(program, folder, fault, function, output):
 
 
 def rows(program, folder):
-    """Of each fault, the outputs to which the same happens stand in one row."""
+    """For each fault, outputs with the same effect are in one row."""
     with ThreadPoolExecutor(4) as pool:
         jobs = [(fault, output, pool.submit(one, program, folder, fault, function, output))
                 for fault, function, outputs in FAULTS for output in outputs]

@@ -42,7 +42,7 @@ def killed_and_recovered(place):
 
 
 def starting(place, number):
-    """The start is held at a FIFO that nobody reads."""
+    """The start is held at a FIFO without a reader."""
     os.mkfifo(place.file("hold.vcd"))
     process = place.start(place.output.command(more=place.output.held("hold.vcd"), endless=True))
     part = place.part()

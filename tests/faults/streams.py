@@ -1,4 +1,4 @@
-"""Outputs that are no files: terminals, FIFOs, /dev/null, standard output. Each fault returns what is left, the exit code, the line."""
+"""Outputs other than files: terminals, FIFOs, /dev/null, standard output. Each fault returns what is left, the exit code, the line."""
 import os
 import select
 import signal
@@ -83,7 +83,7 @@ def fifo_reader_gone(place):
 
 
 def full_pipe_and_interrupted(place):
-    """Another output waits for its reader when the signal comes: it goes on afterwards, and no output is spoilt."""
+    """Another output waits for its reader when the signal comes: it continues afterwards, and no output is spoilt."""
     os.mkfifo(place.file("pipe.vcd"))
     process = place.start(place.output.command(more=place.output.beside("pipe.vcd"), endless=True))
     with open(place.file("pipe.vcd"), "rb", buffering=0) as pipe:

@@ -138,7 +138,7 @@ def run_killed_twice(place):
 # --- two at once ----------------------------------------------------------------------------------------------------------
 
 def second_one(place):
-    """The first goes on as if there had been none."""
+    """The first continues as if there had been none."""
     sweep, run = place.start_and_hold()
     second = place.start(place.output.command())
     _, errors = second.communicate(timeout=DEADLINE)

@@ -1,4 +1,4 @@
-"""Whether an output is whole: the same as that of an undisturbed run, or, of a run that was ended early, right up to its end."""
+"""Checks that an output is complete: the same as that of an undisturbed run, or, of a run that was ended early, right up to its end."""
 import json
 import os
 import re
@@ -19,7 +19,7 @@ def last_line(content):
 
 
 def packets(content):
-    """How many blocks of a pcapng file are whole, and how many bytes are behind them."""
+    """The number of complete blocks of a pcapng file, and of bytes after them."""
     at, count = 0, 0
     while at + 12 <= len(content):
         length = struct.unpack_from("<I", content, at + 4)[0]
@@ -37,7 +37,7 @@ def ended_early(program, path, content):
         return b"is complete, so there is nothing to recover" in told
     if ending == ".json":
         result = json.loads(content)
-        return result["interrupted"] is ("pacing" not in result)  # serve has no end of its own
+        return result["interrupted"] is ("pacing" not in result)  # serve does not end on its own
     if ending == ".pcapng":
         return packets(content)[0] >= 2 and packets(content)[1] == 0
     if not content.endswith(b"\n"):
@@ -67,7 +67,7 @@ def readable(path, content):
 
 
 def without_wall_time(content):
-    """What differs from run to run is how long it took and how it kept pace, the port, and in a save file where the wave is."""
+    """Runs differ in their duration and pace, the port, and the wave's path in a save file."""
     if content.startswith(b"{"):
         result = json.loads(content)
         for key in ("wall_s", "real_time_factor", "pacing"):

@@ -18,7 +18,7 @@ def of(name):
 
 
 def features(control):
-    """What libFuzzer's control file of a merge says: the code that each input enters, with its counters."""
+    """The contents of libFuzzer's control file of a merge: the code that each input reaches, with its counters."""
     lines = control.read_text(encoding="utf-8").splitlines()
     names = lines[2:2 + int(lines[0])]
     entered = {}

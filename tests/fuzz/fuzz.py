@@ -98,7 +98,7 @@ def program(name):
 def call(name, words, asan="", **options):
     """libFuzzer with the limits that a finding is judged by; standard input is empty, as a path may name it."""
     target = target_list.find(name)
-    # What an input has freed is kept until others have freed 16 MB: as much as the default makes processors and forks slow.
+    # Freed memory is kept until 16 MB more are freed: the larger default makes processors and forks slow.
     environment = {**os.environ, "ASAN_OPTIONS": f"detect_leaks=1:max_allocation_size_mb=4096:quarantine_size_mb=16:malloc_context_size=8:{target.asan}:{asan}",
                    "UBSAN_OPTIONS": "print_stacktrace=1"}
     # Entropic counts rare features of all inputs, for which it takes a third of the time.

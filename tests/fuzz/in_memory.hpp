@@ -1,5 +1,5 @@
 #pragma once
-// An input as a file for those that want a path. One a process; nothing is left behind.
+// An input as a file for those that want a path. One per process; no file remains.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the targets share: an input handed out piece by piece, and what to do when a promise is broken that is no crash.
+// Shared by the targets: an input handed out piece by piece, and the report of a broken promise that does not crash.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -53,8 +53,8 @@ inline void promise(bool kept, std::string_view what) {
   if (!kept) throw std::logic_error("broken promise: " + std::string(what));
 }
 
-/// An error begins with the name of the file. What it quotes of it may be anything: whoever prints it makes it
-/// printable.
+/// An error begins with the name of the file. Its quotations may contain any bytes: the caller that prints them makes
+/// them printable.
 inline void promise_named(const std::string& error, const std::string& name) {
   if (error.rfind(name + ":", 0) != 0) promise(false, "an error names its file: " + error);
 }

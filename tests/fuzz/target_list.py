@@ -24,7 +24,8 @@ TARGETS = (
     Target("sigrok", 4096, "sessions of sigrok: archives as they are, and right ones round any content"),
     Target("vcd", 2048, "waves as text"),
     Target("fst", 2048, "waves in FST, read by a separate process", flags=("-malloc_limit_mb=1000000",),
-           # What that process asks for it need not get, nor is it told where in the library it was damaged; little freed memory makes it cheap to fork.
+           # That process need not get the memory that it requests, nor learn where in the library it was damaged; little freed memory makes forks
+           # cheap.
            asan="max_allocation_size_mb=256:symbolize=0:quarantine_size_mb=1"),
     Target("serve", 1024, "what a host writes to a socket of `serve`, in pieces and with pauses"),
     Target("elf", 8192, "firmware for the ARM board, and its lines of source"),

@@ -20,7 +20,7 @@ from licence_table import PAGE, label_of, rows_of  # noqa: E402
 LISTS = ("packages.txt", "requirements.txt", "requirements-test.txt", "requirements-lint.txt")
 SEEN = ("linked", "compiled in")  # uses that the build shows; others are only said: embedded, loaded, run
 STRICT = "GPL-2.0-only"
-# What may be in one program with GPL-2.0-only: https://www.gnu.org/licenses/license-list.html, and docs/licences.md on Artistic-2.0 and GCC's.
+# Licences allowed in one program with GPL-2.0-only: https://www.gnu.org/licenses/license-list.html, and docs/licences.md on Artistic-2.0 and GCC's.
 FITS_STRICT = {STRICT, "GPL-2.0-or-later", "LGPL-2.1-or-later", "GPL-2.0-only WITH Linux-syscall-note", "GPL-3.0-or-later WITH GCC-exception-3.1",
                "Artistic-2.0", "MIT", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Zlib", "BSL-1.0", "bzip2-1.0.6", "LicenseRef-Public-Domain"}
 ALONE = ("bindings", "driver", "examples", "include", "registers", "rtl_ref", "share")
@@ -32,7 +32,7 @@ HEAD_LINE = r"(?:/\*|//|#|--) SPDX-"
 
 
 def fits(licence, allowed=frozenset(FITS_STRICT)):
-    """Whether one of the alternatives of an SPDX expression has allowed licences only."""
+    """True if one of the alternatives of an SPDX expression has only allowed licences."""
     return any(all(term.strip() in allowed for term in one.split(" AND ")) for one in licence.split(" OR "))
 
 
@@ -53,7 +53,7 @@ def versions(text):
 
 
 def faults_of_locks(root):
-    """What the lists name and their locks. The tests' packages come to the others, of which their lock may have some again."""
+    """The packages in the lists and their locks. The tests' packages come to the others, of which their lock may have some again."""
     known = {}
     for name in LISTS[1:]:
         lock = name.replace(".txt", ".lock")
@@ -115,7 +115,7 @@ def faults_of_program(name, found, rows, source):
 
 
 def stale_rows(found, rows, source):
-    """What the page says of programs that do not have it (any more). `found`: label to sources of packages."""
+    """Entries of the page for programs without that component. `found`: label to sources of packages."""
     for row in rows:
         for label in sorted(row.into):
             if label in found and row.use in SEEN and not found[label] & set(map(source, row.packages)):
@@ -173,13 +173,13 @@ def faults_of_texts(root, reuse):
 
 
 def copied_alone(root):
-    """Files that others copy one by one into projects of theirs, without REUSE.toml; of the C++ libraries nobody copies one."""
+    """Files that users copy one by one into their projects, without REUSE.toml; not those of the C++ libraries."""
     for folder in ALONE:
         yield from (file for file in sorted((root / folder).rglob("*")) if file.suffix in ALONE_SUFFIXES and file.name not in NEVER_ALONE)
 
 
 def faults_of_heads(root, reuse):
-    """What they say themselves, in their first lines, is what REUSE.toml says."""
+    """The licence in their first lines is that of REUSE.toml."""
     for file in copied_alone(root):
         name, head = str(file.relative_to(root)), file.read_text(encoding="utf-8").split("\n")[:3]
         said = [found[1] for line in head if (found := re.fullmatch(HEAD_LINE + r"License-Identifier: ([^*]*?)( \*/)?", line))]

@@ -1,4 +1,4 @@
-"""What the build puts into each program, from build.ninja, ninja's notes of the headers, and the dynamic linker."""
+"""The parts of each program, from build.ninja, ninja's notes of the headers, and the dynamic linker."""
 import dataclasses
 import os
 import pathlib
@@ -59,7 +59,7 @@ def objects_of(edges, name):
 
 
 def system_libraries(edges, name):
-    """Of the link line, by path."""
+    """Libraries of the link line, by path."""
     found = set()
     for word in edges[name].libraries:
         if word.startswith("/"):
@@ -82,7 +82,7 @@ def notes_of(text):
 
 
 def needed(path):
-    """What the dynamic linker would load with it, and what that needs in its turn."""
+    """The libraries that the dynamic linker would load with it, and those that they need."""
     told = subprocess.run(["ldd", path], capture_output=True, text=True, check=False).stdout
     return set(re.findall(r"=> (/\S+)", told))
 

@@ -80,7 +80,7 @@ def chosen(arguments):
 
 
 def targets(names):
-    """What has to be built before a fault can be."""
+    """The targets to build before a fault."""
     stages = {stage for name in names for stage in suite.STAGES[name]}
     return sorted({stage.program for stage in stages} | {"dsdpv1-sim"} | ({"dsdpv1_rtl_libraries", "dsdpv1_firmware"} if stages else set()))
 
@@ -93,7 +93,7 @@ class Running:
         self.lock, self.groups, self.ended = threading.Lock(), set(), False
 
     def call(self, words, **options):
-        """What it printed; None when it did not end in time."""
+        """Its output; None when it did not end in time."""
         with self.lock:
             if self.ended:
                 raise KeyboardInterrupt
@@ -202,7 +202,7 @@ def controls(faults):
 
 
 def hunt_all(faults, jobs, controlled):
-    """What came of each fault; BadList when a test fails without one."""
+    """The result of each fault; BadList when a test fails without one."""
     hunt = Hunt()
     outcomes = []
     print("\t".join(HEAD), flush=True)

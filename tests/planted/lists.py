@@ -1,4 +1,4 @@
-"""The lists of faults: read, and held against the sources that they change."""
+"""The lists of faults: read, and compared with the sources that they change."""
 import dataclasses
 import pathlib
 import re

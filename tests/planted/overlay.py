@@ -1,6 +1,6 @@
 """Builds programs with one fault beside a finished build: what depends on the faulty file is compiled again, the rest of the objects is the build's own.
 
-Neither the sources nor the build are written. The faulty file lies in a folder of its own, which is the first that the compiler looks into.
+Neither the sources nor the build are written. The faulty file is in a separate folder, which the compiler searches first.
 """
 import pathlib
 import re
@@ -14,7 +14,7 @@ WITH_A_WORD = ("-MT", "-MF")
 
 
 class Failed(Exception):
-    """What could not be built."""
+    """The target that could not be built."""
 
 
 class Build:
@@ -48,7 +48,7 @@ class Build:
                 self.commands[made.group(1) or made.group(2)] = line
 
     def words(self, made):
-        """Of the compiler or the archiver alone, without what goes before it and follows it."""
+        """The command of the compiler or the archiver alone, without preceding and following ones."""
         return shlex.split(next(part for part in self.commands[made].split(" && ") if re.search(MAKES, part)))
 
     def program(self, target):
@@ -57,7 +57,7 @@ class Build:
 
 
 class Overlay:
-    """The build with one fault, in a folder of its own."""
+    """The build with one fault, in a separate folder."""
 
     def __init__(self, build, fault, folder):
         self.build, self.fault, self.folder = build, fault, pathlib.Path(folder)

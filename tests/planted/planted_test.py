@@ -1,4 +1,4 @@
-"""How faults are planted, in a project of three files; and lists that are no lists. Called with a C++ compiler."""
+"""How faults are planted, in a project of three files; and invalid lists. Called with a C++ compiler."""
 import dataclasses
 import pathlib
 import re

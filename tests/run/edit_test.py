@@ -1,4 +1,4 @@
-"""What ./run edit makes of a changed file, on a made-up project: which tests it concerns, and which not."""
+"""./run edit with a changed file of a made-up project: the tests that it selects, and those that it does not."""
 import pathlib
 import sys
 import unittest

@@ -19,7 +19,7 @@ def case(name, result=FAILED, said=""):
 
 
 def told(script="failures", **reports):
-    """What a script prints of these presets."""
+    """A script's output about these presets."""
     with tempfile.TemporaryDirectory(prefix="dsdpv1_failures_") as name:
         folders = [Path(name, preset) for preset in (*reports, "without_a_report")]
         for folder in folders:

@@ -75,7 +75,7 @@ def owners(files):
 
 
 def cached(build):
-    """What CMake has looked for and found: file to the name that it is kept under."""
+    """The files that CMake has searched and found: file to the name of its variable."""
     entries = re.findall(r"^([^#/\n][^:\n]*):(?:FILEPATH|PATH|INTERNAL)=(/usr/.+)$", (build / "CMakeCache.txt").read_text(encoding="utf-8"), re.M)
     return {file: name for name, file in entries if name not in UNASKED and os.path.exists(file)}
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""./run test with a made-up CMake and ctest: its end, by Ctrl-C or by a kill, ends the build of the preset debug too, which goes on beside the tests; with
+"""./run test with a made-up CMake and ctest: its end, by Ctrl-C or by a kill, also ends the build of the preset debug, which runs beside the tests;
+with
 tests that pass it succeeds, and with one that fails it does not.
 
     test_command_test.py ROOT
@@ -95,7 +96,7 @@ def ends_with(root, end):
 
 
 def tests_that_end(root, failures):
-    """What ./run test prints, and its exit code, with so many tests of each preset that fail."""
+    """The output of ./run test and its exit code, with so many failing tests of each preset."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         project(root, folder, ENDING.format(failures=failures))

@@ -1,4 +1,4 @@
-"""What the pyprofibus tests need: `dsdpv1-sim serve` and the master as processes, and their words as data."""
+"""Shared by the pyprofibus tests: `dsdpv1-sim serve` and the master as processes, and their output as data."""
 import contextlib
 import json
 import os
@@ -41,19 +41,19 @@ def talks(since, within_s):
 
 
 def was_late():
-    """Whether a host was, since this was asked last."""
+    """True if a host was busy since the last call."""
     late = bool(LATE_S)
     LATE_S.clear()
     return late
 
 
 def exit_code(case, was_busy, pause_s=PAUSE_S):
-    """Of a case that is tried again as long as `was_busy()` says that the machine was to blame, ATTEMPTS times in all."""
+    """Decorates a case that is repeated while `was_busy()` blames the machine, ATTEMPTS times in total."""
     for attempt in range(1, ATTEMPTS + 1):
         try:
             case()
             return 0
-        except Exception:  # whatever it is: on a busy machine also that there is nothing to be looked at
+        except Exception:  # any failure: on a busy machine also a missing result
             print("attempt %d:" % attempt)
             traceback.print_exc(file=sys.stdout)
         if not was_busy():
@@ -144,13 +144,13 @@ class Serve:
         return self
 
     def late_ms(self):
-        """How far simulated time was behind real time; for ever when time was given up."""
+        """Lag of simulated time behind real time; infinite when time was given up."""
         if "too slow" in self.said():
             return float("inf")
         return self.result["pacing"]["error_max_us"] / 1000 if self.result else 0
 
     def settle(self):
-        """The end also after a check that failed in between: how late it was is told at the end."""
+        """Ends serve also after a failed check: the lag is printed at the end."""
         if self.result is None:
             with contextlib.suppress(Failure, OSError, ValueError, subprocess.TimeoutExpired):
                 self.end(read_log=False)

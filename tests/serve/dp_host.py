@@ -25,7 +25,7 @@ def with_data(function, data, saps=()):
 
 
 def length_of(begun):
-    """Of the telegram that begins so; None when that cannot be said yet."""
+    """Length of the telegram that begins so; None when it is not known yet."""
     if begun[:1] == SHORT_ACKNOWLEDGE:
         return 1
     if begun[:1] == b"\x10":
@@ -88,7 +88,7 @@ class DpHost:
             self.some()
 
     def forget(self):
-        """What comes late is for no request."""
+        """Late answers belong to no request."""
         self.drop_late_answers()
         self.count_bit = None
         self.repeats += 1

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a host can do to `dsdpv1-sim serve`, done; each fault is a row of the table in docs/robustness.md.
+"""Causes the faults that a host can cause in `dsdpv1-sim serve`; each is a row of the table in docs/robustness.md.
 
     faults_test.py DSDPV1_SIM CASE      does one, and compares its row with the page; CASE: one of the functions below
     faults_test.py DSDPV1_SIM --write   does all and writes the table
@@ -111,7 +111,7 @@ def said(serve, template, count=1):
 
 
 def flood(serve, fd, payload, seconds):
-    """Simulated time goes on meanwhile. Bytes written; what was sent is cut off anywhere."""
+    """Simulated time continues meanwhile. Bytes written; what was sent is cut off anywhere."""
     begin, before, written = time.monotonic(), simulated_s(serve), 0
     while time.monotonic() < begin + seconds or simulated_s(serve) < before + 0.2:
         check(time.monotonic() < begin + DEADLINE, "simulated time stands still")
@@ -145,7 +145,7 @@ def answered_in_turn(serve, connection):
 
 
 def close_and_open_again(serve, fd):
-    """Whoever opens the pseudo-terminal next gets nothing that was meant for the one before."""
+    """The next host that opens the pseudo-terminal gets no bytes of the one before."""
     os.close(fd)
     said(serve, CLOSED)
     fd = open_raw(serve.port)
@@ -259,7 +259,7 @@ def silent_host(serve):
     with host(serve) as silent:
         ask(silent.fileno())
         time.sleep(1.5)
-        ask(silent.fileno())  # while nobody waits it keeps the port
+        ask(silent.fileno())  # while no other host waits it keeps the port
         spoke = time.monotonic()
         with host(serve) as other:
             said(serve, WAITS)
@@ -295,7 +295,7 @@ def pty_reader_gone(serve):
 
 
 def signal_during_flood(serve):
-    """The host goes on sending until serve has ended."""
+    """The host continues sending until serve has ended."""
     flooding = host(serve)
     flood(serve, flooding.fileno(), PAYLOADS["telegrams"], 0.5)
     threading.Thread(target=keep_pushing, args=(flooding.fileno(), PAYLOADS["telegrams"], serve), daemon=True).start()

@@ -105,7 +105,7 @@ class Flood:
         self.begin, next_sample = begin, begin
         payload, at = PAYLOADS[self.kind], 0
         while (now := time.monotonic()) < begin + self.seconds:
-            written = push(self.fd, payload[at:])  # goes on where it stopped, so that telegrams stay whole
+            written = push(self.fd, payload[at:])  # continues where it stopped, so that telegrams stay whole
             self.offered += written
             at = (at + written) % len(payload)
             if now >= next_sample:
@@ -133,7 +133,7 @@ class Flood:
         return next(sample for sample in self.samples if sample[0] >= min(60, self.seconds / 10))
 
     def judge(self):
-        """Memory is flat, simulated time goes on all the time, and the line is full; SIGINT was obeyed during the flood, or there would be nothing to judge."""
+        """Memory is flat, simulated time never stops, and the line is full; SIGINT was obeyed during the flood, or there would be no result."""
         growth = self.samples[-1][1] - self.settled()[1]
         what = "%s by %s: " % (self.kind, self.port)
         check(growth < MOST_GROWTH_KB, what + "memory has grown by %d KB" % growth)

@@ -1,4 +1,4 @@
-// What goes in and out of a port is bounded, and nothing of one peer is left for the next.
+// Input and output of a port are bounded, and nothing of one peer is left for the next.
 #include "tb/serve/host_connection.hpp"
 
 #include <gtest/gtest.h>

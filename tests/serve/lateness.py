@@ -1,7 +1,7 @@
-"""How late a process comes to run: a thread sleeps 1 ms at a time, a loop reads the clock all the time, and the greatest overshoot is kept.
+"""Scheduling delay of a process: a thread sleeps 1 ms at a time, a loop reads the clock all the time, and the greatest overshoot is kept.
 
-Who waits for Python's lock is late, too: so the thread's overshoot is also that of a loop which holds it. But a loop that looks at a port again
-and again gives the lock away each time. The scheduler may leave it there for a second while the thread comes to run at once.
+A thread that waits for Python's lock is also late, so its overshoot includes a loop that holds the lock. But a loop that looks at a port again
+and again gives the lock away each time. The scheduler may leave it there for a second while the thread runs at once.
 """
 import os
 import threading
@@ -43,7 +43,7 @@ class Watch:
 
 
 def greatest_ms(path):
-    """What the file says; 0 when nothing was watched so far."""
+    """The file's value; 0 before the first measurement."""
     try:
         with open(path, encoding="ASCII") as file:
             return float(file.read() or 0)

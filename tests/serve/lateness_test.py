@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the cases with pyprofibus are tried again for: that a process was late is noticed, and nothing else is forgiven.
+"""The reason to repeat cases with pyprofibus: a late process is detected, and nothing else is forgiven.
 
     lateness_test.py DSDPV1_SIM CASE      CASE: one of the functions below
 """
@@ -34,7 +34,7 @@ def wait_for_lateness(path, least_ms):
 
 
 def is_late(program, stop):
-    """Whether a process of `program` that `stop` has stopped, and that goes on after STOPPED_MS, was that late."""
+    """True if a process of `program` that `stop` has stopped, and that continues after STOPPED_MS, was that late."""
     with tempfile.TemporaryDirectory(prefix="dsdpv1_late_") as folder:
         late = os.path.join(folder, "late_ms")
         check(lateness.greatest_ms(late) == 0, "late before it was watched")

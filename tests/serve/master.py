@@ -1,4 +1,4 @@
-"""pyprofibus as DP master class 1, in a process of its own: started by bench.py, speaks to it in lines on standard output.
+"""pyprofibus as DP master class 1, in a separate process: started by bench.py, reports to it in lines on standard output.
 
     python master.py PLAN.json
 

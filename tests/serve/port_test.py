@@ -237,7 +237,7 @@ def shipped_scenario(program):
 
 
 def too_slow_is_said(program):
-    """A computer that comes to nothing for 0.3 s is too slow, as it catches up 0.1 s at most: serve says so and goes on."""
+    """A computer that stalls for 0.3 s is too slow, as serve catches up 0.1 s at most: serve reports it and continues."""
     def body(serve):
         fd = open_raw(serve.port)
         ask(fd)

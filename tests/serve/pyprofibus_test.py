@@ -79,7 +79,7 @@ class Run:
 
 
 def left_out_set_prm(log):
-    """Whether a slave was sent a Chk_Cfg that no Set_Prm to it has gone before: no answer of a slave asks for that, right or wrong. The
+    """True if a slave was sent a Chk_Cfg without a Set_Prm before: no answer of a slave, right or wrong, requires that. The
     master has taken a short acknowledge, which names no slave, for the answer to a Set_Prm that was still to be sent."""
     parameterised = set()
     for line in log:
@@ -164,7 +164,7 @@ def two_slaves(program):
 
 
 def sync_freeze(program):
-    """Sync for group 1 holds the outputs of `out`, Freeze for group 2 the inputs of `in`; nobody minds the other's group."""
+    """Sync for group 1 holds the outputs of `out`, Freeze for group 2 the inputs of `in`; neither reacts to the other's group."""
     slaves = [slave("out", 5), slave("in", 6, behaviour="count")]
     plan = [dict(IO2, name="out", address=5, sync=1, freeze=1, group=1), dict(IO2, name="in", address=6, sync=1, freeze=1, group=2)]
     actions = [{"at": 50, "do": "syncMode", "group": 1}, {"at": 100, "do": "freezeMode", "group": 2},
@@ -202,7 +202,7 @@ def sync_freeze(program):
 
 
 def diagnosis(program):
-    """A diagnosis of the user CPU makes the master read it, and the exchange goes on."""
+    """A diagnosis of the user CPU makes the master read it, and the exchange continues."""
     script = ('  - {when: {slave: echo, data_exchanges: 100}, do: set_diagnosis, slave: echo, type: external, bytes: "03 44 55"}\n'
               '  - {when: {slave: echo, data_exchanges: 200}, do: set_diagnosis, slave: echo, type: external_gone, bytes: "01"}\n')
     with Run(program, "500k", [slave("echo", 8)], script, cycles=300, slaves=[dict(IO2, name="echo", address=8)]) as run:
@@ -228,7 +228,7 @@ def unplug_and_replug(program):
     with Run(program, "500k", [slave("echo", 8)], script, cycles=300, slaves=plan) as run:
         run.master.finish()
         run.serve.end()
-        # Whatever is on the line at that moment is cut off; a telegram of this scenario lasts less than 1 ms. Nothing else breaks.
+        # A telegram on the line at that moment is cut off; a telegram of this scenario lasts less than 1 ms. Nothing else breaks.
         moments = [line.ns for line in run.serve.log if line.text in ("unplugged", "plugged in")]
         bad = [line.text for line in run.serve.log if line.kind == "violation" and not any(0 <= line.ns - at < 1e6 for at in moments)]
         check(len(moments) == 2 and not bad, "violations apart from the unplugging: %s" % bad)
@@ -242,7 +242,7 @@ def unplug_and_replug(program):
 def wrong_ident(program):
     plan = [dict(IO2, name="echo", address=8, ident=0x1234)]
     with Run(program, "500k", [slave("echo", 8)], cycles=1, slaves=plan) as run:
-        run.serve.wait_for_log(r"response.*Slave_Diag:.*Prm_Fault")  # the master starts again and is told what was wrong
+        run.serve.wait_for_log(r"response.*Slave_Diag:.*Prm_Fault")  # the master starts again and learns the fault
         run.master.kill()
         run.serve.end()
         check("PRM_IDENT" in run.codes("refusal"), "the slave does not say what is wrong")
@@ -283,7 +283,7 @@ def killed_master(program):
 
 
 def documented_commands(program):
-    """What docs/pyprofibus.md tells to do, with the shipped scenario and master."""
+    """The steps of docs/pyprofibus.md, with the shipped scenario and master."""
     with tempfile.TemporaryDirectory(prefix="dsdpv1_serve_") as folder:
         with open(os.path.join(ROOT, "scenarios", "serve_19k2.yaml"), encoding="UTF-8") as file:
             text = file.read().replace("dsdpv1.gsd", os.path.join(ROOT, "scenarios", "dsdpv1.gsd"))

@@ -22,7 +22,7 @@ TEST(Reasons, EveryCodeOfScenariosAndLogsHasATextAndAnAdvice) {
   const std::string document = read(DSDPV1_SOURCE_DIR "/docs/reasons.md");
   const std::string checks = read(DSDPV1_SOURCE_DIR "/docs/checks.md");
   for (const std::string& code : tb::scenario::all_codes(*tb::chip_kinds().front())) {
-    if (checks.find("\n### " + code + "\n") != std::string::npos) continue;  // on a page of its own
+    if (checks.find("\n### " + code + "\n") != std::string::npos) continue;  // on a separate page
     const std::size_t row = document.find("| `" + code + "` |");
     ASSERT_NE(row, std::string::npos) << code;
     const std::string line = document.substr(row, document.find('\n', row) - row);

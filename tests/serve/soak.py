@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Hours of `dsdpv1-sim serve` at 1.5 Mbit/s with hosts that come, babble, read slowly and go: the slave must be there for the next one, and memory flat.
 
-A round is one host that misbehaves while a decent one waits; then the decent one must get its turn, bring the slave up and exchange data, of which
-every byte is looked at. Real time: `serve` is never faster. Nothing is resumed; what was reached is printed every minute, also when it is interrupted.
+A round is one host that misbehaves while a decent one waits; then the decent one must get its turn, bring the slave up and exchange data, of which every byte is checked. Real time: `serve` is never faster. Nothing is resumed; what was reached is printed every minute, also when it is interrupted.
 """
 import argparse
 import os
@@ -52,7 +51,7 @@ EXIT_CODES = {HELD: 0, FAILED: 1, INTERRUPTED: 130}
 
 # ------------------------------------------------------------------------------------------------- hosts that misbehave
 class Hosts:
-    """Each method misbehaves for about a second or a few; `join` is when the decent host comes to wait: once the port is somebody else's."""
+    """Each method misbehaves for about a second or a few; `join` is the time when the decent host begins to wait: once another host has the port."""
 
     def __init__(self, port, chance, join):
         self.port, self.chance, self.join = port, chance, join
@@ -165,7 +164,7 @@ class Soak:
         self.rounds += 1
 
     def exchange(self, host):
-        """The inputs are the outputs of an exchange before: of the last but one or two, as the slave's program has a cycle of its own."""
+        """The inputs are the outputs of an exchange before: of the last but one or two, as the slave's program has an independent cycle."""
         sent = [b"\x00\x00"]
         for number in range(EXCHANGES):
             outputs = ((self.exchanges + number) & 0xFFFF).to_bytes(2, "big")

@@ -31,7 +31,7 @@ def children_of(parent):
 
 
 def is_there(pid):
-    """One that has ended and that nobody has waited for is not."""
+    """One that has ended without a wait for it is not."""
     found = state_and_parent(pid)
     return found is not None and found[0] != "Z"
 
@@ -42,7 +42,7 @@ def interrupted_by(program, number):
         serves = []
         try:
             lines = Lines(soak.stdout)
-            lines.next(time.monotonic() + DEADLINE)  # the first sample: it goes on for hours
+            lines.next(time.monotonic() + DEADLINE)  # the first sample: it runs for hours
             serves = children_of(soak.pid)
             check(len(serves) == 1, "it has %d processes" % len(serves))
             soak.send_signal(number)

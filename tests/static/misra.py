@@ -1,6 +1,6 @@
 """The C driver under the required and mandatory rules of MISRA C:2012 that cppcheck's addon knows: each report is explained in misra_deviations.txt.
 
-The numbers of the rules and their categories are facts of the standard; its texts are nobody's to copy, so none is here.
+The numbers of the rules and their categories are facts of the standard; its texts may not be copied, so none is here.
 """
 import dataclasses
 import pathlib
@@ -84,8 +84,8 @@ def told(folder, *words):
 
 
 def cppcheck():
-    """What the addon says of the driver, for an int of 32 bits: of each file, and of all together, which only a call by cppcheck itself looks at,
-    while of several reports about one line that call passes on one only."""
+    """The addon's reports on the driver, for an int of 32 bits: on each file, and on all together. Only a call by cppcheck itself checks all
+    together, but passes on only one of several reports about a line."""
     options = ("cppcheck", "--std=c99", "--platform=unix32", "--quiet", "-I.")
     with tempfile.TemporaryDirectory() as folder:
         for part in ("driver", "registers"):

@@ -1,7 +1,8 @@
 """How deep the C driver's stack is on a Cortex-M3, for each public function and port: from GCC's own figures for each function, and its graph of calls.
 
-What a pointer calls is found in the source: `link` and `wire` point to functions of the port's file, all other pointers to functions of the application.
-Of the application's own depth nothing is known; what a public function can call of it is listed. The C library's memcpy, memset and memmove are not
+The target of a call by pointer is found in the source: `link` and `wire` point to functions of the port's file, all other pointers to functions of
+the application.
+The application's depth is unknown; its functions that a public function can call are listed. The C library's memcpy, memset and memmove are not
 counted: those of newlib need at most 16 bytes more.
 """
 import dataclasses
@@ -33,7 +34,7 @@ class Depth:
 
 
 class Graph:
-    """Functions of one build: bytes of their own, and whom they call."""
+    """Functions of one build: their bytes, and the functions that they call."""
 
     def __init__(self):
         self.own, self.calls = {}, {}
@@ -55,7 +56,7 @@ class Graph:
 
 
 def pointer_called(place, root=ROOT):
-    """What the source calls there: the pointer before the last arrow or dot, and the name."""
+    """The call in the source: the pointer before the last arrow or dot, and the name."""
     if not place:
         raise Unknown("a call of a pointer, and GCC does not say where")
     file, line, column = place.rsplit(":", 2)

@@ -105,12 +105,12 @@ def kept(name):
 
 
 def record(rows):
-    """In the place of older rows of the same parts."""
+    """Replaces older rows of the same parts."""
     parts = {row[0] for row in rows}
     old = RECORD.read_text(encoding="utf-8").splitlines() if RECORD.exists() else ["# date, part, case, what was found"]
     kept = [line for line in old if line.startswith("#") or line.split("\t")[1] not in parts]
     today = datetime.date.today().isoformat()
-    new = ["\t".join(map(str, [today, *row])) for row in rows if row[0] != "stack"]  # which has a file of its own
+    new = ["\t".join(map(str, [today, *row])) for row in rows if row[0] != "stack"]  # which has a separate file
     RECORD.write_text("\n".join([kept[0], *sorted(kept[1:] + new, key=lambda line: list(TARGETS).index(line.split("\t")[1]))]) + "\n", encoding="utf-8")
 
 

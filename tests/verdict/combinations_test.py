@@ -113,7 +113,7 @@ def traces(situation, folder):
 
 
 def replay(situation, folder):
-    """What was recorded is what is expected: whether anything is judged hangs on the capture."""
+    """The recording is the expectation: whether anything is judged depends on the capture."""
     text, _, number = SITUATIONS[situation]
     (folder / "recorded.yaml").write_text(GOOD if situation == "nothing judged" else text)
     call(SIM, "run", "recorded.yaml", "--no-progress", "--capture", "x.pcapng", cwd=folder)
@@ -151,7 +151,7 @@ ENTRANCES = [run, run_tlm, junit, regress, sweep, serve, traces, replay, c_api_a
 
 
 def options():
-    """What opts out on the command line is as in the scenario; what cannot be judged is refused."""
+    """Opting out on the command line acts as in the scenario; expectations that cannot be judged are refused."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "x.yaml").write_text(SITUATIONS["violation"][0])

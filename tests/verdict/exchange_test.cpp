@@ -1,4 +1,4 @@
-// What is expected of a slave that a master has, without a word in the scenario, on the bench.
+// The implied expectation of a slave in a master's list, on the bench.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A slave that comes to data exchange at 2 ms, `more`: of the scenario, `master_slave` and `user_cpu`: more of their
+/// A slave that reaches data exchange at 2 ms, `more`: of the scenario, `master_slave` and `user_cpu`: more of their
 /// keys.
 struct Given {
   std::string more = {}, master_slave = {}, user_cpu = {}, init = {};
@@ -32,7 +32,7 @@ tb::RunResult run(const Given& given) {
   return bench.run([](tb::Tick) { return true; });
 }
 
-/// Of the one implied expectation.
+/// Text of the one implied expectation.
 tb::ExpectationResult implied(const tb::RunResult& result) {
   const bool one = result.expectations.size() == 1 && result.expectations[0].implied;
   EXPECT_TRUE(one) << result.expectations.size();

@@ -1,4 +1,4 @@
-// What a run comes to: the word and the number, and what is said of what was not judged.
+// The verdict of a run: the word and the number, and the text about parts not judged.
 #include "tb/bench/verdict.hpp"
 
 #include <gtest/gtest.h>

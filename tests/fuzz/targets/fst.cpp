@@ -1,4 +1,4 @@
-// A wave in FST. The library that reads it may crash of a damaged file, in a process of its own; the reader may not.
+// A wave in FST. A damaged file may crash the library, in its separate process, but not the reader.
 #include <pthread.h>
 #include <unistd.h>
 
@@ -6,13 +6,13 @@
 
 #include "tests/fuzz/wave_events.hpp"
 
-// Of the sanitizers; not there without them.
+// Defined by the sanitizers only.
 extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());  // NOLINT
 
 namespace dsdpv1 {
 namespace {
 
-/// What libFuzzer and the sanitizers do when the program ends is not the business of that process.
+/// That process skips the work of libFuzzer and the sanitizers at the end of a program.
 void be_somebody_else() {
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(nullptr);
   for (const int each : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(each, SIG_DFL);

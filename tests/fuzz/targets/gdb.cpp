@@ -1,4 +1,4 @@
-// What comes from a gdb, in pieces as a network has them, to a halted processor.
+// Input from gdb to a halted processor, in pieces as from a network.
 #include "board/gdb/gdb_commands.hpp"
 #include "tests/board/fake_target.hpp"
 #include "tests/board/small_elf.hpp"

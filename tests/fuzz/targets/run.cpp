@@ -19,7 +19,7 @@ bool names_other_files(const tb::scenario::Scenario& scenario) {
   return false;
 }
 
-/// What came of it, but for what differs from run to run.
+/// Its result, without the parts that differ from run to run.
 std::string run(const tb::scenario::Scenario& scenario, tb::Engine engine) {
   tb::RunOptions options;
   options.engine = engine;

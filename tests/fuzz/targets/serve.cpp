@@ -39,7 +39,7 @@ class Host {
       other_.run(timeline_.now());
     }
   }
-  /// It hangs up: what has not been handed over is for nobody.
+  /// It hangs up: bytes not yet handed over are discarded.
   void hang_up() {
     written_.resize(written_.size() - intake_.size());
     intake_.clear();

@@ -1,5 +1,5 @@
-// Saved states of chips, damaged: refused, and the chip is what it was; or taken, and then it goes on in step and in
-// skip, whatever is in it. Undamaged, both do what the chip does that was not interrupted.
+// Saved states of chips, damaged: refused, and the chip is unchanged; or taken, and then it continues in step and in
+// skip, whatever it contains. Undamaged, both do what the chip does that was not interrupted.
 #include <memory>
 
 #include "model/dsdpv1/chip_state.hpp"
@@ -16,7 +16,7 @@ using State = std::vector<std::uint8_t>;
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr std::size_t kHead = 20;  ///< magic, version, size, checksum
 
-/// What left a chip. Time never goes back, and no pin has a level that it cannot have.
+/// The output of a chip. Time never goes back, and no pin has a level that it cannot have.
 struct Heard {
   std::vector<Input> pins;
   Tick last = 0;

@@ -10,7 +10,7 @@
 namespace dsdpv1 {
 namespace {
 
-/// A token has no SAPs: bit 7 of its addresses is not looked at.
+/// A token has no SAPs: bit 7 of its addresses is ignored.
 bus::Bytes without_extensions(const bus::Decoded& decoded) {
   bus::Bytes bytes = decoded.bytes;
   if (decoded.telegram.kind == bus::TelegramKind::kSd4)

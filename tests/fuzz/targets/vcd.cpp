@@ -1,4 +1,4 @@
-// A wave as text. What begins as FST is another target's.
+// A wave as text. Input that begins as FST belongs to another target.
 #include "tests/fuzz/wave_events.hpp"
 
 namespace dsdpv1 {
