@@ -129,7 +129,7 @@ std::string in_one_line(CLI::App& app, const CLI::ParseError& error, const std::
   return words_of(called) + ": " + text + ", see --help for what is allowed";
 }
 
-/// What to return at once: after --help and --version, and where there is no command.
+/// The exit code to return at once: after --help and --version, and without a command.
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   if (argc < 2) {
     std::cerr << app.help();

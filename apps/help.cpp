@@ -56,7 +56,7 @@ std::string Help::make_option(const CLI::Option* option, bool is_positional) con
   return entry(option_name(*option, is_positional), option_text(*option));
 }
 
-/// Lines of commands as they are, a long one goes on after a backslash; other lines as paragraphs.
+/// Lines of commands stay as they are, long ones are continued after a backslash; other lines become paragraphs.
 std::string Help::make_footer(const CLI::App* app) const {
   const tb::TableWidth width = help_width();
   const std::string footer = app->get_footer();

@@ -1,5 +1,5 @@
 #pragma once
-// What --help prints: no wider than the terminal, of each option its names, what its value is, and its text.
+// The output of --help: no wider than the terminal, with names, value and text of each option.
 #include <CLI/CLI.hpp>
 
 #include <string>

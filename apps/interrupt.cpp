@@ -37,8 +37,7 @@ bool ignored(int signal) {
   return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
-/// A write that waits (a FIFO that is full) goes on after the signal: as an error it would cost the run all of its
-/// files.
+/// A write that waits (on a full FIFO) continues after the signal: an error would cost the run all of its files.
 void handle_with(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;

@@ -12,7 +12,7 @@ void leave_nothing_on_signals();
 /// in twos when a shell or `timeout` sends them to the process and to its group.
 void catch_signals();
 
-/// Whether one has come since.
+/// True if one has come since.
 bool interrupted();
 
 }  // namespace dsdpv1::app

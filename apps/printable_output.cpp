@@ -49,7 +49,7 @@ class PrintableOutput::Filter : public std::streambuf {
     return to_->sputn(text.data(), size) == size;
   }
 
-  /// Of a line that comes in pieces only the first is looked at.
+  /// If a line comes in pieces, only the first is checked.
   std::string painted_lines(const std::string& text) {
     std::string all;
     for (std::size_t from = 0; from < text.size();) {

@@ -51,7 +51,7 @@ bool ensure_stack() {
   if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kNeeded) return true;
   const rlim_t given = limit.rlim_cur;
   limit.rlim_cur = kNeeded;
-  // Of the first thread the limit counts when the stack grows, not when the program begins.
+  // For the first thread the limit applies when the stack grows, not when the program begins.
   if (limit.rlim_max >= kNeeded && setrlimit(RLIMIT_STACK, &limit) == 0) {
     give_threads_as_much();
     return true;
@@ -79,7 +79,7 @@ void end_as_by_sigpipe() {
   std::raise(SIGPIPE);
 }
 
-/// What should have been said and was not, is an error of its own.
+/// Lost output is a separate error.
 int judge_output(int status, int error) {
   if (error == 0) return status;
   if (status == app::kInterrupted) return status;
@@ -88,7 +88,7 @@ int judge_output(int status, int error) {
   return app::kWrongInput;
 }
 
-/// Once a program of its own, for the ARM board (docs/install.md, Versions).
+/// Formerly a separate program, for the ARM board (docs/install.md, Versions).
 void tell_former_name(const char* name) {
   if (std::filesystem::path(name).filename() != "dsdpv1-board") return;
   std::fprintf(stderr, "dsdpv1-board is deprecated and goes with 0.5: use dsdpv1-sim, which it is\n");

@@ -19,7 +19,7 @@ namespace {
 /// The chip that captures are of.
 const tb::ChipKind& kind() { return *tb::chip_kinds().front(); }
 
-/// Of --signal, and of a map of pins.
+/// Names for --signal and for a map of pins.
 std::vector<std::string> pin_names() {
   std::vector<std::string> names, buses;
   for (const calibrate::WireInfo& wire : kind().claims()->wires()) {

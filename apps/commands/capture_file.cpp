@@ -61,7 +61,7 @@ int index_of(const tb::WaveVariable& variable, const tb::WaveSignal& signal, std
   return left >= right ? left - at : left + at;
 }
 
-/// What can be chosen: signals of one bit and, with `vectors`, the bits of others.
+/// The signals to choose from: those of one bit and, with `vectors`, the bits of others.
 struct Wires {
   std::vector<std::string> names;
   std::vector<Wire> wires;

@@ -13,7 +13,7 @@
 
 namespace dsdpv1::app {
 
-/// A stream whose beginning was looked at and is there again; also a pipe, which cannot go back.
+/// A stream that still delivers its beginning after a look at it; also a pipe, which cannot go back.
 class RewoundInput {
  public:
   /// Reads the beginning of `in`, which must outlive it.
@@ -63,7 +63,7 @@ struct Sampling {
   double unit = 0;                         ///< without a rate: ticks to which times were rounded
 };
 
-/// What it is, is known by how it begins.
+/// Its format is detected by its beginning.
 class CaptureFile {
  public:
   /// `path`: empty or "-" is standard input. Throws tb::InputError.

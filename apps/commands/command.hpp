@@ -28,8 +28,8 @@ class Command {
   const char* name() const { return name_; }
   const char* line() const { return line_; }
 
-  /// Says its options, examples and exit codes to its part of the command line. Words and times are looked at by
-  /// carry_out: CLI11 would do it before it looks for --help.
+  /// Says its options, examples and exit codes to its part of the command line. carry_out checks words and times:
+  /// CLI11 would do it before it handles --help.
   virtual void options(CLI::App& app) = 0;
   /// Once the options have their values. Returns the exit code; throws tb::InputError.
   virtual int carry_out() = 0;

@@ -1,4 +1,4 @@
-// compare: two waves of any simulators held against each other.
+// compare: compares two waves of any simulators.
 #include <algorithm>
 #include <iostream>
 #include <optional>
@@ -24,7 +24,7 @@ using tb::compare::XRule;
 using tb::compare::ZRule;
 
 constexpr const char* kCompare = "dsdpv1-sim compare: ";
-constexpr const char* kOwnRtl = "rtl_ref";  // in the place of a map: the names of the reference RTL
+constexpr const char* kOwnRtl = "rtl_ref";  // instead of a map: the names of the reference RTL
 
 std::optional<Femtoseconds> duration(const std::string& option, const std::string& text, bool negative = false) {
   if (text.empty()) return std::nullopt;

@@ -1,4 +1,4 @@
-// cosim: RTL of the user's own held against the model, in a scenario or by a stimulus.
+// cosim: compares the user's RTL with the model, in a scenario or by a stimulus.
 #include <iostream>
 #include <utility>
 
@@ -111,7 +111,7 @@ class Cosim : public Command {
 
   RunArguments run_;
   bool wave_save_ = false;  ///< once the wave has both sides, so not the run's
-  std::string replay_;      ///< a stimulus file in the place of a scenario
+  std::string replay_;      ///< a stimulus file instead of a scenario
   OwnRtlArguments own_;
 };
 

@@ -1,4 +1,4 @@
-// decode: telegrams byte by byte, from whatever holds them. What it is, is known by how it begins.
+// decode: telegrams byte by byte, from whatever holds them. The format is detected by the beginning.
 #include <fmt/format.h>
 
 #include <iostream>

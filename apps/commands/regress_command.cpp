@@ -145,7 +145,7 @@ class RegressJobs : public tb::campaign::Jobs {
   void forget(std::size_t job) override { folder_.forget(plan_.runs[job]); }
   std::string name(std::size_t job) const override { return plan_.runs[job].name(); }
 
-  /// Of all runs, when all are finished.
+  /// The results of all runs, when all are finished.
   std::vector<Outcome> outcomes() const {
     std::vector<Outcome> all;
     for (const std::optional<Outcome>& outcome : outcomes_) all.push_back(*outcome);
@@ -161,8 +161,8 @@ class RegressJobs : public tb::campaign::Jobs {
   std::map<std::size_t, Contents::Times> read_;  ///< of the runs under way: their files when they began
 };
 
-/// What is known and is to be found out again: with --failed all that has not passed; else what may have been the
-/// machine's fault.
+/// True for a known result to repeat: with --failed all that did not pass; otherwise those that may be the machine's
+/// fault.
 bool is_stale(const Outcome& outcome, bool failed) {
   if (failed) return !outcome.passed();
   return outcome.verdict == Verdict::kCrashed || outcome.verdict == Verdict::kHung;
@@ -306,7 +306,7 @@ class Regress : public Command {
   }
 
   tb::regress::Request request_;  ///< scenarios, engines and views by CLI11, all else by take_request
-  Description description_;       ///< likewise checks, wave and report, and by new_description
+  Description description_;       ///< also checks, wave and report, and by new_description
   std::string seeds_;             ///< a range; empty: the usual one
   std::vector<std::string> set_;  ///< PATH=VALUES
   std::string keep_, shard_;      ///< empty: failed, all of it

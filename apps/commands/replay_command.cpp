@@ -1,4 +1,4 @@
-// replay: a capture played to the model in the place of one of its slaves.
+// replay: plays a capture to the model, which replaces one of its slaves.
 #include <cmath>
 #include <filesystem>
 #include <iostream>

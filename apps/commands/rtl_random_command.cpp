@@ -74,8 +74,7 @@ Bench bench_of(const RtlRandomArguments& arguments) {
   return bench;
 }
 
-/// What a stimulus that is played leaves. Opened before hours of random cases, not after them; without such a stimulus
-/// there is none.
+/// The output files of a played stimulus, opened before hours of random cases. There are none without a stimulus.
 class StimulusOutputs {
  public:
   explicit StimulusOutputs(const RtlRandomArguments& arguments) : arguments_(arguments), result_(arguments.result) {
@@ -199,7 +198,7 @@ int shrink_and_play(RtlRandomArguments arguments, const cosim::CampaignResult& c
   result.stimulus = arguments.stimulus;
   result.actions = shrunk.size();
   std::cout << fmt::format("{} actions, to be seen again with\n  {}\n", shrunk.size(), command_text(arguments));
-  // What the file says, not the file: a FIFO cannot be read here.
+  // The content, not the file: a FIFO cannot be read here.
   return play_stimulus(arguments, cosim::parse_stimulus(text, arguments.stimulus, *bench.options.kind),
                        arguments.stimulus, bench, outputs, result);
 }
@@ -267,7 +266,7 @@ int play_round(const RtlRandomArguments& all, cosim::CampaignRecord& record, cos
   return kPassed;
 }
 
-/// Goes on where the folder's record ends, until so many cycles are compared in all.
+/// Resumes at the end of the folder's record, until so many cycles are compared in total.
 int campaign_of_all(const RtlRandomArguments& arguments) {
   const tb::campaign::Lock lock(arguments.state, "rtl-random");
   cosim::CampaignRecord record = cosim::read_record(arguments.state, arguments.seed);

@@ -61,7 +61,7 @@ class Run : public Command {
     of_whole_run_ = {scenario, engine, view};
   }
 
-  /// What a run is held against, and with what RTL.
+  /// The options for comparisons of a run, and for its RTL.
   void add_comparison_options(CLI::App& app) {
     app.add_option("--trace", given_.trace, "Write every change of every output pin, for comparisons");
     app.add_option("--difference", given_.difference,

@@ -78,7 +78,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
 
 namespace {
 
-/// What a run in lockstep has more than others.
+/// The additional results of a run in lockstep.
 struct LockstepSteps {
   std::function<void(tb::RunResult&)> judge;  ///< before the result is written
   std::function<bool()> report;               ///< while the bench still stands; false: they differ
@@ -92,14 +92,14 @@ std::string junit_of(const tb::RunResult& result, const std::string& of_golden, 
   return tb::junit("dsdpv1-sim run", cases);
 }
 
-/// Of a run that a debugger takes back, see DebugHistory: it is to be done again.
+/// Exit code of a run in which a debugger steps back, see DebugHistory: the run must be repeated.
 constexpr int kGoesBack = -1;
 
 bool goes_back(const RunRequest& request) {
   return request.options.gdb && request.options.gdb->history->back.has_value();
 }
 
-/// What is written when a run has ended, each file complete or absent.
+/// The files written at the end of a run, each complete or absent.
 class ResultFiles {
  public:
   /// The report asks in `options` for what it shows.
@@ -241,7 +241,7 @@ RunRequest request_of(const RunArguments& arguments) {
   return arguments.restore.empty() ? scenario_request(arguments) : restored_request(arguments);
 }
 
-/// As often as a debugger goes back. What user CPUs print is shown once.
+/// As often as a debugger goes back. Output of user CPUs is shown once.
 int forth_and_back(RunRequest& request, const std::function<int()>& carry_out) {
   const auto show = request.options.on_text;
   std::size_t shown = 0, line = 0;

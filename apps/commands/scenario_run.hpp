@@ -13,7 +13,7 @@ namespace dsdpv1::app {
 /// Carries it out; returns the exit code. Throws tb::InputError.
 int run(const RunArguments& given);
 
-/// What is to be carried out.
+/// The run to execute.
 struct RunRequest {
   RunArguments arguments;
   tb::scenario::Scenario scenario;
@@ -22,7 +22,7 @@ struct RunRequest {
   std::optional<tb::SavedRun> restored;  ///< of --restore
 };
 
-/// The options but for the wave's. Throws tb::InputError.
+/// The options except the wave's. Throws tb::InputError.
 tb::RunOptions options_of(const RunArguments& arguments);
 
 struct LockstepOutcome {

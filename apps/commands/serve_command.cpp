@@ -1,4 +1,4 @@
-// serve: a scenario's segment behind a pseudo-terminal, a TCP port or a serial port.
+// serve: offers a scenario's segment at a pseudo-terminal, a TCP port or a serial port.
 #include <chrono>
 #include <iostream>
 #include <memory>

@@ -35,8 +35,8 @@ using tb::sweep::Point;
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// Why the scenario cannot be run with these settings, empty when it can. Exit code 2 of a run is no proof: a full disk
-/// has it too. Here everything is built as for the run, but nothing written.
+/// Why the scenario cannot be run with these settings, empty when it can. Exit code 2 of a run proves nothing: a full
+/// disk causes it too. Here everything is built as for the run, but nothing written.
 std::string refusal(const Plan& plan, std::size_t point) {
   try {
     const tb::scenario::Scenario scenario =
@@ -72,7 +72,7 @@ class SweepJobs : public tb::campaign::Jobs {
     if (!plan_.checks.empty()) words.insert(words.end(), {"--checks", plan_.checks});
     return words;
   }
-  /// What the run says about the point, when it does, and has read what all others read.
+  /// The run's result for the point, if there is one and the run has read the same files as all others.
   std::string end(const tb::campaign::Ended& ended) override {
     const auto read = read_.extract(ended.job);
     if (ended.exit != kPassed && ended.exit != kFailed && ended.exit != kWrongInput && ended.exit != kNothingJudged)
@@ -92,7 +92,7 @@ class SweepJobs : public tb::campaign::Jobs {
     return fmt::format("point {} ({})", job, name);
   }
 
-  /// Of all points, when all are finished.
+  /// The results of all points, when all are finished.
   std::vector<Point> points() const {
     std::vector<Point> all;
     for (const std::optional<Point>& point : points_) all.push_back(*point);
@@ -128,7 +128,7 @@ void check_loads(const Plan& plan) {
   throw tb::InputError(error);
 }
 
-/// Likewise one that cannot be run, because of its GSD files for example.
+/// Also a point that cannot be run, because of its GSD files for example.
 void check_possible(const std::vector<Point>& points) {
   const bool any = std::any_of(points.begin(), points.end(), [](const Point& point) { return point.possible(); });
   if (!any) throw tb::InputError(points.front().error);

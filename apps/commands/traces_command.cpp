@@ -62,7 +62,7 @@ int worse(int a, int b) {
   return *std::max(std::find(kFromBest.begin(), kFromBest.end(), a), std::find(kFromBest.begin(), kFromBest.end(), b));
 }
 
-/// Each scenario by itself: what is wrong with one is said, and the others are looked at.
+/// Checks each scenario separately: reports the faults of one and continues with the others.
 int for_each(const std::vector<std::string>& files, const std::function<int(const std::string& file)>& work) {
   int status = kPassed;
   for (const std::string& file : files) {
@@ -77,7 +77,7 @@ int for_each(const std::vector<std::string>& files, const std::function<int(cons
   return status;
 }
 
-/// Goldens that no scenario belongs to; only where all are looked at.
+/// Goldens without a scenario; only if all are checked.
 int report_orphans(const std::string& folder) {
   int status = kPassed;
   for (const std::string& name : tb::traces::golden_names(folder)) {
@@ -132,7 +132,7 @@ std::unique_ptr<tb::traces::Trace> present_golden(const std::string& folder, con
   return nullptr;
 }
 
-/// A run that writes its trace, held against the golden before.
+/// A run that writes its trace, which is compared with the golden before.
 class Regeneration {
  public:
   Regeneration(const tb::scenario::Scenario& scenario, const std::string& folder)
@@ -186,7 +186,7 @@ class Regeneration {
 
 int regenerate(const TracesArguments& given) {
   const std::string folder = folder_of(given);
-  tb::traces::golden_names(folder);  // refuses what is no folder before anything is run
+  tb::traces::golden_names(folder);  // refuses a path that is not a folder before anything is run
   catch_signals();
   return for_scenarios(given, [&](const std::string& file) {
     const tb::scenario::Scenario scenario = tb::scenario::load(file);

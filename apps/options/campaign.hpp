@@ -1,5 +1,5 @@
 #pragma once
-// What sweep and regress have in common on the command line: many runs, here or in a cluster, and their folder.
+// Shared options of sweep and regress: many runs, here or in a cluster, and their folder.
 #include <CLI/CLI.hpp>
 
 #include <chrono>
@@ -32,7 +32,7 @@ struct CampaignArguments {
 /// `usual_folder`: in words, where `out` is left out.
 void add_campaign_options(CLI::App& app, CampaignArguments& arguments, const std::string& usual_folder);
 
-/// What is written or removed in the folder, of which what is there already can be an input or lead to one.
+/// Files written or removed in the folder; existing ones may be an input or a link to one.
 std::vector<NamedFile> outputs_in(const std::string& folder, const tb::campaign::Kind& kind);
 
 /// Runs the jobs that are not finished; of a task, its own. Says how many were finished before. False when it was

@@ -21,7 +21,7 @@ void add_checks_table_option(CLI::App& app, tb::CheckRows& rows);
 /// Absent for an empty word: as the scenario says. Throws tb::InputError; `command` as "dsdpv1-sim run".
 std::optional<tb::ChecksMode> checks_mode(const std::string& command, const std::string& word);
 
-/// Of run, which others refer to.
+/// Help texts of run, to which other commands refer.
 constexpr const char* kLogHelp =
     "Everything that happened, one line a thing; FILE.jsonl: a JSON object a line, for programs (docs/log.md)";
 constexpr const char* kLogWholeHelp =

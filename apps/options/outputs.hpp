@@ -1,5 +1,5 @@
 #pragma once
-// What a command reads and writes, looked at before it begins: no output may replace an input or another output.
+// A command's inputs and outputs, checked before it begins: no output may replace an input or another output.
 #include <optional>
 #include <string>
 #include <vector>

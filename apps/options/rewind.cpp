@@ -21,7 +21,7 @@ using std::chrono::steady_clock;
 // A snapshot costs some milliseconds of real time: what the copies and this process change from then on is copied page
 // by page.
 constexpr std::chrono::milliseconds kBetween(500);
-// What happened may be told later, and a wave wants to be awake for so long before it is right.
+// An event may be reported later, and a wave needs so much lead before it is correct.
 constexpr tb::Tick kLate = 2 * bus::kTicksPerMs;
 
 }  // namespace

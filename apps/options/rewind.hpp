@@ -1,6 +1,6 @@
 #pragma once
-// run --rewind-on: no wave is recorded until something happens; then the run goes on once more from a snapshot before
-// it, with the wave.
+// run --rewind-on: no wave is recorded until the event; then the run is repeated from a snapshot before it, with the
+// wave.
 #include <chrono>
 #include <functional>
 #include <optional>

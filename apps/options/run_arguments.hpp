@@ -1,5 +1,5 @@
 #pragma once
-// What a run of a scenario is asked for: by run, and by cosim and traces, which carry out such runs.
+// The arguments of a scenario's run: by run, and by cosim and traces, which execute such runs.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,7 +24,7 @@ struct RunArguments {
   std::optional<std::uint32_t> seed;                         ///< of RTL
   std::vector<std::pair<std::string, std::string>> save_at;  ///< time and file of each
   std::pair<std::string, std::string> rewind_on;             ///< code and time; empty: not wanted
-  std::string restore;                                       ///< a saved run in the place of a scenario, empty: none
+  std::string restore;                                       ///< a saved run instead of a scenario, empty: none
   std::optional<int> gdb;                                    ///< TCP port for the debugger of the first ARM board
   tb::CheckRows check_rows = tb::CheckRows::kViolated;       ///< of the summary
   bool log_whole = false, quiet = false;

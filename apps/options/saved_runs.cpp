@@ -111,7 +111,7 @@ void SavedRuns::ask(tb::RunOptions& options) {
   options.on_mark = [this](tb::Tick now, std::uint64_t digest) { return marked(now, digest); };
 }
 
-/// Whether the run goes on.
+/// True if the run continues.
 bool SavedRuns::marked(tb::Tick now, std::uint64_t digest) {
   if (restored_ != nullptr && restored_->at == now) {
     met_ = true;

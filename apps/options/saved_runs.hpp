@@ -16,7 +16,7 @@
 
 namespace dsdpv1::app {
 
-/// A run as it is to be saved, but for its tick and digest: what the arguments say, and the files that it reads.
+/// A run to save, without its tick and digest: its arguments, and the files that it reads.
 tb::SavedRun described_run(const RunArguments& arguments, const std::string& text,
                            const tb::scenario::Scenario& scenario);
 
@@ -25,17 +25,17 @@ void provide_files(const tb::SavedRun& run, const std::string& path);
 /// The arguments with what a saved run says.
 RunArguments arguments_of(RunArguments arguments, const tb::SavedRun& run);
 
-/// What a debugger did in it is done again, and a debugger of this run has its say after it.
+/// A debugger's actions in it are repeated, and a debugger of this run acts after them.
 void replay_debugger(tb::RunOptions& options, const tb::SavedRun& run);
 
-/// What --save-at and --restore do during a run.
+/// The actions of --save-at and --restore during a run.
 class SavedRuns {
  public:
   /// Opens the files of --save-at; throws tb::InputError, also for times that the run has not. `restored` may be null;
   /// `run` and `restored` must outlive it.
   SavedRuns(const RunArguments& arguments, const tb::SavedRun& run, const tb::SavedRun* restored, tb::Tick end);
 
-  /// What the bench has to do for them.
+  /// The bench's tasks for them.
   void ask(tb::RunOptions& options);
   /// At the end of a run: throws tb::InputError when a file could not be written or the restored run is another one.
   /// Says which files were not written as the run was over before.

@@ -11,7 +11,7 @@ struct Word {
   const char* word;
 };
 
-/// Of options that are called the same in all commands. Those that are not say their word by type_name.
+/// Words for the values of options with the same name in all commands. Others set their word by type_name.
 constexpr Word kWords[] = {{"as", "ADDRESS"},
                            {"baud", "RATE"},
                            {"build", "FOLDER"},

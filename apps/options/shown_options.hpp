@@ -1,5 +1,5 @@
 #pragma once
-// What --help, manual pages and completions show of the command line: commands and options that are not hidden.
+// The part of the command line in --help, manual pages and completions: commands and options that are not hidden.
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -22,10 +22,10 @@ inline std::vector<const CLI::Option*> shown_positionals(const CLI::App& command
 
 inline bool takes_value(const CLI::Option& option) { return option.get_type_size() != 0; }
 
-/// What stands for the option's value: "FILE", "TIME", "PATH=VALUE".
+/// The placeholder of the option's value: "FILE", "TIME", "PATH=VALUE".
 std::string value_word(const CLI::Option& option);
 
-/// What has to follow and what may, but for options: " CAPTURE --as ADDRESS", " [SCENARIO]".
+/// The required and optional arguments, without options: " CAPTURE --as ADDRESS", " [SCENARIO]".
 std::string arguments_of(const CLI::App& command);
 
 /// -q, --quiet

@@ -1,6 +1,6 @@
 #pragma once
-// Copies of this process that wait, so that it can go on from there once more: by fork, so what they do not change is
-// in memory once. One thread only.
+// Waiting copies of this process, from which it can continue again: made by fork, so unchanged memory exists once.
+// One thread only.
 #include <sys/types.h>
 
 #include <optional>
@@ -31,9 +31,9 @@ class Snapshots {
 
   bool empty() const { return all_.empty(); }
   bus::Tick newest() const { return all_.back().at; }
-  /// Of those taken up to `at` only the newest is needed.
+  /// Only the newest one taken up to `at` is needed.
   void forget_before(bus::Tick at);
-  /// Lets the newest that was taken up to `at` go on, and waits for its end: its exit code, -1 when it was killed.
+  /// Continues the newest one taken up to `at` and waits for its end: its exit code, -1 when it was killed.
   int wake(bus::Tick at, const Window& window);
   void clear();
 

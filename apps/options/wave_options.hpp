@@ -33,7 +33,7 @@ void write_save_files(const std::string& wave, const tb::ChipKind& kind);
 /// Throws tb::InputError, which begins with `command`, "dsdpv1-sim run".
 tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKind& kind);
 
-/// Of an option that records `around` before and behind an event with this code: the time. Throws tb::InputError.
+/// The time of an option that records `around` before and after an event with this code. Throws tb::InputError.
 bus::Tick check_window(const std::string& command, const char* option, const std::string& code,
                        const std::string& around, const tb::ChipKind& kind);
 

@@ -12,7 +12,7 @@ namespace dsdpv1::app {
 /// Unless `word` is one of `allowed`.
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed);
 
-/// What `word` stands for.
+/// The value that `word` stands for.
 template <typename Value>
 Value value_of(const std::string& option, const std::string& word,
                const std::vector<std::pair<std::string, Value>>& values) {
