@@ -25,8 +25,8 @@ const std::string kArm = " --set user_cpu.kind=arm --set user_cpu.elf=";
 
 std::string scenario(const std::string& name) { return std::string("scenarios/") + name + ".yaml --no-progress"; }
 
-/// What the bus has seen of a slave in the end. `counts`: its inputs count the exchanges, which hang on the CPU's
-/// speed. So does how far the master is with a slave that it brings up again and again.
+/// The bus's final view of a slave. `counts`: its inputs count the exchanges, which depend on the CPU's speed. So
+/// does how far the master is with a slave that it brings up again and again.
 Json on_the_bus(const Json& slave, bool counts) {
   Json seen;
   for (const char* key :
@@ -69,8 +69,7 @@ std::vector<std::string> shipped_but(const std::vector<std::string>& beginnings)
 /// foreign.c knows the parallel port only.
 std::vector<std::string> parallel_scenarios() { return shipped_but({"rsu_spi", "rsu_uart", "arm_spi", "arm_uart"}); }
 
-/// Those over SPI, and the UART's with times or telegrams of their own, ask for what is a native CPU's; a board refuses
-/// it.
+/// Those over SPI, and those over the UART with special times or telegrams, need a native CPU; a board refuses them.
 std::vector<std::string> native_scenarios() {
   return shipped_but({"rsu_spi", "rsu_uart_", "arm_board_12m", "arm_spi", "arm_uart"});
 }
@@ -182,7 +181,7 @@ TEST(ArmPorts, HoldsOverSpiAreCountedFromThePins) {
   EXPECT_GT(handshake.at("user_longest_hold_ns"), 500'000);
 }
 
-/// What the run's log and its end say of firmware that fetches what comes too late.
+/// The run's log and final output for firmware that fetches bytes too late.
 std::pair<std::string, std::string> late(const std::string& port) {
   const app_test::Folder folder;
   const Called called =
@@ -235,7 +234,7 @@ TEST(ArmBoard, FilesThatAreNoFirmwareGiveOneLine) {
   EXPECT_THAT(refused("/dev/zero"), testing::StartsWith("/dev/zero: is larger than 64 MB, allowed is an executable"));
 }
 
-// --- firmware of somebody else: no mailbox ---------------------------------------------------------------------------
+// --- foreign firmware: no mailbox ---------------------------------------------------------------------------
 
 /// The first demand of each shipped scenario on the program of its user CPU.
 const std::map<std::string, std::string> kDemands = {

@@ -29,7 +29,7 @@ class BadInput : public testing::TestWithParam<Case> {};
 TEST_P(BadInput, HasOneLineAndExitCode2) {
   const app_test::Folder outputs;
   std::string arguments = GetParam().arguments;
-  // Whatever a scenario's run might write must not be there afterwards.
+  // The output files of a scenario's run must not exist afterwards.
   if (arguments.rfind("run scenario/", 0) == 0 && arguments.find("--") == std::string::npos) {
     for (const char* name : {"log", "result", "trace"})
       arguments += std::string(" --") + name + " '" + outputs.file(name) + "'";

@@ -23,7 +23,7 @@ const std::string kNasty =
     "2J\x7F\u202E\nPASSED ü";
 const std::string kEscaped = R"(\x1B]0;x\x07\u009B2J\x7F\u202E\nPASSED ü)";
 
-/// Whatever is no line end and might be taken for an order by a terminal.
+/// True for characters, except line ends, that a terminal might take for a control sequence.
 bool steers(const std::string& text) {
   const auto is_order = [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7F; };
   return std::any_of(text.begin(), text.end(), is_order) || text.find("\xC2\x9B") != std::string::npos ||

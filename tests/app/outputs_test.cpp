@@ -1,4 +1,4 @@
-// What the program writes: help, result file, waves, log, and all of it complete when a run is interrupted.
+// The program's outputs: help, result file, waves, log, all complete when a run is interrupted.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

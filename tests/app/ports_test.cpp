@@ -29,8 +29,9 @@ Bytes body(const Bytes& telegram) {
   return {telegram.begin() + begin, telegram.end() - 2};
 }
 
-/// Requests with their answers, by requester and SAPs, one after the other, each once as long as it is repeated: how
-/// often a master asks hangs on how fast the user is, what is answered must not. FCB and FCV, which count the requests,
+/// Requests with their answers, by requester and SAPs, one after the other, each once as long as it is repeated: the
+/// number of a master's requests depends on the user's speed, the answers must not. FCB and FCV, which count the
+/// requests,
 /// are left out.
 class Conversations {
  public:
@@ -95,7 +96,7 @@ TEST(HostPorts, TheBusHearsTheSameOfFirmwareThroughAllOfThem) {
 
 #endif
 
-/// Of the shipped scenarios: its text without the lines that say name, rate and end.
+/// A shipped scenario's text without the lines of name, rate and end.
 std::string without_rate(const std::string& scenario) {
   std::istringstream lines(app_test::read(std::string(DSDPV1_SOURCE_DIR "/scenarios/") + scenario + ".yaml"));
   std::string rest;

@@ -1,6 +1,7 @@
 // Every scenario that ships passes, the checks included, with the pins of its golden trace in step and skip, and is the
-// same to the byte in step, skip and TLM: log and result, with TLM the trace of the outputs; and log and result without
-// a trace, when nobody needs the changes of the line. The results are what the schema says. An ARM board at a serial
+// same to the byte in step, skip and TLM: log and result, with TLM the trace of the outputs; and log and result
+// without a trace, when the changes of the line have no observer. The results are what the schema says. An ARM board at
+// a serial
 // port has no TLM.
 #include <gtest/gtest.h>
 
@@ -78,7 +79,7 @@ TEST_P(Scenarios, PassesAndStepSkipAndTlmAreTheSame) {
     }
     ASSERT_TRUE(run("skip", view, "", "_untraced"));
     expect_same(name + "_untraced");
-    // Without checks nobody hears the pins of the host's accesses: these are the runs that take each at once, or ahead
+    // Without checks the pins of the host's accesses have no observer: these runs take each access at once, or ahead
     // of simulation time.
     ASSERT_TRUE(run("skip", view, "", "_unchecked", "off"));
     expect_same_results(name + "_unchecked", "skip_pins_unchecked");

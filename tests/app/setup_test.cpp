@@ -1,4 +1,4 @@
-// What user CPUs and masters are given, from the scenario and its GSD.
+// The settings of user CPUs and masters, from the scenario and its GSD.
 #include <gtest/gtest.h>
 
 #include "io/input/input_error.hpp"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a terminal shows: tables that fit it, verdicts in colour when it wants them; and a pipe has everything whole and plain.
+"""Output to a terminal: tables that fit it, verdicts in colour if wanted; output to a pipe is complete and plain.
 
     terminal_test.py SIM
 """
@@ -33,7 +33,7 @@ def environment(**more):
 
 
 def on_terminal(folder, command, columns, **more):
-    """What the program writes to a terminal that is so wide."""
+    """The program's output to a terminal of this width."""
     terminal, program = os.openpty()
     fcntl.ioctl(program, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     with subprocess.Popen(command, cwd=folder, stdout=program, stderr=subprocess.DEVNULL, env=environment(**more)) as running:
@@ -49,7 +49,7 @@ def on_terminal(folder, command, columns, **more):
 def read(terminal):
     try:
         return os.read(terminal, 1 << 16)
-    except OSError:  # Linux's word for: nobody has it open any more
+    except OSError:  # Linux's error when no process has it open any more
         return b""
 
 

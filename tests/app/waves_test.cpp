@@ -245,7 +245,7 @@ TEST(WaveOptions, EachCharacterIsShownInTheMiddleOfItsStopBit) {
   })) << "no start bit 10.5 bits before it";
 }
 
-// Who writes a trace wants each change of each pin, so that telegrams are told change by change.
+// A trace needs each change of each pin, so telegrams are passed change by change.
 TEST(WaveOptions, TelegramsToldAsRunsAreTheSameBytes) {
   for (const char* const name : {"two_slaves", "judging_modes", "violations"}) {
     const Folder folder;

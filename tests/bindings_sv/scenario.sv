@@ -1,4 +1,5 @@
-// The masters of examples/masters.yaml by themselves: no task of profibus_master is called. The user CPU answers acyclic requests from one object at
+// The masters of examples/masters.yaml alone: no task of profibus_master is called. The user CPU answers acyclic
+// requests from one object at
 // slot 1, index 2.
 module scenario;
   timeunit 1ps;

@@ -1,5 +1,6 @@
-// Every task of profibus_master, class 1 and class 2, and every task of dsdpv1_user: a chip whose user answers acyclic requests from an
-// object of its own. The chip is the model, or with USE_RTL the reference RTL with the scoreboard beside it. +gsd= names scenarios/dsdpv1.gsd.
+// Every task of profibus_master, class 1 and class 2, and every task of dsdpv1_user: a chip whose user answers
+// acyclic requests from a separate object. The chip is the model, or with USE_RTL the reference RTL with the scoreboard
+// beside it. +gsd= names scenarios/dsdpv1.gsd.
 `ifdef USE_RTL
 `include "dsdpv1_types.svh"
 `endif

@@ -12,7 +12,7 @@
 namespace dsdpv1::simulator {
 namespace {
 
-/// Of the DSDPV1.
+/// Pins of the DSDPV1.
 const PackedPins& inputs() { return pins_of_kind("dsdpv1").inputs; }
 int64_t bit(const char* input) { return static_cast<int64_t>(inputs().mask(input)); }
 int64_t output_bit(const char* output) { return static_cast<int64_t>(pins_of_kind("dsdpv1").outputs.mask(output)); }
@@ -122,7 +122,7 @@ TEST(SimulatorModel, WrongCallsSayWhatIsWrong) {
   EXPECT_LT(dsdpv1_close(model), 0);
 }
 
-/// A model whose outputs are somebody's RTL for a scoreboard, one of them wrong between two halves.
+/// A model whose outputs act as the RTL for a scoreboard, one of them wrong between two halves.
 class Twins {
  public:
   explicit Twins(int64_t tolerance_ps)

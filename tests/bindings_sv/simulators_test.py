@@ -27,7 +27,7 @@ def call(command, folder):
 
 
 class Benches:
-    """What both simulators have to do; a subclass says how a bench is run."""
+    """The tests of both simulators; a subclass defines how a bench is run."""
 
     def passes(self, top, *plusargs, name=None):
         status, said = self.run_bench(name or top, top, *plusargs)

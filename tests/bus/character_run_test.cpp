@@ -22,7 +22,7 @@ bool same(const std::vector<ReceivedCharacter>& a, const std::vector<ReceivedCha
       });
 }
 
-/// A station that sends, or hears and counts what it is told.
+/// A station that sends, or hears and counts the calls.
 struct RunStation : Listener, Agent {
   RunStation(Segment& segment, Timeline& timeline, bool takes)
       : takes_runs(takes), sender(segment, segment.attach("station", this)) {

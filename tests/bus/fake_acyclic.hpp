@@ -1,5 +1,5 @@
 #pragma once
-// The acyclic side of a fake slave: one SAP with a user behind it who answers after some polls.
+// The acyclic side of a fake slave: one SAP whose user answers after some polls.
 #include <array>
 #include <functional>
 #include <optional>
@@ -63,7 +63,7 @@ class FakeMailbox {
   int left_ = 0;
 };
 
-/// Two channels of MSAC_C2 as V2, V3, V8 and V10 to V12 have them; timers are looked at when the next telegram comes.
+/// Two channels of MSAC_C2 as V2, V3, V8 and V10 to V12 have them; timers are checked when the next telegram comes.
 class FakeC2 {
  public:
   explicit FakeC2(std::function<Tick()> clock) : clock_(std::move(clock)) {}

@@ -1,5 +1,5 @@
 #pragma once
-// Stations of the tests: one that answers as it is told, and on top of it a small DP slave.
+// Stations of the tests: one with prepared answers, and on top of it a small DP slave.
 #include <functional>
 #include <optional>
 #include <string>

@@ -235,7 +235,7 @@ constexpr Tick kFilteredBit = 1000, kFirstRun = 100'000, kNextRun = 500'000;
 /// A telegram of these tests: the first byte is who it is for.
 int reads(const std::uint8_t* bytes, std::size_t size) { return size == 2 ? bytes[0] : kNoTelegram; }
 
-/// Writes down what it is told, in words.
+/// Records its calls in words.
 struct FilteredListener : Listener {
   void line_changed(Tick at, bool level) override {
     note("line " + std::to_string(level) + " at " + std::to_string(at));

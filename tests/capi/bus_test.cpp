@@ -118,7 +118,7 @@ TEST(CapiBus, TheLineHasItsLevelWhetherItIsWatchedOrNot) {
   EXPECT_GT(drain(dpsim_bus_read_changes, watched.bus.get()).size(), 1000U);
 }
 
-/// A chip that is no chip of the bus: the caller carries its pins to the line and the line to its pins.
+/// A chip outside the bus: the caller connects its pins with the line.
 class Outside {
  public:
   Outside() {
@@ -132,7 +132,7 @@ class Outside {
     ok(dpsim_bus_run(bus_.get(), Line::kBegin));
     ok(dpsim_master_start(master_));
   }
-  /// What PBTXD and PBRTS have done up to `end`.
+  /// The changes of PBTXD and PBRTS up to `end`.
   std::vector<dpsim_change> run(uint64_t end) {
     std::vector<dpsim_change> sent;
     for (now_ = Line::kBegin; now_ <= end; now_ = next()) {

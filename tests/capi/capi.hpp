@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the C API share.
+// Shared by the tests of the C API.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -26,7 +26,7 @@ void note_change(void* self, Tick at, Pin pin, dsdpv1::Level level) {
       {static_cast<uint64_t>(at), 0, static_cast<uint16_t>(pin), level, 0});
 }
 
-/// What pin_by_pin.c does, on the core.
+/// The actions of pin_by_pin.c, on the core.
 std::vector<dpsim_change> driven_core(Tick released) {
   constexpr Tick kNs = profibus::kTicksPerNs;
   std::vector<dpsim_change> changes;

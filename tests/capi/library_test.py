@@ -1,4 +1,4 @@
-"""What is outside of the code: the list of symbols, what the library needs, and that each header stands alone.
+"""Properties besides the code: the list of symbols, the library's dependencies, and that each header compiles alone.
 
     library_test.py SOURCES LIBRARY CC CXX [unittest arguments]
 """

@@ -1,5 +1,4 @@
-// A program of its own, as its operator new is one that may have nothing left; the library takes its memory from there,
-// too.
+// A separate program, as its operator new may fail; the library also takes its memory from there.
 #include <cstdlib>
 #include <new>
 

@@ -1,4 +1,4 @@
-// Characters told by dpsim_chip_receive against the same told edge by edge: nobody can tell one chip from the other.
+// Characters passed by dpsim_chip_receive and the same passed edge by edge: the two chips are indistinguishable.
 #include <random>
 #include <string>
 #include <vector>
@@ -50,7 +50,7 @@ class Heard {
   }
 };
 
-/// What comes to the chips, drawn from a seed.
+/// The chips' input, drawn from a seed.
 class Stimulus {
  public:
   explicit Stimulus(unsigned seed) : random_(seed) {}

@@ -1,4 +1,4 @@
-// What is wrong with a table is said with its line.
+// Faults of a table are reported with their line.
 #include "bus/capture/csv_reader.hpp"
 
 #include <gtest/gtest.h>

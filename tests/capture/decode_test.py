@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `dsdpv1-sim decode` makes of captures and of recordings of the line, against the capture or log of the same run.
+"""Compares the output of `dsdpv1-sim decode` for captures and recordings of the line with the capture or log of the same run.
 
     decode_test.py SIM CASE
 """
@@ -75,7 +75,7 @@ def classic(folder):
 
 
 def rewritten(folder):
-    """What another program has made of it: editcap's pcapng and pcap, with times of today."""
+    """Files of another program: editcap's pcapng and pcap, with times of today."""
     packets, _ = capture(folder, ROOT / "scenarios/dpv1_c1.yaml")
     wanted = decoded(folder, packets)
     first = times(wanted)[0]

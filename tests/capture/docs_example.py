@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What docs/captures.md shows is what tshark and dsdpv1-sim print.
+"""Compares docs/captures.md with the output of tshark and dsdpv1-sim.
 
     docs_example.py SIM [update]
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What tshark makes of captures, with share/wireshark/profibus_dp, against what the run itself says of its telegrams.
+"""Compares tshark's output for captures, with share/wireshark/profibus_dp, with the run's reports on its telegrams.
 
     tshark_test.py SIM CASE
 """
@@ -64,7 +64,7 @@ expect:
 
 
 def of_log(entry):
-    """What the log says of a telegram, as the rows of tshark are asked for."""
+    """The log's fields of a telegram, in the form of tshark's rows."""
     data = entry["bytes"].split()
     wrong = "wrong" in entry and entry["wrong"] != "character errors"
     return ("wrong" if wrong else KINDS[data[0]], f"{entry['tsdr_bits']:.2f}" if "tsdr_bits" in entry else "")
@@ -107,7 +107,7 @@ def services(folder):
 
 
 def damage(folder):
-    """What was planted is told by expert infos, flags and comments."""
+    """Planted faults appear as expert infos, flags and comments."""
     scenario = folder / "damaged.yaml"
     scenario.write_text(DAMAGED, encoding="utf-8")
     packets, _ = capture(folder, scenario, status=None)
@@ -136,7 +136,7 @@ def collision(folder):
 
 
 def link_types(folder):
-    """The dissector takes 257 and all USER types, and leaves those alone that it is told to."""
+    """The dissector takes 257 and all USER types, except those excluded in its preferences."""
     scenario = ROOT / "scenarios/read_services.yaml"
     for link in ("profibus", "user0", "user15"):
         packets, log = capture(folder, scenario, link=link)
@@ -168,7 +168,7 @@ def statistics(folder):
 
 
 def same_bytes(folder):
-    """A capture hangs on the scenario alone: neither on the day nor on how the chips are executed."""
+    """A capture depends only on the scenario: neither on the day nor on the chips' engine."""
     scenario = ROOT / "scenarios/read_services.yaml"
     first = capture(folder, scenario)[0].read_bytes()
     for options in ((), ("--engine", "step"), ("--view", "tlm")):
@@ -176,7 +176,7 @@ def same_bytes(folder):
 
 
 def killed(folder):
-    """What a killed run has left is read as far as it goes."""
+    """The file of a killed run is read up to its end."""
     command = [SIM, "run", ROOT / "scenarios/dpv1_c2_two_masters.yaml", "-q", "--engine", "step", "--capture", "killed.pcapng"]
     with subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL) as process:
         part = folder / f"killed.pcapng.{process.pid}.part"
@@ -203,7 +203,7 @@ def as_pcap(folder, packets):
 
 
 def any_bytes(folder):
-    """Whatever the bytes of a service are, and however few, the dissector has no error of its own."""
+    """For any bytes of a service, however few, the dissector has no Lua error."""
     random = Random(1)
     packets = []
     for sap in (*range(47, 63), None):
@@ -223,7 +223,7 @@ def any_bytes(folder):
 
 
 def rare_services(folder):
-    """What no scenario sends: alarms, channel diagnosis, special identifiers, structured parameters, repeated requests."""
+    """Telegrams that no scenario sends: alarms, channel diagnosis, special identifiers, structured parameters, repeated requests."""
     read = telegram(2, 5, 0x08, bytes([0x10, 0x04, 0, 2, 0x0C, 0xC9, 0x84, 0xC3, 0xA6, 0x42, 0x05]), 62, 60)
     packets = as_pcap(folder, [
         telegram(5, 2, 0x6D, bytes([0x5C, 3, 2, 0x0C]), 50, 51),

@@ -11,7 +11,7 @@ SIM = str(pathlib.Path(sys.argv[1]).resolve())
 
 
 def sim(folder, *arguments, status=0):
-    """What the program prints; the exit code must be `status` (None: any)."""
+    """The program's output; the exit code must be `status` (None: any)."""
     done = subprocess.run([SIM, *map(str, arguments)], cwd=folder, capture_output=True, text=True, check=False)
     if status is not None and done.returncode != status:
         sys.exit(f"dsdpv1-sim {arguments}: exit code {done.returncode} in the place of {status}\n{done.stdout}{done.stderr}")
@@ -28,7 +28,7 @@ def capture(folder, scenario, *options, link="user0", status=0):
 
 
 def tshark(folder, packets, *options, installed=False):
-    """What tshark prints with the dissector; `installed`: from the folder of plugins of `folder`, its home."""
+    """tshark's output with the dissector; `installed`: from the folder of plugins of `folder`, its home."""
     script = [] if installed else ["-X", f"lua_script:{DISSECTOR}/profibus_dp.lua"]
     home = os.environ | {"HOME": str(folder), "XDG_CONFIG_HOME": str(folder / "config")}
     done = subprocess.run(["tshark", *script, "-r", packets, *options], cwd=folder, env=home, capture_output=True, text=True,

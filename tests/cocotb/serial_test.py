@@ -1,4 +1,4 @@
-"""Runs test_serial.py on the reference RTL of the DSDPV1-RSU in Icarus, each test in a simulation of its own.
+"""Runs test_serial.py on the reference RTL of the DSDPV1-RSU in Icarus, each test in a separate simulation.
 
     serial_test.py FOLDER
 """

@@ -1,4 +1,4 @@
-"""The parts of cocotbext.profibus on two wires. Edges are held against ticks of 1/12 ns, converted once."""
+"""The parts of cocotbext.profibus on two wires. Edges are compared with ticks of 1/12 ns, converted once."""
 import cocotb
 from cocotb.triggers import Edge, RisingEdge
 from cocotb.utils import get_sim_time
@@ -12,7 +12,7 @@ ANSWER = Telegram(TelegramKind.SD1, da=2, sa=5, fc=0x00)
 
 
 def nearest_step(tick):
-    """Of 1 ps: a tick is 1000/12 of them, in whole numbers, a half up."""
+    """Ticks in steps of 1 ps: a tick is 1000/12 of them, in whole numbers, halves rounded up."""
     return (2000 * tick + 12) // 24
 
 
@@ -38,7 +38,7 @@ async def steps_and_ticks_are_each_others_inverse(_dut):
 
 @cocotb.test()
 async def characters_arrive_as_they_were_sent(dut):
-    """At a fast rate and at the slowest, whose bits are no multiples of each other; with the tick of each start bit."""
+    """At a fast rate and at the slowest, whose bits are not multiples of each other; with the tick of each start bit."""
     for baud in ("12M", "45.45k"):
         source, sink = ProfibusSource(dut.line_i, baud), ProfibusSink(dut.line_o, baud)
         edges = cocotb.start_soon(edges_of(dut.line_o, source.bit))
@@ -82,7 +82,7 @@ async def the_monitor_hears_right_and_wrong_telegrams(dut):
 
 @cocotb.test()
 async def masters_of_both_classes_share_the_line(dut):
-    """Class 2 takes part in the ring; a connection to nobody ends, and says why. The line of the DUT is the bus's."""
+    """Class 2 takes part in the ring; a connection to an absent station ends with a reason. The line of the DUT is the bus's."""
     segment = Segment(rxd=dut.line_i)
     heard = []
     ProfibusMonitor(dut.line_o, callback=heard.append)

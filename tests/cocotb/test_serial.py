@@ -100,7 +100,7 @@ async def a_low_sck_that_is_too_short_is_found(dut):
 
 @cocotb.test()
 async def the_scoreboard_finds_bits_of_miso_in_the_wrong_order(dut):
-    """Fault 129: of C5, which is what first differs from itself read from behind, the second bit; at the pin spi_miso_delay after SCK's fall."""
+    """Fault 129: the second bit of C5, the first one that differs in reverse order; at the pin spi_miso_delay after SCK's fall."""
     pins, scoreboard, _ = await power_on(dut, SPI)
     await spi(pins, READ_READY, len(REPLY))
     try:

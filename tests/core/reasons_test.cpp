@@ -12,7 +12,7 @@ namespace {
 using profibus::Reason;
 using profibus::Words;
 
-/// What the placeholders of events may look like; a name that is none of words.inc stays as it is.
+/// The valid placeholders of events; a name that is not in words.inc stays as it is.
 const std::regex kValue("\\{[abc](:(2x|3x|4x|state|rate|sap|rm|high|low|low2x))?\\}");
 
 std::string without_values(const std::string& text) { return std::regex_replace(text, kValue, ""); }

@@ -127,7 +127,7 @@ std::string line_with(const std::string& text, const std::string& word) {
 }
 
 /// One build for all of it: the pulse of INTR0 is 60 cycles long, P7 asks for 64.
-/// The reference RTL of the DSDPV1-RSU as if it were a user's: SPI, where SCK is a clock of its own and MISO is late.
+/// The reference RTL of the DSDPV1-RSU as if it were a user's: SPI, where SCK is a separate clock and MISO is late.
 TEST(OwnRtl, OfTheRsuIsTheSameAtItsSerialPort) {
   const app_test::Folder folder;
   std::ofstream(folder.file("pins.yaml")) << "reference: true\n";
@@ -145,12 +145,12 @@ TEST(OwnRtl, OfTheDsdpv1WithOtherParametersIsTheSame) {
   const app_test::Folder folder;
   std::ofstream(folder.file("pins.yaml"))
       << "reference: true\nparameters: {RTS_LEAD: 0, RTS_TRAIL: 32, SEARCH_WINDOW_MS: 3}\n";
-  const app_test::Called called =
-      call("rtl-random --set chip.rts_lead=0 --set chip.rts_trail=32 --set chip.search_window_ms=3 --rtl "
-           "rtl_ref/dsdpv1 --top dsdpv1 --pins '" +
-               folder.file("pins.yaml") + "' --build '" + folder.file("build") + "' --cycles 5000000 --stimulus '" +
-               folder.file("case") + "' --difference '" + folder.file("both.vcd") + "'",
-           kSource);
+  const app_test::Called called = call(
+      "rtl-random --set chip.rts_lead=0 --set chip.rts_trail=32 --set chip.search_window_ms=3 --rtl "
+      "rtl_ref/dsdpv1 --top dsdpv1 --pins '" +
+          folder.file("pins.yaml") + "' --build '" + folder.file("build") + "' --cycles 5000000 --stimulus '" +
+          folder.file("case") + "' --difference '" + folder.file("both.vcd") + "'",
+      kSource);
   EXPECT_EQ(called.status, 0) << called.out << called.err;
 }
 

@@ -1,4 +1,4 @@
-// What a user may say about the pins of RTL of their own, and the code that is made of it.
+// The user's map of the pins of their RTL, and the code generated from it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ class PinMapFile : public testing::Test {
     std::ofstream(path_) << text;
     return cosim::load_pin_map(path_, tb::pins_of(Part::kDsdpv1));
   }
-  /// The message behind the file's name.
+  /// The message after the file's name.
   std::string error_of(const std::string& text) const {
     try {
       load(text);

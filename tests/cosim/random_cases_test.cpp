@@ -1,5 +1,5 @@
-// What random cases are made of does what it is for, at model and RTL: edges that are aimed, limits that are exceeded,
-// the way to data exchange.
+// The parts of random cases have their intended effects on model and RTL: edges at chosen times, exceeded limits, the
+// way to data exchange.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// What a stimulus brings about, at model and RTL alike.
+/// The effects of a stimulus, equal in model and RTL.
 class Played {
  public:
   explicit Played(const Stimulus& stimulus, PlayOptions options = quick_options(), Tick limit = Tick{1} << 40) {

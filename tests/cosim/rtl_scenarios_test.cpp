@@ -60,8 +60,8 @@ TEST_P(ShortRtlScenarios, PinsOfTheRtlAreTheGoldenAndItsLogIsThatOfTheModel) {
   EXPECT_TRUE(read(folder_.file("skip.log")) == read(folder_.file("rtl.log")));
 }
 
-/// What random cases and scenarios leave as it is: when the transmitter's driver is on round an answer.
-/// Of several in one thread, as of a scenario with several slaves.
+/// Not varied by random cases and scenarios: the time for which the transmitter's driver is on around an answer.
+/// Several chips in one thread, as in a scenario with several slaves.
 TEST(ReferenceRtl, GoesInAnyOrder) {
   std::mt19937 random(1);
   for (int round = 0; round < 50; ++round) {

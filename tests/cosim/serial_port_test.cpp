@@ -33,7 +33,7 @@ long from_environment(const char* name, long usual) {
 long telegrams() { return from_environment("DSDPV1_TELEGRAMS", 2000); }
 std::uint64_t seed() { return static_cast<std::uint64_t>(from_environment("DSDPV1_SEED", 1)); }
 
-/// A chip behind one of the ports, and a host that draws what it sends from a seed.
+/// A chip at one of the ports, and a host that draws its telegrams from a seed.
 class Port {
  public:
   Port(HostMode mode, std::uint64_t seed) : random_(seed) {
@@ -92,7 +92,7 @@ class Port {
     chip_->advance(now_);
     return heard(reply.size()) == reply;
   }
-  /// Of these codes, those that the chip has not told.
+  /// The codes of these that the chip has not reported.
   std::set<std::string> untold(std::initializer_list<const char*> codes) const {
     std::set<std::string> left;
     for (const char* code : codes)

@@ -1,4 +1,4 @@
-// What is counted of random cases, and that a campaign goes on where it was interrupted.
+// The counts of random cases, and the resumption of an interrupted campaign.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using profibus::Reason;
 using testing::HasSubstr;
 
-/// What the user's host is connected to.
+/// The port of the user's host.
 struct HostSide {
   Part part = Part::kDsdpv1;
   HostMode mode = HostMode::kParallel;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether the driver's files call each other in a circle, as nm tells from their object files.
+"""Finds circles of calls between the driver's files, with nm on their object files.
 
     call_circle.py NM OBJECT...
 

@@ -40,7 +40,7 @@ struct FakeChip {
   FakeChip();
   dsdpv1_port port();
   std::uint8_t& at(std::uint16_t address) { return memory.at(address); }
-  /// Whoever keeps the chip away lets it in.
+  /// The holder that keeps the chip away lets it in.
   void let_in();
   /// Puts a block where the chip puts them, with its CRC.
   void put_outputs(const std::vector<std::uint8_t>& data);

@@ -19,7 +19,7 @@ std::uint32_t board_us(void);
 
 namespace dsdpv1::board {
 
-// What the examples' board functions work on; the examples are C and know no object.
+// State of the examples' board functions; global, because the examples are C without an object pointer.
 FakeRsu* rsu = nullptr;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 std::uint32_t us = 0;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 

@@ -16,7 +16,7 @@ bool flash_failed(void);
 
 namespace dsdpv1::board {
 
-// What the example's board functions do; the example is C and knows no object.
+// State of the example's board functions; global, because the example is C without an object pointer.
 std::vector<std::uint8_t> flash;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 bool busy = false, failed = false;
 

@@ -1,7 +1,7 @@
 /* The public headers must stand alone in C99, twice included. */
 #include "driver/dsdpv1_acyclic.h"
 
-/* Each again, behind the other. */
+/* Each again, after the other. */
 #include "driver/dsdpv1.h"
 
 dsdpv1_error standalone(dsdpv1_acyclic* acyclic);

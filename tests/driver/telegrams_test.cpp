@@ -1,4 +1,4 @@
-// What goes wrong on SPI and UART, and what the driver makes of it.
+// Faults on SPI and UART, and the driver's reactions.
 #include "tests/driver/acyclic_fixture.hpp"
 
 namespace dsdpv1 {

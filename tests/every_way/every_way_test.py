@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """One run, from power-on to data exchange, by every way that there is to the model: the C API from C, the Python module, DPI-C in Verilator with and
-without a CLK, VPI in Icarus, cocotb, SystemC at 1 fs and at 1 ps. What the inputs did in the golden trace is played to each; each change of each
-output has to be the golden's, and so each other's.
+without a CLK, VPI in Icarus, cocotb, SystemC at 1 fs and at 1 ps. The inputs of the golden trace are played to each; each change of each output must equal the golden's, and so all agree.
 
     every_way_test.py BUILD SIM WAY...
 
-A way has times of its own unit: ticks of 1/12 ns, ps or fs. A change is at its tick when its time is the one nearest to that tick: half a unit off
+Each way has its own time unit: ticks of 1/12 ns, ps or fs. A change is at its tick when its time is the one nearest to that tick: half a unit off
 at most, 0.5 fs or 0.5 ps, and as a unit is less than a tick it belongs to no other.
 """
 import os
@@ -127,7 +126,7 @@ WAYS = {
 WITHOUT_X = ("DPI", "DPI, no CLK")  # Verilator has two levels: what is X elsewhere is some value
 
 
-# ---- held against each other
+# ---- compared with each other
 def settled(changes, begin):
     """{tick: levels of all outputs} from `begin` on, where one differs from before."""
     levels, at = dict(POWER_ON), {}

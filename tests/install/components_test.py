@@ -12,7 +12,7 @@ cmake, stage, folder = (pathlib.Path(each) for each in sys.argv[1:])
 
 
 def refusal(components, missing=""):
-    """What CMake says of components where the targets of one are missing, as one line."""
+    """CMake's message about components if the targets of one are missing, as one line."""
     prefix = folder / "prefix"
     shutil.rmtree(folder, ignore_errors=True)
     (config,) = stage.glob("lib*/**/dsdpv1-config.cmake")

@@ -3,7 +3,7 @@
 
     stage.py CMAKE BUILD STAGE        BUILD is installed at STAGE.installed, then moved to STAGE
 
-What tells others how to use it must not name a place of this machine: neither where it was built nor where it was installed first.
+Files for users must not contain a path of this machine: neither of the build nor of the first installation.
 """
 import pathlib
 import shutil

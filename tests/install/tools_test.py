@@ -79,7 +79,7 @@ def completed(file, *words):
     return set(call("bash", "-c", BASH.format(file=file, words=quoted)).split())
 
 
-# What the function would hand over to zsh's own _arguments.
+# The function's arguments for zsh's _arguments.
 ZSH = """_arguments() {{ print -rl -- "$@" }}
 f() {{ words=(dsdpv1-sim {command} -) CURRENT=3; source {file} }}; f"""
 

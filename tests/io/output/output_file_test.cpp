@@ -1,4 +1,4 @@
-// Output files: complete or absent, and nothing replaced that is no output.
+// Output files: complete or absent, and only outputs are replaced.
 #include "io/output/output_file.hpp"
 
 #include <gtest/gtest.h>

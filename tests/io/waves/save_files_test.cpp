@@ -25,7 +25,7 @@ class SaveFiles : public testing::Test {
     std::ifstream in(path(name));
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  /// What GTKWave is told behind the file's name.
+  /// GTKWave's arguments after the file's name.
   std::string gtkwave() const {
     const std::string text = read("my.gtkw");
     return text.substr(text.find("[timestart]"));

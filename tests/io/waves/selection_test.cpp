@@ -1,4 +1,4 @@
-// What of a run goes into its wave: patterns, windows, windows round what happens, CLK.
+// The parts of a run in its wave: patterns, windows, windows around events, CLK.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// Notes what it is told.
+/// Records its calls.
 class Notes : public tb::WaveWriter {
  public:
   explicit Notes(Lines& lines) : lines_(lines) {}

@@ -28,7 +28,7 @@ def run(program, rate, end, folder):
 
 
 def decoded(wave, bits):
-    """What sigrok reads from the line: bytes, and whatever it warns of."""
+    """sigrok's result for the line: bytes and warnings."""
     command = ["sigrok-cli", "-i", wave, "-I", f"vcd:downsample={PICOSECONDS // (bits * SAMPLES_A_BIT)}", "-P",
                f"uart:rx=line:baudrate={bits}:parity=even:format=hex", "-A", "uart"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)

@@ -1,4 +1,4 @@
-// Waves read: what simulators write, with their habits, and what is no wave.
+// Reading of waves: files of simulators, with their habits, and files that are not waves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -59,7 +59,7 @@ class ReadWaves : public testing::Test {
     }
     return lines;
   }
-  /// What a reader says of a file that it does not take, without the folder.
+  /// A reader's message about a refused file, without the folder.
   std::string refusal(const std::string& name) const {
     try {
       const auto reader = tb::read_wave(path(name));
