@@ -129,7 +129,7 @@ class Machine:
     everything runs on one processor, of which the calibration speaks then; when that one is busy, on the next one."""
 
     def __init__(self, minutes):
-        self.times, self.refused = [], 0
+        self._times, self.refused = [], 0
         self._least = math.inf
         self._until = time.monotonic() + 60 * minutes
         self._processors = itertools.cycle(sorted(os.sched_getaffinity(0)))
@@ -160,8 +160,13 @@ class Machine:
         if self._is_to_wait(max(before, self._last)):
             self.refused += 1
             return False
-        self.times += [before, self._last]
+        self._times += [before, self._last]
         return True
+
+    @property
+    def times(self):
+        """Where no value counts, that of the last look."""
+        return self._times or [self._last]
 
 
 def measure_row(outcome, turn, machine):

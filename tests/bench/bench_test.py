@@ -157,6 +157,19 @@ class Measuring(unittest.TestCase):
         self.assertIn("bad\tfailed\tat least 10 x real time\tnot met\tslaves has 125 items\n", out)
         self.assertIn("good\t11\t", out)
 
+    def test_where_no_row_could_be_measured_the_table_says_why_and_the_calibration_is_the_last_look(self):
+        def fail(turn):
+            raise programs.Failed("is not there")
+
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "table.json")
+            status, out, _ = self.bench("--json", str(file), measured=[row("bad", measure=fail)])
+            report = json.loads(file.read_text(encoding="utf-8"))
+        self.assertEqual(status, 1)
+        self.assertIn("bad\tfailed\tat least 10 x real time\tnot met\tis not there\n", out)
+        self.assertIn("\ncalibration\t20 ms\t20..20 ms\tspread 0 %\t", out)
+        self.assertEqual((report["calibration"]["median_ms"], report["rows"][0]["error"]), (20, "is not there"))
+
     def test_json_has_every_value(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "table.json")
