@@ -1,5 +1,5 @@
 #pragma once
-// A device behind pins that does nothing by itself and tells nothing, for tests that are about its inputs.
+// A device without actions and reports, for tests of its input pins.
 #include "bus/time.hpp"
 #include "tb/chip/pin_device.hpp"
 

@@ -104,7 +104,7 @@ void Chip::Impl::enter_reset(Tick at) {
 
 // --- time ------------------------------------------------------------------------------------------------------------
 
-// Asked far more often than changed, so it is kept: by everybody who calls a block.
+// The plan is queried far more often than changed, so each caller of a block updates it here.
 void Chip::Impl::plan() {
   const Cycle cycle = std::min({release_at, port.next(), station.next()});
   planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;

@@ -1,6 +1,6 @@
 #pragma once
-// The mailbox: a DP slave with 8 bytes of inputs, 8 bytes of outputs and a SPI port (spi_port.hpp). It is no real chip;
-// it holds model/profibus/ against a user's side that has nothing in common with a dual-port RAM.
+// The mailbox: a DP slave with 8 bytes of inputs, 8 bytes of outputs and a SPI port (spi_port.hpp). It is not a real
+// chip; it tests model/profibus/ with a user's side that has nothing in common with a dual-port RAM.
 //
 //   Chip chip;                                     // RESET is low
 //   chip.watch({&on_pin, self}, kOutputPins);
@@ -54,7 +54,7 @@ class Chip {
   void set(Tick at, Pin pin, Level level);
   /// Evaluates everything up to and including tick `to`; pin changes and events leave through the sinks on the way.
   void advance(Tick to);
-  /// The tick of the next rising CLK edge at which the chip does something by itself; never before `now()`. With
+  /// The tick of the next rising CLK edge at which the chip acts without new input; never before `now()`. With
   /// Engine::kStep the next rising edge.
   Tick next_event() const;
   Tick now() const;

@@ -35,14 +35,14 @@ Bytes write_frame(const Bytes& inputs) {
   frame.insert(frame.end(), inputs.begin(), inputs.end());
   return frame;
 }
-/// What a read shows: nothing during the command, then the outputs.
+/// The result of a read: nothing during the command, then the outputs.
 Bytes shown(const Bytes& outputs) {
   Bytes seen = {0};
   seen.insert(seen.end(), outputs.begin(), outputs.end());
   return seen;
 }
 
-/// A chip on a segment, and somebody who moves its pins by hand.
+/// A chip on a segment, and an agent that moves its pins directly.
 struct ByHand {
   explicit ByHand(Engine engine = Engine::kSkip) : board(segment, engine) {
     timeline.check_announcements();
@@ -59,7 +59,7 @@ struct ByHand {
     run(4 * kCycle);
   }
   void select() { set(Pin::kXss, 0); }
-  /// The first `bits` of `bytes`, zeros behind their end; what MISO showed meanwhile.
+  /// The first `bits` of `bytes`, zeros after their end; returns the levels of MISO meanwhile.
   Bytes clock(const Bytes& bytes, std::size_t bits) {
     Bytes seen((bits + 7) / 8, 0);
     for (std::size_t i = 0; i < bits; ++i) {
@@ -124,7 +124,7 @@ TEST_F(MailboxPins, MisoIsDrivenWhileSelectedAndASelectWithoutABitIsNoFrame) {
 
 TEST_F(MailboxPins, AStartActsAtTheSecondRisingEdgeBehindXss) {
   constexpr Tick kFrame = (2 * 40 + 1) * kHalfSck;
-  for (const Tick phase : {Tick{0}, Tick{1}, kCycle - 1}) {  // XSS rises with CLK, just behind it, just in front of it
+  for (const Tick phase : {Tick{0}, Tick{1}, kCycle - 1}) {  // XSS rises with CLK, just after it, just before it
     while ((timeline.now() + kFrame) % kCycle != phase) run(1);
     said();
     frame(kStart);
@@ -424,7 +424,7 @@ struct MailboxUser : testing::Test, UsersPlant {};
 TEST_F(MailboxUser, StartsTheChipAndKeepsItsPeriod) {
   run(20 * kTicksPerUs);
   EXPECT_EQ(status().dp_state, DpState::kWaitPrm);
-  run(1010 * kTicksPerUs);  // the tenth round ends some 15 us behind its beginning
+  run(1010 * kTicksPerUs);  // the tenth round ends some 15 us after its beginning
   EXPECT_EQ(user.counters().frames, 1U + 2U * 10U);
   EXPECT_EQ(user.counters().inputs_written, 10U);
   EXPECT_EQ(user.counters().outputs_received, 0U) << "no master";

@@ -14,7 +14,7 @@ const profibus::ReasonRow detail::kReasonRows[] = {
 
 namespace {
 
-// What is fixed in this chip is said as the value, the rest as its place in the start frame.
+// Values fixed in this chip appear as the value, others as their place in the start frame.
 constexpr profibus::Words make_words() {
   profibus::Words words;
   words.ident = "bytes 2 and 3 of the start frame";

@@ -17,7 +17,7 @@ enum class ReasonIndex : std::size_t {
 extern const profibus::ReasonRow kReasonRows[static_cast<std::size_t>(ReasonIndex::kCount)];
 }  // namespace detail
 
-/// What only the SPI port has to say: `mailbox::Reason::kStarted`.
+/// Reasons of the SPI port only: `mailbox::Reason::kStarted`.
 struct Reason {
 #define X(id, ...) \
   static constexpr profibus::Reason id{detail::kReasonRows[static_cast<std::size_t>(detail::ReasonIndex::id)]};

@@ -20,7 +20,8 @@ unsigned frame_size(std::uint8_t code) {
   }
 }
 
-/// Who starts says address and ident; all else is fixed. Nothing is left to the user's judgement: the parameters must
+/// The start frame has address and ident; all else is fixed. Nothing is left to the user's judgement: the parameters
+/// must
 /// have no user bytes and the configuration must be kConfiguration.
 profibus::SlaveConfig slave_config(std::uint8_t address, std::uint16_t ident) {
   profibus::SlaveConfig config;
@@ -76,7 +77,7 @@ void SpiPort::begin() {
   miso_ = 0;
 }
 
-// A select without any bit is no frame.
+// A select without any bit is not a frame.
 void SpiPort::end(Tick at) {
   selected_ = false;
   if (bits_ == 0 || acts_at_ != profibus::kNever) return;

@@ -38,13 +38,13 @@ class User : public bus::Agent {
     std::uint64_t inputs_written = 0;
   };
 
-  /// `pins` must outlive it; add it to the timeline, behind the chip.
+  /// `pins` must outlive it; add it to the timeline, after the chip.
   explicit User(SpiPins& pins, const UserConfig& config = {}) : pins_(pins), config_(config), due_(config.start) {}
 
   /// The inputs from the next frame on; until then, and after `loop_back`, they are the outputs that were read last.
   void set_inputs(const Data& inputs) { inputs_ = inputs; }
   void loop_back() { inputs_.reset(); }
-  /// What was read last.
+  /// The bytes read last.
   const Data& outputs() const { return outputs_; }
   const Counters& counters() const { return counters_; }
 

@@ -25,7 +25,7 @@ SHORT = {"end": "11ms"}
 MODULE = ["8 bytes in, 8 bytes out"]
 
 
-# In the place of pandas, whether it is installed or not.
+# Replaces pandas, whether it is installed or not.
 PANDAS = unittest.mock.patch.dict(sys.modules, {"pandas": types.SimpleNamespace(DataFrame=list)})
 
 
@@ -123,7 +123,7 @@ class ChipTest(unittest.TestCase):
         self.assertEqual(*seen)
 
     def test_the_serial_ports_of_the_rsu_are_pins_as_any_other(self):
-        """What a scenario does at all input pins, straps included, does the same to a chip of Python, known by the library's table of pins."""
+        """A scenario's changes of all input pins, straps included, have the same effect on a chip of Python; the library's table gives the pins."""
         for mode, port, least in (("spi", "MISO", 1000), ("uart", "TXD", 500)):
             with self.subTest(mode):
                 run = dsdpv1.run(ROOT / "scenarios" / f"rsu_{mode}.yaml", changes=True)

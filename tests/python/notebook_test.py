@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def shown(cell):
-    """What stands under a cell, as text: a kernel may send it in pieces."""
+    """The output of a cell as text: a kernel may send it in pieces."""
     return "".join(output.get("text") or "".join(output.get("data", {}).get("text/plain", "")) for output in cell.get("outputs", []))
 
 

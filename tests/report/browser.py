@@ -13,7 +13,7 @@ ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 
 
 class Browser:
-    """A page at a time. What it logs and asks the network for is kept until it is fetched."""
+    """A page at a time. Its log and network requests are kept until they are fetched."""
 
     def __init__(self, driver, size):
         self.driver = driver
@@ -72,7 +72,7 @@ class Browser:
         self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": actions}]})
 
     def messages(self):
-        """What the page has written to the console."""
+        """The page's output to the console."""
         return [each["message"] for each in self.call("POST", "/se/log", {"type": "browser"})]
 
     def requests(self):

@@ -1,4 +1,4 @@
-"""Reports of runs in a real browser: what a page shows is what the run's result and log say, and it asks nobody for anything.
+"""Reports of runs in a real browser: a page shows the contents of the run's result and log, and sends no requests.
 
     page_test.py DSDPV1_SIM
 """

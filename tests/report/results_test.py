@@ -94,7 +94,7 @@ def shortened(value):
 
 
 def check_each_member(judge, result):
-    """Returns how many members were looked at."""
+    """Returns the number of members checked."""
     count = 0
     result = shortened(result)
     for path in places(result):
@@ -114,7 +114,7 @@ def check_each_member(judge, result):
 
 
 def check_all(judge, all_results, looked_at, least):
-    """Each is right; of the kinds to be looked at each member is needed."""
+    """Each is valid; for the kinds to check, each member is required."""
     count = 0
     for what, result in all_results:
         found = faults(judge, result)

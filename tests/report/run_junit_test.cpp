@@ -1,4 +1,4 @@
-// What a single run is in JUnit's XML.
+// A single run in JUnit's XML.
 #include "tb/report/run_junit.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-"""Holds result files against the schema that the program prints.
+"""Validates result files by the schema that the program prints.
 
     validate.py DSDPV1_SIM RESULT...     of run
 """

@@ -34,7 +34,7 @@ def some_of(edges, chance):
 
 
 def files_of(program, options, ticks, folder, outputs):
-    """What is saved at each tick."""
+    """The runs saved at each tick."""
     files = [folder / f"{tick}.run" for tick in ticks]
     saves = [word for tick, file in zip(ticks, files) for word in ("--save-at", runs.time_of(tick), file)]
     done = runs.call(program, *options, *saves, *outputs)

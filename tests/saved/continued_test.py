@@ -99,7 +99,7 @@ class Scenario:
         return self.waves_from(number)
 
     def waves_from(self, number):
-        """Alone, so that nobody else wants to know each change."""
+        """Alone, so that no other observer needs each change."""
         text, wave, rest = self.times[number][1], self.folder / "wave.vcd", self.folder / "rest.vcd"
         runs.call(self.program, *self.options, "--wave", wave, "--wave-from", text)
         done = runs.call(self.program, "--restore", self.saved[number], "--wave", rest, folder=self.folder)

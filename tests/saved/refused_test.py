@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What --save-at and --restore refuse: one line, exit 2, and no file. And what a saved run does not need any more.
+"""Refusals of --save-at and --restore: one line, exit 2, and no file. And what a saved run does not need any more.
 
 usage: refused_test.py DSDPV1_SIM [--firmware ELF]"""
 import argparse
@@ -63,7 +63,7 @@ class Refusals:
         digest = self.saved.index(b"digest")
         object_at = self.saved.index(b"\n") + 1
         content = bytearray(self.saved[object_at:])
-        content[digest - object_at + len("digest") + 4] ^= 1  # a byte of the number behind its key
+        content[digest - object_at + len("digest") + 4] ^= 1  # a byte of the number after its key
         self.restore(b"DSDPV1 saved run 2 " + fingerprint(content) + b"\n" + bytes(content), line="b.run: the run up to 1ms is not the one that was saved")
 
     def command_lines(self):

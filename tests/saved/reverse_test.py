@@ -28,7 +28,7 @@ class Session:
         self.status = run.returncode
 
     def values(self):
-        """Of `print`, in order."""
+        """Output of `print`, in order."""
         return re.findall(r"^\$\d+ = (?:\(.*\) )?(\S+)", self.text, re.MULTILINE)
 
 
@@ -67,7 +67,7 @@ def watches(program, firmware, folder):
 
 
 def undone(program, firmware, folder):
-    """A change is undone behind its place; back and forth leaves no trace in the log."""
+    """A change is undone after its place; back and forth leaves no trace in the log."""
     commands = ["break dsdpv1_initialise", "continue", "print $r4", "stepi", "set var $r4 = 77", "print $r4", "reverse-stepi", "print $r4", "stepi", "print $r4",
                 "delete", "detach"]
     session = Session(program, firmware, folder, [SCENARIO, "--log", folder / "back.log"], commands)

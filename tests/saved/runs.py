@@ -19,7 +19,7 @@ def time_of(tick):
 
 
 def tick_of(line):
-    """Of a line of a log."""
+    """The time of a line of a log."""
     return round(float(line.split(maxsplit=1)[0]) * TICKS_PER_NS)
 
 

@@ -24,11 +24,11 @@ constexpr Tick kStartUp = 4200 * kCycle;  // RAM cleared, B004 written
 constexpr Tick kBusBit = 4 * kCycle;      // 12 Mbit/s
 constexpr Tick kMs = profibus::kCyclesPerMs * kCycle;
 
-/// Who moves the pins, one after the other, and marks the moments.
+/// Pin changes, one after the other, with marked moments.
 class Script {
  public:
   Script(std::string name, const Config& config) { all_.stimulus = {std::move(name), config, {}, 0}; }
-  /// Goes on where the pins of a scenario are at `from`.
+  /// Continues from the pins of a scenario at `from`.
   Script(std::string name, const Recorded& scenario, Tick from) : Script(std::move(name), scenario.config) {
     const auto behind = std::find_if(scenario.inputs.begin(), scenario.inputs.end(),
                                      [from](const Input& each) { return each.at > from; });
@@ -137,7 +137,7 @@ class Clumsy {
   Chance& chance_;
 };
 
-/// A DSDPV1 behind its start-up.
+/// A DSDPV1 after its start-up.
 Script started(std::string name) {
   Script script(std::move(name), Config{});
   script.wait(5000);
@@ -203,7 +203,7 @@ Bytes and_reply(Bytes request, std::size_t reply) {
   return request;
 }
 
-/// A DSDPV1-RSU behind its start-up.
+/// A DSDPV1-RSU after its start-up.
 Script at_port(std::string name, HostMode mode, int rate = 0, Config config = {}) {
   config.part = Part::kRsu;
   Script script(std::move(name), config);
@@ -300,7 +300,7 @@ Aimed hasty_spi(unsigned seed) {
   return script.done(200 * kCycle);
 }
 
-/// SCK far too fast: changes of MISO wait one behind the other.
+/// SCK far too fast: several changes of MISO wait in a row.
 Aimed racing_spi() {
   Config config;
   config.spi_miso_delay = 600;
@@ -314,7 +314,7 @@ Aimed racing_spi() {
   };
   script.set(Pin::kXss, 0);
   script.wait(800);
-  bytes(read_telegram(0x001, 200), 700, false);  // longer than what is sent: how much was, is told
+  bytes(read_telegram(0x001, 200), 700, false);  // longer than the bytes sent, whose number is reported
   for (const Tick half : {400, 35, 130, 33, 55, 65}) bytes({0xFF}, half, true);
   Chance chance(1);
   for (int i = 0; i < 60; ++i) bytes({0x5A}, chance.from_to(3, 12), i % 2 == 0);  // some within a cycle
@@ -408,7 +408,7 @@ Aimed ties_of_spi() {
   return script.done(100 * kCycle);
 }
 
-/// The edge at which the port begins to listen, behind a reset, and one of SCK at the same tick.
+/// The edge at which the port begins to listen, after a reset, and one of SCK at the same tick.
 Aimed awaking_spi() {
   Script script = at_port("awaking_spi", HostMode::kSpi);
   for (int cycles = 1; cycles < 10; ++cycles) {
@@ -524,20 +524,20 @@ Aimed exact_uart() {
 
 // --- a master --------------------------------------------------------------------------------------------------------
 
-/// Behind the pins of a scenario: its bus is silent from there on, but for what this one sends.
+/// A master after the pins of a scenario, whose bus is then silent except for this sender.
 class Master {
  public:
-  /// `marks`: cycles behind a marked telegram at which is saved.
+  /// `marks`: cycles after a marked telegram at which the chip is saved.
   Master(Script& script, std::uint8_t own, std::uint8_t slave, Tick bit = kBusBit, int marks = 12)
       : script_(script), own_(own), slave_(slave), bit_(bit), marks_(marks) {}
 
-  /// A request without SAPs, or with them, and time for its answer. `marked`: saved behind it, and during it.
+  /// A request without SAPs, or with them, and time for its answer. `marked`: saved after it, and during it.
   void ask(std::uint8_t function, const Bytes& saps, const Bytes& data, bool marked = true) {
     send(telegram(slave_, function, saps, data), marked);
     script_.wait(kAnswer * bit_);
     if (marked) script_.mark();
   }
-  /// Behind one for another station and without T_SYN: it is no request then.
+  /// After one for another station and without T_SYN: it is then not a request.
   void ask_too_soon(std::uint8_t function, const Bytes& data) {
     send(telegram(slave_ + 1, function, {}, {}), false);
     send(telegram(slave_, function, {}, data), true, kSyn / 3);
@@ -577,12 +577,12 @@ class Master {
 constexpr std::uint8_t kSrd = 0x5D, kSrdOther = 0x7D;  // with FCV; FCB 0 and 1
 constexpr unsigned kIdent = 0x0CC9;                    // of the scenarios' slaves
 
-/// Of Set_Prm; `options` is DPV1_Status_1. A Min T_SDR that is not the slave's so far.
+/// Data of Set_Prm; `options` is DPV1_Status_1. A Min T_SDR that is not the slave's so far.
 Bytes parameters(std::uint8_t options) {
   return {0xB8, 0x01, 0x01, 0x20, kIdent >> 8, kIdent & 0xFF, 0x01, options, 0, 0};
 }
 
-/// Of the scenario's slave in data exchange, whose user lets the DPRAM go.
+/// The scenario's slave in data exchange, whose user releases the DPRAM.
 Script in_data_exchange(std::string name) {
   static const Recorded scenario = [] {
     Recorded slave = recorded("power_on_12m").at(0);
@@ -657,7 +657,7 @@ Aimed acyclic_flags() {
   return script.done(2000 * kCycle);
 }
 
-/// What the user asks for, read at the head of an access and used later in it.
+/// The user's commands, read at the head of an access and used later in it.
 Aimed commands() {
   Script script = in_data_exchange("commands");
   using Cells = std::vector<std::pair<int, std::uint8_t>>;
@@ -744,7 +744,7 @@ Aimed held_mail() {
   return script.done(2000 * kCycle);
 }
 
-/// What the chip does not support, and a Slave_Diag that says so.
+/// Functions that the chip does not support, and a Slave_Diag that reports it.
 Aimed unsupported() {
   Script script = in_data_exchange("unsupported");
   Master master(script, 2, 5);

@@ -23,7 +23,7 @@ struct Aimed {
 /// All of them. Those with a seed in their name are random, and the same each time.
 std::vector<Aimed> aimed();
 
-/// What is done to a chip by other calls than set(), before it is saved and from then on.
+/// Calls of a chip other than set(), before it is saved and from then on.
 struct Act {
   std::string name;
   Config config;

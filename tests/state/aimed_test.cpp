@@ -1,4 +1,4 @@
-// Chips that are saved where it matters most: another one that is restored there goes on as the first does.
+// Chips that are saved where it matters most: another one that is restored there continues like the first.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace dsdpv1::state_test {
 namespace {
 
-// As a chip that has other things behind it.
+// As a chip with another history.
 void disturb(Chip& chip, Heard& heard) {
   chip.set(777, Pin::kReset, 1);
   chip.set(5'000'000, Pin::kRReq, 1);

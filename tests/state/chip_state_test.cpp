@@ -1,4 +1,4 @@
-// What may be restored, and what is refused with a line of words while the chip stays what it was.
+// States that are restored, and those that are refused with a line of words while the chip stays unchanged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -117,7 +117,8 @@ void keep(void* pins, Tick at, Pin pin, Level level) {
   static_cast<std::vector<Input>*>(pins)->push_back({at, pin, level});
 }
 
-/// What leaves a chip with the engine `goes_on` that has what one with `saved` was at `tick`. It watches what the other
+/// The output of a chip with the engine `goes_on`, restored from one with `saved` at `tick`. It watches what the
+/// other
 /// did not, which may have dozed.
 std::vector<Input> lives_on(const Recorded& slave, Engine saved, Engine goes_on, Tick tick) {
   Config config = slave.config;

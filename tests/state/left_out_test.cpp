@@ -1,5 +1,5 @@
-// Each field of a state, left out: a chip that is restored without it, so that the field is what it is in a new chip,
-// must at some moment do something else than the one with it. fields.tsv has all fields, and why some can be left out.
+// Omits each field of a state: a chip that is restored without it, so that the field has its value of a new chip,
+// must at some moment act differently from the one with it. fields.tsv has all fields, and why some can be left out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ TEST(StateFields, HaveTheirRowsInTheirOrder) {
   EXPECT_EQ(known.size(), fields.size());
 }
 
-/// What becomes of a chip from a state on; refused, nothing.
+/// The output of a chip from a state on; empty if it is refused.
 struct Seen {
   Heard heard;
   std::string at_once, at_the_end;

@@ -1,5 +1,5 @@
 #pragma once
-// What leaves a chip, and what it says when it is asked.
+// The output of a chip, and its answers to queries.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dsdpv1::state_test {
 
-/// How a chip is evaluated and looked at: it dozes where nobody looks at L_REQ and L_STA.
+/// The engine and observers of a chip: it dozes if L_REQ and L_STA have no observer.
 enum class Way : std::uint8_t { kSkip, kDoze, kStep };
 const char* words(Way way);
 
@@ -22,7 +22,7 @@ bool operator==(const Heard& a, const Heard& b);
 /// A chip that tells `heard`, which outlives it.
 std::unique_ptr<Chip> make_chip(Config config, Way way, Heard& heard);
 
-/// Counters, levels of all pins, runs that it need not hear and, in step, what is going on inside.
+/// Counters, levels of all pins, runs that it need not hear and, in step, its inner state.
 std::string asked(const Chip& chip, const Config& config, Way way);
 
 /// The inputs of `slave` from the number `from` on, as far as they come before or at `until`.

@@ -18,7 +18,7 @@ using sc_core::sc_time;
 
 namespace {
 
-/// What one transaction did, in ticks.
+/// The effects of one transaction, in ticks.
 struct Outcome {
   tlm::tlm_response_status response = tlm::TLM_OK_RESPONSE;
   Tick took = 0, delay_left = 0;
@@ -80,7 +80,7 @@ struct World : sc_core::sc_module {
     transport(true, false, 0x130, 0);
     too_early = transport(false, false, 0x130, 0);
   }
-  /// Whoever acts at the end of the access may look at the chip, one tick later nobody minds.
+  /// An agent that acts at the end of the access may read the chip; one tick later is harmless.
   void meet_another() {
     other.notify(to_time(kRead));
     at_another = transport(true, false, 0x130, 0);
@@ -96,7 +96,7 @@ struct World : sc_core::sc_module {
     events_ahead = events.size();
     violating_waited = transport(false, true, 0x140, 0, 1, timing);
   }
-  /// A pin that is moved behind an initiator's back is seen where the chip is.
+  /// A pin that is moved without the initiator's knowledge takes effect at the chip's time.
   void release() {
     const Tick now = dsdpv1::systemc::current_tick();
     transport(true, false, 0x130, 0);

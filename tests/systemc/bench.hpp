@@ -1,5 +1,5 @@
 #pragma once
-// What the SystemC benches have in common: a simulation runs once, before the tests, which look at what it recorded.
+// Shared by the SystemC benches: a simulation runs once, before the tests, which check its recording.
 #include <cstdlib>
 #include <ostream>
 #include <string>
@@ -68,7 +68,7 @@ inline void wait_until(dsdpv1::Tick tick) {
   if (at > sc_core::sc_time_stamp()) sc_core::wait(at - sc_core::sc_time_stamp());
 }
 
-/// A pin module among signals of its own, its pins recorded.
+/// A pin module with separate signals, its pins recorded.
 struct PinBench {
   sc_core::sc_signal<bool> reset, r_req, r_sta, csr, rd, wr, pbrxd;
   sc_core::sc_signal<sc_dt::sc_uint<11>> a;

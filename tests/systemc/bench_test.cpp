@@ -83,7 +83,7 @@ struct PinRun {
   }
 };
 
-/// Who hears the host's pins wants each edge of an access at its time.
+/// An observer of the host's pins needs each edge of an access at its time.
 TlmOptions without_host_pins() {
   TlmOptions options;
   options.observed = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);
@@ -97,7 +97,7 @@ Changes without_data(const Changes& all) {
   return some;
 }
 
-/// From kEnd on, when nobody else does anything any more.
+/// From kEnd on, when no other agent acts any more.
 struct DecoupledRun : private user_cpu::Others {
   bus::Timeline& timeline;
   systemc_bench::TimelineModule& timeline_module;

@@ -1,4 +1,4 @@
-// What is not bound, or bound to something that cannot be, is said by its name, each in a process of its own.
+// Missing or impossible bindings are reported by name, each in a separate process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 namespace {
 
-/// What comes of a platform that `build` makes.
+/// The result of a platform that `build` makes.
 template <class Build>
 std::string start(Build build) {
   return in_a_process_of_its_own([=]() -> std::string {

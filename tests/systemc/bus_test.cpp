@@ -24,7 +24,7 @@ const std::vector<std::uint8_t> kFdlStatus = {0x10, kAddress, kMaster, 0x49, 0x5
 
 constexpr Tick kPhase = 100;
 
-/// What a chip sends, and when it is told.
+/// A chip's characters, and the times of their reports.
 struct Ear : tlm::tlm_analysis_if<BusCharacter> {
   std::vector<BusCharacter> heard;
   std::vector<sc_time> heard_at;
@@ -35,7 +35,7 @@ struct Ear : tlm::tlm_analysis_if<BusCharacter> {
   }
 };
 
-/// A chip of which nobody hears a pin, so that characters are told as runs: to it, and by it.
+/// A chip without an observer of its pins, so that characters are passed as runs in both directions.
 struct Unheard : sc_core::sc_module, Ear {
   dsdpv1::systemc::TlmModule chip;
   tlm_utils::simple_initiator_socket<Unheard> cpu{"cpu"};  // there, and idle

@@ -43,7 +43,7 @@ AccessTiming write_low(Tick ticks) {
   return timing;
 }
 
-/// Transactions in turn; the first one of somebody who does not own the DPRAM, the others of its owner.
+/// Transactions in turn; the first one by a user who does not own the DPRAM, the others by its owner.
 const std::vector<Transaction>& transactions() {
   static const std::vector<Transaction> all = {
       {kRead, 0x004, {0}},

@@ -1,4 +1,4 @@
-// What the sanitizer's search for leaks sees of a SystemC program: run by ctest with `held`, where it must find
+// The sanitizer's search for leaks in a SystemC program: run by ctest with `held`, where it must find
 // nothing, and with `lost`, where it must find the block. `held` ends the program inside of sc_main, with the block on
 // the main thread's stack.
 #include <cstdlib>
@@ -11,7 +11,7 @@
 namespace dsdpv1 {
 namespace {
 
-/// A compiler may leave out an allocation that nobody uses.
+/// A compiler may omit an unused allocation.
 std::unique_ptr<volatile int[]> make_block() {
   auto block = std::make_unique<volatile int[]>(1000);
   block[0] = 1;

@@ -39,7 +39,8 @@ inline std::string first_difference(const std::string& a, const std::string& b) 
   }
 }
 
-/// What `body` returns, called in a process that begins as a copy of this one and ends after it. Throws when it ends in
+/// The result of `body`, called in a process that begins as a copy of this one and ends after it. Throws when it ends
+/// in
 /// another way.
 inline std::string in_a_process_of_its_own(const std::function<std::string()>& body) {
   std::FILE* file = std::tmpfile();

@@ -114,7 +114,7 @@ class User {
   std::uint8_t count_ = 0;
 };
 
-/// A station at the chip's line that brings it up, and everything that is told of the run.
+/// A station at the chip's line that brings it up, and all reports of the run.
 class Station : tlm::tlm_analysis_if<BusCharacter> {
  public:
   /// `adds_up`: the station's times are sums of rounded ones, as of who knows nothing of ticks.
@@ -184,7 +184,7 @@ struct Platform {
   }
   static dsdpv1::systemc::TlmOptions options() {
     dsdpv1::systemc::TlmOptions options;
-    options.observed = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);  // nobody hears the pins of an access
+    options.observed = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);  // the pins of an access have no observer
     return options;
   }
   std::string told() { return station.told(); }

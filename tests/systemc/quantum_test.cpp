@@ -18,7 +18,7 @@ namespace {
 
 const Tick kRead = HostAccess::read(0, {}).duration(), kWrite = HostAccess::write(0, 0, {}).duration();
 
-/// What one transaction did, in ticks.
+/// The effects of one transaction, in ticks.
 struct Outcome {
   tlm::tlm_response_status response = tlm::TLM_INCOMPLETE_RESPONSE;
   Tick took = 0, delay_left = 0;
@@ -87,7 +87,7 @@ struct World : sc_core::sc_module {
     return {payload.get_response_status(), dsdpv1::systemc::current_tick() - begin, to_tick(annotated), data};
   }
 
-  /// Of a CPU whose chip is in reset, and whose RESET nobody has bound.
+  /// A CPU whose chip is in reset, and whose RESET is not bound.
   void misuse(DriverCpu& itself) {
     try {
       itself.set_reset(true);

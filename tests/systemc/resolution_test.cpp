@@ -8,7 +8,7 @@
 namespace dsdpv1 {
 namespace {
 
-/// What comes of a module at this resolution; 0: none is set before.
+/// The result of a module at this resolution; 0: none is set before.
 std::string module_at(double value, sc_core::sc_time_unit unit) {
   return in_a_process_of_its_own([=] {
     collect_reports();

@@ -20,7 +20,7 @@ constexpr Tick kEnd = 20'000 * kUs;    // in data exchange
 constexpr Tick kClkEnd = 2'500 * kUs;  // of a bound CLK, which is dear: initialised
 constexpr std::size_t kSlave = 0;      // of the golden; its pins are its first signals
 
-/// What a golden says up to kEnd, in order of time: levels of pins, those of power-on first.
+/// A golden's contents up to kEnd, in order of time: levels of pins, those of power-on first.
 Changes changes_of(const tb::traces::Trace& trace, bool inputs) {
   Changes changes;
   for (int number = 0; number < kRsuPinCount; ++number) {
@@ -92,7 +92,7 @@ struct Board {
       case Pin::kAdr: adr.write(value); break;
       case Pin::kUbr: ubr.write(value); break;
       case Pin::kUiv: uiv.write(value); break;
-      case Pin::kDIn: d.write(sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_Z)); break;  // of a parallel port that nobody uses
+      case Pin::kDIn: d.write(sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_Z)); break;  // of an unused parallel port
       default: wires[pin].write(level != 0);
     }
   }

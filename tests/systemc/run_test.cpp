@@ -1,5 +1,5 @@
 // Telegrams as runs in the TLM module: two chips on the same line, of one every change of a pin is heard, of the other
-// none. What they tell of the bus is the same, whatever breaks into the telegrams.
+// none. Their reports on the bus are the same, whatever disturbs the telegrams.
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
 

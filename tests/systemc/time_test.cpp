@@ -18,7 +18,7 @@ void simulate() { set_resolution(); }
 
 namespace {
 
-/// Of the resolution: three ticks are 250 ps.
+/// In steps of the resolution: three ticks are 250 ps.
 std::int64_t femtoseconds() { return std::llround(sc_core::sc_get_time_resolution().to_seconds() * 1e15); }
 std::int64_t units_per_three_ticks() { return 250'000 / femtoseconds(); }
 

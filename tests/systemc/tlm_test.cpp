@@ -20,7 +20,7 @@ using tlm::tlm_generic_payload;
 
 namespace {
 
-/// What one transaction did.
+/// The effects of one transaction.
 struct Outcome {
   tlm::tlm_response_status response = tlm::TLM_INCOMPLETE_RESPONSE;
   sc_time took;        ///< from the call to the return

@@ -1,4 +1,4 @@
-// One stimulus at 1 fs and at 1 ps, each in a process of its own: all that the modules and their signals tell is the
+// One stimulus at 1 fs and at 1 ps, each in a separate process: all reports of the modules and their signals are the
 // same, in ticks.
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ void list(std::ostream& out, const char* what, const StimulatedPins& pins) {
   for (const auto& [at, levels] : pins.data_bus) out << "D at tick " << to_tick(at) << " = " << levels << "\n";
 }
 
-/// Everything that is told of a run at so many femtoseconds.
+/// All reports of a run at so many femtoseconds.
 std::string told_at(double femtoseconds) {
   return in_a_process_of_its_own([=] {
     sc_core::sc_set_time_resolution(femtoseconds, sc_core::SC_FS);

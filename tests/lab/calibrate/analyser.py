@@ -1,4 +1,4 @@
-"""A logic analyser at the pins of a run: its wave, sampled with a clock and jitter of its own, as the files that analysers write."""
+"""A logic analyser at the pins of a run: its wave, sampled with an independent clock and jitter, as the files that analysers write."""
 import bisect
 import io
 import math
@@ -12,7 +12,7 @@ ALL = SINGLE + BUSES
 
 
 def read_wave(path, scope):
-    """Of each pin its first level and the times in ps at which it changes. Of A and D each wire; X and Z leave the level."""
+    """The first level of each pin and the times in ps at which it changes. A and D are split into wires; X and Z keep the level."""
     codes, levels, edges, scopes = {}, {}, {}, []
     end = now = 0
     with open(path, encoding="utf-8") as wave:
@@ -135,7 +135,7 @@ def only(pins, names):
 
 
 def shifted(pins, wire, after, by):
-    """The first edge of the pin behind `after` comes later by `by`, both in ps."""
+    """The pin's first edge after `after` comes later by `by`, both in ps."""
     first, edges = pins[wire]
     edges = list(edges)
     at = bisect.bisect_left(edges, after)

@@ -178,7 +178,7 @@ def forms_and_names(folder):
 
 
 def answer_times(pins, after):
-    """Begin and end in ps of the first answer behind `after`, by PBRTS."""
+    """Begin and end in ps of the first answer after `after`, by PBRTS."""
     edges = [at for at in pins["PBRTS"][1] if at > after]
     return edges[1:3] if analyser.level_at(pins["PBRTS"], after) else edges[:2]
 
@@ -219,7 +219,7 @@ def contradictions(folder):
 
 
 def idle_between(trace, after):
-    """The middle of the first pause between two pulses behind `after`, ps."""
+    """The middle of the first pause between two pulses after `after`, ps."""
     falls = [(edge, following) for i, (edge, following) in enumerate(zip(trace[1], trace[1][1:])) if edge > after and i % 2 == 1 - trace[0]]
     return sum(falls[0]) // 2
 
@@ -234,7 +234,7 @@ def shift_all(trace, begin, finish, by):
 
 
 def chip_block(folder):
-    """What calibrate writes is a scenario's `chip`, and a run with it has the chip's own times."""
+    """calibrate writes a scenario's `chip`, and a run with it has the chip's times."""
     pins, end = run(folder, FAST_SCENARIO, FAST, TWO_PULSES)
     capture = take(folder, pins, end, 200e6, ppm=-80, jitter_ns=1)
     calibrate(folder, capture, "--chip", "chip.yaml", "--jitter", "2")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What docs/calibrate.md shows is what dsdpv1-sim prints of a capture that is made as the page says.
+"""Compares docs/calibrate.md with the output of dsdpv1-sim for a capture made as the page says.
 
     docs_example.py SIM            fails when it is something else
     docs_example.py SIM --write    writes it

@@ -27,7 +27,7 @@ using Words = std::vector<std::string>;
 
 const Kind kKind{"test", "jobs", [](const std::string& /*name*/) { return false; }};
 
-/// What a child does: exit CODE TEXT, kill SIGNAL TEXT, wait FILE (until it is there), hang.
+/// A child's actions: exit CODE TEXT, kill SIGNAL TEXT, wait FILE (until it is there), hang.
 int play(const Words& words) {
   if (words[0] == "hang")
     for (;;) pause();
@@ -97,7 +97,7 @@ TEST(CampaignRunner, RunsOnlyTheJobsThatAreWantedAndNotFinished) {
   EXPECT_THAT(jobs.begun, ElementsAre(1, 3));
 }
 
-// Job 1 goes on until job 2 has begun: what is tried again must not start it a second time.
+// Job 1 runs until job 2 has begun: a retry must not start it a second time.
 TEST(CampaignRunner, AnotherTryLeavesThoseUnderWayAlone) {
   const fs::path file = fs::temp_directory_path() / ("dsdpv1_runner_" + std::to_string(getpid()));
   FakeJobs jobs({{{"kill", "9"}, kGood}, {{"wait", file.string()}}, {kGood}, {kGood}});

@@ -1,4 +1,4 @@
-// What is no wave, or one that is damaged: one line, exit 2, and nothing is left of the outputs.
+// Files that are not waves, or damaged ones: one line, exit 2, and no output files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 class BadWaves : public testing::Test {
  protected:
   void SetUp() override { waves_.write("good.vcd", vcd("wire 1 ! a", "#0\n0!\n#10\n1!\n#20\n")); }
-  /// What is said of the command line; it must be one line with exit code 2.
+  /// The message about the command line; it must be one line with exit code 2.
   std::string refusal(const std::string& arguments) const {
     const Called called = call("compare " + arguments, waves_.folder());
     EXPECT_EQ(called.status, 2) << arguments;

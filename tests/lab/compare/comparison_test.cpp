@@ -1,4 +1,4 @@
-// What is equal, what differs, and when: rules, windows, tolerance, clock, masks.
+// Equality and differences with their times: rules, windows, tolerance, clock, masks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

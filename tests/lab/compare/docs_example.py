@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What docs/compare.md shows is what dsdpv1-sim prints.
+"""Compares docs/compare.md with the output of dsdpv1-sim.
 
     docs_example.py SIM            fails when it is something else
     docs_example.py SIM --write    writes it

@@ -79,7 +79,7 @@ def simulate(folder, wave, fault=0):
 
 
 def compare(sim, folder, wave):
-    """What it found, and its text."""
+    """Its result and its text."""
     status, said = run([sim, "compare", "golden.vcd", wave, "--scope-a", SLAVE, "--scope-b", "bench.dut", "--pins", "rtl_ref", "--shift", BEGIN,
                         "--to", f"{END}ps", "--json", "result.json"], folder)
     expect(f"compare {wave}", status in (0, 1), said)

@@ -4,7 +4,7 @@
     speed.py SIM [MEGABYTES]    measures, by default 1000 MB as VCD against a copy of itself
     speed.py SIM --check        fails when 60 MB need more memory than 6 MB
 
-What it takes is judged in instructions: the row compare of ./run bench --instructions.
+Its speed is judged in instructions: the row compare of ./run bench --instructions.
 """
 import os
 import pathlib

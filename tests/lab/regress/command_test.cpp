@@ -175,7 +175,7 @@ TEST_F(RegressCommand, FailedRunsAgainWhatHasNotPassed) {
   ASSERT_EQ(regress("").status, 1);
   auto before = times();
   write("scenarios/bad.yaml", kGood);
-  write("scenarios/good.yaml", with("INITIALISED", "BUS_TELEGRAM_ERROR"));  // has passed and is not looked at
+  write("scenarios/good.yaml", with("INITIALISED", "BUS_TELEGRAM_ERROR"));  // has passed and is not run again
   const Called called = regress("--failed --json");
   EXPECT_EQ(called.status, 1);
   EXPECT_THAT(called.err, HasSubstr("1 of 3 runs are there already"));

@@ -1,4 +1,4 @@
-// What a capture shows of the slave's user CPU.
+// The information of a capture about the slave's user CPU.
 #include "lab/replay/firmware.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// What min_TSDR a recorded slave may have.
+// The possible min_TSDR of a recorded slave.
 #include "lab/replay/min_tsdr.hpp"
 
 #include <gtest/gtest.h>

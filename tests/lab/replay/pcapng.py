@@ -25,7 +25,7 @@ class Packet:
 
 
 def read(path):
-    """What is before the packets, and the packets. Flags and comments of packets are dropped."""
+    """The blocks before the packets, and the packets. Flags and comments of packets are dropped."""
     content, head, packets, at = path.read_bytes(), b"", [], 0
     while at < len(content):
         kind, size = struct.unpack_from("<II", content, at)

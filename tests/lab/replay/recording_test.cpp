@@ -1,4 +1,4 @@
-// Who has sent which telegram of a capture.
+// The sender of each telegram of a capture.
 #include "lab/replay/recording.hpp"
 
 #include <gmock/gmock.h>

@@ -107,7 +107,7 @@ def every_rate(folder):
 
 
 def shipped_scenarios(folder):
-    """What a shipped scenario's slave did, the model does; where its user CPU decides, with that one."""
+    """The model acts like a shipped scenario's slave; if its user CPU decides, with that user CPU."""
     for name, slave, *options in (("power_on_12m", 5), ("diagnosis", 5), ("read_services", 5), ("sync_freeze", 11), ("sync_freeze", 12),
                                   ("watchdog", 5), ("two_slaves", 3), ("two_slaves", 40), ("set_slave_address", 126),
                                   ("min_tsdr_45k45", 5), ("dpv1_c2_two_masters", 5), ("baud_change", 5, "--baud", "12M"),
@@ -248,10 +248,10 @@ def shifted_answer(folder):
 
 
 def unlock(folder):
-    """A Set_Prm that unlocks the slave does not change its min_TSDR (S17): it goes on answering after 11 bit times. One with neither
+    """A Set_Prm that unlocks the slave does not change its min_TSDR (S17): it still answers after 11 bit times. One with neither
     Lock nor Unlock does (S28)."""
     def at_end(packets, *telegrams):
-        """Behind the last packet, each 60 bit times after the one before, answers 11.2."""
+        """After the last packet, each 60 bit times after the one before, answers 11.2."""
         now = packets[-1].ns + len(packets[-1].data) * 11e9 / 12e6
         for telegram, pause in telegrams:
             packet = pcapng.Packet(telegram.block()[8:-4])
@@ -269,7 +269,7 @@ def unlock(folder):
         request = pcapng.Packet(packets[prm].block()[8:-4])
         request.change(9, lock)
         request.change(9 + 3, 100)
-        # Unlocked it shows the diagnosis of before the start; with another min_TSDR only it goes on exchanging.
+        # Unlocked it shows the diagnosis of before the start; with only another min_TSDR it continues exchanging.
         asked, answer = packets[diag:diag + 2] if lock else packets[-2:]
         at_end(packets, (request, 60), (packets[prm + 1], 11.2 if lock else 100.2), (asked, 60), (answer, 11.2))
         pcapng.write(folder / "planted.pcapng", head, packets)
@@ -355,7 +355,7 @@ def outputs(folder):
     expect("rows", len(rows), sum(result["verdicts"].values()))
     expect("equal rows", sum(row["verdict"] == "equal" for row in rows), result["verdicts"]["equal"])
     expect("both answers", all(row["recorded"] == row["model"] for row in rows if row["verdict"] == "equal"), True)
-    # What the replay has on its line, replayed: the lead-in besides, which asks nobody.
+    # A capture of the replay's line, replayed: additionally the lead-in, which requires no answer.
     is_equal(folder, "again", "replay.pcapng")
     expect("written", sorted(path.name for path in folder.glob("re*")),
            ["replay.fst", "replay.gtkw", "replay.json", "replay.log", "replay.pcapng", "replay.sucl", "replay.tsv", "result.json"])

@@ -1,4 +1,4 @@
-// What is on the line when a capture is played: everything but the slave's.
+// The line when a capture is played: all telegrams except the slave's.
 #include "lab/replay/replayed_line.hpp"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ struct Heard {
   std::vector<bus::FlagKind> flags;
 };
 
-/// What is heard when it is played from `at` on.
+/// The telegrams heard when it is played from `at` on.
 Heard played(const Recording& recording, Tick at) {
   bus::Timeline timeline;
   bus::Segment segment;

@@ -1,5 +1,5 @@
-"""A sweep of 200 points as a job array. One task is killed while it runs, one is cancelled, then the sweep itself is killed. The same
-command goes on: it waits for the tasks that Slurm still has, submits the two lost ones again, and gives the files of a sweep that was
+"""A sweep of 200 points as a job array. One task is killed while it runs, one is cancelled, then the sweep itself is killed. The same command
+resumes: it waits for the tasks that Slurm still has, submits the two lost ones again, and gives the files of a sweep that was
 carried out here.
 
     array_test.py DSDPV1_SIM

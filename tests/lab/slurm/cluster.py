@@ -1,5 +1,5 @@
-"""A Slurm cluster of one node on this computer: munged, slurmctld and slurmd in a folder of their own, on free ports, as the user who
-calls. No systemd and no rights of root are needed. All that it has started ends with it."""
+"""A Slurm cluster of one node on this computer: munged, slurmctld and slurmd in a separate folder, on free ports, as the calling user. No systemd and
+no rights of root are needed. All that it has started ends with it."""
 import os
 import signal
 import socket
@@ -76,7 +76,7 @@ class Cluster:
         try:
             self.configure()
             munge = os.path.join(self.folder, "munge")
-            # forced: the folders above are not open to everybody, as those of a service would be
+            # forced: the folders above are not open to all users, as those of a service would be
             self.start("munged", "--foreground", "--force", "--key-file=%s/key" % munge, "--socket=%s/socket" % munge, "--pid-file=%s/pid" % munge,
                        "--log-file=%s/log" % munge, "--seed-file=%s/seed" % munge)
             self.wait_for(lambda: os.path.exists(os.path.join(munge, "socket")))

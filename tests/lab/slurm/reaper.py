@@ -1,5 +1,5 @@
-"""Runs a daemon and collects what it has started and left to itself. Slurm takes a process for running until somebody has collected
-it, and the first process of a container may not.
+"""Runs a daemon and collects what it has started and left to itself. Slurm considers a process running until its exit code is collected, which the
+first process of a container may not do.
 
     reaper.py COMMAND...
 """

@@ -1,5 +1,5 @@
-// Sweeps with several runs at a time that are killed or not alone, and one that ignores a signal. What they give in the
-// end is the same as that of a sweep that was let alone. tests/faults does the other faults.
+// Sweeps with several runs at a time that are killed or not alone, and one that ignores a signal. Their final result
+// equals that of an undisturbed sweep. tests/faults does the other faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -28,7 +28,7 @@ const char* const kScenario =
 const char* const kLong = "--param end=600us,3000s --jobs 1 --out out";
 const char* const kShort = "--param user_cpu.cycle=50us,60us,70us --param end=600us,20ms --out out";
 
-// start ARGUMENTS: a sweep of its own, which has finished its first point then. child: waits until a run is there.
+// start ARGUMENTS: a separate sweep, which has then finished its first point. child: waits until a run is there.
 // finish: waits for the sweep's end.
 const char* const kWords =
     "start() {\n"
@@ -57,7 +57,7 @@ class SweepFault : public testing::Test {
     const int status = std::system(("cd '" + folder_.path().string() + "' && bash script.sh").c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  /// Goes on with the sweep and holds what it gives against that of one in a new folder.
+  /// Resumes the sweep and compares its result with that of one in a new folder.
   void expect_same_as_undisturbed(const std::string& arguments) const {
     const Called called = sweep(arguments);
     ASSERT_EQ(called.status, 0) << called.err;

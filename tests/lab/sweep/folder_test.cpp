@@ -1,4 +1,4 @@
-// What a sweep keeps, when it goes on and when it starts again.
+// The files that a sweep keeps, and when it resumes or starts again.
 #include "lab/sweep/folder.hpp"
 
 #include <gmock/gmock.h>
@@ -42,7 +42,7 @@ class SweepFolder : public testing::Test {
     return folder.finish(point, plan_, 1, "").has_value();
   }
 
-  /// Finishes a point, changes something and opens the folder again: why that started anew.
+  /// Finishes a point, changes something and opens the folder again: the reason why it started again.
   std::string anew_after(const std::function<void()>& change) {
     finish(open(), 0);
     change();

@@ -1,4 +1,4 @@
-// The files that a sweep reads, looked at again for each point.
+// The files that a sweep reads, checked again for each point.
 #include "lab/sweep/inputs.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST_F(SweepInputs, FileThatHasComeSinceIsAChangeToo) {
   EXPECT_EQ(error_of(inputs, 0), changed("none.gsd"));
 }
 
-// The kernel's clock for files goes in steps; another file in its place is told by its number.
+// The kernel's clock for files advances in steps; a replaced file is detected by its number.
 TEST_F(SweepInputs, ContentThatCameBackShowsInTheTimes) {
   const Inputs inputs(plan_);
   const Inputs::Times before = inputs.look(0);

@@ -1,4 +1,4 @@
-// What is taken from a run's result file, and what the tables make of it.
+// The values from a run's result file, and their form in the tables.
 #include "lab/sweep/point.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// traces: check, regenerate, list and wave on a short scenario in a folder of its own.
+// traces: check, regenerate, list and wave on a short scenario in a separate folder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -83,7 +83,9 @@ TEST_F(TracesCommand, ANameMeansTheScenarioOfTheSourceTree) {
   EXPECT_EQ(call("traces check " + kName, folder_.path()).status, 0);
   const Called called = call("traces check bus_timings", folder_.path());
   EXPECT_EQ(called.status, 2);
-  EXPECT_THAT(called.err, HasSubstr("there is no scenario bus_timings (did you mean bus_timing?), allowed are a path and the names "));
+  EXPECT_THAT(
+      called.err,
+      HasSubstr("there is no scenario bus_timings (did you mean bus_timing?), allowed are a path and the names "));
 }
 
 TEST_F(TracesCommand, AChangedScenarioIsRefused) {

@@ -1,4 +1,4 @@
-// A run held against a golden made by hand: what counts as a difference, and which is the first.
+// Compares a run with a handmade golden: the differences that count, and the first of them.
 #include "lab/traces/golden_check.hpp"
 
 #include <gmock/gmock.h>

@@ -13,7 +13,7 @@ namespace {
 using app_test::call;
 using app_test::Called;
 
-/// Of rtl_ref/dsdpv1/faults.txt, with the pin at which it shows in 5 ms of bus_timing.
+/// A fault of rtl_ref/dsdpv1/faults.txt, with the pin that shows it in 5 ms of bus_timing.
 struct Planted {
   const char* fault;
   const char* pin;

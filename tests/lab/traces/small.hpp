@@ -20,7 +20,7 @@ inline tb::scenario::Scenario small_scenario() {
       "small.yaml");
 }
 
-/// Of the slave io.
+/// A pin of the slave io.
 inline std::size_t signal_of(const tb::scenario::Scenario& scenario, const std::string& pin) {
   const tb::traces::Signals signals = tb::traces::signals_of(scenario);
   for (std::size_t i = 0; i < signals.size(); ++i)

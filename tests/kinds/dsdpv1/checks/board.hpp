@@ -35,7 +35,7 @@ class Board {
   void wait(Tick ticks) { now_ += ticks; }
   void set(Pin pin, Level level) { checks_.pin(now_, pin, level); }
 
-  /// The handshake of figure 4, R_STA `window` behind R_REQ.
+  /// The handshake of figure 4, R_STA `window` after R_REQ.
   void ask(Tick window = 2040) {
     set(Pin::kRReq, 1);
     wait(window);

@@ -22,7 +22,7 @@ void in_hold(Board& board, const Act& act) {
   board.count();
   act();
   board.release();
-  board.ask();  // time goes on
+  board.ask();  // time continues
   board.count();
   board.release();
   board.checks().finish(board.now());
@@ -248,7 +248,7 @@ const Case kCases[] = {
        next_hold(board);
        board.read(0x00E, 0x02);
        next_hold(board);
-       board.write(0x010, 0x80);  // on the newer block, which nobody has fetched
+       board.write(0x010, 0x80);  // on the newer block, which was not fetched
      }},
     {"VerdictUnfetchedWhenANewerBlockCame", Check::kVerdictUnfetched,
      [](Board& board) {

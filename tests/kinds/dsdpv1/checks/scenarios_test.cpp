@@ -1,7 +1,7 @@
 // Each check that a user CPU can break, by a scenario built for it: found with --checks fail and the run fails, found
-// and passed when the scenario allows it, and nothing else is found. What the driver cannot break on the native user
-// CPU, firmware on the ARM board does (firmware/rude.c). What only the chip, or pins that move on their own, can break
-// is in values_test.cpp and cells_test.cpp.
+// and passed when the scenario allows it, and nothing else is found. Firmware on the ARM board violates the rules
+// that the driver cannot violate on the native user CPU (firmware/rude.c). Rules that only the chip or separately
+// moved pins can violate are in values_test.cpp and cells_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -21,7 +21,7 @@ class Exchanges {
     board.wait(end - board.now());
     return request(board);
   }
-  /// The station's own answer to somebody, framed by PBRTS: from it the address is learnt.
+  /// The station's answer to a master, framed by PBRTS, which reveals its address.
   void answered(Board& board) const {
     board.set(Pin::kPbrts, 1);
     board.wait(1000);

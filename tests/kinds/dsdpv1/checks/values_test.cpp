@@ -193,7 +193,7 @@ void tw_of_the_sample(Board& board, Tick margin) {
   one_read(board, timing);
 }
 
-/// WR rises so that RD's sampling edge is a cycle behind the edge at which the write settles, or at it.
+/// WR rises so that RD's sampling edge is a cycle after the edge at which the write settles, or at it.
 void read_back(Board& board, Tick margin) {
   board.ask();
   board.count();

@@ -1,5 +1,5 @@
 #pragma once
-// A capture that nobody took: telegrams and pins of a station 5 as a test wants them, exact to a tenth of a cycle.
+// An artificial capture: telegrams and pins of a station 5 as a test wants them, exact to a tenth of a cycle.
 #include <string>
 
 #include "kinds/dsdpv1/claims/wires.hpp"
@@ -34,7 +34,7 @@ Telegram diagnosis(std::uint8_t status1, std::uint8_t status2);
 
 class MadeCapture {
  public:
-  /// Of these pins besides PBRXD, PBTXD and PBRTS; all but INTR0 and PBF are low at first.
+  /// A capture of these pins besides PBRXD, PBTXD and PBRTS; all except INTR0 and PBF are initially low.
   explicit MadeCapture(int baud, const std::vector<Wire>& pins = {});
 
   double bit() const { return static_cast<double>(bus::baud(baud_).bit); }
@@ -66,11 +66,11 @@ class MadeCapture {
   void exchange(const Telegram& asked, const Telegram& answered, double tsdr = 11) {
     request(asked), answer(answered, tsdr);
   }
-  /// Of the answers that follow; cycles.
+  /// Lead and trail of the driver for the answers that follow, in cycles.
   void set_driver(double lead, double trail) { lead_ = lead, trail_ = trail; }
   /// A telegram for another station ends the search: BR rises, and now() is where.
   void find_rate();
-  /// 12 bits behind the last start bit and 3 to 4 cycles: now() is there; to be called at the end of a request.
+  /// 12 bits after the last start bit and 3 to 4 cycles: now() is there; to be called at the end of a request.
   void decide() { wait_bits(1), wait_cycles(3.5); }
 
   /// The capture's clock is fast by so much.

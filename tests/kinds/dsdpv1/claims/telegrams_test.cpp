@@ -1,4 +1,4 @@
-// What telegrams say (S5, S13, S20, S21, S26, facts), in captures made for it.
+// The contents of telegrams (S5, S13, S20, S21, S26, facts), in captures made for this test.
 #include <gtest/gtest.h>
 
 #include "tests/kinds/dsdpv1/claims/made_capture.hpp"

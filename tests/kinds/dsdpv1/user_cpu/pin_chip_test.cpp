@@ -1,4 +1,4 @@
-// A host access on a chip of the bench: all of its edges in one turn, but for those behind one that somebody hears of.
+// A host access on a chip of the bench: all of its edges in one turn, except those after one that has an observer.
 #include "kinds/dsdpv1/chip/dsdpv1_pin_chip.hpp"
 
 #include <gtest/gtest.h>
@@ -181,7 +181,7 @@ TEST_F(PutOffTest, AResetInTheMiddleForgetsTheRest) {
 
 // --- telegrams of others ---------------------------------------------------------------------------------------------
 
-/// A chip that has found its rate, at 12 Mbit/s, and somebody who sends.
+/// A chip that has found its rate, at 12 Mbit/s, and a sender.
 struct ForeignTelegramsTest : PinChipTest, bus::Listener {
   ForeignTelegramsTest() {
     Tick at = kStart;

@@ -1,5 +1,5 @@
 #pragma once
-// In the place of the core's, for a core whose writer notes where each field of a state lies.
+// Replaces the core's header, for a core whose writer records the position of each field of a state.
 #define StateWriter UnmarkedStateWriter
 #include "../../../../../model/profibus/state.hpp"
 #undef StateWriter
