@@ -1,5 +1,5 @@
-// Firmware on the ARM board in place of the native user CPU: the example firmware in every scenario, at every baud
-// rate, and what the program says of firmware that is wrong.
+// Firmware on the ARM board instead of the native user CPU: the example firmware in every scenario, at every baud rate,
+// and the program's errors for wrong firmware.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ const std::string kArm = " --set user_cpu.kind=arm --set user_cpu.elf=";
 
 std::string scenario(const std::string& name) { return std::string("scenarios/") + name + ".yaml --no-progress"; }
 
-/// The bus's final view of a slave. `counts`: its inputs count the exchanges, which depend on the CPU's speed. So
-/// does how far the master is with a slave that it brings up again and again.
+/// The final bus results of a slave. `counts`: its inputs count the exchanges, which depends on the CPU's speed. So
+/// does the progress of a master with a slave that it brings up repeatedly.
 Json on_the_bus(const Json& slave, bool counts) {
   Json seen;
   for (const char* key :
@@ -39,7 +39,7 @@ Json on_the_bus(const Json& slave, bool counts) {
 
 class ArmScenarios : public testing::TestWithParam<std::string> {};
 
-// Also the checks of the handshake are silent, violations.yaml apart, which allows what it provokes.
+// The checks of the handshake must also be silent, except in violations.yaml, which allows its violations.
 TEST_P(ArmScenarios, EndOnTheBusAsWithTheNativeCpu) {
   const app_test::Folder folder;
   const std::string run = "run " + scenario(GetParam()) + " --result ";
@@ -55,7 +55,7 @@ TEST_P(ArmScenarios, EndOnTheBusAsWithTheNativeCpu) {
     EXPECT_EQ(on_the_bus(arm_result.at("slaves").at(i), counts), on_the_bus(native_result.at("slaves").at(i), counts));
 }
 
-/// Those whose names begin otherwise.
+/// Scenarios whose names begin otherwise.
 std::vector<std::string> shipped_but(const std::vector<std::string>& beginnings) {
   std::vector<std::string> names = shipped_scenarios();
   const auto is_left_out = [&](const std::string& name) {
@@ -66,10 +66,10 @@ std::vector<std::string> shipped_but(const std::vector<std::string>& beginnings)
   return names;
 }
 
-/// foreign.c knows the parallel port only.
+/// foreign.c only supports the parallel port.
 std::vector<std::string> parallel_scenarios() { return shipped_but({"rsu_spi", "rsu_uart", "arm_spi", "arm_uart"}); }
 
-/// Those over SPI, and those over the UART with special times or telegrams, need a native CPU; a board refuses them.
+/// Scenarios over SPI, and those over the UART with own times or telegrams, need a native CPU; a board rejects them.
 std::vector<std::string> native_scenarios() {
   return shipped_but({"rsu_spi", "rsu_uart_", "arm_board_12m", "arm_spi", "arm_uart"});
 }
@@ -95,7 +95,7 @@ TEST_P(ArmViews, HaveTheSameLog) {
 INSTANTIATE_TEST_SUITE_P(All, ArmViews, testing::ValuesIn(parallel_scenarios()),
                          [](const auto& each) { return each.param; });
 
-/// Passes of its loops that are left out are left out in skip alone.
+/// Loop passes are only skipped in skip.
 TEST(ArmPolls, SeeThePinsInTheSameCyclesInEveryEngine) {
   const app_test::Folder folder;
   std::ofstream(folder.file("s.yaml"))
@@ -181,7 +181,7 @@ TEST(ArmPorts, HoldsOverSpiAreCountedFromThePins) {
   EXPECT_GT(handshake.at("user_longest_hold_ns"), 500'000);
 }
 
-/// The run's log and final output for firmware that fetches bytes too late.
+/// The log and the final report of a run whose firmware fetches bytes too late.
 std::pair<std::string, std::string> late(const std::string& port) {
   const app_test::Folder folder;
   const Called called =
@@ -206,7 +206,7 @@ TEST(ArmPorts, FirmwareThatReadsDrOfUsart2TooLateLosesCharactersAndSaysSo) {
   EXPECT_THAT(out, testing::ContainsRegex("USART2: [0-9]+ bytes were lost.*\\(ORE\\)"));
 }
 
-// --- firmware that is wrong ------------------------------------------------------------------------------------------
+// --- wrong firmware --------------------------------------------------------------------------------------------------
 
 TEST(ArmBoard, PlantedEarlyRStaIsCaughtWithTimeAndHistory) {
   const app_test::Folder folder;
@@ -234,7 +234,7 @@ TEST(ArmBoard, FilesThatAreNoFirmwareGiveOneLine) {
   EXPECT_THAT(refused("/dev/zero"), testing::StartsWith("/dev/zero: is larger than 64 MB, allowed is an executable"));
 }
 
-// --- foreign firmware: no mailbox ---------------------------------------------------------------------------
+// --- foreign firmware: no mailbox ------------------------------------------------------------------------------------
 
 /// The first demand of each shipped scenario on the program of its user CPU.
 const std::map<std::string, std::string> kDemands = {

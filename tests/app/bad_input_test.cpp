@@ -1,5 +1,5 @@
-// Bad scenarios, GSD references, arguments and hexadecimal text: each has one line on the error channel and exit code
-// 2, prints nothing else and leaves no file. The cases are tests/bad/cases.json; the files beside it are their input.
+// Bad scenarios, GSD references, arguments and hexadecimal text: each causes one line on the error channel and exit
+// code 2, and no other output or file. The cases are in tests/bad/cases.json; the files beside it are their input.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ class BadInput : public testing::TestWithParam<Case> {};
 TEST_P(BadInput, HasOneLineAndExitCode2) {
   const app_test::Folder outputs;
   std::string arguments = GetParam().arguments;
-  // The output files of a scenario's run must not exist afterwards.
+  // A run of the scenario must not leave any of its output files.
   if (arguments.rfind("run scenario/", 0) == 0 && arguments.find("--") == std::string::npos) {
     for (const char* name : {"log", "result", "trace"})
       arguments += std::string(" --") + name + " '" + outputs.file(name) + "'";

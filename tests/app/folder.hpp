@@ -1,5 +1,5 @@
 #pragma once
-// Folders of tests, and what files in them hold.
+// Folders of tests, and the contents of their files.
 #include <filesystem>
 #include <string>
 

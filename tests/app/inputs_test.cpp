@@ -1,4 +1,4 @@
-// Inputs as they come from elsewhere: pipes and devices, names that would steer a terminal, a small stack.
+// Unusual inputs: pipes and devices, names with terminal control sequences, a small stack.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,11 +23,11 @@ const std::string kNasty =
     "2J\x7F\u202E\nPASSED ü";
 const std::string kEscaped = R"(\x1B]0;x\x07\u009B2J\x7F\u202E\nPASSED ü)";
 
-/// True for characters, except line ends, that a terminal might take for a control sequence.
+/// True for characters, other than line ends, that a terminal might take for a command.
 bool steers(const std::string& text) {
   const auto is_order = [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7F; };
   return std::any_of(text.begin(), text.end(), is_order) || text.find("\xC2\x9B") != std::string::npos ||
-         text.find("\u202E") != std::string::npos;  // NOLINT(misc-misleading-bidirectional): what is looked for
+         text.find("\u202E") != std::string::npos;  // NOLINT(misc-misleading-bidirectional): the searched character
 }
 
 std::string scenario_named(const std::string& name) {

@@ -1,4 +1,4 @@
-// The program's outputs: help, result file, waves, log, all complete when a run is interrupted.
+// The program's output: help, result file, waves, log; all complete if a run is interrupted.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -130,7 +130,7 @@ TEST_F(Outputs, RefusalsStandInTheTableAndTheResult) {
   EXPECT_GT(count, 1);
   EXPECT_LT(refused.at(0)["first_ns"], refused.at(0)["last_ns"]);
   std::string times = std::to_string(count);
-  times.insert(0, std::string("times").size() - times.size(), ' ');  // stands to the right
+  times.insert(0, std::string("times").size() - times.size(), ' ');  // right-aligned
   EXPECT_NE(called.out.find("  demo        CFG_IO_LENGTH  " + times + "  "), std::string::npos) << called.out;
 }
 
@@ -244,7 +244,7 @@ TEST_F(Outputs, InterruptedRunLeavesCompleteFilesAndExits130) {
   std::string text = kScenario;
   text.replace(text.find("3ms"), 3, "3000s");
   write("s.yaml", text);
-  // After a second of a run that would take hours; more than once, as shells and `timeout` do.
+  // After a second of a run that would take hours; the signal comes more than once, as from shells and `timeout`.
   for (const char* view : {"pins", "tlm"}) {
     const std::string command =
         "cd '" + folder_.path().string() +

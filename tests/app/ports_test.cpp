@@ -1,4 +1,4 @@
-// The DSDPV1-RSU through its three ports: the same application and the same masters, the same telegrams on the bus.
+// The DSDPV1-RSU on its three ports: the same application and masters must give the same telegrams on the bus.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,17 +22,16 @@ Bytes bytes_of(const std::string& hex) {
   return bytes;
 }
 
-/// DA, SA, FC and data of a telegram SD1 or SD2; nothing of a token and a short acknowledge.
+/// DA, SA, FC and data of a telegram SD1 or SD2; empty for a token or a short acknowledge.
 Bytes body(const Bytes& telegram) {
   if (telegram.size() < 6) return {};
   const int begin = telegram[0] == 0x68 ? 4 : 1;
   return {telegram.begin() + begin, telegram.end() - 2};
 }
 
-/// Requests with their answers, by requester and SAPs, one after the other, each once as long as it is repeated: the
-/// number of a master's requests depends on the user's speed, the answers must not. FCB and FCV, which count the
-/// requests,
-/// are left out.
+/// Requests with their answers, by requester and SAPs, in sequence, each only once however often it is repeated. The
+/// user's speed determines how often a master asks, but not the answers. FCB and FCV, which count the requests, are
+/// ignored.
 class Conversations {
  public:
   explicit Conversations(const std::string& log) {
@@ -54,7 +53,7 @@ class Conversations {
       return;
     }
     if (!heard.empty() && !request_.empty()) note({request_, heard});
-    if (telegram.size() != 3) request_.clear();  // a token is none of the two
+    if (telegram.size() != 3) request_.clear();  // a token is neither of the two
   }
   void note(const Pair& pair) {
     const Bytes& request = pair.first;
@@ -84,7 +83,7 @@ TEST(HostPorts, TheBusHearsTheSameThroughAllOfThem) {
 
 #ifdef FIRMWARE_O2
 
-/// The firmware of the ARM board over each port, by polling and by interrupts.
+/// The ARM board's firmware on each port, by polling and by interrupts.
 TEST(HostPorts, TheBusHearsTheSameOfFirmwareThroughAllOfThem) {
   const auto parallel = heard_in("arm_spi", std::string(" --set chip.mode=parallel")).pairs;
   EXPECT_EQ(parallel.size(), 5U);
@@ -96,7 +95,7 @@ TEST(HostPorts, TheBusHearsTheSameOfFirmwareThroughAllOfThem) {
 
 #endif
 
-/// A shipped scenario's text without the lines of name, rate and end.
+/// The text of a shipped scenario without the lines for name, rate and end.
 std::string without_rate(const std::string& scenario) {
   std::istringstream lines(app_test::read(std::string(DSDPV1_SOURCE_DIR "/scenarios/") + scenario + ".yaml"));
   std::string rest;
@@ -138,7 +137,7 @@ TEST(HostPorts, TheLogHasTheirTelegrams) {
   EXPECT_EQ(telegrams[14].at("wrong"), "CRC D8C2, computed 48C3");
 }
 
-/// A run of a shipped scenario with these orders of its drive besides; its log.
+/// Runs a shipped scenario with these additional orders for its drive; returns the log.
 std::string with_orders(const std::string& scenario, const std::vector<std::string>& orders,
                         const std::string& settings = "") {
   const app_test::Folder folder;

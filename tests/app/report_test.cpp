@@ -82,7 +82,7 @@ TEST(Summary, SaysWhichOfEqualViolationsAreAllowed) {
   EXPECT_NE(text.find("HOST_TS (B006)      1 allowed     5.000 ns  5.000 ns  too short\n"), std::string::npos) << text;
 }
 
-/// A run of one slave with two checks: one is kept with a margin, the other is violated so many times.
+/// A run of one slave with two checks: one is kept with a margin, the other violated this many times.
 struct CheckedRun {
   explicit CheckedRun(std::uint64_t violations) {
     result.slaves.resize(1);

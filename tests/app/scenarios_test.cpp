@@ -1,8 +1,6 @@
-// Every scenario that ships passes, the checks included, with the pins of its golden trace in step and skip, and is the
-// same to the byte in step, skip and TLM: log and result, with TLM the trace of the outputs; and log and result
-// without a trace, when the changes of the line have no observer. The results are what the schema says. An ARM board at
-// a serial
-// port has no TLM.
+// Every shipped scenario passes, including the checks, with the pins of its golden trace in step and skip. Step, skip
+// and TLM give the same bytes: log and result, and in TLM the trace of the outputs; and log and result without a trace,
+// when the line's changes are not needed. The results match the schema. An ARM board on a serial port has no TLM.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +42,7 @@ class Scenarios : public testing::TestWithParam<std::string> {
     expect_same(name, ".log", as);
     EXPECT_EQ(result(as), result(name)) << name;
   }
-  /// Without what names the run itself.
+  /// Without values that identify the run.
   nlohmann::json result(const std::string& name) const {
     nlohmann::json result = nlohmann::json::parse(read(folder_.file(name + ".json")));
     for (const char* key : {"engine", "view", "wall_s", "real_time_factor"}) result.erase(key);
@@ -79,12 +77,12 @@ TEST_P(Scenarios, PassesAndStepSkipAndTlmAreTheSame) {
     }
     ASSERT_TRUE(run("skip", view, "", "_untraced"));
     expect_same(name + "_untraced");
-    // Without checks the pins of the host's accesses have no observer: these runs take each access at once, or ahead
-    // of simulation time.
+    // Without checks the pins of the host's accesses are not observed, so these runs execute each at once, or ahead of
+    // simulation time.
     ASSERT_TRUE(run("skip", view, "", "_unchecked", "off"));
     expect_same_results(name + "_unchecked", "skip_pins_unchecked");
   }
-  expect_result_as_the_schema_says("skip_pins");  // and so are those that are the same
+  expect_result_as_the_schema_says("skip_pins");  // so do the equal ones
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Scenarios, testing::ValuesIn(shipped_scenarios()),

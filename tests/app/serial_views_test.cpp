@@ -1,5 +1,5 @@
-// The serial ports of a DSDPV1-RSU in both views, with what the shipped scenarios have not: telegrams that go wrong,
-// other timings of the user CPU, and resets in the middle of frames and telegrams. Every pin moves at the same ticks.
+// The serial ports of a DSDPV1-RSU in both views, beyond the shipped scenarios: disturbed telegrams, other timings of
+// the user CPU, and resets inside frames and telegrams. Every pin must change at the same ticks.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using app_test::call;
 using app_test::read;
 
-/// Faults early, then a reset every 1237 us: at another place of what the user CPU does each time.
+/// Faults early, then a reset every 1237 us: each at another place in the user CPU's activity.
 std::string scenario(const std::string& chip, const std::string& port, const std::vector<std::string>& faults) {
   std::ostringstream text;
   text << "name: serial\nbaud: 1.5M\nend: 60ms\nchip: {kind: dsdpv1_rsu, search_window_ms: 5, " << chip << "}\n"

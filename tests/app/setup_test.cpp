@@ -1,4 +1,4 @@
-// The settings of user CPUs and masters, from the scenario and its GSD.
+// The data for user CPUs and masters, derived from the scenario and its GSD.
 #include <gtest/gtest.h>
 
 #include "io/input/input_error.hpp"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Output to a terminal: tables that fit it, verdicts in colour if wanted; output to a pipe is complete and plain.
+"""Output on a terminal: tables that fit it, verdicts in colour if it supports colours; a pipe gets everything whole and plain.
 
     terminal_test.py SIM
 """
@@ -33,7 +33,7 @@ def environment(**more):
 
 
 def on_terminal(folder, command, columns, **more):
-    """The program's output to a terminal of this width."""
+    """The program's output on a terminal of this width."""
     terminal, program = os.openpty()
     fcntl.ioctl(program, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     with subprocess.Popen(command, cwd=folder, stdout=program, stderr=subprocess.DEVNULL, env=environment(**more)) as running:
@@ -49,7 +49,7 @@ def on_terminal(folder, command, columns, **more):
 def read(terminal):
     try:
         return os.read(terminal, 1 << 16)
-    except OSError:  # Linux's error when no process has it open any more
+    except OSError:  # Linux reports this when the other end is closed
         return b""
 
 
@@ -59,7 +59,7 @@ def through_pipe(folder, command, **more):
 
 
 def words(text):
-    """Without colours, layout and what takes another time in each run."""
+    """Without colours, layout and the run's time."""
     return sorted(re.sub(r"in\s+[\d.]+ s: [\d.]+\s+times\s+\w+", "", COLOUR.sub("", text)).replace("-", " ").split())
 
 
@@ -104,7 +104,7 @@ def faults_of_colours(folder, run):
 
 
 def faults_of_others(folder, sim, run):
-    """Colours are the program's alone."""
+    """Only the program may use colours."""
     (folder / "named.yaml").write_text(SCENARIO.replace("short", '"\\e[31mred"'), encoding="utf-8")
     text = on_terminal(folder, [sim, "run", "named.yaml"], 200)
     if "\\x1B[31mred" not in text or "\x1b[31m" in text:

@@ -1,4 +1,4 @@
-// --wave and the options that go with it: what is in the files of whole runs.
+// --wave and its options: the contents of the files of whole runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ constexpr const char* kScenario = R"({"name": "One slave", "baud": "12M", "end":
               "max_cfg": 1, "cfg": [55]}}],
   "masters": [{"name": "plc", "address": 2, "slaves": [{"slave": "demo"}]}]})";
 
-/// The wave of a run of `scenario`, or of kScenario.
+/// The wave of a run of `scenario`; default: kScenario.
 Vcd wave_of(const std::string& options, const std::string& scenario = "one.yaml") {
   const Folder folder;
   std::ofstream(folder.file("one.yaml")) << kScenario;
@@ -125,7 +125,7 @@ std::vector<std::string> words_at(const Vcd& wave, const std::string& signal) {
 
 const std::string kScenarios = DSDPV1_SOURCE_DIR "/scenarios/";
 
-// Word by word what the script of the scenario says, the chip's replies as docs/chip_rsu.md has them.
+// Every word of the scenario's script, and the chip's replies as in docs/chip_rsu.md.
 TEST(WaveOptions, TelegramsOfTheUartAreWords) {
   const Vcd wave = wave_of("--wave-signals 'card.uart_*'", kScenarios + "rsu_uart_1m8432.yaml");
   EXPECT_THAT(words_at(wave, "card.uart_request"),
@@ -245,7 +245,7 @@ TEST(WaveOptions, EachCharacterIsShownInTheMiddleOfItsStopBit) {
   })) << "no start bit 10.5 bits before it";
 }
 
-// A trace needs each change of each pin, so telegrams are passed change by change.
+// A trace needs each change of each pin, so telegrams are then reported change by change.
 TEST(WaveOptions, TelegramsToldAsRunsAreTheSameBytes) {
   for (const char* const name : {"two_slaves", "judging_modes", "violations"}) {
     const Folder folder;

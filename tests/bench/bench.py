@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The speed table: what has been asked for, measured in rounds, judged, printed. ./run bench builds the programs and calls it."""
+"""The speed table: selects rows, measures them in rounds, judges and prints them. ./run bench builds the programs and calls it."""
 import argparse
 import itertools
 import json
@@ -44,7 +44,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def chosen_rows(text, known):
-    """Those that `text` names, all without it; a list of names that are none is the reason why there are none."""
+    """The rows named by `text`, or all without it; unknown names are an error."""
     if text is None:
         return list(known)
     names, allowed = [name for name in text.split(",") if name], [row.name for row in known]
@@ -105,7 +105,7 @@ def parse(words):
 
 # ------------------------------------------------------------------------------------------------------------ measuring
 class Progress:
-    """On a terminal one line that is written over itself, else a line a round."""
+    """On a terminal one line that is overwritten, else a line per round."""
 
     def __init__(self, rounds):
         self.rounds = rounds
@@ -125,8 +125,8 @@ class Progress:
 
 
 class Machine:
-    """How busy it is with other things: the calibration's times before, between and after the rows, of the values that count. With time to wait
-    everything runs on one processor, of which the calibration speaks then; when that one is busy, on the next one."""
+    """Measures how busy the machine is: the calibration's times before, between and after the rows, for the values that count. With time to wait
+    everything runs on one processor, the one that is calibrated; if that is busy, on the next one."""
 
     def __init__(self, minutes):
         self._times, self.refused = [], 0
@@ -134,7 +134,7 @@ class Machine:
         self._until = time.monotonic() + 60 * minutes
         self._processors = itertools.cycle(sorted(os.sched_getaffinity(0)))
         self._look()
-        for _ in range(FIRST_LOOKS if minutes else 0):  # what it takes on a quiet machine is known only when one was seen
+        for _ in range(FIRST_LOOKS if minutes else 0):  # the time on a quiet machine is known only after one was seen
             self._look_at_next()
 
     def _look_at_next(self):
@@ -149,12 +149,12 @@ class Machine:
         return taken > self._least * (1 + table.QUIET) and time.monotonic() < self._until
 
     def wait(self):
-        """Until it is quiet, as long as there is time to wait."""
+        """Waits until it is quiet, as long as there is time."""
         while self._is_to_wait(self._last):
             self._look_at_next()
 
     def was_quiet(self):
-        """Before and after what has been measured since wait(); or there is no time to do it again."""
+        """Whether the machine was quiet before and after the measurements since wait(); also true without time to repeat them."""
         before = self._last
         self._look()
         if self._is_to_wait(max(before, self._last)):
@@ -188,7 +188,7 @@ def measure_row(outcome, turn, machine):
 
 
 def measure(chosen, rounds, clock, folder, minutes):
-    """Outcomes, and how busy the machine was."""
+    """Outcomes, and the load of the machine."""
     outcomes, progress, machine = [table.Outcome(row, []) for row in chosen], Progress(rounds), Machine(minutes)
     for number in range(1, rounds + 1):
         progress.round(number)
@@ -202,7 +202,7 @@ def measure(chosen, rounds, clock, folder, minutes):
 
 # -------------------------------------------------------------------------------------------------------------- results
 def machine():
-    """In general words."""
+    """In general terms."""
     try:
         text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace")
     except OSError:
@@ -212,7 +212,7 @@ def machine():
 
 
 def write_whole(path, text):
-    """Complete or not at all."""
+    """Writes it completely or not at all."""
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:
         with os.fdopen(handle, "w", encoding="utf-8") as file:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The logic of the speed table on made-up measurements: what is met, what is written, what is refused. Nothing is measured here."""
+"""The logic of the speed table on made-up measurements: goals met, output, errors. Nothing is measured here."""
 import contextlib
 import io
 import json
@@ -103,7 +103,7 @@ class Counting(unittest.TestCase):
 
 
 class Measuring(unittest.TestCase):
-    """The whole program with separate rows and calibration."""
+    """The whole program with its own rows and calibration."""
 
     def bench(self, *words, measured=(), times=lambda: 20.0):
         with mock.patch.object(rows, "ROWS", tuple(measured)), mock.patch.object(rows, "NAMES", tuple(each.name for each in measured)), \

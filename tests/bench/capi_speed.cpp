@@ -1,4 +1,4 @@
-// The chip through the C API against the core itself, on the stimulus of core_16: both in turns, in CPU time.
+// The chip through the C API compared with the core, on the stimulus of core_16: both in turns, in CPU time.
 #include <array>
 
 #include "dsdpv1/dsdpv1.h"
@@ -17,7 +17,7 @@ using speed::Stopwatch;
 constexpr Tick kMillisecond = 12'000'000;
 constexpr int kIo = 16, kTurns = 150;
 
-/// The core, told its requests as runs of characters or as edges.
+/// The core; its requests are passed as runs of characters or as edges.
 class Core {
  public:
   explicit Core(bool receives) : receives_(receives) { chip_.watch(counter.sink(), speed::PinCounter::kWatched); }
@@ -34,10 +34,11 @@ class Core {
   dsdpv1::Chip chip_;
 };
 
-/// The calls of the C API to use.
+/// The parts of the C API in use.
 struct Use {
-  bool receives = true;  ///< requests are passed by dpsim_chip_receive, else each edge by a call
-  bool keeps = false;  ///< changes of all pins are kept and taken after each advance, else those of PinCounter counted
+  bool receives = true;  ///< requests are passed by dpsim_chip_receive, else one call per edge
+  bool keeps =
+      false;  ///< changes of all pins are kept and taken after each advance; else only those of PinCounter are counted
 };
 
 /// The same through the C API.
@@ -126,7 +127,7 @@ double share_of_core(bool receives) {
   return 100 * of_core / of_capi;
 }
 
-/// Millions of changes of all pins a second that come into the caller's buffer.
+/// Millions of changes of all pins per second that reach the caller's buffer.
 double changes_a_second() {
   Capi capi({true, true});
   speed::SaturatedBus<Capi> bus(capi, kIo);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The time that cocotbext.profibus adds to a simulation of the reference RTL in Icarus under cocotb, in percent. Prints ROW<TAB>VALUE.
+"""Measures the time that cocotbext.profibus adds to a simulation of the reference RTL in Icarus under cocotb, in percent. Prints ROW<TAB>VALUE.
 
     cocotb_speed.py FOLDER
 """
@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT / "examples" / "cocotb"))  # the simulation's Python
 
 
 def build(folder):
-    """The simulation, as examples/cocotb/run.py makes it."""
+    """The simulation, as in examples/cocotb/run.py."""
     runner = get_runner("icarus")
     runner.build(verilog_sources=[RTL / name for name in (RTL / "dsdpv1/files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
                  includes=[RTL, ROOT / "registers"], defines={"SINGLE_FAULTS": 1}, parameters={"SEARCH_WINDOW_MS": 1, "READY_CYCLES": 256},
@@ -37,7 +37,7 @@ def run(runner, folder, test):
 def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
     output = os.dup(1)
-    os.dup2(2, 1)  # simulators' output is not a row
+    os.dup2(2, 1)  # the simulators' output is not a row
     runner = build(folder)
     if not (folder / "stimulus.json").is_file():
         run(runner, folder, "record")

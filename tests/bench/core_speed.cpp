@@ -1,4 +1,4 @@
-// Speed of the core alone, and its memory. Speeds are simulated time by CPU time.
+// Measures the speed of the core alone, and its memory. Speeds are simulated time divided by CPU time.
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -24,7 +24,7 @@ using dsdpv1::profibus::Tick;
 constexpr Tick kSlice = 12'000'000;  // a millisecond
 constexpr double kMeasured = 0.3;    // seconds
 
-/// A chip that receives every change of the line.
+/// A chip that gets every change of the line.
 struct EdgeChip : Chip {
   static bool hear(Tick /*at*/, const dsdpv1::profibus::CharacterRun& /*run*/) { return false; }
 };
@@ -63,16 +63,16 @@ double search_to_9k6() {
   return kTimes * static_cast<double>(kSearch) / kTicksPerSecond / taken;
 }
 
-/// Everything that a chip has: it allocates nothing once it is made.
+/// The memory of a chip: it allocates nothing after construction.
 double chip_kilobytes() {
   const std::size_t before = allocated;
   const Chip chip;
   return static_cast<double>(sizeof chip + allocated - before) / 1024;
 }
 
-/// The machine's own measure, in milliseconds on the wall: work that has nothing to do with the project. Six times
-/// xorshift64 side by side are more than a core does in a cycle, so that it is seen when another thread shares the
-/// core: one alone, each step of which waits for the last, takes as long then.
+/// A measure of the machine, in milliseconds of wall time: work unrelated to the project. Six parallel xorshift64 use
+/// more than a core can execute per cycle, which shows whether another thread shares the core; a single one, each step
+/// of which waits for the last, takes the same time with such a thread.
 double calibration() {
   constexpr int kTurns = 8'000'000;
   const auto begin = std::chrono::steady_clock::now();
@@ -82,11 +82,11 @@ double calibration() {
       state ^= state << 13;
       state ^= state >> 7;
       state ^= state << 17;
-      // No two of them in a vector, which would wait as one alone does.
+      // Keeps the compiler from putting two of them into a vector, which would wait as a single one does.
       asm volatile("" : "+r"(state));  // NOLINT(portability-no-assembler)
     }
   for (const std::uint64_t state : states)
-    if (state == 0) throw Failure("xorshift has come to 0");  // it cannot: the loop is kept
+    if (state == 0) throw Failure("xorshift has come to 0");  // impossible, but keeps the loop
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 

@@ -1,5 +1,5 @@
-// Between a simulator and the DPI library (LD_PRELOAD): the model's answers to its calls are written to the file
-// DSDPV1_RECORD, or read from the file DSDPV1_REPLAY instead of computed by a chip.
+// Between a simulator and the DPI library (LD_PRELOAD): records the model's answer to each call in the file
+// DSDPV1_RECORD, or takes the answers from the file DSDPV1_REPLAY instead of computing them in a chip.
 #include <dlfcn.h>
 
 #include <cstdint>

@@ -1,5 +1,4 @@
-// The FST library alone: the changes of a wave, read before, written again. Prints the seconds of CPU time that it
-// takes.
+// The FST library alone: writes again the changes of a wave read before. Prints the CPU time in seconds.
 #include <fstapi.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-"""Where the core's time goes: samples of perf, each given to the file of the line that it was in, inlined or not."""
+"""Where the core spends its time: samples of perf, each assigned to the file of its line, inlined or not."""
 import collections
 import re
 
@@ -10,12 +10,12 @@ REST = "elsewhere"
 
 
 def blocks():
-    """File name to its block, of which header and source are one: model/profibus/uart_rx.*"""
+    """Maps a file name to its block, which consists of header and source: model/profibus/uart_rx.*"""
     return {path.name: f"model/{path.parent.name}/{path.stem}.*" for path in (ROOT / "model").glob("*/*.[ch]pp") if path.parent.name != "systemc"}
 
 
 def shares(printed, names):
-    """(block, percent), greatest first. Standard library, the bus and what is below one percent is 'elsewhere'."""
+    """(block, percent), greatest first. The standard library, the bus and everything below one percent is 'elsewhere'."""
     total = collections.Counter()
     for line in printed.splitlines():
         match = LINE.match(line)

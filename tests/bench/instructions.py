@@ -1,5 +1,5 @@
-"""Host instructions that each thing takes, counted by callgrind: they are the same on a busy machine. The difference of two lengths of the run
-excludes its start. instructions.tsv has the counts of the last record."""
+"""Host instructions per item, counted by callgrind, which are the same on a busy machine. The difference of two run lengths excludes the start of
+a run. instructions.tsv has the counts of the last record."""
 import concurrent.futures
 import dataclasses
 import json
@@ -15,21 +15,21 @@ import programs
 import scenarios
 
 RECORD = pathlib.Path(__file__).with_name("instructions.tsv")
-GROWN = 1.05  # times the record: a row that takes more fails
+GROWN = 1.05  # times the record: a row with more fails
 OFF = ("--checks", "off")
 
 
 @dataclasses.dataclass(frozen=True)
 class Row:
     name: str
-    unit: str  # one of what the count is of
+    unit: str  # the unit of the count
     what: str
     scenario: str
-    lengths: tuple  # short and long, in ms of simulated time, or what `command` takes
+    lengths: tuple  # short and long, in ms of simulated time, or arguments for `command`
     options: tuple = OFF
     units: typing.Callable = lambda short, long: (long["simulated_ns"] - short["simulated_ns"]) / 1e6  # of the results of both runs
     start: bool = False  # not the difference, but the rest of the short run without it
-    command: typing.Callable = None  # or the command to run instead of a scenario, in a folder, at a length
+    command: typing.Callable = None  # or a command to run instead of a scenario, in a folder, at a length
 
 
 def arm(short, long):
@@ -49,7 +49,7 @@ def sck_edges(short, long):
         scenarios.write_all(folder)
         command = [*programs.run_command("spi_9m", *OFF), "--set", f"end={long['simulated_ns']}ns", "--wave", "sck.vcd", "--wave-signals", "*.SCK",
                    "--wave-from", f"{short['simulated_ns']}ns"]
-        subprocess.run([*map(str, command)], cwd=folder, env=programs.QUIET, capture_output=True, check=False)  # its verdict does not matter, either
+        subprocess.run([*map(str, command)], cwd=folder, env=programs.QUIET, capture_output=True, check=False)  # its verdict does not matter either
         return len(re.findall(r"^[01]\S", (folder / "sck.vcd").read_text(encoding="utf-8"), re.M)) - 1  # the first is the level at the begin
 
 
@@ -117,7 +117,7 @@ def recorded():
 
 
 def measured(rows, jobs):
-    """Row to its value, or to why there is none."""
+    """Maps a row to its value, or to the reason why there is none."""
     def one(row):
         try:
             return value_of(row)
@@ -129,7 +129,7 @@ def measured(rows, jobs):
 
 
 def judged(row, value, before):
-    """The cells of a row, and whether it is right."""
+    """The cells of a row, and whether it has passed."""
     if isinstance(value, str):
         return [row.name, "failed", row.unit, "", value], False
     if before is None:

@@ -1,4 +1,4 @@
-"""Whose time a run is: samples of perf, each given to the part of the house, or the library, that its function belongs to."""
+"""Where a run spends its time: samples of perf, each assigned to the part of the project, or the library, of its function."""
 import collections
 import re
 
@@ -34,7 +34,7 @@ def owner(file, function):
 
 
 def shares(printed):
-    """Part to percent of what was sampled."""
+    """Maps each part to its percentage of the samples."""
     total = collections.Counter()
     for line in printed.splitlines():
         match = LINE.match(line)
@@ -44,7 +44,7 @@ def shares(printed):
 
 
 def profiles(folder):
-    """Row to the shares of its run; none where there is no perf, which the profile of the core says."""
+    """Maps each row to the shares of its run; empty without perf, which the profile of the core reports."""
     try:
         return {name: shares(samples(folder, command, "dso,sym")) for name, command in PROFILED.items()}
     except Failed:

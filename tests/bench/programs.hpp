@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the programs of the speed table: `PROGRAM ROW...` prints ROW<TAB>VALUE, a line a row.
+// Shared by the programs of the speed table: `PROGRAM ROW...` prints ROW<TAB>VALUE, one line per row.
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -27,7 +27,7 @@ inline int wrong(const char* program, const std::vector<Row>& rows, const char* 
   return 2;
 }
 
-/// Exit code: 0, 1 when something could not be measured, 2 on an unknown row.
+/// Exit code: 0, 1 if something could not be measured, 2 for an unknown row.
 inline int run_rows(int argc, char** argv, const std::vector<Row>& rows) {
   for (int i = 1; i < argc; ++i)
     if (find(rows, argv[i]) == nullptr) return wrong(argv[0], rows, argv[i]);

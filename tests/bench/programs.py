@@ -1,4 +1,4 @@
-"""Calls what the build has made, and takes the numbers out of it."""
+"""Runs the built programs and extracts their numbers."""
 import json
 import os
 import pathlib
@@ -49,12 +49,12 @@ def number_in(printed, program, name):
 
 
 def row_of(program, name, *words):
-    """The number that one of the programs of this folder prints for a row, which it is called with unless there are other words."""
+    """The number that one of the programs of this folder prints for a row, called with the row's name or with `words`."""
     return number_in(call([FOLDER / program, *(words or (name,))]), program, name)
 
 
 def row_of_python(program, name, *words):
-    """... that one of the Python programs beside this file prints, which use the module dsdpv1 with the library of the build."""
+    """... that one of the Python programs beside this file prints, which use the module dsdpv1 with the build's library."""
     folders = os.pathsep.join(map(str, (BUILD / "bindings" / "python", ROOT / "bindings" / "cocotb")))
     printed = call([ROOT / ".venv" / "bin" / "python", "-B", ROOT / "tests" / "bench" / program, *words], PYTHONPATH=folders,
                    DSDPV1_LIBRARY=str(BUILD / "capi" / "libdsdpv1.so"))
@@ -65,7 +65,7 @@ EXCHANGES = 2000
 
 
 def pin_changes(*command, **environment):
-    """Millions of changes of pins a second of CPU time, of a simulation of binding_speed.sv; what it takes to start is taken off."""
+    """Millions of pin changes per second of CPU time in a simulation of binding_speed.sv, without its start."""
     spent = []
     for exchanges in (0, EXCHANGES):
         before = cpu_of_children()
@@ -75,14 +75,14 @@ def pin_changes(*command, **environment):
 
 
 def replayed_pin_changes(folder, *command):
-    """The same with answers of the model that have been recorded before."""
+    """The same with recorded answers of the model."""
     answers, between = str(folder / "answers"), {"LD_PRELOAD": str(FOLDER / "libbench_dpi_answers.so")}
     call([*command, f"+exchanges={EXCHANGES}"], **between, DSDPV1_RECORD=answers)
     return pin_changes(*command, **between, DSDPV1_REPLAY=answers)
 
 
 def samples(folder, command, keys):
-    """perf's output for a run: per line a share and the fields of `keys`."""
+    """The output of perf for a run: lines with a share and `keys`."""
     if shutil.which("perf") is None:
         raise Failed("perf is not installed")
     data = folder / "perf.data"
@@ -97,12 +97,12 @@ def run_command(scenario, *options):
 
 
 def calibration():
-    """Milliseconds that the machine takes for work that never changes."""
+    """The machine's time in milliseconds for fixed work."""
     return row_of("bench_core", "calibration")
 
 
 class Round:
-    """One round of measurements: each run is made once, whoever asks for it, so that both sides of a ratio follow each other."""
+    """One round of measurements: each run is made once for all rows, so that both sides of a ratio follow each other."""
 
     def __init__(self, folder, clock="wall"):
         self.folder = folder
@@ -129,7 +129,7 @@ class Round:
         return self.once(("replayed", *command), lambda: replayed_pin_changes(self.folder, *command))
 
     def simulate(self, scenario, *options):
-        """Simulated and taken seconds of a run of dsdpv1-sim."""
+        """Simulated and consumed seconds of a run of dsdpv1-sim."""
         return self.once((scenario, options), lambda: self._simulate(scenario, options))
 
     def _simulate(self, scenario, options):

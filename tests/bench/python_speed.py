@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Millions of changes of all pins a second that come into numpy arrays: the chip of the row core_16, its requests told as edges in one call each
-millisecond. Prints ROW<TAB>VALUE."""
+"""Millions of changes of all pins per second that reach numpy arrays: the chip of the row core_16, with the edges of its requests passed in one
+call per millisecond. Prints ROW<TAB>VALUE."""
 import sys
 import time
 

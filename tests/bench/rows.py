@@ -1,4 +1,4 @@
-"""The rows of the speed table: the task of each, its goal, and how one round of it is measured."""
+"""The rows of the speed table: the task of each, its goal, and the measurement of one round."""
 import dataclasses
 import typing
 
@@ -20,7 +20,7 @@ class Row:
     at_most: bool = False
     limit: str = ""  # its bound, shown if the goal is not met
     bound: str = ""  # the part of its profile (parts.py) that would remain if all else cost nothing: the limit that is measured
-    limit_of: typing.Optional[typing.Callable] = None  # or the limit out of what other rows measure: values and profiles by row to a number
+    limit_of: typing.Optional[typing.Callable] = None  # or the limit, computed from other rows: values and profiles by row to a number
     limit_by: str = ""  # which they are
 
 
@@ -37,12 +37,12 @@ def real_time(scenario, *options):
 
 
 def time_ratio(scenario, one, other):
-    """How often as long as with the options `other` a run with the options `one` takes."""
+    """The time of a run with the options `one` relative to one with the options `other`."""
     return lambda turn: turn.simulate(scenario, *one)["taken_s"] / turn.simulate(scenario, *other)["taken_s"]
 
 
 def fst_library(turn):
-    """The library's time for the wave of the row fst, as a part of demo."""
+    """The library's time for the wave of the row fst, as a fraction of demo."""
     turn.simulate(DEMO, *WAVE)
     wave = turn.folder / WAVE[-1]
     return turn.once("fst_library", lambda: programs.row_of("bench_fst", "fst_library", wave)) / turn.simulate(DEMO, *OFF)["taken_s"]
@@ -68,17 +68,17 @@ def on_board(name, goal, what, scenario, **others):
 
 
 def without(part, row):
-    """The row, if this part of its run cost nothing."""
+    """The row if this part of its run cost nothing."""
     return lambda values, profiles: values[row] / (1 - profiles[row][part] / 100)
 
 
 def kernel_beside_demo(values, profiles):
-    """tlm_vs_demo, if the TLM view had to do what demo does, and its part of the SystemC kernel."""
+    """tlm_vs_demo if the TLM view had the work of demo, and its share of the SystemC kernel."""
     return 1 / (1 + profiles["demo_tlm"]["SystemC"] / 100 / values["tlm_vs_demo"])
 
 
 def chip_beside_verilator(values, _):
-    """dpi, if nothing were between the simulator and the C API."""
+    """dpi if the layers between the simulator and the C API cost nothing."""
     return 1 / (1 / values["dpi_alone"] + 1 / values["c_api_changes"])
 
 

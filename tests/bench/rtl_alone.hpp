@@ -1,6 +1,6 @@
 #pragma once
-// The Verilated reference RTL with as little around it as possible, to measure the cost of RTL simulation alone. It
-// is compiled together with Verilator's output for rtl_ref/, into a separate library that exports nothing else: the
+// The Verilated reference RTL with as little around it as possible: measures the cost of RTL simulation alone. It is
+// compiled together with Verilator's output for rtl_ref/ into a separate library that exports nothing else, because the
 // library for lockstep has classes of the same names.
 #include <cstdint>
 #include <memory>
@@ -12,7 +12,7 @@ namespace dsdpv1::speed {
 
 using profibus::Tick;
 
-/// Pins as dsdpv1::Chip has them. Changes of L_REQ and PBTXD are counted, but not reported.
+/// Pins as in dsdpv1::Chip. Changes of L_REQ and PBTXD are counted but not reported.
 class [[gnu::visibility("default")]] RtlAlone {
  public:
   RtlAlone();
@@ -21,10 +21,10 @@ class [[gnu::visibility("default")]] RtlAlone {
   RtlAlone& operator=(const RtlAlone&) = delete;
 
   void set(Tick at, Pin pin, Level level);
-  /// RTL hears changes.
+  /// RTL needs each change.
   bool hear(Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
   void advance(Tick to);
-  /// The level of L_REQ, L_STA or PBTXD; others are not requested.
+  /// For L_REQ, L_STA and PBTXD only.
   Level level(Pin pin) const;
   std::uint64_t line_changes() const;
   std::uint64_t request_changes() const;

@@ -1,4 +1,4 @@
-// The core against the Verilated reference RTL, and their lockstep against that RTL alone. Both sides of a ratio are
+// The core compared with the Verilated reference RTL, and their lockstep with that RTL alone. Both sides of a ratio are
 // measured in turns, in CPU time.
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ constexpr Tick kMillisecond = 12'000'000;
 constexpr int kTurns = 5;
 
 // ------------------------------------------------------------------------------------------------------- core and RTL
-/// CPU seconds for exchanges of so much simulated time.
+/// CPU seconds for exchanges of this much simulated time.
 template <class Device>
 double time_exchanges(speed::SaturatedBus<Device>& bus, Tick duration) {
   const Stopwatch watch;
@@ -33,7 +33,7 @@ double time_exchanges(speed::SaturatedBus<Device>& bus, Tick duration) {
   return watch.seconds();
 }
 
-/// The same exchanges, the same changes at L_REQ and PBTXD: else one side has not done its work.
+/// Both sides must make the same exchanges and the same changes of L_REQ and PBTXD, or one has not done its work.
 double core_vs_rtl() {
   constexpr int kIo = 16;
   constexpr Tick kRtlSlice = 2 * kMillisecond, kCoreSlice = 20 * kMillisecond;
@@ -67,7 +67,7 @@ constexpr std::uint64_t kSeed = 1, kCycles = 1'000'000;
 
 using Levels = std::array<Level, dsdpv1::kPinCount>;
 
-/// The inputs of one RTL: evaluations in a row that change only the clock, then other levels.
+/// A recording of one RTL's inputs: a number of evaluations with only the clock changing, then other levels.
 struct Recording {
   struct Span {
     bool clk = false;
@@ -77,13 +77,13 @@ struct Recording {
   std::vector<Span> spans;
 };
 
-/// The RTL, with its inputs written down.
+/// The RTL with a recording of its inputs.
 class RecordingRtl : public cosim::Rtl {
  public:
   RecordingRtl(std::unique_ptr<cosim::Rtl> rtl, Recording& recording) : rtl_(std::move(rtl)), recording_(recording) {}
 
   void eval(bool clk, Level* levels) override {
-    const bool same = std::equal(last_.begin(), last_.end(), levels);  // outputs are as the last evaluation left them
+    const bool same = std::equal(last_.begin(), last_.end(), levels);  // outputs have the values of the last evaluation
     if (same && clk != clk_ && !recording_.spans.empty()) {
       ++recording_.spans.back().evaluations;
     } else {
@@ -105,7 +105,7 @@ class RecordingRtl : public cosim::Rtl {
 
 std::unique_ptr<cosim::Rtl> make_rtl() { return cosim::reference_top(cosim::quick_options(), 0, kSeed)(); }
 
-/// A case as the campaign of rtl-random plays it.
+/// A case, played as in the campaign of rtl-random.
 std::uint64_t play_case(std::uint64_t number, const cosim::MakeTop& make) {
   const cosim::PlayOptions options = cosim::quick_options();
   const cosim::Stimulus stimulus = cosim::random_case(cosim::case_seed(kSeed, number), options);
@@ -129,7 +129,7 @@ void play_alone(const Recording& recording) {
   }
 }
 
-/// The sides take turns with each case, and who is first changes as well.
+/// The sides take turns with each case, and the first one alternates.
 double lockstep() {
   double alone = 0, together = 0;
   std::uint64_t cycles = 0;

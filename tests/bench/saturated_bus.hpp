@@ -1,7 +1,7 @@
 #pragma once
-// A saturated 12 Mbit/s bus for one chip and nothing round it: data exchanges of one size, back to back at T_SYN. The
-// edges of the requests are made beforehand and the user is idle, so that a measurement has the chip in it and little
-// else. The core receives its requests as runs of characters, the RTL as changes of PBRXD.
+// A saturated 12 Mbit/s bus for a single chip: data exchanges of one size, back to back at T_SYN. The edges of the
+// requests are made beforehand and the user is idle, so that a measurement contains little except the chip. The core
+// gets its requests as runs of characters, the RTL as changes of PBRXD.
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
@@ -27,7 +27,7 @@ struct LineEdge {
   bool level;
 };
 
-/// A telegram on the line: its changes, counted from its first start bit, and its length.
+/// A telegram on the line: its changes, relative to its first start bit, and its length.
 struct Wave {
   std::vector<LineEdge> edges;
   Tick length = 0;
@@ -46,7 +46,7 @@ inline Wave wave_of(const Bytes& telegram) {
   return wave;
 }
 
-/// A request, in either form.
+/// A request in every form.
 struct Request {
   explicit Request(const Bytes& bytes) : telegram(bytes), wave(wave_of(bytes)) {}
   Bytes telegram;
@@ -60,7 +60,7 @@ inline Bytes identifiers(int io) {
   return cfg;
 }
 
-/// The user's writes at start-up: a cell and its value, in order.
+/// Cells and values written by the user at start-up, in order.
 struct Cell {
   std::uint16_t address;
   std::uint8_t value;
@@ -93,8 +93,8 @@ inline std::vector<Bytes> exchange_requests(int io) {
   return {bus::encode(bus::make_telegram(5, 2, 0x5D, outputs)), bus::encode(bus::make_telegram(5, 2, 0x7D, outputs))};
 }
 
-/// Bit times from the end of a request to the next one: T_SDR, the answer, T_SYN. A minimum of idle time is the
-/// master's business, so that what is late by a cycle is not sent over.
+/// Bit times from the end of a request to the next one: T_SDR, the answer, T_SYN. The master keeps the minimum idle
+/// time, so that a late answer is not overwritten.
 inline int answer_and_syn_bits(int io) {
   constexpr int kTsdr = 12, kFrame = 9;
   return kTsdr + bus::kCharacterBits * (io + kFrame) + kSynBits;
@@ -183,7 +183,7 @@ class SaturatedBus {
   std::uint64_t exchanges_ = 0;
 };
 
-/// Counts the changes of its pins: the least cost of an observer of L_REQ and PBTXD.
+/// Counts the changes of the watched pins: the minimum cost of an observer of L_REQ and PBTXD.
 struct PinCounter {
   static constexpr std::uint32_t kWatched = dsdpv1::mask(Pin::kLReq) | dsdpv1::mask(Pin::kPbtxd);
   std::uint64_t line = 0, requests = 0;
@@ -195,7 +195,7 @@ struct PinCounter {
   bool operator==(const PinCounter& other) const { return line == other.line && requests == other.requests; }
 };
 
-/// A program's error when its measurement would be meaningless.
+/// Thrown if a measurement would be meaningless.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

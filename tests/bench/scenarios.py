@@ -1,10 +1,10 @@
-"""The scenarios of the speed table that are in no file of scenarios/: as JSON, which is YAML."""
+"""Scenarios of the speed table that are not in scenarios/: as JSON, which is YAML."""
 import json
 
 import programs
 
 IDENT = 0x0CC9
-IDLE = 8  # slaves that are not addressed, beside the busy one
+IDLE = 8  # slaves that are never addressed, beside the busy one
 
 
 def identifiers(io):
@@ -44,14 +44,14 @@ def serial_port(mode, **port):
 
 
 def with_idle(count):
-    """A busy slave, and others that are initialised and hear everything but are never addressed; their user CPUs do nothing."""
+    """A busy slave, and others that are initialised and receive everything but are never addressed; their user CPUs do nothing."""
     busy = slave(1, 16, behaviour="loop_back", cycle="1ms")
     idle = [slave(address, 16, behaviour="idle", cycle="10s") for address in range(2, count + 2)]
     return scenario(f"A busy slave and {count} that nobody addresses", "12M", "2s", [busy, *idle], [busy])
 
 
 def loop(name):
-    """A board whose firmware loops and never initialises its chip, on an empty bus."""
+    """A board whose firmware loops and never initialises its chip, without traffic on the bus."""
     return {"name": name, "baud": "12M", "end": "1ms", "allow": [{"event": "HOST_NOT_OWNER", "slave": "board"}], "expect": [{"slave": "board", "dp_state": "offline"}],
             "slaves": [{"name": "board", "address": 5, "gsd": str(programs.ROOT / "scenarios" / "dsdpv1.gsd"), "modules": ["8 bytes in, 8 bytes out"],
                         "user_cpu": {"kind": "arm", "elf": str(programs.FOLDER / "firmware" / f"{name}.elf"), "fsmc": {"hclk": 72}}, "release_reset": "20us"}]}

@@ -1,5 +1,5 @@
 #pragma once
-// CPU time of this process: what others do on the machine stretches it less than time on the wall.
+// CPU time of this process, which other work on the machine affects less than wall time.
 #include <ctime>
 
 namespace dsdpv1::speed {

@@ -1,5 +1,5 @@
-// A module in a SystemC platform: an idle user, and a saturated 12 Mbit/s bus with 16 bytes each way. A simulation
-// happens once in a program, so one row a call. Speeds are simulated time by CPU time.
+// A module in a SystemC platform: an idle user, and a saturated 12 Mbit/s bus with 16 bytes each way. A program can run
+// only one simulation, so each call measures one row. Speeds are simulated time divided by CPU time.
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include <array>
@@ -22,7 +22,7 @@ constexpr Tick kMillisecond = 12'000'000, kSlice = 5 * kMillisecond;
 constexpr double kMeasured = 0.3;  // seconds
 constexpr Tick kReady = kMillisecond, kInitialised = 2 * kMillisecond;
 
-/// The requests of the bus, one after another: when the next one begins, and which it is.
+/// The requests of the bus in sequence: the begin of the next one, and its number.
 class Requests {
  public:
   const Bytes& next() {
@@ -30,7 +30,7 @@ class Requests {
     ++exchanges_;
     return cyclic_[exchanges_ & 1U];
   }
-  /// From the begin of the request that `next` has given to that of the one after it.
+  /// From the begin of the request returned by `next` to that of the next one.
   Tick period(const Bytes& request) const {
     const int idle = exchanges_ > 0 ? answer_and_syn_bits(kIo) : 1000;
     return (static_cast<int>(request.size()) * bus::kCharacterBits + idle) * kBit;
@@ -113,14 +113,14 @@ struct IdleCpu : sc_core::sc_module {
   explicit IdleCpu(const sc_core::sc_module_name& name) : sc_module(name) {}
 };
 
-/// The user writes past the pins: they are idle, and what comes before is not measured.
+/// The user writes without pins, which stay idle; time before this is not measured.
 void initialise(ChipModule& chip) {
   for (const Cell& cell : initialisation(kIo)) chip.poke(cell.address, cell.value);
 }
 
 void run_for(Tick duration) { sc_core::sc_start(to_time(duration)); }
 
-/// Simulated time by CPU time.
+/// Simulated time divided by CPU time.
 double speed_from_now() {
   Tick simulated = 0;
   const Stopwatch watch;
@@ -139,7 +139,7 @@ double measure(ChipModule& chip, const Requests& requests) {
   return speed;
 }
 
-/// `handshake`: L_REQ and L_STA are bound, for a user who looks at them.
+/// `handshake`: L_REQ and L_STA are bound, for a user who samples them.
 double tlm_module(bool handshake) {
   dsdpv1::systemc::TlmModule chip("chip");
   CharacterMaster master("master");
@@ -160,15 +160,15 @@ double tlm_module(bool handshake) {
 
 double systemc_pins() {
   PinBench pins("chip");
-  pins.chip.on_pin = {};  // the changes are not recorded
+  pins.chip.on_pin = {};  // changes are not recorded
   EdgeMaster master("master", pins.pbrxd);
   pins.reset.write(true);
   return measure(pins.chip, master.requests);
 }
 
-// --- what SystemC alone takes for it ---------------------------------------------------------------------------------
+// --- SystemC alone ---------------------------------------------------------------------------------------------------
 
-/// Moves the signals of a chip's outputs as that does in some exchanges, again and again, and computes nothing.
+/// Repeats the changes of a chip's output signals from some exchanges, without computing anything.
 struct Replay : sc_core::sc_module {
   std::array<sc_core::sc_signal<bool>, dsdpv1::kPinCount> signals;
 
@@ -212,7 +212,7 @@ struct Replay : sc_core::sc_module {
   std::size_t next_ = 0;
 };
 
-/// Hears a signal, and does nothing.
+/// Receives a signal and does nothing.
 struct Ear : sc_core::sc_module {
   Ear(const sc_core::sc_module_name& name, sc_core::sc_signal<bool>& signal) : sc_module(name) {
     SC_HAS_PROCESS(Ear);
@@ -223,7 +223,7 @@ struct Ear : sc_core::sc_module {
   void run() {}
 };
 
-/// Signals and changes of systemc_pins, and a process sensitive to PBRXD, without a chip.
+/// The signals and changes of systemc_pins, and a receiver on PBRXD, without a chip.
 double kernel_pins() {
   sc_core::sc_signal<bool> pbrxd("pbrxd");
   const Ear ear("ear", pbrxd);
@@ -239,7 +239,7 @@ struct Sink : sc_core::sc_module, private tlm::tlm_analysis_if<BusCharacter> {
   void write(const BusCharacter& /*character*/) override {}
 };
 
-/// Characters and changes of systemc_tlm_handshake, without a chip.
+/// The characters and changes of systemc_tlm_handshake, without a chip.
 double kernel_handshake() {
   CharacterMaster master("master");
   Sink sink("sink");

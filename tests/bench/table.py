@@ -1,14 +1,14 @@
-"""Judgement of the measurements: median, minimum and maximum of the rounds against the goal; as text and for programs."""
+"""Judges measurements: median, minimum and maximum of the rounds compared with the goal; as text and as JSON."""
 import dataclasses
 import statistics
 
 BUSY = 0.10   # spread of the calibration
-QUIET = 0.08  # above its least one beside which a value counts; less than BUSY, as the least may become less
+QUIET = 0.08  # relative to its minimum, the limit for values to count; less than BUSY, because the minimum may decrease
 
 
 @dataclasses.dataclass
 class Outcome:
-    """One row after all rounds: values, or why there are none."""
+    """One row after all rounds: values, or the reason why there are none."""
     row: object
     values: list
     error: str = ""
@@ -71,7 +71,7 @@ def calibration_line(machine):
 
 
 def report(outcomes, machine, rounds, clock, description):
-    """For machines: what --json writes."""
+    """For programs: the output of --json."""
     times = machine.times
     return {"rounds": rounds, "clock": clock, "machine": description,
             "calibration": {"median_ms": statistics.median(times), "min_ms": min(times), "max_ms": max(times), "spread": spread(times),

@@ -1,4 +1,4 @@
-// Each assertion fails when its rule is broken: pins moved by hand, +broken=NAME says which rule is to be broken; without it all are kept.
+// Each assertion fails if its rule is broken: pins are moved directly, +broken=NAME selects the rule to break; without it all are kept.
 module assertions;
   timeunit 1ps;
   timeprecision 1ps;

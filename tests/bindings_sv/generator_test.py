@@ -1,4 +1,4 @@
-"""The modules of kinds of chips that the library has not: generate.py of bindings/simulator on made-up ones.
+"""Modules for kinds of chips that the library does not have: generate.py of bindings/simulator with made-up ones.
 
     generator_test.py PACKAGE    the folder of the completed Python package; DSDPV1_LIBRARY names the library
 """

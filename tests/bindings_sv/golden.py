@@ -1,4 +1,4 @@
-"""A golden trace as what is played to a chip, and what its outputs have to do then."""
+"""A golden trace as stimulus for a chip, and the expected outputs."""
 GOLDEN, SLAVE = "bus_timing", "demo"  # power-on, initialisation, parameters, configuration, data exchange at 12 Mbit/s
 END = 1_700_000_000  # ps, in data exchange
 INPUTS = {"RESET": 1, "R_REQ": 1, "R_STA": 1, "CSR": 1, "RD": 1, "WR": 1, "A": 11, "D_IN": 8, "PBRXD": 1}

@@ -1,7 +1,7 @@
-// The recorded inputs of a golden trace to the library's model and to the reference RTL with its scoreboard. The file named by +inputs=
-// has a line for each time at which one of them changes: picoseconds and the bits of RESET, R_REQ, R_STA, CSR, RD, WR, A, whether D is driven, D, PBRXD. Changes
-// of the model's outputs go into the file named by +outputs=: picoseconds and the bits of L_REQ, L_STA, D driven, D, INTR0, PBTXD, PBRTS, PBF,
-// BR, READY. With SINGLE_FAULTS defined +fault= plants a defect in the RTL.
+// Plays the recorded inputs of a golden trace to the library's model and to the reference RTL with its scoreboard. The file named by
+// +inputs= has a line for each time at which one of them changes: picoseconds and the bits of RESET, R_REQ, R_STA, CSR, RD, WR, A, whether
+// D is driven, D, PBRXD. Changes of the model's outputs go into the file named by +outputs=: picoseconds and the bits of L_REQ, L_STA, D
+// driven, D, INTR0, PBTXD, PBRTS, PBF, BR, READY. With SINGLE_FAULTS defined +fault= plants a defect in the RTL.
 `ifdef USE_RTL
 `include "dsdpv1_types.svh"
 `endif

@@ -1,6 +1,5 @@
-// The masters of examples/masters.yaml alone: no task of profibus_master is called. The user CPU answers acyclic
-// requests from one object at
-// slot 1, index 2.
+// The masters of examples/masters.yaml run automatically: no task of profibus_master is called. The user CPU answers acyclic requests from
+// one object at slot 1, index 2.
 module scenario;
   timeunit 1ps;
   timeprecision 1ps;

@@ -1,6 +1,7 @@
-// A host at the serial ports of the DSDPV1-RSU: it reads B004, ready, by a read telegram through SPI (+mode=1) or the UART (+mode=2), and looks whether
-// the reply is C5 with the right CRC. The chip is the library's model, with a checker; with USE_RTL defined the reference RTL, with a scoreboard and the
-// bound assertions beside it, and +fault= plants a defect in it. +short_clock: the host's SCK is high for 40 ns, where SP2 wants 50.
+// A host at the serial ports of the DSDPV1-RSU: it reads B004, ready, by a read telegram through SPI (+mode=1) or the UART (+mode=2), and
+// checks that the reply is C5 with the right CRC. The chip is the library's model, with a checker; with USE_RTL defined the reference RTL,
+// with a scoreboard and the bound assertions, and +fault= plants a defect in it. +short_clock: the host's SCK is high for 40 ns, although
+// SP2 requires 50.
 `ifdef USE_RTL
 `include "dsdpv1_rsu_types.svh"
 `endif
@@ -31,7 +32,7 @@ module serial;
   dsdpv1_rsu_checker #(.QUIET(1)) u_checker (`PINS);
 
   // ---- the host
-  localparam int REQUEST = 6, REPLY = 5, BIT = 541667;  // 1.8432 MBd: 26 cycles
+  localparam int REQUEST = 6, REPLY = 5, BIT = 541667;  // 1.8432 Mbit/s: 26 cycles
   logic [47:0] request = 48'h010004_01D8C2;
   logic [39:0] wanted = 40'h8100C5_0000;
   logic [39:0] got = 40'd0;

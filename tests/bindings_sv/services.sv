@@ -1,6 +1,5 @@
-// Every task of profibus_master, class 1 and class 2, and every task of dsdpv1_user: a chip whose user answers
-// acyclic requests from a separate object. The chip is the model, or with USE_RTL the reference RTL with the scoreboard
-// beside it. +gsd= names scenarios/dsdpv1.gsd.
+// Every task of profibus_master, class 1 and class 2, and every task of dsdpv1_user: a chip whose user answers acyclic requests from its
+// own object. The chip is the model, or with USE_RTL the reference RTL with the scoreboard. +gsd= names scenarios/dsdpv1.gsd.
 `ifdef USE_RTL
 `include "dsdpv1_types.svh"
 `endif
@@ -67,7 +66,7 @@ module services;
     $display("%0d us services by hand: passed", $time / 1000000);
   endtask
 
-  // The user's program: one object at slot 1, index 2, which class 2 may transport as well.
+  // The user's program: one object at slot 1, index 2, which class 2 may also transport.
   bytes_t object = {2016'd0, 32'h44332211};
   int object_size = 4;
   task serve(input int channel);

@@ -12,11 +12,11 @@
 namespace dsdpv1::simulator {
 namespace {
 
-/// Pins of the DSDPV1.
+/// The inputs of the DSDPV1.
 const PackedPins& inputs() { return pins_of_kind("dsdpv1").inputs; }
 int64_t bit(const char* input) { return static_cast<int64_t>(inputs().mask(input)); }
 int64_t output_bit(const char* output) { return static_cast<int64_t>(pins_of_kind("dsdpv1").outputs.mask(output)); }
-/// RESET high, nothing else.
+/// Only RESET is high.
 int64_t running() { return static_cast<int64_t>(inputs().at_reset()) | bit("RESET"); }
 
 TEST(SimulatorTime, HalvesOfACycleAreExactAndNothingPassesTheNextEdge) {
@@ -122,7 +122,7 @@ TEST(SimulatorModel, WrongCallsSayWhatIsWrong) {
   EXPECT_LT(dsdpv1_close(model), 0);
 }
 
-/// A model whose outputs act as the RTL for a scoreboard, one of them wrong between two halves.
+/// A model whose outputs serve as RTL for a scoreboard, one of them wrong between two halves.
 class Twins {
  public:
   explicit Twins(int64_t tolerance_ps)

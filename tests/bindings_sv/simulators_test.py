@@ -4,8 +4,8 @@
     simulators_test.py Verilator FOLDER SIM          FOLDER has the verilated benches
     simulators_test.py Icarus FOLDER SIM VPI         VPI: dsdpv1.vpi
 
-With a defect in the RTL its scoreboard must name the cycle, pin and levels that `traces check` names for the same RTL in lockstep. That the outputs of
-the model are those of the golden trace: tests/every_way.
+With a defect in the RTL its scoreboard must name the same cycle, pin and levels as `traces check` for the same RTL in lockstep. tests/every_way
+checks that the model's outputs match the golden trace.
 """
 import pathlib
 import re
@@ -27,7 +27,7 @@ def call(command, folder):
 
 
 class Benches:
-    """The tests of both simulators; a subclass defines how a bench is run."""
+    """Requirements for both simulators; a subclass defines how a bench is run."""
 
     def passes(self, top, *plusargs, name=None):
         status, said = self.run_bench(name or top, top, *plusargs)

@@ -1,5 +1,5 @@
-// The rules of the user's side on pins that are moved by hand: one hold in which B006 is read and written. +short is a write strobe of 5 ns, where
-// table 15 wants 12.5.
+// The rules of the user's side on directly moved pins: one hold in which B006 is read and written. +short is a write strobe of 5 ns,
+// although table 15 requires 12.5.
 module violations;
   timeunit 1ps;
   timeprecision 1ps;

@@ -1,4 +1,5 @@
-// The board's serial ports, seen from the chip's pins and by firmware: tests/board/firmware/serial.c does things.
+// The board's serial ports, observed at the chip's pins and by firmware: the actions are in
+// tests/board/firmware/serial.c.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ constexpr Tick kHclk9 = 1500;  // nine periods of 72 MHz
 /// So many periods of 72 MHz.
 constexpr Tick cycles(Tick count) { return count * kHclk9 / 9; }
 
-/// The memory bus: only what firmware writes into the chip.
+/// The memory bus: only the bytes that firmware writes into the chip.
 class Memory : public QuietDevice {
  public:
   void set(Tick, tb::PinNumber moved, Level level) override {
@@ -157,7 +158,7 @@ TEST_F(BoardSerial, Spi1MovesThePinsOfCard1AtItsTicks) {
               static_cast<double>(cycles(4)), 1);
 }
 
-/// Nobody else has anything to do until `end`.
+/// No other agent is due until `end`.
 class Lonely : public user_cpu::Others {
  public:
   explicit Lonely(Tick end) : end_(end) {}
@@ -232,7 +233,7 @@ TEST_F(BoardSerial, FirmwareThatFetchesTooLateFindsOvrAndTheFirstByte) {
               ElementsAre("SPI1: 2 bytes were lost, since those before them had not been fetched (OVR)"));
 }
 
-/// Between two looks for interrupts: the byte has gone to the shift register before the next instruction.
+/// Between two tests for interrupts: the byte has gone to the shift register before the next instruction.
 TEST_F(BoardSerial, RegistersAreWhatTheyAreAtTheInstruction) {
   start(kQuick);
   run();
@@ -273,7 +274,7 @@ TEST_F(BoardSerial, Usart2SendsOnRxdAndInterruptsWithWhatTxdSays) {
   EXPECT_THAT(memory.cells[8], ElementsAre(1));
 }
 
-/// Says a character on TXD, as a chip does in its turns.
+/// Sends a character on TXD, as a chip does in its turns.
 class Talker : public bus::Agent {
  public:
   Talker(SerialBus& host, Tick begin, unsigned bits) : host_(host), at_(begin), bits_(bits) {}

@@ -1,5 +1,5 @@
-// The board's peripherals and wiring, seen from the pins: tests/board/firmware/probe.c does things, the test looks at
-// the host bus.
+// The board's peripherals and wiring, observed at the pins: the actions are in tests/board/firmware/probe.c, the test
+// checks the host bus.
 #include "kinds/dsdpv1/board/board.hpp"
 
 #include <gmock/gmock.h>
@@ -222,7 +222,7 @@ TEST_F(BoardTest, Intr0RunsTheHandlerThroughExtiLine6) {
   EXPECT_LE(handler - fall, 30 * kHclk3 / 3);
 }
 
-/// Nobody else has a turn until a tick; a chip that runs ahead may have told of an edge before it.
+/// No other agent has a turn until a tick; a chip that runs ahead may have reported an edge before it.
 struct QuietUntil : user_cpu::Others {
   explicit QuietUntil(Tick at) : end(at) {}
   Tick quiet_until() override { return end; }
@@ -277,7 +277,7 @@ std::vector<double> write_periods(const std::vector<Pins::Change>& wr) {
   std::vector<Tick> falls;
   for (const Pins::Change& each : wr)
     if (each.level == 0) falls.push_back(each.at);
-  falls.erase(falls.begin() + 10);  // of the look at SWS
+  falls.erase(falls.begin() + 10);  // from reading SWS
   std::vector<double> periods;
   for (std::size_t i = 0; i + 9 < falls.size(); i += 10)
     periods.push_back(static_cast<double>(falls[i + 9] - falls[i]));
@@ -300,7 +300,7 @@ TEST_F(BoardTest, HclkFollowsRccFrom8MhzOn) {
               Contains(HasSubstr("HCLK is 64 MHz with 0 wait states of flash (FLASH_ACR.LATENCY), which needs 2")));
 }
 
-/// Halts once, at the thirtieth instruction or at an address, and looks.
+/// Halts once, at the thirtieth instruction or at an address, and reads the state.
 class Looker : public arm::Debugger {
  public:
   Looker(arm::DebugTarget& target, std::function<void(arm::DebugTarget&)> look, std::uint32_t place = 0)
@@ -355,7 +355,7 @@ TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
   run();
   EXPECT_EQ(looks, 9U);
   const auto changes = pins.changes;
-  EXPECT_TRUE(board->board()->notes.empty());  // TIM2 was looked at, not used
+  EXPECT_TRUE(board->board()->notes.empty());  // TIM2 was read, not used
   pins.changes.clear();
   start(kAccesses);
   run();
@@ -367,7 +367,7 @@ TEST_F(BoardTest, DebuggerSeesInEachRegisterWhatTheFirmwareReads) {
   arm::BoardOptions options;
   options.firmware = with(kRegisters);
   std::vector<int> seen;
-  std::size_t lamps = 0;  // the chip's, of whom this debugger sees nothing
+  std::size_t lamps = 0;  // of the chip, which this debugger cannot see
   const auto look = [&](arm::DebugTarget& target) {
     for (const std::uint32_t base : {0x40010000U, 0x40010400U, 0x40010800U, 0x40010C00U, 0x40011000U, 0x40011400U,
                                      0x40011800U, 0x40011C00U, 0x40012000U, 0x40013000U, 0x40003800U, 0x40004400U,

@@ -1,4 +1,4 @@
-// Instructions, time, accesses and what runs beside them.
+// Instructions, time, accesses and concurrent activity.
 #include <gmock/gmock.h>
 
 #include <memory>
@@ -40,7 +40,7 @@ TEST(ExecutionTime, IsAMultipleOfThousandthsOfACycle) {
   EXPECT_EQ(processor.cycles(), 39U * 3 / 2);
 }
 
-/// programs/timing.s: the sequences and what they last by table 3-1 and 3.3.2 of the technical reference manual.
+/// programs/timing.s: the sequences and their durations by table 3-1 and 3.3.2 of the technical reference manual.
 TEST(ExecutionTime, IsThatOfTheTechnicalReferenceManual) {
   NotingSystem system;
   CortexM3 processor(system, MemoryMap{}, Timing{});
@@ -62,7 +62,7 @@ TEST(ExecutionTime, IsThatOfTheTechnicalReferenceManual) {
                             }));
 }
 
-/// Of each pair of programs/flash.s: what the second takes more than the first.
+/// For each pair of programs/flash.s: the extra time of the second.
 std::vector<std::uint32_t> in_flash(unsigned wait_states, bool prefetches, std::uint32_t millicycles = 0) {
   NotingSystem system;
   Timing timing;
@@ -82,8 +82,8 @@ TEST(ExecutionTime, IsThatOfFlashWhereItIsLonger) {
   // 32 NOPs, 32 instructions of two halfwords; ten loops of 2, 14, 6 and 3 instructions, 8 literals with a NOP each.
   EXPECT_THAT(in_flash(0, true), ElementsAre(32U, 32U, 30U, 150U, 70U, 50U, 24U));
   // A line of 8 bytes every 3 cycles: NOPs need it every 4, the others every 2. A loop that leaves two lines waits for
-  // the first one, and for both where its first instruction stands in two; six lines and eight literals keep flash busy
-  // for 14 times 3 cycles.
+  // the first one, and for both if its first instruction spans two; six lines and eight literals keep flash busy for 14
+  // times 3 cycles.
   EXPECT_THAT(in_flash(2, true), ElementsAre(32U, 48U, 30U, 170U, 90U, 100U, 42U));
   EXPECT_THAT(in_flash(1, true), ElementsAre(32U, 32U, 30U, 160U, 80U, 80U, 32U));
   // Without prefetch words of 4 bytes, each with 2 cycles of waiting.
@@ -98,7 +98,7 @@ TEST_F(Execution, AccessesArriveInOrderWithSizeAndTheCycleAtWhichTheyBegin) {
   run("accesses");
   std::vector<std::uint64_t> cycles;
   for (std::size_t n = 0; n < 5; ++n) cycles.push_back(system.accesses[n].cycle);
-  EXPECT_THAT(cycles, ElementsAre(1U, 12U, 23U, 34U, 45U));  // ten of its own and one of the instruction each
+  EXPECT_THAT(cycles, ElementsAre(1U, 12U, 23U, 34U, 45U));  // ten own cycles and one of the instruction each
   std::vector<std::tuple<bool, std::uint32_t, unsigned>> seen;
   for (const Access& access : system.accesses) seen.emplace_back(access.write, access.address, access.bytes);
   using A = std::tuple<bool, std::uint32_t, unsigned>;

@@ -1,4 +1,4 @@
-// The processor under a debugger that is a list of wishes.
+// The processor under a scripted debugger.
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -37,7 +37,7 @@ TEST_F(Debugged, EachInstructionIsAnnouncedOnce) {
   std::vector<std::uint32_t> addresses;
   debugger.before = [&addresses](std::uint32_t pc) { addresses.push_back(pc); };
   run("nesting");
-  // Entry and return stop the engine before an instruction that comes again: it is not counted, and not executed twice.
+  // Entry and return stop the engine before an instruction that is repeated: it is not counted, and not executed twice.
   EXPECT_GE(addresses.size(), processor.instructions());
   EXPECT_THAT(system.notes, ElementsAre(1U, 10U, 20U, 0xFFFFFFF1U, 11U, 16U, 2U));
 }

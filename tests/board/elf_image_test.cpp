@@ -1,4 +1,4 @@
-// What the board makes of an ELF file, and of files that are none it can take.
+// Loading of ELF files, and of files that must be rejected.
 #include "board/firmware/elf_image.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// The one line that the loader answers with; empty when it takes the file.
+/// The loader's error in one line; empty if it accepts the file.
 std::string answer(const std::vector<std::uint8_t>& file) {
   try {
     parse_elf(file, "fw.elf");

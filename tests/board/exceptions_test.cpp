@@ -80,7 +80,7 @@ TEST_F(Exceptions, AnItBlockIsFinishedFirst) {
   EXPECT_EQ(r(7), 1U);
 }
 
-/// What a program leaves that is interrupted in this cycle, if any.
+/// The result of a program interrupted in this cycle, if any.
 std::vector<std::uint32_t> interrupted_at(std::optional<std::uint64_t> cycle, bool& came) {
   Timing timing;
   timing.millicycles_per_instruction = 1000;

@@ -34,7 +34,7 @@ bool FakeTarget::run(Debugger& debugger, std::uint64_t most) {
     const std::uint32_t pc = read_register(Register::kPc);
     if (debugger.wanted()) debugger.before_instruction(pc);
     if (reset_requested_) start();
-    if (ended_ || read_register(Register::kPc) != pc) continue;  // with another pc it begins anew
+    if (ended_ || read_register(Register::kPc) != pc) continue;  // with another pc it starts again
     if (!execute(debugger)) return false;
     ++done_;
   }

@@ -36,7 +36,7 @@ class FakeTarget final : public DebugTarget {
   bool watchable = true, resettable = true;
   std::uint64_t done() const { return done_; }  ///< instructions
   bool ended() const { return ended_; }
-  /// Whether run() calls poll() too while before_instruction() is wanted; it need not.
+  /// Whether run() also calls poll() while before_instruction() is wanted; it need not.
   bool polls_when_wanted = true;
   bool reports_accesses() const { return reports_; }
 

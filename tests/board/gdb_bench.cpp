@@ -79,8 +79,7 @@ std::string RawGdb::read(std::size_t count) {
 bool RawGdb::closed() {
   char byte = 0;
   const ssize_t count = ::recv(socket_.get(), &byte, 1, 0);
-  return count == 0 ||
-         (count < 0 && errno == ECONNRESET);  // the latter when our last acknowledgement was not read any more
+  return count == 0 || (count < 0 && errno == ECONNRESET);  // the latter if our last acknowledgement was not read
 }
 
 void RawGdb::send(const std::string& packet) {

@@ -15,7 +15,7 @@ namespace dsdpv1::arm::test {
 
 constexpr std::uint64_t kForEver = 1ULL << 60;  // instructions; stop() ends such a run
 
-/// The run has a thread of its own and ends at the latest with this object.
+/// The run has a separate thread and ends at the latest with this object.
 class GdbBench {
  public:
   explicit GdbBench(std::uint64_t instructions = kForEver);
@@ -23,11 +23,11 @@ class GdbBench {
   GdbBench(const GdbBench&) = delete;
   GdbBench& operator=(const GdbBench&) = delete;
 
-  FakeTarget target;  ///< to be set up before start(), to be looked at after end()
-  /// Returns when the server listens.
+  FakeTarget target;  ///< set it up before start(), check it after end()
+  /// Returns when the server is listening.
   void start();
   int port() const { return port_; }
-  /// As SIGINT does: ends a run that is halted, and one that is not.
+  /// As SIGINT: ends a run, halted or not.
   void stop() { stopped_ = true; }
   /// Waits until the run has ended and the server is gone.
   void end();
@@ -46,7 +46,7 @@ class GdbBench {
   std::thread thread_;
 };
 
-/// Speaks to the server; whatever does not come within 300 s is a failure of the test and gives an empty text.
+/// Talks to the server; if it does not answer within 300 s the test fails and the text is empty.
 class RawGdb {
  public:
   explicit RawGdb(int port);
@@ -58,7 +58,7 @@ class RawGdb {
   void send(const std::string& packet);
   /// The payload of the next packet, which is acknowledged.
   std::string reply();
-  /// Whether the server has closed the connection.
+  /// True if the server has closed the connection.
   bool closed();
   void hang_up() { socket_.reset(); }
 

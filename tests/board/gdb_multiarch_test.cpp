@@ -16,7 +16,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What gdb prints when it carries out the commands; it has five minutes, far more than it needs.
+/// The output of gdb for these commands; it has five minutes, far more than it needs.
 std::string gdb(const GdbBench& bench, const std::vector<std::string>& commands) {
   std::string line = "timeout 300 " GDB " -nx -batch -ex 'set tcp connect-timeout 120' -ex 'file " LOOP_ELF "'";
   line += " -ex 'target remote localhost:" + std::to_string(bench.port()) + "'";

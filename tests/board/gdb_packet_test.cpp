@@ -1,4 +1,4 @@
-// Packets of the remote serial protocol from the pieces in which a network delivers them.
+// Assembles packets of the remote serial protocol from the pieces delivered by a network.
 #include "board/gdb/gdb_packet.hpp"
 
 #include <gtest/gtest.h>

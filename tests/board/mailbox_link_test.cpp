@@ -1,4 +1,4 @@
-// The mailbox as firmware may leave it: whatever stands there, the bench uses it only when it can be meant.
+// The mailbox with any content that firmware may leave: the bench uses only valid values.
 #include "kinds/dsdpv1/board/mailbox_link.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ class MailboxLinkTest : public testing::Test {
     return link.look(
         7, [this](const user_cpu::DriverError& error) { errors.push_back(error); });
   }
-  /// As the example firmware does it.
+  /// As in the example firmware.
   void report_error(std::uint8_t error, std::uint8_t during) {
     auto& entry = box.report.errors[box.report.error_count % DSDPV1_MAILBOX_ERRORS];
     entry.error = error;

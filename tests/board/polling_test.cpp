@@ -1,4 +1,4 @@
-// Passes of a loop that are left out: what a program sees and when is the same without.
+// Skipped loop passes: the program sees the same values at the same times as without skipping.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kDevice = 0x40001000;
 
-/// A device that becomes 1 at a cycle; whoever looks at it is counted.
+/// A device that becomes 1 at a cycle; counts its reads.
 class Device : public NotingSystem {
  public:
   std::uint32_t load(std::uint32_t address, unsigned bytes) override {
@@ -77,7 +77,7 @@ Seen seen(const Wait& run, bool leaves_out, unsigned& looks) {
 
 enum Way : std::uint32_t { kLook, kTwo, kMemory, kCounts, kStores, kBlock, kWorks, kCalls, kWide, kWays };
 
-/// Looks without leaving out, and with it.
+/// Number of reads without skipping, and with it.
 std::pair<unsigned, unsigned> compare(const Wait& run) {
   unsigned all = 0, some = 0;
   const Seen expected = seen(run, false, all);

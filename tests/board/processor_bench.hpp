@@ -1,5 +1,5 @@
 #pragma once
-// A CortexM3 with a program from tests/board/programs and a System that notes what it is asked.
+// A CortexM3 with a program from tests/board/programs and a System that records its calls.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class NotingSystem : public System {
 
   CortexM3* processor = nullptr;
   std::vector<Access> accesses;      // all but those to EXIT and PORT
-  std::vector<std::uint32_t> notes;  // what was stored to PORT
+  std::vector<std::uint32_t> notes;  // values stored to PORT
   std::vector<std::uint64_t> note_cycles;
   std::map<std::uint32_t, std::uint8_t> memory;
   std::function<void(const Access&)> on_access;

@@ -1,5 +1,5 @@
-// Registers of the ARM board's peripherals, as RM0008 (rev. 20) and PM0075 have them for an STM32F103xE: what a reset
-// leaves, which bits keep what is written, and which fields the board reports since it does not have them.
+// Registers of the ARM board's peripherals, as in RM0008 (rev. 20) and PM0075 for an STM32F103xE: their reset values,
+// writable bits, and fields that the board reports because it does not have them.
 #include "board/stm32/registers.hpp"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ namespace {
 using Offset = std::uint32_t;
 using Word = std::uint32_t;
 
-/// What reads find: after a reset, after a store of ones, after one of zeros to it.
+/// Values read: after a reset, after a store of ones, after a store of zeros.
 struct Reads {
   const char* name;
   Word reset, ones, zeros;
@@ -59,7 +59,7 @@ void expect_registers(const RegisterTable& table, const std::map<Offset, Reads>&
     }
 }
 
-/// Masks of the fields that are reported, and a word that asks for none of them.
+/// Masks of the reported fields, and a word that uses none of them.
 struct Fields {
   std::map<std::string, Word> masks;
   Word fine = 0;
@@ -186,7 +186,7 @@ TEST(Registers, OfFsmc) {
                                  {0x10, enable},
                                  {0x18, enable},
                                  {0x104, mode}});
-  // NWAIT is asked for in bursts only.
+  // NWAIT is only used in bursts.
   EXPECT_EQ(Fsmc::kRegisters.asked(0x00, 0xDFFF).size(), Fsmc::kRegisters.asked(0x00, 0xFFFF).size() - 1);
   ASSERT_EQ(Fsmc::kRegisters.asked(0x00, 0x2100).size(), 2U);
   EXPECT_STREQ(Fsmc::kRegisters.asked(0x00, 0x2100)[1]->name, "WAITEN");
@@ -199,7 +199,7 @@ TEST(Registers, OfSpi) {
                         {{0x00, {"CR1", 0, 0xFFFF, 0}},
                          {0x04, {"CR2", 0, 0xE7, 0}},
                          {0x08, {"SR", 0x02, 0x02, 0x02}},
-                         {0x0C, {"DR", 0, 0, 0}},  // one that is sent, one that has come
+                         {0x0C, {"DR", 0, 0, 0}},  // one for sending, one for receiving
                          {0x10, {"CRCPR", 0x07, 0xFFFF, 0}},
                          {0x14, {"RXCRCR", 0, 0, 0}},
                          {0x18, {"TXCRCR", 0, 0, 0}},

@@ -1,5 +1,5 @@
 #pragma once
-// The smallest ELF file that the board takes, to be spoilt in tests.
+// The smallest ELF file that the board accepts, to be modified in tests.
 #include <elf.h>
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct SmallElf {
   std::vector<Elf32_Sym> symbols;  ///< st_name and st_size are taken as they are
   std::string names;               ///< of symbols, each ended with a 0
 
-  /// Vector table and an endless loop at 0x08000000, initialised data for RAM behind it, one function and one object.
+  /// Vector table and an endless loop at 0x08000000, followed by initialised data for RAM, one function and one object.
   SmallElf();
   Elf32_Phdr& add_segment(std::uint32_t address, std::vector<std::uint8_t> content);
   std::vector<std::uint8_t> bytes() const;

@@ -10,7 +10,7 @@
 namespace dsdpv1::arm {
 namespace {
 
-/// The line of the test's firmware that bears this mark.
+/// The line of the test's firmware with this mark.
 int line_marked(const std::string& mark) {
   std::ifstream source(FIRMWARE_SOURCE);
   int number = 0;

@@ -28,7 +28,7 @@ void PrintTo(const Edge& edge, std::ostream* out) { *out << edge.at << (edge.lev
 
 class SpiBlock : public testing::Test {
  protected:
-  /// Up to and including cycle `end`; `answer` is what MISO gives, most significant bit first, at each rise of SCK.
+  /// Up to and including cycle `end`; `answer` is shifted in on MISO, most significant bit first, at each rise of SCK.
   void run_until(std::uint64_t end) {
     while (spi.next() <= end) {
       now = spi.next();
@@ -118,7 +118,7 @@ TEST_F(SpiBlock, ByteThatFindsRxneIsLostAndSoAreTheNextUntilOvrIsCleared) {
   EXPECT_EQ(spi.read(kDr), 0x11U);
   transfer(0x33);
   EXPECT_EQ(spi.peek(kSr), kTxe | kOvr);
-  EXPECT_EQ(spi.read(kSr), kTxe | kOvr);  // DR has been read before: this read takes it away
+  EXPECT_EQ(spi.read(kSr), kTxe | kOvr);  // DR has been read before, so this read clears it
   EXPECT_EQ(spi.read(kSr), kTxe);
   transfer(0x44);
   EXPECT_EQ(spi.read(kDr), 0x44U);
@@ -213,7 +213,7 @@ TEST_F(SpiBlock, MasterWhoseNssIsLowFallsBackToSlave) {
   EXPECT_EQ(spi.peek(kCr1), kSsm);
   spi.write(kDr, 1, 0);
   EXPECT_EQ(spi.next(), Spi::kNever);
-  spi.write(kCr1, kOn, 0);  // after SR was read: MODF goes, and what is in the buffer goes out
+  spi.write(kCr1, kOn, 0);  // after SR was read: MODF is cleared, and the buffer is sent
   EXPECT_EQ(spi.read(kSr) & kModf, 0U);
   EXPECT_EQ(spi.next(), 1U);
 }

@@ -237,7 +237,7 @@ TEST_F(UsartBlock, NextCharacterKeepsIdleAway) {
   EXPECT_EQ(usart.peek(kSr) & kIdle, 0U);
 }
 
-/// 1.8432 MBd of the chip against 36 MHz / 20 (-2.4 %): what the board's firmware has.
+/// 1.8432 Mbit/s of the chip against 36 MHz / 20 (-2.4 %): the rates in the board's firmware.
 TEST_F(UsartBlock, SenderThreePercentFasterIsUnderstood) {
   for (unsigned value = 0; value < 256; ++value) {
     const std::uint64_t at = 2000 + 1000 * value;

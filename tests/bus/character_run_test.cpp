@@ -1,4 +1,5 @@
-// Runs of characters: who hears them as a whole hears what the changes are, also when they are cut at any tick.
+// Runs of characters: a listener that takes them as a whole sees the same as from single changes, even if they are cut
+// at any tick.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ bool same(const std::vector<ReceivedCharacter>& a, const std::vector<ReceivedCha
       });
 }
 
-/// A station that sends, or hears and counts the calls.
+/// A station that sends, or receives and counts.
 struct RunStation : Listener, Agent {
   RunStation(Segment& segment, Timeline& timeline, bool takes)
       : takes_runs(takes), sender(segment, segment.attach("station", this)) {
@@ -198,7 +199,7 @@ TEST(CharacterRun, IsCutByWhateverElseHappensToTheLine) {
   EXPECT_EQ(cut_by([](RunBench&) {}), std::nullopt);
 }
 
-// A master that changes its rate while another station sends hears the rest at the new one, as nothing that fits.
+// A master that changes its rate while another station sends receives the rest at the new one, as invalid characters.
 TEST(CharacterRun, IsCutByAMasterThatChangesItsRate) {
   for (const bool takes_runs : {false, true}) {
     RunBench bench(takes_runs);

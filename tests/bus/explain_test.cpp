@@ -248,7 +248,7 @@ TEST(ExplainDiag, BlocksThatDoNotFit) {
   EXPECT_THAT(explain_line(answer(60, {0x02})), HasSubstr("1 bytes, at least 6"));
 }
 
-/// The texts of a device related block, read with what is known of DPV1.
+/// The texts of a device related block, read with this knowledge of DPV1.
 std::vector<std::string> device_texts(const Bytes& block, std::optional<bool> dpv1) {
   Bytes data = {0x08, 0x0C, 0, 1, 0, 0};
   data.insert(data.end(), block.begin(), block.end());

@@ -63,7 +63,7 @@ class FakeMailbox {
   int left_ = 0;
 };
 
-/// Two channels of MSAC_C2 as V2, V3, V8 and V10 to V12 have them; timers are checked when the next telegram comes.
+/// Two channels of MSAC_C2 by V2, V3, V8 and V10 to V12; timers are checked when the next telegram comes.
 class FakeC2 {
  public:
   explicit FakeC2(std::function<Tick()> clock) : clock_(std::move(clock)) {}

@@ -1,5 +1,5 @@
 #pragma once
-// Stations of the tests: one with prepared answers, and on top of it a small DP slave.
+// Stations of the tests: a scripted one, and based on it a small DP slave.
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ struct Reply {
   WireFaults faults = {};
 };
 
-/// Answers every right telegram as `script` says; nullopt = silence.
+/// Answers every valid telegram with `script`; nullopt = silence.
 class FakeStation : public Listener, public Agent {
  public:
   using Script = std::function<std::optional<Reply>(const Telegram&)>;
@@ -54,7 +54,7 @@ class FakeStation : public Listener, public Agent {
   StationId station;
   Script script;
   std::vector<Telegram> heard;
-  std::vector<Tick> starts, ends;  ///< of the telegrams heard
+  std::vector<Tick> starts, ends;  ///< of the received telegrams
 
  private:
   void character(const ReceivedCharacter& received) {
@@ -100,7 +100,7 @@ class FakeDpSlave {
   int broken_for = 0;          ///< so many answers have a wrong FCS
   Bytes inputs = {0x11, 0x22}, outputs = {0, 0};
   std::function<Telegram(const Telegram&)> acyclic;  ///< answers SAPs 47 to 51; without it they are refused with RS
-  std::function<void(const Telegram&)> unanswered;   ///< hears SDN
+  std::function<void(const Telegram&)> unanswered;   ///< receives SDN
   bool acyclic_silent = false;                       ///< requests to these SAPs are not answered
   std::vector<Telegram> requests;                    ///< to this station, repetitions included
   int executed = 0, repetitions = 0, empty_outputs = 0;

@@ -23,7 +23,7 @@ SlaveParameters parameters(std::uint8_t address) {
   return slave;
 }
 
-/// A master, slave 3 and a monitor that must not complain unless a test expects it.
+/// A master, slave 3 and a monitor that must flag nothing unless a test expects it.
 struct Bench {
   explicit Bench(int baud_index = 0, Personality personality = Personality::kHighAlways, BusParameters bus = fast())
       : slave(segment, timeline, 3), master(segment, config(baud_index, personality, bus)), monitor(segment) {
@@ -347,7 +347,7 @@ TEST(Master, TheGreatestMinSlaveIntervalOfItsSlavesCounts) {
     for (const int address : {4, 5}) {
       SlaveParameters slave = parameters(static_cast<std::uint8_t>(address));
       slave.min_slave_interval_us = address == 4 ? 700 : 400;
-      bench.master.add_slave(slave);  // not there: its wish counts all the same
+      bench.master.add_slave(slave);  // absent, but its setting counts
     }
     bench.master.start();
     bench.run_bits(200'000);

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 constexpr std::uint16_t kSendTimeout = 5;  // 50 ms
 constexpr Tick kT = kSendTimeout * kTimeUnit10ms;
 
-/// A slave with two channels, a class-2 master and a monitor that must not complain.
+/// A slave with two channels, a class-2 master and a monitor that must flag nothing.
 struct Class2 : testing::Test {
   Class2()
       : slave(segment, timeline, 3),
@@ -260,7 +260,7 @@ TEST_F(Class2, SilenceInEachStateProvokesTheSlavesTimers) {
     for (std::size_t i = before; i < telegrams.size(); ++i) EXPECT_FALSE(telegrams[i].decoded.telegram.is_request());
     master.set_behaviour(id, Behaviour::kNormal);
     ASSERT_TRUE(ended(ended_before + 1));
-    // The master's own time is over as well when it had asked something: it aborts first.
+    // The master's time has also expired if it had sent a request: it aborts first.
     if (from == ConnectionState::kOpen) {
       EXPECT_EQ(ends.back().by, ConnectionEnd::By::kSlaveAbort);
       EXPECT_EQ(ends.back().detail, detail);

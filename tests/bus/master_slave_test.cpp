@@ -42,7 +42,7 @@ FdlResult acknowledged() { return answered(make_sc()); }
 struct SlaveTest : testing::Test {
   explicit SlaveTest(const SlaveParameters& p = parameters(), Personality personality = Personality::kHighAlways)
       : slave(p, 1, personality) {}
-  /// One request and what comes back to it.
+  /// One request and the answer to it.
   Telegram step(const FdlResult& result) {
     Telegram request = slave.next_request();
     slave.done(result);

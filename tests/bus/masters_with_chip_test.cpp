@@ -1,4 +1,4 @@
-// The masters of bus/ against the chip: a class-1 master with C1, a class-2 master with two channels, the token between
+// The masters of bus/ with the chip: a class-1 master with C1, a class-2 master with two channels, the token between
 // them.
 #include <gmock/gmock.h>
 
@@ -66,7 +66,7 @@ struct MastersWithChip : conformance::Dpv1Test {
     EXPECT_TRUE(serve_until([&] { return class2.connection(id).state() == goal; }));
     return id;
   }
-  /// The user looks for requests and answers each at once.
+  /// The user checks for requests and answers each at once.
   void serve() {
     for (const Area& area : {kC1Area, kC2Area}) {
       const Bytes request = fetch(area);
@@ -81,7 +81,7 @@ struct MastersWithChip : conformance::Dpv1Test {
     }
     return condition();
   }
-  /// After a silence of `quiet` the master polls: how the chip ends the connection.
+  /// Lets the master poll after a silence of `quiet`; returns how the chip ends the connection.
   ConnectionEnd end_after(ConnectionId id, Tick quiet) {
     bench.run_for(quiet);
     class2.set_behaviour(id, Behaviour::kNormal);

@@ -178,7 +178,7 @@ TEST_F(MonitorTest, WrongParityAndStopBitsAreFlagged) {
 
 TEST_F(MonitorTest, AWrongTelegramIsFlaggedOnceAndTheNextIsRead) {
   Bytes wrong = encode(make_telegram(3, 1, 0x7D, {0xE5, 0xE5, 0x10}));
-  wrong[2] = 9;  // LE and LEr differ: what follows must not be taken for telegrams
+  wrong[2] = 9;  // LE and LEr differ: the rest must not be taken for telegrams
   requester.send(timeline, wrong);
   send(kStatusRequest);
   ASSERT_EQ(telegrams.size(), 3U);

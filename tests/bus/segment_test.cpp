@@ -129,7 +129,8 @@ TEST(Segment, AListenerThatDrivesAtOnceKeepsTheOrderForTheOthers) {
   EXPECT_TRUE(after.changes.empty());
 }
 
-// --- listeners that hear late ----------------------------------------------------------------------------------------
+// --- listeners that receive late
+// --------------------------------------------------------------------------------------
 
 TEST_F(SegmentTest, TheDeafHearAllWhenTheyAskEachChangeWithItsTick) {
   segment.set_deafness(b, {10, 30});
@@ -232,10 +233,10 @@ TEST(Segment, LevelBeforeATickInARunIsThatOfItsCharactersAndSoItIsWhenTheRunIsCu
 
 constexpr Tick kFilteredBit = 1000, kFirstRun = 100'000, kNextRun = 500'000;
 
-/// A telegram of these tests: the first byte is who it is for.
+/// A telegram of these tests: the first byte is the addressee.
 int reads(const std::uint8_t* bytes, std::size_t size) { return size == 2 ? bytes[0] : kNoTelegram; }
 
-/// Records its calls in words.
+/// Records its calls as text.
 struct FilteredListener : Listener {
   void line_changed(Tick at, bool level) override {
     note("line " + std::to_string(level) + " at " + std::to_string(at));
@@ -258,7 +259,7 @@ struct FilterTest : testing::Test {
     segment.drive(sender, 1, true, true);
   }
   CharacterRun run_at(Tick start, std::vector<std::uint8_t> sent) {
-    bytes = std::move(sent);  // as a sender does, who forgets those of the run before
+    bytes = std::move(sent);  // as a sender does, which drops those of the previous run
     return {start, kFilteredBit, bytes.data(), bytes.size()};
   }
   void send(Tick start, std::vector<std::uint8_t> sent) {
@@ -286,7 +287,7 @@ TEST_F(FilterTest, OfOthersTheLastIsToldLateAndThoseBeforeAreCounted) {
   segment.hear(listener);
   EXPECT_EQ(ear.told, (Words{"run for 9 at 100000"}));
   for (int i = 1; i <= 3; ++i) send(i * kNextRun, {7, 0});
-  send(4 * kNextRun, {128, 0});  // for nobody
+  send(4 * kNextRun, {128, 0});  // for no station
   send(5 * kNextRun, {8, 0});
   ear.told.clear();
   segment.hear(listener);

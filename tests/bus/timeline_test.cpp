@@ -34,7 +34,7 @@ TEST(PlanQueue, KeepsItsPlansWhenPlacesAreAdded) {
   for (std::size_t place = 0; place < 70; ++place) EXPECT_EQ(queue.at(place), 1000 - static_cast<Tick>(place));
 }
 
-/// The same as the queue, by querying all agents.
+/// The same as the queue, by querying all.
 struct Asked {
   std::vector<Tick> plans;
   Tick earliest_except(std::size_t left_out) const {
@@ -72,7 +72,7 @@ TEST(PlanQueue, SaysWhatAskingEverybodySays) {
 
 // --- the timeline ----------------------------------------------------------------------------------------------------
 
-/// Acts at its given times: reports its letter and executes its action.
+/// Acts when due, records its letter and executes its task.
 class Actor : public Agent {
  public:
   Actor(std::string& trace, char letter) : trace_(trace), letter_(letter) {}

@@ -30,7 +30,7 @@ SlaveParameters slave_at(std::uint8_t address) {
   return slave;
 }
 
-/// Class-2 masters without connections are masters and nothing else: the ring alone.
+/// Class-2 masters without connections are plain masters: the ring alone.
 struct Ring {
   explicit Ring(int baud_index = 0) : slave(segment, timeline, 11), monitor(segment), baud_(baud_index) {
     slave.station.set_baud(baud_index);
@@ -86,7 +86,7 @@ struct Ring {
         return false;
     return true;
   }
-  /// A master without messages has the token only for its GAP poll and to pass it on.
+  /// A master without messages only has the token for its GAP poll and to pass it on.
   bool has_token(std::size_t master) const {
     const RingState state = masters[master]->ring().state();
     return state == RingState::kGapPoll || state == RingState::kPassToken;
@@ -95,7 +95,7 @@ struct Ring {
     for (const auto& master : masters) master->start();
     settle();
   }
-  /// Lets starts and stops happen.
+  /// Runs pending starts and stops.
   void settle() { timeline.run_until(timeline.now()); }
   void stop(std::size_t master) {
     masters[master]->stop();
@@ -275,7 +275,7 @@ TEST_F(TokenRingTest, ADeadMasterWithoutTheTokenIsPassedOverAfterThreeTokens) {
   for (const auto& [from, to] : tokens()) to_the_dead += to == 5 ? 1 : 0;
   EXPECT_EQ(to_the_dead, kTokenAttempts);
   EXPECT_EQ(masters[0]->ring().statistics().stations_dropped, 1U);
-  // Two to the dead one; one to master 9, which takes a token of a station that was not its previous one only when it
+  // Two to the dead one; one to master 9, which accepts a token from another station than its previous one only if it
   // is repeated.
   EXPECT_EQ(masters[0]->ring().statistics().token_retries - retries, 3U);
   EXPECT_THAT(flags, IsEmpty());
@@ -301,7 +301,7 @@ TEST_F(TokenRingTest, ALostTokenIsRecoveredAndTheRingIsTheSame) {
   for (const int address : {2, 5}) add(static_cast<std::uint8_t>(address));
   start_all();
   ASSERT_TRUE(run_until([this] { return all_in({2, 5}); }));
-  // A short circuit swallows everything for longer than any repetition of the token.
+  // A short circuit blocks everything for longer than any repetition of the token.
   segment.force(timeline.now(), false);
   run_bits(20);
   segment.force(timeline.now(), std::nullopt);
@@ -457,7 +457,7 @@ TEST_F(TokenRingTest, ATokenThatIsNotOnTheLineAsSentIsGivenUp) {
   EXPECT_EQ(master.ring().statistics().claims, 2U);
 }
 
-/// Masters die and come back at any time, each draw another seed; the ring comes together again, without a collision.
+/// Masters die and come back at any time, each draw another seed; the ring must form again without a collision.
 TEST_F(TokenRingTest, WhateverStopsAndStartsTheRingComesTogetherAgain) {
   const std::vector<std::uint8_t> all = {1, 4, 5, 10};
   for (const std::uint8_t address : all) add(address);

@@ -118,7 +118,7 @@ TEST(CapiBus, TheLineHasItsLevelWhetherItIsWatchedOrNot) {
   EXPECT_GT(drain(dpsim_bus_read_changes, watched.bus.get()).size(), 1000U);
 }
 
-/// A chip outside the bus: the caller connects its pins with the line.
+/// A chip outside the bus: the caller copies its pins to the line and the line to its pins.
 class Outside {
  public:
   Outside() {
@@ -261,7 +261,7 @@ TEST(CapiBus, ARequestCarriesTheMastersOwnAddress) {
   auto telegram = sized<dpsim_telegram>();
   telegram.kind = DPSIM_SD1;
   telegram.da = 77;
-  telegram.sa = 99;  // not looked at
+  telegram.sa = 99;  // ignored
   telegram.fc = 0x49;
   telegram.dsap = telegram.ssap = DPSIM_NO_SAP;
   ok(dpsim_master_request(line.master, &telegram, nullptr));

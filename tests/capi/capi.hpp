@@ -57,7 +57,7 @@ inline Owned<dpsim_checker> make_checker() {
   return Owned<dpsim_checker>(checker);
 }
 
-/// All that `read` gives, in small pieces.
+/// Everything returned by `read`, in small pieces.
 template <class Object>
 std::vector<dpsim_change> drain(dpsim_status (*read)(Object*, dpsim_change*, size_t, size_t*), Object* from) {
   std::vector<dpsim_change> all;
@@ -69,7 +69,8 @@ std::vector<dpsim_change> drain(dpsim_status (*read)(Object*, dpsim_change*, siz
   return all;
 }
 
-/// Characters at PBRXD of a chip alone, bit by bit; the end of the last one, to which the chip has come.
+/// Sends characters to PBRXD of a chip without a bus, bit by bit; returns the end of the last one, which the chip has
+/// reached.
 template <class Bytes>
 uint64_t receive_edges(dpsim_chip* chip, uint64_t at, uint32_t bit, const Bytes& bytes) {
   for (const uint8_t byte : bytes)

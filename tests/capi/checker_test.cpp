@@ -18,7 +18,7 @@ void note_violation(void* user, const dpsim_violation* violation) {
       {violation->name, violation->text, violation->pins, violation->tick, violation->margin});
 }
 
-constexpr uint16_t kCount = 0x006;  ///< what the user counts up in each hold
+constexpr uint16_t kCount = 0x006;  ///< incremented by the user in each hold
 
 /// A chip's pins from its reset on, with a hold in which WR is low for `wr_low` ticks.
 std::vector<dpsim_change> pins_of_a_write(int64_t wr_low) {

@@ -1,4 +1,4 @@
-// One chip through the C API against the core itself.
+// One chip through the C API compared with the core.
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -26,7 +26,7 @@ void note_change(void* self, Tick at, Pin pin, dsdpv1::Level level) {
       {static_cast<uint64_t>(at), 0, static_cast<uint16_t>(pin), level, 0});
 }
 
-/// The actions of pin_by_pin.c, on the core.
+/// The same as pin_by_pin.c, on the core.
 std::vector<dpsim_change> driven_core(Tick released) {
   constexpr Tick kNs = profibus::kTicksPerNs;
   std::vector<dpsim_change> changes;
@@ -185,7 +185,7 @@ TEST(CapiChip, OneOfTheRsusGapsIsSetByItself) {
   };
   set("MODE", 0, 2), set("ADR", 0, 1), set("UBR", 0, 7), set("UIV", 0, 7);
   set("RESET", 1000, 1);
-  // A character 01, then silence: with half a character of interval the telegram is dropped right away.
+  // A character 01, then silence: with an interval of half a character the telegram is dropped at once.
   std::vector<std::string> codes;
   const auto note = [](void* user, const dpsim_chip_event* event) {
     auto info = sized<dpsim_reason_info>();
@@ -200,7 +200,7 @@ TEST(CapiChip, OneOfTheRsusGapsIsSetByItself) {
   EXPECT_EQ(codes, std::vector<std::string>{"TELEGRAM_CUT"});
 }
 
-/// Some access of the user and some time.
+/// Some accesses of the user and some time.
 std::vector<dpsim_change> short_life(dpsim_engine engine) {
   const auto chip = make_chip(engine);
   ok(dpsim_chip_watch(chip.get(), DPSIM_ALL_PINS, nullptr, nullptr));

@@ -205,7 +205,7 @@ TEST(CapiError, NamesOfOtherNumbersAreUnknown) {
   EXPECT_STREQ(dpsim_status_name(DPSIM_ERR_INTERNAL), "DPSIM_ERR_INTERNAL");
 }
 
-// No pointer may be NULL where the header does not say so.
+// No pointer may be NULL unless the header says so.
 TEST(CapiError, NullIsNoObject) {
   const std::vector<std::function<dpsim_status()>> calls = {
       [] { return dpsim_chip_advance(nullptr, 0); },

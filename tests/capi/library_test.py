@@ -1,4 +1,4 @@
-"""Properties besides the code: the list of symbols, the library's dependencies, and that each header compiles alone.
+"""Properties outside the code: the list of symbols, the library's dependencies, and that each header compiles alone.
 
     library_test.py SOURCES LIBRARY CC CXX [unittest arguments]
 """

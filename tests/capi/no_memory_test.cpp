@@ -1,4 +1,4 @@
-// A separate program, as its operator new may fail; the library also takes its memory from there.
+// A separate program, because its operator new can run out of memory; the library allocates through it as well.
 #include <cstdlib>
 #include <new>
 
@@ -6,7 +6,7 @@
 
 namespace {
 
-thread_local int blocks_left = -1;  ///< that operator new still gives; below 0: as many as there are
+thread_local int blocks_left = -1;  ///< that operator new still provides; below 0: no limit
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 
 enum { kNs = DPSIM_TICKS_PER_NS, kCycle = DPSIM_TICKS_PER_CYCLE };
 
-/* A thread's own: there may be several at once. */
+/* Local to a thread: there may be several at once. */
 struct User {
   dpsim_chip* chip;
   int failed;
@@ -14,7 +14,7 @@ static void check(struct User* user, dpsim_status status) {
   if (status != DPSIM_OK) user->failed = 1;
 }
 
-/* H2: R_REQ, then L_REQ and L_STA seen low, then R_STA. */
+/* H2: R_REQ, then L_REQ and L_STA sampled low, then R_STA. */
 static uint64_t take(struct User* user, uint64_t now) {
   dpsim_level l_req = DPSIM_X, l_sta = DPSIM_X;
   check(user, dpsim_chip_set(user->chip, now, DPSIM_DSDPV1_R_REQ, 1));

@@ -7,8 +7,8 @@
 extern "C" {
 #endif
 
-/* Releases RESET at `released`, waits for the start-up, takes the DPRAM, reads B004 and gives it back. The changes of
-   all outputs, at most `capacity`; their number is returned, 0 after an error. */
+/* Releases RESET at `released`, waits for the start-up, takes the DPRAM, reads B004 and releases the DPRAM.
+ * `changes` receives at most `capacity` changes of the outputs; returns their number, 0 after an error. */
 size_t drive_pin_by_pin(uint64_t released, dpsim_change* changes, size_t capacity);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Characters passed by dpsim_chip_receive and the same passed edge by edge: the two chips are indistinguishable.
+// Characters passed to dpsim_chip_receive compared with single edges: the two chips must be indistinguishable.
 #include <random>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace {
 constexpr uint32_t kBit = 1000;  // 12 Mbit/s
 constexpr uint64_t kOutputs = DPSIM_ALL_PINS & ~DPSIM_PIN(DPSIM_DSDPV1_PBRXD);
 
-/// A chip in data exchange whose changes, events and, at each of them, level of PBRXD are written down.
+/// A chip in data exchange; records changes, events and, at each of them, the level of PBRXD.
 class Heard {
  public:
   explicit Heard(dpsim_engine engine) : chip(make_chip(engine)), now(start_up(chip.get())) {
@@ -50,7 +50,7 @@ class Heard {
   }
 };
 
-/// The chips' input, drawn from a seed.
+/// The input of the chips, generated from a seed.
 class Stimulus {
  public:
   explicit Stimulus(unsigned seed) : random_(seed) {}
@@ -107,7 +107,7 @@ class Stimulus {
   unsigned toggle_ = 0;
 };
 
-/// At the very end of a telegram or later: the user asks for the DPRAM, or there is a RESET.
+/// At the very end of a telegram or later: the user requests the DPRAM, or there is a RESET.
 void disturb(Stimulus& draw, Heard& told, Heard& edges, uint16_t pin) {
   const uint64_t at = told.now + static_cast<uint64_t>(draw.below(4 * 250)), back = at + 250U * 20;
   for (Heard* each : {&told, &edges}) {
@@ -140,7 +140,7 @@ TEST_P(CapiReceive, IsTheEdgesOfTheCharacters) {
   }
 }
 
-// 72 and 100: something changes at the very tick of an edge of PBRXD, whose level is asked for then.
+// 72 and 100: a change at the very tick of an edge of PBRXD, whose level is then read.
 INSTANTIATE_TEST_SUITE_P(Seeds, CapiReceive, testing::Values(1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 72U, 100U));
 
 }  // namespace

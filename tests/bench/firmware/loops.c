@@ -1,5 +1,5 @@
-/* Firmware that does one thing in an endless loop, for ./run bench --instructions. LOOP says which; each pass of a look
- * is three instructions. */
+/* Firmware that does one thing in an endless loop, for ./run bench --instructions. LOOP selects it; each pass of a
+ * polling loop has three instructions. */
 #include <stdint.h>
 
 #define REGISTER(address) (*(volatile uint32_t*)(address))
@@ -14,7 +14,7 @@ __attribute__((used)) void run(void) {
   for (;;) {
     while (REGISTER(0x40011008) & 0x100) {
     }
-    __asm__ volatile("nop"); /* else both loops would be one that does not test what it has read */
+    __asm__ volatile("nop"); /* else the compiler would merge both loops into one that does not test the value read */
     while (!(REGISTER(0x40011008) & 0x100)) {
     }
   }

@@ -1,4 +1,4 @@
-/* Firmware without start-up code for the tests of ELF loader, line table and gdb server: counts in RAM for ever. */
+/* Firmware without start-up code for the tests of ELF loader, line table and gdb server: counts in RAM endlessly. */
 static volatile unsigned counter;
 
 static unsigned next_of(unsigned value) __attribute__((noinline));

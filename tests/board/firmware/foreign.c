@@ -1,7 +1,7 @@
-/* Firmware for the evaluation board as somebody outside of the project writes it: from the datasheet and ST's manuals
-   alone. It includes nothing of the project, has no mailbox and follows no scenario. A station of its own: address from
-   seven switches at PA0 to PA6 (closed: 0; all open: address 5), ident 0CC9, parameters and configuration judged here,
-   inputs are the last outputs. */
+/* Firmware for the evaluation board as written outside the project: only from the datasheet and ST's manuals. It
+ * includes nothing of the project, has no mailbox and follows no scenario. A separate station: address from seven
+ * switches at PA0 to PA6 (closed: 0; all open: address 5), ident 0CC9, parameters and configuration judged here,
+ * inputs are the last outputs. */
 #include <stdint.h>
 
 #define WORD(address) (*(volatile uint32_t*)(address))
@@ -112,9 +112,9 @@ static void write_checksum(unsigned to, uint16_t crc) {
 
 /* ---- station ---- */
 
-static uint8_t data[1 + kMost];        /* length, bytes: as inputs and outputs stand in the memory */
-static uint8_t block[3 + 237], sum[2]; /* from the master; a wrong checksum is not looked for */
-static uint8_t inputs;                 /* how many, as the configuration says */
+static uint8_t data[1 + kMost];        /* length, bytes: in the format of inputs and outputs in the memory */
+static uint8_t block[3 + 237], sum[2]; /* from the master; checksums are not verified */
+static uint8_t inputs;                 /* their number, from the configuration */
 
 static int chip_works(void) {
   take();
@@ -143,7 +143,7 @@ static void initialise(void) {
   while (!chip_has_begun()) pause(50);
 }
 
-/* Looks at what the master sent once, says yes, and learns the lengths from the configuration. */
+/* Checks what the master sent, accepts it, and reads the lengths from the configuration. */
 static void judge(uint8_t news) {
   if ((news & 2u) != 0u) {
     read(block, 0x410, 1);

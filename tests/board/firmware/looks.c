@@ -1,4 +1,4 @@
-/* Waits for pins of the chip in loops that do nothing else, and says on USART1 in which cycle it saw them. */
+/* Waits for pins of the chip in pure polling loops, and prints on USART1 in which cycle it saw them. */
 #include <stdint.h>
 
 #define WORD(address) (*(volatile uint32_t*)(address))
@@ -21,7 +21,7 @@ void run(void) {
   WORD(0xE0001000) = 1;                                /* DWT: cycles */
   WORD(0x4001380C) = 0x2008;                           /* USART1_CR1: UE, TE */
   WORD(kPortC + kLow) = 0x11444444;                    /* PC6, PC7 */
-  for (uint32_t pulses = 1; pulses <= 400; ++pulses) { /* while nobody asks the chip for anything */
+  for (uint32_t pulses = 1; pulses <= 400; ++pulses) { /* while the DPRAM is not requested */
     while ((WORD(kPortC + kIn) & 1u << 8) == 0) {
     }
     while ((WORD(kPortC + kIn) & 1u << 8) != 0) {
@@ -32,7 +32,7 @@ void run(void) {
   for (int round = 0; round < kRounds; ++round) {
     while ((WORD(kPortC + kIn) & 1u << 8) == 0) {
     }
-    seen[count++] = now(); /* L_REQ rises: the chip looks into the DPRAM */
+    seen[count++] = now(); /* L_REQ rises: the chip accesses the DPRAM */
     while ((WORD(kPortC + kIn) & 1u << 8) != 0) {
     }
     seen[count++] = now();

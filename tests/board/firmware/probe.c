@@ -1,5 +1,5 @@
-/* Firmware for the tests of the board: one program for each thing that firmware does to it. The test chooses it by the
-   word `program`. Results go to the chip's DPRAM, where the test sees them. */
+/* Firmware for the tests of the board: one program for each way in which firmware uses it. The test selects it with
+ * the word `program`. Results go to the chip's DPRAM, where the test reads them. */
 #include <stdint.h>
 
 #include "../../../board/firmware/mailbox.h"
@@ -182,7 +182,7 @@ static void serial_clocks(void) {
   REG(RCC_APB1ENR) = 1u << 14 | 1u << 17;
 }
 
-/* What the board does not have, a line each, and that of the last is told. */
+/* Features that the board does not have, one per line; using the last is reported. */
 static void lacking(void) {
   serial_clocks();
   REG(AFIO_MAPR) = 1u << 2 | 1u; /* USART1_REMAP; the board follows SPI1_REMAP */
@@ -200,7 +200,7 @@ static void lacking(void) {
   CHIP16(0) = __LINE__;
 }
 
-/* All words of all peripherals, with a byte in SPI1 that has come. The test looks at them before. */
+/* Reads all words of all peripherals, with a received byte in SPI1. The test reads them before. */
 __attribute__((noinline, used)) static void all_registers(void) {
   static const uint32_t bases[] = {0x40010000, 0x40010400, 0x40010800, 0x40010C00, 0x40011000, 0x40011400,
                                    0x40011800, 0x40011C00, 0x40012000, 0x40013000, 0x40003800, 0x40004400,
@@ -221,7 +221,7 @@ static void registers(void) {
   all_registers();
 }
 
-/* Each is read with all clocks but its own. */
+/* Reads each with all clocks except its own. */
 static void clocks_off(void) {
   static const uint32_t uses[][3] = {
       {RCC_APB2ENR, 0, 0x40010000},  {RCC_APB2ENR, 2, 0x40010800},  {RCC_APB2ENR, 3, 0x40010C00},
@@ -264,9 +264,8 @@ void EXTI9_5_handler(void) {
 void run(void);
 void run(void) {
   static void (*const programs[])(void) = {
-      handshake, accesses,          unset_accesses, interrupt,  chip_reset, text,    strange,   undefined,
-      bank_off,  masked_and_rising, inputs,         clock_tree, nonsense,   lacking, registers, clocks_off,
-      busy};
+      handshake,         accesses, unset_accesses, interrupt, chip_reset, text,      strange,    undefined, bank_off,
+      masked_and_rising, inputs,   clock_tree,     nonsense,  lacking,    registers, clocks_off, busy};
   edges = 0;
   clocks();
   programs[program]();

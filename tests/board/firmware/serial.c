@@ -1,5 +1,5 @@
-/* Firmware for the tests of the board's serial ports: one program for each thing that firmware does with them. The test
-   chooses it by the word `program`. Results go to the chip's DPRAM, where the test sees them. */
+/* Firmware for the tests of the board's serial ports: one program for each way in which firmware uses them. The test
+ * selects it with the word `program`. Results go to the chip's DPRAM, where the test reads them. */
 #include <stdint.h>
 
 #define REG(address) (*(volatile uint32_t*)(address))
@@ -86,7 +86,7 @@ static void spi2(void) {
   frame(SPI2);
 }
 
-/* Three bytes, of which nobody fetches the first before the last has come. */
+/* Three bytes, of which the first is not fetched before the last has arrived. */
 static void overrun(void) {
   pins_of_spi1();
   REG(SPI1 + CR1) = 0x0354;
@@ -127,7 +127,7 @@ static void uart(void) {
   }
 }
 
-/* A character that comes while the one before it has not been fetched. */
+/* A character that arrives before the previous one was fetched. */
 static void uart_overrun(void) {
   REG(USART2 + USART_BRR) = 20;
   REG(USART2 + USART_CR1) = 0x340C;
@@ -147,7 +147,7 @@ static void own_event(void) {
   CHIP(0) = (uint8_t)REG(EXTI_PR);
   __asm volatile("wfe");
   CHIP(1) = 1;
-  REG(GPIOB_BSRR) = 1u << 21; /* the fall is none */
+  REG(GPIOB_BSRR) = 1u << 21; /* the fall does not count */
   __asm volatile("wfe");
   CHIP(2) = 1;
 }
@@ -182,7 +182,7 @@ static void by_hand(void) {
   REG(GPIOA_BSRR) = 1u << 4;
 }
 
-/* What the board does not have or does not do. */
+/* Features that the board does not have or support. */
 static void misused(void) {
   REG(RCC_APB2ENR) = 0xFD;
   REG(SPI1 + CR1) = 0x0354 | 1u << 10; /* RXONLY, clock off */
@@ -193,13 +193,13 @@ static void misused(void) {
   REG(RCC_APB2RSTR) = 0;
 }
 
-/* SPI1 at its other pins: those of the card do not move. */
+/* SPI1 on its other pins: those of the card do not change. */
 static void remapped(void) {
   REG(AFIO_MAPR) = 1;
   spi1();
 }
 
-/* Two bytes one right after the other, four times; then SR right after the store of one more. */
+/* Two bytes back to back, four times; then SR right after the store of one more. */
 static void quick(void) {
   pins_of_spi1();
   REG(SPI1 + CR1) = 0x0354;

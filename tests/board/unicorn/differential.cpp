@@ -1,10 +1,10 @@
-// Our engine held against Unicorn: random instructions, registers, flags, memory, the order of accesses on the bus.
-// GPL-2.0-only as a whole, by Unicorn: never installed.
+// Compares our engine with Unicorn: random instructions, registers, flags, memory, the order of accesses on the bus.
+// GPL-2.0-only as a whole, because of Unicorn: never installed.
 //
 //   arm_differential [--instructions N] [--seed S]     random instructions
 //   arm_differential IMAGE...                           code for 08000000 that ends at BKPT
 //
-// Exit 0: no difference, 1: one, which is told, 2: wrong input.
+// Exit 0: no difference, 1: a difference, which is printed, 2: wrong input.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -38,7 +38,7 @@ State random_state(Random& random, std::uint32_t pc) {
   State state;
   for (unsigned n = 0; n <= 14; ++n) state.registers.at(n) = word();
   for (const unsigned base : {6U, 7U, 8U, 10U, 11U}) state.registers.at(base) = in_ram(4);
-  if (random() % 16 == 0) state.registers.at(10) = word() & ~(kBus | kRam);  // mostly where nothing is
+  if (random() % 16 == 0) state.registers.at(10) = word() & ~(kBus | kRam);  // usually an address without memory
   if (random() % 8 == 0) state.registers.at(8) = in_ram(1);
   state.registers.at(kBusRegister) = kBus + 0x8000 + (static_cast<std::uint32_t>(random()) & 0x7FFC);
   state.registers.at(kIndexRegister) = static_cast<std::uint32_t>(random()) & 0xFC;
@@ -58,13 +58,13 @@ std::string hex(const std::vector<std::uint8_t>& code, std::uint32_t from, std::
   return text;
 }
 
-/// Unicorn keeps bits of stack pointers that are 0 (B1.4.1), and ITSTATE is its own business.
+/// Unicorn keeps bits of stack pointers that are 0 (B1.4.1), and its ITSTATE is internal.
 std::uint32_t compared(Register which) {
   if (which == Register::kXpsr) return kFlagBits | kExceptionBits;
   return which == Register::kSp || which == Register::kMsp || which == Register::kPsp ? ~3U : ~0U;
 }
 
-/// In words, what is different; empty: nothing.
+/// The difference as text; empty: none.
 std::string difference(Machine& a, Trap a_trap, Machine& b, Trap b_trap) {
   std::string text;
   if (a_trap != b_trap) text += fmt::format("  trap {} and {}\n", static_cast<int>(a_trap), static_cast<int>(b_trap));
@@ -87,7 +87,7 @@ std::string difference(Machine& a, Trap a_trap, Machine& b, Trap b_trap) {
           text += fmt::format("    {}: {} {:08X} {} {:X}\n", each->name(), each->bus()[i].write ? "store" : "load ",
                               each->bus()[i].address, each->bus()[i].bytes, each->bus()[i].value);
   }
-  const std::uint32_t apart = a.bad_address() / 4 - b.bad_address() / 4;  // which part of one fails that is not aligned
+  const std::uint32_t apart = a.bad_address() / 4 - b.bad_address() / 4;  // which part of an unaligned one fails
   if (a_trap == b_trap && a_trap == Trap::kBadAccess && apart != 0)
     text += fmt::format("  bad address {:08X} and {:08X}\n", a.bad_address(), b.bad_address());
   return text;
@@ -97,7 +97,7 @@ class Campaign {
  public:
   explicit Campaign(std::uint64_t seed) : random_(seed), ours_(make_ours()), unicorn_(make_unicorn()) {}
 
-  /// False: a difference, which was told.
+  /// Returns false, after printing it, for a difference.
   bool block() {
     if (++blocks_ % kMostBlocks == 0) renew();
     const std::vector<std::uint8_t> code = random_code(random_, kInstructions);
@@ -107,7 +107,7 @@ class Campaign {
       if (!this->pass(code)) return false;
     return true;
   }
-  /// Code that calls functions and ends by itself.
+  /// Code that calls functions and terminates.
   bool image(const std::vector<std::uint8_t>& code) {
     ours_->longest = 1'000'000'000;
     ours_->load(code);
@@ -118,12 +118,12 @@ class Campaign {
   std::uint64_t instructions() const { return compared_; }
 
  private:
-  /// Unicorn crashes now and then after so much code, inside of itself.
+  /// Unicorn sometimes crashes internally after this much code.
   void renew() {
     ours_ = make_ours();
     unicorn_ = make_unicorn();
   }
-  /// From the first instruction to the end; behind one at fault it goes on with other registers.
+  /// Runs from the first instruction to the end; after a faulting one it continues with other registers.
   bool pass(const std::vector<std::uint8_t>& code) {
     for (std::uint32_t pc = kCode;;) {
       const State state = random_state(random_, pc);
@@ -134,7 +134,7 @@ class Campaign {
       const std::uint32_t at = ours_->get()[Register::kPc] - kCode;
       const Trap other = unicorn_->run();
       compared_ += ours_->instructions() - before;
-      // A Cortex-M3 refuses LDM and others that are not aligned (A3.2.1), Unicorn does not.
+      // A Cortex-M3 rejects unaligned LDM and others (A3.2.1), Unicorn does not.
       if (ours == Trap::kUnaligned || (ours == other && ours == Trap::kBadAccess && may_differ(opcode_at(code, at)))) {
         unicorn_->ram() = ours_->ram();
         return true;
@@ -150,8 +150,8 @@ class Campaign {
   static std::uint16_t opcode_at(const std::vector<std::uint8_t>& code, std::uint32_t at) {
     return static_cast<std::uint16_t>(code[at] | code[at + 1] << 8);
   }
-  /// What an access that fails leaves behind: Unicorn carries out the rest of an IT block; of several registers it
-  /// loads the first ones.
+  /// Effects of a failing access may differ: Unicorn executes the rest of an IT block, and loads the first of several
+  /// registers.
   bool may_differ(std::uint16_t opcode) const {
     const bool in_block = (ours_->get()[Register::kXpsr] & kItBits) != 0;
     return in_block || (opcode & 0xFE00U) == 0xBC00 || (opcode & 0xF800U) == 0xC800 || (opcode & 0xFE00U) == 0xE800;

@@ -62,7 +62,7 @@ class Ours : public Machine, private EngineEvents {
 
 }  // namespace
 
-/// What a load gives depends on all accesses before it, so that their order shows.
+/// The result of a load depends on all earlier accesses, so that a different order shows.
 std::uint32_t Machine::bus_load(std::uint32_t address, unsigned bytes) {
   std::uint32_t value = (address + static_cast<std::uint32_t>(bus_.size())) * 2654435761U;
   value ^= value >> 15;

@@ -1,5 +1,5 @@
 #pragma once
-// A processor without exceptions that executes code until it traps: ours, or Unicorn's, to be held against each other.
+// A processor without exceptions that executes code until it traps: ours or Unicorn's, for comparison.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -35,15 +35,15 @@ class Machine {
  public:
   virtual ~Machine() = default;
   virtual std::string name() const = 0;
-  /// `code` stands at kCode from now on.
+  /// Places `code` at kCode.
   virtual void load(const std::vector<std::uint8_t>& code) = 0;
   virtual void set(const State& state) = 0;
   std::uint64_t longest = 10'000;  ///< instructions of a run of ours
-  /// Until a trap; kNone: ours does not come to one. The bus's accesses are those of this run.
+  /// Runs until a trap; kNone: ours reaches none. The bus's accesses are those of this run.
   virtual Trap run() = 0;
   virtual State get() const = 0;
   virtual std::uint64_t instructions() const { return 0; }
-  /// Of Trap::kBadFetch and kBadAccess.
+  /// For Trap::kBadFetch and kBadAccess.
   virtual std::uint32_t bad_address() const = 0;
 
   std::array<std::uint8_t, kRamBytes>& ram() { return ram_; }
@@ -58,7 +58,7 @@ class Machine {
 };
 
 std::unique_ptr<Machine> make_ours();
-/// Throws std::runtime_error when the library refuses.
+/// Throws std::runtime_error if the library refuses.
 std::unique_ptr<Machine> make_unicorn();
 
 }  // namespace dsdpv1::arm::differential

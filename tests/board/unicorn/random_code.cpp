@@ -10,10 +10,10 @@
 namespace dsdpv1::arm::differential {
 namespace {
 
-/// Bits of encodings as chapter A7 of the architecture writes them: 0 and 1; letters, each a field of its own:
+/// Bits of encodings in the notation of chapter A7 of the architecture: 0 and 1; letters, each a separate field:
 ///   i a number    d n m t a registers that may have any value (three bits: r0 to r4)    b a base    x the index
-///   s a number of 1 to 31 (a shift)    w a width that fits behind a shift: 0    r registers of a list, none of a base
-/// Behind a comma, what chooses it inside of an IT block: "-" never.
+///   s a number of 1 to 31 (a shift)    w a width that fits after a shift: 0    r registers of a list, none of a base
+/// After a comma, the choice inside an IT block: "-" never.
 constexpr std::string_view kPatterns[] = {
     // A5.2.1 to A5.2.3
     "000 00 iiiii mmm ddd",
@@ -240,7 +240,7 @@ class Encoder {
  public:
   Encoder(Random& random, std::string_view pattern) : random_(random), pattern_(pattern) {}
 
-  /// Its halfwords. Fields of registers are of neighbouring letters, all others of single bits.
+  /// Its halfwords. Fields of registers have adjacent letters, all others single bits.
   std::vector<std::uint16_t> encode() {
     for (std::size_t i = 0; i < pattern_.size() && pattern_[i] != ',';) {
       const char letter = pattern_[i];
@@ -272,7 +272,7 @@ class Encoder {
     word_ = word_ << width | value;
     count_ += width;
   }
-  /// REV and others have their register twice.
+  /// REV and others contain their register twice.
   std::uint32_t again() {
     again_ = value_of(random_, 'm', 4) + 1;
     return again_ - 1;
@@ -284,7 +284,7 @@ class Encoder {
   unsigned count_ = 0;
 };
 
-/// What the patterns alone do not keep out.
+/// Excludes what the patterns alone cannot.
 bool is_predictable(unsigned h) {
   const bool has_list = (h >> 11) == 0b11000 || (h >> 11) == 0b11001;
   return !has_list || (h & 0x1F) != 0;
@@ -297,7 +297,7 @@ bool is_predictable_list(unsigned h, unsigned h2) {
 
 bool is_predictable_access(unsigned h, unsigned h2) {
   const bool has_imm12 = (h & 0x80) != 0, has_imm8 = !has_imm12 && (h2 & 0x0800) != 0;
-  // What is not aligned Unicorn cuts up in a way of its own, which shows on the bus.
+  // Unicorn splits unaligned accesses in its own way, which shows on the bus.
   if ((h & 15) == kBusRegister && (has_imm12 || has_imm8) && (h2 & 3) != 0) return false;
   return !has_imm8 || (h & 15) == 15 || (h2 & 0x0500) != 0;  // P or W
 }
@@ -360,8 +360,8 @@ class Writer {
       default: return add(plain(false));
     }
   }
-  /// LDREX, STREX at SP, which is aligned. Unicorn asks whether the memory is as it was, a Cortex-M3
-  /// whether LDREX came before; between them stands nothing. Then a STREX that comes alone.
+  /// LDREX, STREX at SP, which is aligned, with no instruction between them: Unicorn checks whether the memory is
+  /// unchanged, a Cortex-M3 whether LDREX came before. Then a single STREX.
   void exclusive() {
     const unsigned base = 13, loaded = below(random_, 3), failed = 3 + below(random_, 2);
     const unsigned words = below(random_, 256), size = below(random_, 3);
@@ -390,7 +390,7 @@ class Writer {
     if (kind == 7) return over_one();
     jump(static_cast<Kind>(kind));
   }
-  /// MOV PC, PC; ADDS r0, #1 behind it is left out.
+  /// MOV PC, PC; skips the following ADDS r0, #1.
   void over_one() {
     add({0x46FF});
     add({0x3001});
@@ -406,7 +406,7 @@ class Writer {
   void far() {
     const std::size_t adr = code_.size();
     add({0xF20F, 0x0C00});
-    inner_.insert({starts_.size(), starts_.size() + 1});  // nobody jumps behind ADR
+    inner_.insert({starts_.size(), starts_.size() + 1});  // ADR must be followed directly
     add({0xF10C, 0x0C01});
     static constexpr std::uint16_t kJumps[] = {0x4760, 0x47E0, 0x46E7};
     add({kJumps[below(random_, 3)]});
@@ -461,7 +461,7 @@ class Writer {
   std::vector<std::uint16_t> code_;
   std::vector<std::size_t> starts_;  ///< of instructions, in halfwords
   std::vector<Branch> branches_;
-  std::set<std::size_t> inner_;  ///< instructions that are no target
+  std::set<std::size_t> inner_;  ///< instructions that must not be jump targets
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Unicorn as a Machine. It is GPL-2.0-only as a whole, and so is a program with this file.
+// Unicorn as a Machine. It is GPL-2.0-only as a whole, and so is any program with this file.
 #include <unicorn/unicorn.h>
 
 #include <cstring>
@@ -9,7 +9,7 @@
 namespace dsdpv1::arm::differential {
 namespace {
 
-// No instruction can stand here, so Unicorn never ends by itself.
+// No instruction can be here, so Unicorn never stops on its own.
 constexpr std::uint64_t kNoEnd = 0xFFFFFFFE;
 constexpr std::uint32_t kThumbState = 1U << 24;
 
@@ -21,7 +21,7 @@ int unicorn_register(Register which) {
   return which <= Register::kR12 ? UC_ARM_REG_R0 + static_cast<int>(number) : kOthers.at(number - 13);
 }
 
-/// Numbers that UC_HOOK_INTR is given: the exceptions of QEMU's ARM target.
+/// Numbers passed to UC_HOOK_INTR: the exceptions of QEMU's ARM target.
 Trap trap_of(std::uint32_t number) {
   switch (number) {
     case 2: return Trap::kSvc;
@@ -46,7 +46,7 @@ class Unicorn : public Machine {
     check(uc_mem_map_ptr(uc_, kCode, kCodeBytes, UC_PROT_READ | UC_PROT_EXEC, code_));
     check(uc_mem_map_ptr(uc_, kRam, kRamBytes, UC_PROT_ALL, ram_.data()));
     check(uc_mmio_map(uc_, kBus, kBusBytes, &load_bus, this, &store_bus, this));
-    hook(UC_HOOK_CODE, reinterpret_cast<void*>(&instruction));  // without it PC is not that of an access that fails
+    hook(UC_HOOK_CODE, reinterpret_cast<void*>(&instruction));  // without it PC is not that of a failing access
     hook(UC_HOOK_INTR, reinterpret_cast<void*>(&interrupt));
     hook(UC_HOOK_MEM_INVALID, reinterpret_cast<void*>(&bad_access));
   }

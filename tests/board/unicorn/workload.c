@@ -1,5 +1,5 @@
-/* What compilers make of C: loops, calls, tables of branches, division, bytes, halfwords, 64 bits, bit fields. Ends at BKPT with a
- * sum of all results in r0; results themselves stand in RAM. */
+/* Typical compiler output: loops, calls, tables of branches, division, bytes, halfwords, 64 bits, bit fields. Ends
+ * at BKPT with a sum of all results in r0; the results are in RAM. */
 #include <stdint.h>
 
 #define COUNT 256u
@@ -88,9 +88,7 @@ static uint32_t work(void) {
 }
 
 /* RAM holds random bytes when it begins. */
-__attribute__((section(".first"), naked)) void begin(void) {
-  __asm volatile("bl run\n bkpt 0");
-}
+__attribute__((section(".first"), naked)) void begin(void) { __asm volatile("bl run\n bkpt 0"); }
 
 __attribute__((used)) uint32_t run(void) {
   random_state = 1;
