@@ -1,4 +1,4 @@
-// A shipped scenario through the C API is what `dsdpv1-sim run` makes of it.
+// A shipped scenario through the C API gives the same as `dsdpv1-sim run`.
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>

@@ -15,7 +15,7 @@ const std::string kSlaves =
     "slaves:\n"
     "  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 4, max_outputs: 4, cfg: \"33\"}}\n";
 
-/// `script`: lines of YAML. The slave's user side is the caller's: what the scenario says of it is left out.
+/// `script`: lines of YAML. The caller is the slave's user side: the scenario's part for it is ignored.
 std::string scenario_with(const std::string& script, const std::string& masters2 = "") {
   std::string text =
       kSlaves +

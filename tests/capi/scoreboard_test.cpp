@@ -1,4 +1,4 @@
-// The model beside a chip whose pins are a model's own, as they are or spoilt.
+// The model compared with a chip whose pins come from a model, unchanged or modified.
 #include <algorithm>
 #include <string>
 
@@ -27,7 +27,7 @@ dpsim_scoreboard_result compared(dpsim_scoreboard* scoreboard, const std::vector
 
 constexpr uint64_t kReset = 20 * kCycle, kEnd = 150 * kUs;
 
-/// All pins of a chip that comes out of reset, up to kEnd, and what it says of itself.
+/// All pins of a chip that leaves reset, up to kEnd, and its events.
 std::vector<dpsim_change> pins_of_a_start(std::vector<dpsim_chip_event>* events = nullptr) {
   const auto chip = make_chip();
   ok(dpsim_chip_watch(chip.get(), DPSIM_ALL_PINS, nullptr, nullptr));
@@ -40,7 +40,7 @@ std::vector<dpsim_change> pins_of_a_start(std::vector<dpsim_chip_event>* events 
   return drain(dpsim_chip_read_changes, chip.get());
 }
 
-/// Where L_REQ changes for the time with this number.
+/// The index of the L_REQ change with this number.
 std::size_t place_of_l_req(const std::vector<dpsim_change>& changes, int number) {
   std::size_t place = 0;
   for (int left = number;; ++place)
@@ -138,7 +138,7 @@ TEST(CapiScoreboard, EventsUpToTheDifferenceAreTheModels) {
   }
 }
 
-/// A frame at the SPI port of a DSDPV1-RSU; MISO as the model has it at the pin.
+/// A frame at the SPI port of a DSDPV1-RSU; MISO as at the model's pin.
 std::vector<dpsim_change> pins_of_a_frame() {
   auto options = sized<dpsim_chip_options>();
   options.kind = "dsdpv1_rsu";

@@ -1,5 +1,5 @@
 #pragma once
-// A slave on the bus of the C API: a chip whose user has initialised it, and what a master has to know of it.
+// A slave on the bus of the C API: a chip initialised by its user, and a master's data about it.
 #include "tests/bench/saturated_bus.hpp"
 #include "tests/capi/capi.hpp"
 
@@ -42,7 +42,7 @@ inline dpsim_master* add_master(dpsim_bus* bus, uint8_t address = 2, int master_
   options.address = address;
   options.master_class = master_class;
   options.ring = ring ? 1 : 0;
-  options.target_rotation_bits = 10'000;  // so that the GAP is looked through again and again
+  options.target_rotation_bits = 10'000;  // so that the GAP is polled repeatedly
   dpsim_master* master = nullptr;
   ok(dpsim_bus_add_master(bus, &options, &master));
   return master;

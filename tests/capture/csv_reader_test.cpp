@@ -1,4 +1,4 @@
-// Faults of a table are reported with their line.
+// Errors in a table are reported with their line.
 #include "bus/capture/csv_reader.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares the output of `dsdpv1-sim decode` for captures and recordings of the line with the capture or log of the same run.
+"""The output of `dsdpv1-sim decode` for captures and recordings of the line, compared with the capture or log of the same run.
 
     decode_test.py SIM CASE
 """
@@ -32,7 +32,7 @@ masters:
 
 
 def telegrams(text):
-    """(bytes, words) of every telegram that was printed, right or wrong."""
+    """(bytes, words) of every printed telegram, valid or not."""
     found = []
     for block in re.split(r"^(?=telegram |wrong telegram)", text, flags=re.M):
         if block.startswith(("telegram", "wrong")):
@@ -75,7 +75,7 @@ def classic(folder):
 
 
 def rewritten(folder):
-    """Files of another program: editcap's pcapng and pcap, with times of today."""
+    """Files converted by another program: editcap's pcapng and pcap, with today's times."""
     packets, _ = capture(folder, ROOT / "scenarios/dpv1_c1.yaml")
     wanted = decoded(folder, packets)
     first = times(wanted)[0]
@@ -133,7 +133,7 @@ def write_sigrok(path, samples, rate):
 
 
 def expect_same(what, got, wanted):
-    """The telegram under way when the run ends is in the recording alone, cut off."""
+    """A telegram in progress at the end of the run is only in the recording, truncated."""
     count = len(wanted)
     differ = [(a, b) for a, b in zip(got, wanted) if a != b]
     expect(what, (differ[:1], len(got) in (count, count + 1)), ([], True))
@@ -171,7 +171,7 @@ def at_rate(folder, name):
 
 
 def every_rate(folder):
-    """A recording decodes to what the capture of the run decodes to, at each of the ten rates."""
+    """A recording decodes to the same as the capture of the run, at each of the ten rates."""
     for name in RATES:
         at_rate(folder, name)
 
@@ -187,7 +187,7 @@ def by_pipe(folder):
 
 
 def for_programs(folder):
-    """--table and --json hold the telegrams that are printed, right and wrong ones."""
+    """--table and --json contain the printed telegrams, valid or not."""
     packets, log = capture(folder, ROOT / "scenarios/read_services.yaml")
     text = decoded(folder, packets, "--table", "all.tsv", "--json", "all.json", status=1)
     wanted = telegrams(text)

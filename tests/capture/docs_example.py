@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares docs/captures.md with the output of tshark and dsdpv1-sim.
+"""The examples in docs/captures.md match the output of tshark and dsdpv1-sim.
 
     docs_example.py SIM [update]
 """
@@ -12,7 +12,7 @@ import tempfile
 from wireshark import ROOT, capture, sim, tshark
 
 PAGE = ROOT / "docs/captures.md"
-# A block of output after the command that prints it; "..." stands for lines that are left out.
+# A block of output after its command; "..." replaces omitted lines.
 SHOWN = re.compile(r"(<!-- printed by (.*?) -->\n```\n)(.*?)(```)", re.S)
 
 

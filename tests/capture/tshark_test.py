@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares tshark's output for captures, with share/wireshark/profibus_dp, with the run's reports on its telegrams.
+"""The output of tshark for captures, with share/wireshark/profibus_dp, compared with the run's log of its telegrams.
 
     tshark_test.py SIM CASE
 """
@@ -64,7 +64,7 @@ expect:
 
 
 def of_log(entry):
-    """The log's fields of a telegram, in the form of tshark's rows."""
+    """The log's data about a telegram, in the format requested from tshark."""
     data = entry["bytes"].split()
     wrong = "wrong" in entry and entry["wrong"] != "character errors"
     return ("wrong" if wrong else KINDS[data[0]], f"{entry['tsdr_bits']:.2f}" if "tsdr_bits" in entry else "")
@@ -107,7 +107,7 @@ def services(folder):
 
 
 def damage(folder):
-    """Planted faults appear as expert infos, flags and comments."""
+    """Planted faults are shown by expert infos, flags and comments."""
     scenario = folder / "damaged.yaml"
     scenario.write_text(DAMAGED, encoding="utf-8")
     packets, _ = capture(folder, scenario, status=None)
@@ -122,7 +122,7 @@ def damage(folder):
         "frame.packet_flags_packet_too_short_error", "frame.packet_flags_unaligned_frame_error",
         "frame.packet_flags_wrong_inter_frame_gap_error", "frame.packet_flags_start_frame_delimiter_error"))))
     counts = {name: sum(value == "1" for value in column) for name, column in flags.items()}
-    # After the low stop bit the receiver begins its characters at other edges: a wrong FCS and gaps, too.
+    # After the low stop bit the receiver starts its characters at other edges, which causes a wrong FCS and gaps as well.
     expect("packets with each flag", counts, {"crc": 2, "symbol": 2, "short": 1, "unaligned": 2, "gap": 2, "start": 1})
 
 
@@ -136,7 +136,7 @@ def collision(folder):
 
 
 def link_types(folder):
-    """The dissector takes 257 and all USER types, except those excluded in its preferences."""
+    """The dissector accepts 257 and all USER types, except those that it is told to ignore."""
     scenario = ROOT / "scenarios/read_services.yaml"
     for link in ("profibus", "user0", "user15"):
         packets, log = capture(folder, scenario, link=link)
@@ -168,7 +168,7 @@ def statistics(folder):
 
 
 def same_bytes(folder):
-    """A capture depends only on the scenario: neither on the day nor on the chips' engine."""
+    """A capture depends only on the scenario, not on the date or the execution of the chips."""
     scenario = ROOT / "scenarios/read_services.yaml"
     first = capture(folder, scenario)[0].read_bytes()
     for options in ((), ("--engine", "step"), ("--view", "tlm")):
@@ -176,7 +176,7 @@ def same_bytes(folder):
 
 
 def killed(folder):
-    """The file of a killed run is read up to its end."""
+    """The file left by a killed run is read as far as it goes."""
     command = [SIM, "run", ROOT / "scenarios/dpv1_c2_two_masters.yaml", "-q", "--engine", "step", "--capture", "killed.pcapng"]
     with subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL) as process:
         part = folder / f"killed.pcapng.{process.pid}.part"
@@ -203,7 +203,7 @@ def as_pcap(folder, packets):
 
 
 def any_bytes(folder):
-    """For any bytes of a service, however few, the dissector has no Lua error."""
+    """With any bytes of a service, however few, the dissector has no error."""
     random = Random(1)
     packets = []
     for sap in (*range(47, 63), None):

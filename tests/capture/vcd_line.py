@@ -1,4 +1,4 @@
-"""The line out of a VCD of dsdpv1-sim, by a reader of the tests' own."""
+"""Reads the line from a VCD of dsdpv1-sim, with an independent reader."""
 import re
 
 

@@ -28,7 +28,7 @@ def capture(folder, scenario, *options, link="user0", status=0):
 
 
 def tshark(folder, packets, *options, installed=False):
-    """tshark's output with the dissector; `installed`: from the folder of plugins of `folder`, its home."""
+    """The output of tshark with the dissector; `installed`: from the plugin folder of `folder`, its home."""
     script = [] if installed else ["-X", f"lua_script:{DISSECTOR}/profibus_dp.lua"]
     home = os.environ | {"HOME": str(folder), "XDG_CONFIG_HOME": str(folder / "config")}
     done = subprocess.run(["tshark", *script, "-r", packets, *options], cwd=folder, env=home, capture_output=True, text=True,

@@ -1,4 +1,4 @@
-"""Runs test_parts.py and test_pins.py in Icarus, and looks whether a precision that is too coarse is refused.
+"""Runs test_parts.py and test_pins.py in Icarus, and checks that a too coarse precision is rejected.
 
     parts_test.py FOLDER
 """

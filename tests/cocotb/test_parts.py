@@ -12,7 +12,7 @@ ANSWER = Telegram(TelegramKind.SD1, da=2, sa=5, fc=0x00)
 
 
 def nearest_step(tick):
-    """Ticks in steps of 1 ps: a tick is 1000/12 of them, in whole numbers, halves rounded up."""
+    """In steps of 1 ps: a tick is 1000/12 of them, rounded to whole numbers, a half up."""
     return (2000 * tick + 12) // 24
 
 
@@ -64,7 +64,7 @@ async def edges_of(signal, bit):
 
 @cocotb.test()
 async def the_monitor_hears_right_and_wrong_telegrams(dut):
-    """With TSDR, and flags for what must not be."""
+    """With TSDR, and flags for violations."""
     source, monitor = ProfibusSource(dut.line_i), ProfibusMonitor(dut.line_o)
     begin = await source.write(STATUS)
     heard = await monitor.recv()
@@ -82,7 +82,7 @@ async def the_monitor_hears_right_and_wrong_telegrams(dut):
 
 @cocotb.test()
 async def masters_of_both_classes_share_the_line(dut):
-    """Class 2 takes part in the ring; a connection to an absent station ends with a reason. The line of the DUT is the bus's."""
+    """Class 2 takes part in the ring; a connection to a missing station ends, with its reason. The line of the DUT is the bus's."""
     segment = Segment(rxd=dut.line_i)
     heard = []
     ProfibusMonitor(dut.line_o, callback=heard.append)

@@ -30,7 +30,7 @@ async def power_on(dut, mode, checks="fail"):
 
 
 async def spi(pins, request, count, low=60 * NS):
-    """A frame; `count` bytes after the request's, each bit as it stands before SCK's rise."""
+    """A frame; `count` bytes after the request's, each bit at its level before SCK's rise."""
     pins.set("XSS", 0)
     await wait(100 * NS)
     bits = [byte >> bit & 1 for byte in request for bit in range(7, -1, -1)] + [1] * (8 * count)
@@ -100,7 +100,7 @@ async def a_low_sck_that_is_too_short_is_found(dut):
 
 @cocotb.test()
 async def the_scoreboard_finds_bits_of_miso_in_the_wrong_order(dut):
-    """Fault 129: the second bit of C5, the first one that differs in reverse order; at the pin spi_miso_delay after SCK's fall."""
+    """Fault 129: the second bit of C5, the first that differs when the byte is reversed; at the pin spi_miso_delay after SCK's fall."""
     pins, scoreboard, _ = await power_on(dut, SPI)
     await spi(pins, READ_READY, len(REPLY))
     try:

@@ -1,4 +1,4 @@
-// Wires for a test of the testbench itself: what is put in comes out.
+// Wires for a test of the testbench: outputs follow inputs.
 module wires (
   input  logic clk_i,
   input  logic line_i,
@@ -7,7 +7,7 @@ module wires (
   assign line_o = line_i;
 endmodule
 
-// A chip that answers nothing, with ports of other names; L_REQ and L_STA, inverted, say that the DPRAM is free.
+// A chip that answers nothing, with other port names; inverted L_REQ and L_STA show that the DPRAM is free.
 module pins_only (
   input  logic        rst,
   input  logic        user_req,

@@ -46,7 +46,7 @@ TEST(CfgIdentifier, EmptyPlacesAndManufacturerBytes) {
     std::vector<std::uint8_t> bytes = {count};
     for (std::uint8_t i = 0; i < count; ++i) {
       EXPECT_FALSE(lengths(bytes).complete()) << int{count};
-      bytes.push_back(0x1F);  // looks like an identifier and is none
+      bytes.push_back(0x1F);  // resembles an identifier
     }
     EXPECT_TRUE(lengths(bytes).complete());
     EXPECT_EQ(lengths(bytes).input(), 0);

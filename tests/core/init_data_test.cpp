@@ -18,7 +18,7 @@ using Block = std::vector<std::uint8_t>;
 /// B020.. with two configuration bytes: 2 inputs, 2 outputs.
 Block right() { return {16, 5, 0x0C, 0xC9, 0x0F, 0, 0, 244, 244, 32, 237, 0, 200, 0, 2, 0x11, 0x21}; }
 
-/// D7 and D11, said once more.
+/// D7 and D11, written again independently.
 bool allowed(const Block& block) {
   if (block.size() < 15 || block[0] > 214) return false;
   const std::size_t cfg = block[14];

@@ -1,4 +1,4 @@
-// The tables of reasons, one a room, and the words that a chip gives to those of every DP slave.
+// The tables of reasons, one per room, and a chip's words for those of every DP slave.
 #include "model/dsdpv1/reasons.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 using profibus::Reason;
 using profibus::Words;
 
-/// The valid placeholders of events; a name that is not in words.inc stays as it is.
+/// The valid placeholders of events; a name that is not in words.inc is kept.
 const std::regex kValue("\\{[abc](:(2x|3x|4x|state|rate|sap|rm|high|low|low2x))?\\}");
 
 std::string without_values(const std::string& text) { return std::regex_replace(text, kValue, ""); }

@@ -42,7 +42,7 @@ TEST(SynchroniserBlock, RandomInputsAreThoseOfTwoFlipFlopsAlsoWhenEvaluatedOnlyA
   bool pin = false, first = false, second = false, third = false;
   Tick next_change = 100;
   for (Cycle now = 0; now < 100'000; ++now) {
-    third = second;  // what the logic uses at this edge: sampled two edges ago
+    third = second;  // the level for the logic at this edge: sampled two edges ago
     second = first;
     first = pin;
     every.eval(now);

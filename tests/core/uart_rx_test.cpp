@@ -180,7 +180,7 @@ std::vector<Told> changes_of(const CharacterRun& run) {
   return changes;
 }
 
-/// A receiver's result for a run that is cut at `cut`, after which the line is low for five bits.
+/// A receiver's result for a run that is cut at `cut`, from where the line is low for five bits.
 class RunListener {
  public:
   RunListener(const CharacterRun& run, bool as_run, Tick cut) : run_(run), as_run_(as_run), cut_(cut) {

@@ -1,5 +1,4 @@
-// A station whose user's side is none of the DSDPV1's: what it hears, at which cycle, and that its own capacities
-// count.
+// A station with another user's side than the DSDPV1's: the mail with its cycles, and the effect of its own capacities.
 #include "model/profibus/user_side.hpp"
 
 #include <gtest/gtest.h>

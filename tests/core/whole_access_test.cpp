@@ -37,7 +37,7 @@ struct Recorded {
   std::vector<profibus::Event> events;
 };
 
-/// Two chips whose user does what chance says.
+/// Two chips with a random user.
 class WholeAccess : public testing::TestWithParam<unsigned> {
  protected:
   WholeAccess() {
@@ -51,7 +51,7 @@ class WholeAccess : public testing::TestWithParam<unsigned> {
   Tick choose(Tick from, Tick to) { return std::uniform_int_distribution<Tick>(from, to)(random); }
   bool one_in(int many) { return choose(1, many) == 1; }
 
-  /// The default, with limits kept exactly, or anything near them.
+  /// The default, with limits kept exactly, or random values near them.
   AccessTiming timing() {
     AccessTiming timing;
     if (one_in(3)) return timing;

@@ -1,4 +1,4 @@
-// RTL of a user's own: the example of docs/tutorials/rtl_cosim.md, and what is said when it cannot be built.
+// A user's RTL: the example of docs/tutorials/rtl_cosim.md, and the errors if it cannot be built.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(RtlRandom, ProgressIsOneLineWrittenOverItself) {
   EXPECT_THAT(called.out, testing::Not(HasSubstr("\\r")));
 }
 
-/// As it stands, in a folder that has nothing of this project round it.
+/// Unchanged, in a folder outside this project.
 TEST(Cosim, CopiedExampleBuildsUnchangedAndHasAnUnknownPin) {
   const app_test::Folder folder;
   copy_example(folder);
@@ -126,8 +126,8 @@ std::string line_with(const std::string& text, const std::string& word) {
   return at == std::string::npos ? "none" : text.substr(at, text.find('\n', at) - at);
 }
 
-/// One build for all of it: the pulse of INTR0 is 60 cycles long, P7 asks for 64.
-/// The reference RTL of the DSDPV1-RSU as if it were a user's: SPI, where SCK is a separate clock and MISO is late.
+/// One build for everything: the pulse of INTR0 is 60 cycles long, P7 requires 64.
+/// The reference RTL of the DSDPV1-RSU used as a user's: SPI, where SCK is a separate clock and MISO is late.
 TEST(OwnRtl, OfTheRsuIsTheSameAtItsSerialPort) {
   const app_test::Folder folder;
   std::ofstream(folder.file("pins.yaml")) << "reference: true\n";

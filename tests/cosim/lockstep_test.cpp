@@ -106,7 +106,7 @@ TEST(Lockstep, AnotherContentOfTheDpramIsFoundAtTheEndOfAnAccess) {
   top->spoil_cell(0x123);
   Lockstep lockstep(std::move(top));
   lockstep.set(480 * kCycle, number(Pin::kReset), 1);
-  lockstep.advance(10 * kEnd);  // no writes: compared from time to time
+  lockstep.advance(10 * kEnd);  // without writes: compared from time to time
   ASSERT_TRUE(lockstep.difference());
   EXPECT_EQ(lockstep.difference()->what, "DPRAM B123: model 00, RTL 5A");
   EXPECT_THAT(lockstep.difference()->dpram_accesses, HasSubstr("last access from cycle"));

@@ -1,6 +1,5 @@
 #pragma once
-// "RTL" that is the model itself, with one defect that the test chooses: what the lockstep has to find is known
-// exactly.
+// "RTL" that is the model with one defect chosen by the test, so that the result of the lockstep is known exactly.
 #include <algorithm>
 #include <functional>
 #include <utility>

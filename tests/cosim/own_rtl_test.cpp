@@ -1,4 +1,4 @@
-// The user's map of the pins of their RTL, and the code generated from it.
+// A user's map of the pins of their RTL, and the code generated from it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

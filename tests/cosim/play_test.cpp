@@ -1,4 +1,4 @@
-// The output files of a played stimulus: log, wave of the model's side, result. The RTL is made up.
+// The output of a played stimulus: log, wave of the model's side, result. The RTL is made up.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

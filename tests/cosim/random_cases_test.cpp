@@ -1,5 +1,5 @@
-// The parts of random cases have their intended effects on model and RTL: edges at chosen times, exceeded limits, the
-// way to data exchange.
+// The elements of random cases have their intended effect, in model and RTL: aimed edges, exceeded limits, the way to
+// data exchange.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// The effects of a stimulus, equal in model and RTL.
+/// The effects of a stimulus, in model and RTL.
 class Played {
  public:
   explicit Played(const Stimulus& stimulus, PlayOptions options = quick_options(), Tick limit = Tick{1} << 40) {
@@ -56,7 +56,7 @@ TEST(AimedEdge, FallsInThePartThatItIsAimedAt) {
   EXPECT_EQ(host.count("events", "INITIALISED"), 1U);
 }
 
-/// ... and is carried out all the same when it does not come in time.
+/// ... and is executed anyway if that does not come in time.
 TEST(AimedEdge, DoesNotWaitForEver) {
   constexpr Tick kWithin = 500'000;
   const std::string before = from_power_on("give +0\nsync\n");

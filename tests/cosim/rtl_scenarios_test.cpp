@@ -1,4 +1,4 @@
-// Every scenario that ships on the reference RTL: the short ones with their golden trace and the log of the model, the
+// Every shipped scenario on the reference RTL: the short ones with their golden trace and the log of the model, the
 // long ones, whose traces cost minutes, in lockstep, which compares each of their cycles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,8 +60,8 @@ TEST_P(ShortRtlScenarios, PinsOfTheRtlAreTheGoldenAndItsLogIsThatOfTheModel) {
   EXPECT_TRUE(read(folder_.file("skip.log")) == read(folder_.file("rtl.log")));
 }
 
-/// Not varied by random cases and scenarios: the time for which the transmitter's driver is on around an answer.
-/// Several chips in one thread, as in a scenario with several slaves.
+/// Not varied by random cases and scenarios: when the transmitter's driver is on around an answer. Several RTLs in one
+/// thread, as in a scenario with several slaves.
 TEST(ReferenceRtl, GoesInAnyOrder) {
   std::mt19937 random(1);
   for (int round = 0; round < 50; ++round) {

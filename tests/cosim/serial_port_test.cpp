@@ -1,6 +1,6 @@
-// The serial ports of the DSDPV1-RSU, the model alone, on frames and telegrams of which most are wrong: after each few
-// of them the port answers a right one, and every way in which a host can offend the port has been told.
-// DSDPV1_TELEGRAMS and DSDPV1_SEED in the environment say how many are sent and which (docs/cosim.md has the figures of
+// The serial ports of the DSDPV1-RSU, the model alone, with mostly invalid frames and telegrams: after every few of
+// them the port answers a valid one, and every violation that a host can commit at the port has been reported.
+// DSDPV1_TELEGRAMS and DSDPV1_SEED in the environment select their number and content (docs/cosim.md has the figures of
 // a long run).
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ long from_environment(const char* name, long usual) {
 long telegrams() { return from_environment("DSDPV1_TELEGRAMS", 2000); }
 std::uint64_t seed() { return static_cast<std::uint64_t>(from_environment("DSDPV1_SEED", 1)); }
 
-/// A chip at one of the ports, and a host that draws its telegrams from a seed.
+/// A chip at one of the ports, and a host that generates its telegrams from a seed.
 class Port {
  public:
   Port(HostMode mode, std::uint64_t seed) : random_(seed) {
@@ -92,7 +92,7 @@ class Port {
     chip_->advance(now_);
     return heard(reply.size()) == reply;
   }
-  /// The codes of these that the chip has not reported.
+  /// Those of these codes that the chip has not reported.
   std::set<std::string> untold(std::initializer_list<const char*> codes) const {
     std::set<std::string> left;
     for (const char* code : codes)

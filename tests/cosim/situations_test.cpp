@@ -1,4 +1,4 @@
-// The counts of random cases, and the resumption of an interrupted campaign.
+// The counts of random cases, and that a campaign resumes after an interruption.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using profibus::Reason;
 using testing::HasSubstr;
 
-/// The port of the user's host.
+/// The connection of the user's host.
 struct HostSide {
   Part part = Part::kDsdpv1;
   HostMode mode = HostMode::kParallel;
@@ -90,10 +90,10 @@ TEST(Situations, ThatAreMissingAreNamed) {
   Situations more;
   more.count("events", "C1_ANSWER other");
   some.add(more);
-  EXPECT_THAT(table(some, known), HasSubstr("events\tC1_ANSWER other\t1\n"));  // not known, and counted all the same
+  EXPECT_THAT(table(some, known), HasSubstr("events\tC1_ANSWER other\t1\n"));  // unknown, but counted
 }
 
-/// Sync and Freeze are held or not, as Global_Control and the answers to it say (S4, S24, S27).
+/// Whether Sync and Freeze are in force, according to Global_Control and its answers (S4, S24, S27).
 TEST(SituationWatch, FollowsSyncAndFreeze) {
   const tb::Dsdpv1Settings chip;
   Situations counted;
@@ -103,7 +103,7 @@ TEST(SituationWatch, FollowsSyncAndFreeze) {
   control(0x08);
   control(0x30);  // Unsync wins
   control(0x20);
-  watch.event({0, Reason::kGcSync, 1});  // not asked for in Set_Prm
+  watch.event({0, Reason::kGcSync, 1});  // not requested in Set_Prm
   control(0x04);
   watch.event({0, Reason::kDpState, 3, 1});
   control(0x02);

@@ -1,5 +1,4 @@
-// The directed stimuli that coverage asks for: model and RTL do not differ, and the model tells that what they are
-// there for has happened.
+// The directed stimuli required by coverage: model and RTL do not differ, and the model reports the intended situation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Stimulus files: what is written is read back, and wrong lines are named.
+// Stimulus files: written text is read back, and wrong lines are named.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -68,7 +68,7 @@ TEST(Stimulus, AnActionOfUserOrBoardIsAimedAtAPartOfAnAccess) {
   EXPECT_EQ(parse_stimulus("reset +12 low=5\n", "x", Part::kDsdpv1)[0].during, nullptr);
 }
 
-/// Situations of RESET and of the host's first edges, at each port; chance hits are not counted.
+/// For RESET and the host's first edges, at each port; random coincidences are not counted.
 TEST(RandomCases, AimAtEachPartOfAnAccess) {
   const std::size_t parts = tb::kind_of(Part::kRsu).random()->words().access_parts.size();
   for (const char* mode : kModes) {

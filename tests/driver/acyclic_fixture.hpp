@@ -7,7 +7,7 @@
 
 namespace dsdpv1 {
 
-/// A device with a table: slot 1 is plain data, slot 2 asks the test. Requests and answers are bytes as in the DPRAM.
+/// A device with a table: slot 1 is plain data, slot 2 calls the test. Requests and answers are bytes as in the DPRAM.
 class AcyclicTest : public DriverTest {
  protected:
   void SetUp() override {

@@ -12,7 +12,7 @@ import sys
 
 
 def names(listing):
-    """The names that a file defines and those that it needs, from what `nm -g -P` prints of its object file."""
+    """The names that a file defines and needs, from the output of `nm -g -P` for its object file."""
     rows = [line.split()[:2] for line in listing.splitlines()]
     return {name for name, kind in rows if kind.isupper() and kind != "U"}, {name for name, kind in rows if kind == "U"}
 
@@ -30,7 +30,7 @@ def calls(listings):
 
 
 def circle(graph):
-    """Files of which each calls the next and the last the first; empty when there is no circle."""
+    """Files of which each calls the next and the last the first; empty without a circle."""
     done, path = set(), []
 
     def visit(file):

@@ -1,4 +1,4 @@
-"""Makes up what nm prints, to see that call_circle.py finds circles and nothing else."""
+"""Uses made-up output of nm, to see that call_circle.py finds circles and nothing else."""
 import unittest
 
 import call_circle

@@ -8,7 +8,7 @@
 
 namespace dsdpv1 {
 
-/// A device on a fake chip. Every test ends with a look at the user's discipline.
+/// A device on a fake chip. Every test ends with a check of the user's discipline.
 class DriverTest : public testing::Test {
  protected:
   using Bytes = std::vector<std::uint8_t>;

@@ -16,11 +16,11 @@ namespace dsdpv1 {
 struct FakeChip {
   // ------------------------------------------------------------------------------------------------------ behaviour
   bool present = true;         ///< makes its accesses
-  bool takes_commands = true;  ///< looks at B010 in them
+  bool takes_commands = true;  ///< reads B010 in them
   bool refuses_silently = false;
   bool looks_at_crcs = true;               ///< of the user's blocks: not over SPI and UART (SP15)
   int not_ready_accesses = 0;              ///< accesses until B004 becomes 0xC5
-  int busy_samples = 0;                    ///< L_REQ samples that still find the chip at work
+  int busy_samples = 0;                    ///< L_REQ samples that still find the chip active
   std::map<std::uint16_t, int> bad_reads;  ///< address -> how many reads of it return a wrong value
   std::function<void()> before_access;     ///< called at each release
   std::function<void(bool)> on_r_req;
@@ -40,13 +40,13 @@ struct FakeChip {
   FakeChip();
   dsdpv1_port port();
   std::uint8_t& at(std::uint16_t address) { return memory.at(address); }
-  /// The holder that keeps the chip away lets it in.
+  /// The holder releases the DPRAM.
   void let_in();
   /// Puts a block where the chip puts them, with its CRC.
   void put_outputs(const std::vector<std::uint8_t>& data);
   void put_prm(const std::vector<std::uint8_t>& data);
   void put_cfg(std::uint8_t outputs, std::uint8_t inputs_length, const std::vector<std::uint8_t>& data);
-  /// A request of a master of class 1 or 2: Function_Num, slot, index, length and what follows.
+  /// A request of a master of class 1 or 2: Function_Num, slot, index, length and the rest.
   void put_request(int master_class, const std::vector<std::uint8_t>& request);
   /// Bytes of the memory from `address`.
   std::vector<std::uint8_t> bytes(std::uint16_t address, std::size_t count) const;

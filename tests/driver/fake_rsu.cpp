@@ -23,7 +23,7 @@ bool crc_is_right(const Bytes& request) { return sealed({request.begin(), reques
 
 Bytes refused(std::uint8_t code) { return sealed({0xE0 | kAddress, code}); }
 
-/// The end of the telegram, from its first bytes; 0 if it is not known yet, or they are not a telegram's.
+/// The length of the telegram, from its first bytes; 0 if they do not tell it, or do not begin a telegram.
 std::size_t length_of(FakePort port, const std::uint8_t* bytes, std::size_t n) {
   const int command = n > 0 ? bytes[0] >> 5 : -1;
   if (command == 0) return 6;

@@ -1,7 +1,7 @@
 #pragma once
-// The telegrams of a DSDPV1-RSU on the memory of a FakeChip: what docs/chip_rsu.md says of SPI (SP4 to SP16) and of
-// UART (UA5 to UA13), without time. The chip makes its access when the host releases (SPI), after each telegram (UART).
-// It watches the host's discipline: no cell without the claim.
+// The telegrams of a DSDPV1-RSU on the memory of a FakeChip: docs/chip_rsu.md for SPI (SP4 to SP16) and UART (UA5 to
+// UA13), without time. The chip makes its access when the host releases (SPI), after each telegram (UART). It checks
+// the host's discipline: no cell without the claim.
 #include <deque>
 
 #include "driver/dsdpv1_spi.h"
@@ -22,14 +22,14 @@ class FakeRsu {
   dsdpv1_error open(FakePort kind, dsdpv1_device& device, const dsdpv1_judge& judge);
 
   // -------------------------------------------------------------------------------------------------------- behaviour
-  int busy_claims = 0;      ///< so many claims come while the chip is in an access (SP13)
-  int failing_calls = 0;    ///< so many calls of the host's own functions fail
-  int deaf = 0;             ///< so many telegrams are not heard
-  int spoilt_requests = 0;  ///< so many telegrams arrive with a wrong byte
-  int spoilt_replies = 0;   ///< so many replies have a wrong byte
+  int busy_claims = 0;      ///< number of claims that come during an access of the chip (SP13)
+  int failing_calls = 0;    ///< number of failing calls of the host's functions
+  int deaf = 0;             ///< number of telegrams that are ignored
+  int spoilt_requests = 0;  ///< number of telegrams that arrive with a wrong byte
+  int spoilt_replies = 0;   ///< number of replies with a wrong byte
   int reply_gap = 0;        ///< SP6, bytes
   bool data_exchange = true;
-  std::function<void(const Bytes& request)> before_telegram;  ///< the chip's own doings between two telegrams
+  std::function<void(const Bytes& request)> before_telegram;  ///< the chip's actions between two telegrams
 
   // ------------------------------------------------------------------------------------ the lines, a byte at a time
   void select() { frame_.clear(), reply_.clear(); }
@@ -60,8 +60,8 @@ class FakeRsu {
 
   FakeChip& chip_;
   std::uint8_t ownership_ = 0;  ///< B014.1
-  Bytes frame_, reply_;         ///< SPI: what came since XSS fell, what goes out
-  Bytes telegram_;              ///< UART: what has come of it
+  Bytes frame_, reply_;         ///< SPI: bytes received since XSS fell, bytes to send
+  Bytes telegram_;              ///< UART: bytes received so far
   std::deque<std::uint8_t> line_;
 };
 

@@ -1,5 +1,5 @@
-// docs/programmers_guide.md: what a call costs over SPI and UART, counted, and the examples of its chapter on them,
-// which are compiled as they stand there.
+// docs/programmers_guide.md: the cost of a call over SPI and UART, counted, and the examples of its chapter on them,
+// which are compiled unchanged.
 #include <fstream>
 #include <sstream>
 
@@ -19,7 +19,7 @@ std::uint32_t board_us(void);
 
 namespace dsdpv1::board {
 
-// State of the examples' board functions; global, because the examples are C without an object pointer.
+// Used by the examples' board functions; the examples are C and have no objects.
 FakeRsu* rsu = nullptr;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 std::uint32_t us = 0;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 

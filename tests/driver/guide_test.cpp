@@ -1,5 +1,5 @@
 // docs/programmers_guide.md: the numbers of the timing budget (DPRAM accesses and holds of each call, counted) and the
-// example of the DPV1 chapter, which is compiled as it stands there.
+// example of the DPV1 chapter, which is compiled unchanged.
 #include <fstream>
 #include <sstream>
 
@@ -16,7 +16,7 @@ bool flash_failed(void);
 
 namespace dsdpv1::board {
 
-// State of the example's board functions; global, because the example is C without an object pointer.
+// Used by the example's board functions; the example is C and has no objects.
 std::vector<std::uint8_t> flash;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 bool busy = false, failed = false;
 
@@ -35,7 +35,7 @@ bool flash_failed() { return board::failed; }
 namespace dsdpv1 {
 namespace {
 
-/// The guide has the row "| what | holds | accesses |" with the numbers just counted.
+/// The guide must have the row "| what | holds | accesses |" with the present counts.
 void expect_row_of(const FakeChip& chip, const std::string& what) {
   std::ifstream file(GUIDE);
   std::stringstream guide;

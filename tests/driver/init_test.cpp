@@ -176,7 +176,7 @@ TEST_F(Init, DropsFlagsOfTheEarlierOperation) {
   EXPECT_EQ(chip.at(0x00E), 0);
 }
 
-/// An initialisation that the chip refuses changes nothing (D11): what waited in DPRAM and driver waits still.
+/// A refused initialisation changes nothing (D11): waiting data in DPRAM and driver stay.
 class RefusedInit : public Init {
  protected:
   void refuse_one(const std::function<void()>& meanwhile = [] {}) {

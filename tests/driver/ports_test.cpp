@@ -1,4 +1,4 @@
-// The same services over the three ports: what the application and the chip get is what they get over the parallel one.
+// The same services over the three ports: application and chip get the same as over the parallel one.
 #include "tests/driver/acyclic_fixture.hpp"
 
 namespace dsdpv1 {
@@ -6,7 +6,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A device on one port, whose log says what the services returned and what reached whom.
+/// A device on one port; the log has the results of the services and the data that arrived.
 class Story : public AcyclicTest {
  public:
   explicit Story(FakePort port) : port_(port) {}

@@ -1,7 +1,7 @@
-/* The public headers must stand alone in C99, twice included. */
+/* The public headers must compile alone in C99, even if included twice. */
 #include "driver/dsdpv1_acyclic.h"
 
-/* Each again, after the other. */
+/* Each a second time, after the others. */
 #include "driver/dsdpv1.h"
 
 dsdpv1_error standalone(dsdpv1_acyclic* acyclic);

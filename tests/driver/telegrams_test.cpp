@@ -1,4 +1,4 @@
-// Faults on SPI and UART, and the driver's reactions.
+// Faults on SPI and UART, and the driver's reaction.
 #include "tests/driver/acyclic_fixture.hpp"
 
 namespace dsdpv1 {
@@ -15,7 +15,7 @@ class Spi : public AcyclicTest {
 class Uart : public AcyclicTest {
  protected:
   FakePort port_kind() const override { return FakePort::kUart; }
-  /// The chip does `what` right before the next exchange telegram: after the host's look at its flags.
+  /// The chip does `what` right before the next exchange telegram: after the host has read its flags.
   void before_exchange(std::function<void()> what) {
     rsu.before_telegram = [what = std::move(what), once = true](const Bytes& request) mutable {
       if (request[0] == 0x41 && std::exchange(once, false)) what();
@@ -64,8 +64,8 @@ TEST_P(Serial, EachPlaceOfADisturbanceIsHealed) {
     EXPECT_THAT(received(), ElementsAre(place)) << place;
     ASSERT_FALSE(prm_seen.empty()) << place;
     EXPECT_THAT(prm_seen.back(), ElementsAre(place)) << place;
-    // One whose reply is destroyed is written twice; over the UART the chip may have taken it meanwhile: H7 discards
-    // it.
+    // A verdict whose reply is destroyed is written twice; over the UART the chip may have taken it meanwhile: H7
+    // discards it.
     EXPECT_THAT(chip.verdicts, testing::Each("prm ok")) << place;
     EXPECT_THAT(chip.verdicts, SizeIs(testing::AllOf(testing::Ge(1U), testing::Le(2U)))) << place;
     chip.verdicts.clear();
@@ -77,7 +77,7 @@ TEST_P(Serial, ADeadLineIsAnErrorAndWhatWaitedIsThereAfterwards) {
   initialise(2, 0);
   chip.put_prm({5});
   chip.put_outputs({6});
-  const int last = GetParam() == FakePort::kUart ? 1 : 3;  // look, exchange; claim, look, read and write, release
+  const int last = GetParam() == FakePort::kUart ? 1 : 3;  // read, exchange; claim, read, read and write, release
   for (int telegrams = 0; telegrams <= last; ++telegrams) {
     int seen = 0;
     rsu.before_telegram = [&](const Bytes&) { rsu.deaf = seen++ >= telegrams ? 1 : 0; };
@@ -268,7 +268,7 @@ TEST_F(Uart, AnAnswerThatWaitsIsNotAnnouncedTwice) {
   ASSERT_EQ(poll(), DSDPV1_OK);
   chip.takes_commands = true;
   int looks = 0;
-  chip.before_access = [&] { chip.takes_commands = ++looks != 1; };  // the chip takes it after the first look
+  chip.before_access = [&] { chip.takes_commands = ++looks != 1; };  // the chip takes it after the first read
   ASSERT_EQ(dsdpv1_keep_input_errors(&device, true), DSDPV1_OK);
   EXPECT_EQ(chip.answers_taken, 1);
   EXPECT_EQ(chip.at(0x011), 0x40);

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""One run, from power-on to data exchange, by every way that there is to the model: the C API from C, the Python module, DPI-C in Verilator with and
-without a CLK, VPI in Icarus, cocotb, SystemC at 1 fs and at 1 ps. The inputs of the golden trace are played to each; each change of each output must equal the golden's, and so all agree.
+"""One run, from power-on to data exchange, through every interface to the model: the C API from C, the Python module, DPI-C in Verilator with and
+without a CLK, VPI in Icarus, cocotb, SystemC at 1 fs and at 1 ps. Each gets the inputs of the golden trace; each change of each output must match
+the golden, and so all interfaces match each other.
 
     every_way_test.py BUILD SIM WAY...
 
-Each way has its own time unit: ticks of 1/12 ns, ps or fs. A change is at its tick when its time is the one nearest to that tick: half a unit off
+Each interface has its unit of time: ticks of 1/12 ns, ps or fs. A change is at its tick if its time is the nearest to that tick: at most half a
+unit off, 0.5 fs or 0.5 ps. As a unit is less than a tick it belongs to no other.
 at most, 0.5 fs or 0.5 ps, and as a unit is less than a tick it belongs to no other.
 """
 import os
@@ -41,7 +43,7 @@ def level_of(bits):
 END_TICK = tick_of(END, PS)
 
 
-# ---- the ways: each gives (tick, pin, level)
+# ---- the interfaces: each returns (tick, pin, level)
 def call(command, **options):
     done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **options)
     assert done.returncode == 0, f"{command[0]}: {done.stdout}"
@@ -126,7 +128,7 @@ WAYS = {
 WITHOUT_X = ("DPI", "DPI, no CLK")  # Verilator has two levels: what is X elsewhere is some value
 
 
-# ---- compared with each other
+# ---- comparison
 def settled(changes, begin):
     """{tick: levels of all outputs} from `begin` on, where one differs from before."""
     levels, at = dict(POWER_ON), {}

@@ -15,7 +15,7 @@ async def play(dut):
     await pins.power_on()
     with open(os.environ["OUTPUTS"], "w", encoding="ascii") as out:
         outputs = [each.name for each in pins.kind.pins if not each.input]
-        # The initial levels are reported after the one step that power_on takes.
+        # The initial levels are reported after the one step of power_on.
         pins.watch(outputs, lambda _, pin, level: out.write(f"{get_sim_time('step') if now() > 0 else 0} {pin} {level}\n"))
         with open(os.environ["INPUTS"], encoding="ascii") as lines:
             changes = [(int(tick), 0, int(pin), int(level)) for tick, pin, level in map(str.split, lines)]

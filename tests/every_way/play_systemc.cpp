@@ -1,6 +1,6 @@
-// play_systemc INPUTS OUTPUTS END FEMTOSECONDS: changes of inputs to the pin module in a simulation of this resolution;
-// what its signals do then, each at the simulation time of its event. Lines of INPUTS: tick, pin, level; of OUTPUTS:
-// time in units of the resolution, pin, level.
+// play_systemc INPUTS OUTPUTS END FEMTOSECONDS: applies changes of inputs to the pin module in a simulation of this
+// resolution and records the changes of its signals, each at the simulation time of its event. Lines of INPUTS: tick,
+// pin, level; of OUTPUTS: time in units of the resolution, pin, level.
 #include <fstream>
 #include <iostream>
 

@@ -17,7 +17,7 @@ RTL_FAULT = "12"  # of rtl_ref/dsdpv1/faults.txt, one that is quickly found and 
 class Output:
     """One output: its kind and file, and the words of its command, of which the last is the option for it."""
 
-    finite, endless = [], []  # what lets the command end soon or never
+    finite, endless = [], []  # make the command end soon or never
     usual = 0                 # its exit code without a fault
     besides = ()              # other files that its command writes whatever becomes of it
     other_input = ""          # a file that it reads, not the scenario
@@ -40,7 +40,7 @@ class Output:
         return [word for word in [*self.words, path or self.file, *(self.endless if endless else self.finite), *more] if word]
 
     def wait_until_it_runs(self, process, place):
-        """The part of its error channel read meanwhile."""
+        """Text read meanwhile from its error channel."""
         place.part(of=".%d" % process.pid)
         return b""
 
@@ -66,7 +66,7 @@ class OfRun(Output):
 
 
 class SaveFile(Output):
-    """For --wave-save: its file is beside the wave, which is written first."""
+    """For --wave-save: the file beside the wave, which exists before it is written."""
 
     other_input = "device.gsd"
 
@@ -83,7 +83,7 @@ class OfServe(Output):
     finite, endless = ["--for", "3ms"], ["--for", "3000s"]
     other_input = "device.gsd"
     simulates = True
-    usual = 1  # whenever it ends: the master of the scenario looks for the slave at another address
+    usual = 1  # at any end: the master of the scenario has another address for the slave
     others = {"--wave": "--log", "--log": "--result", "--result": "--log", "--capture": "--log", "--report": "--log"}
 
     def __init__(self, kind, file, option):
@@ -114,7 +114,7 @@ class OfCapture(Output):
 
 
 class OfReplay(Output):
-    """The files of a difference: of an existing case, which is quicker."""
+    """The output for a difference: in an existing case, which is faster."""
 
     usual = 1
     other_input = "case.stimulus"

@@ -1,5 +1,5 @@
-"""Faults of files: a full disk, what may not be written or replaced, names. Each does something to the place's output and returns what is
-left, the exit code, the line."""
+"""Faults of files: a full disk, files that may not be written or replaced, names. Each modifies the place's output and returns the remaining
+files, the exit code, the line."""
 import os
 
 from commands import SCENARIO
@@ -44,7 +44,7 @@ def is_a_folder(place):
 
 
 def refused(place, words, before):
-    """The output is a file that is there and no copy of it: it must be what it was."""
+    """The output is an existing file that is not a copy of it: it must stay unchanged."""
     place.inputs.add(place.output.file)
     row = place.end(place.start(words))
     check(read(place.file()) == before, "it was replaced")
@@ -70,7 +70,7 @@ def other_input(place):
 
 
 def twice(place):
-    """By another spelling, or a link if the other needs a different ending."""
+    """By another spelling, or, if the other needs its own ending, a link."""
     same_file = "./" + place.output.file
     if place.output.other == "--difference":
         same_file = "same.vcd"

@@ -1,4 +1,4 @@
-"""A place where one fault is done to a sweep, and what is found in its folder afterwards."""
+"""A place where a sweep gets one fault, and the contents of its folder afterwards."""
 import json
 import os
 import re
@@ -25,7 +25,7 @@ QUICK, LONG = "end=600us,700us", "end=600us,300ms"  # the second point of LONG i
 
 
 class Missed(Exception):
-    """A run had ended before it could be held: all is done once more."""
+    """A run had ended before it could be stopped: everything is repeated."""
 
 
 class OfSweep(Output):
@@ -36,7 +36,7 @@ class OfSweep(Output):
 
 
 def statement(content):
-    """The contents of a point's file, except the duration of its run."""
+    """The content of a point's file, without the run's duration."""
     point = json.loads(content)
     for key in ("wall_s", "real_time_factor"):
         point["result"].pop(key)
@@ -53,7 +53,7 @@ def undisturbed(program, output, path):
 
 
 class SweepPlace(Place):
-    """`reference`: the files of a sweep that was let alone."""
+    """`reference`: the files of an undisturbed sweep."""
 
     def __init__(self, program, output, kept, reference):
         super().__init__(program, output, kept)
@@ -69,13 +69,13 @@ class SweepPlace(Place):
         check(row[:2] == ["all complete", "0"], "without a fault: %s" % row)
 
     def sweep_but(self, *names):
-        """As if it had not come to these files."""
+        """As if these files had not been reached."""
         self.sweep()
         for name in names:
             os.remove(self.own(name))
 
     def change_sweep(self, output=None):
-        """From here on another output, program or content of a file is the right one."""
+        """From here on another output, program or content of a file is expected."""
         self.output = output or self.output
         self.reference = undisturbed(self.program, self.output, self.path)
         self.inputs.add("whole")
@@ -88,12 +88,12 @@ class SweepPlace(Place):
     # --- while it runs
 
     def start_and_hold(self):
-        """A sweep, and the number of its second point's run, which stands still."""
+        """A sweep, and the number of its second point's run, which is stopped."""
         sweep = self.start(self.output.command())
         return sweep, self.hold(sweep)
 
     def runs(self):
-        """The file of the second point; a temporary file has the number of the process that writes it."""
+        """Files of the second point; a temporary file has the number of the process that writes it."""
         names = os.listdir(self.own("points")) if os.path.isdir(self.own("points")) else []
         return [int(match[1]) for match in map(RUN.fullmatch, names) if match]
 
@@ -123,7 +123,7 @@ class SweepPlace(Place):
         return re.sub(r"\.\d+\.part\b", ".PID.part", text)
 
     def line(self, errors):
-        """Before its last line a sweep says what it has found in the folder."""
+        """Before its last line a sweep reports its findings in the folder."""
         lines = errors.decode().splitlines()
         check(len(lines) <= 1 or len(lines) == 2 and lines[0].startswith("sweep: "), "more lines: %s" % lines)
         return "`<br>`".join(self.neutral(line) for line in lines)
@@ -150,14 +150,14 @@ class SweepPlace(Place):
         return " (empty)" if not content else ""
 
     def again(self):
-        """The same command without the fault must give the same as a sweep that was let alone; what it says."""
+        """The same command without the fault must give the same as an undisturbed sweep; returns its output."""
         row = self.do()
         check(row[:2] == ["all complete", "0"], "the same command again: %s" % row)
         return row[2]
 
 
 def state_of(process):
-    """T: it stands still, Z: it has ended, -: it is no more."""
+    """T: stopped, Z: ended, -: gone."""
     try:
         return read("/proc/%d/stat" % process).rsplit(b")", 1)[1].split()[0].decode()
     except (FileNotFoundError, ProcessLookupError):
@@ -169,7 +169,7 @@ def wait_for_the_end_of(process):
 
 
 def wait_for_pending(process, number):
-    """A process that stands still has got a signal."""
+    """A stopped process has received a signal."""
     def there():
         fields = dict(line.split(":\t") for line in read("/proc/%d/status" % process).decode().splitlines())
         return (int(fields["SigPnd"], 16) | int(fields["ShdPnd"], 16)) >> (number - 1) & 1

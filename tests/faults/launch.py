@@ -1,7 +1,7 @@
 """Starts a program on a machine with a fault: launch.py FAULTS PROGRAM ARGUMENTS...
 
-FAULTS, with commas: fsize=N, no file may be longer than N bytes (as on a full disk); nofile=N, no more than N files may be open; user, files
-that may not be written are not, also for root; closed, there is no standard output.
+FAULTS, with commas: fsize=N, no file may be longer than N bytes (as on a full disk); nofile=N, at most N files may be open; user, files without
+write permission cannot be written even by root; closed, there is no standard output.
 """
 import ctypes
 import os
@@ -15,7 +15,7 @@ LIMITS = {"fsize": resource.RLIMIT_FSIZE, "nofile": resource.RLIMIT_NOFILE}
 
 
 def keep_to_permissions():
-    """Drops root's additional rights; without effect for other users."""
+    """Privileges of root; no effect for others."""
     libc = ctypes.CDLL(None, use_errno=True)
     for capability in (CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH):
         libc.prctl(PR_CAPBSET_DROP, capability, 0, 0, 0)
@@ -29,6 +29,6 @@ for fault in filter(None, sys.argv[1].split(",")):
     else:
         limit, number = fault.split("=")
         resource.setrlimit(LIMITS[limit], (int(number), resource.getrlimit(LIMITS[limit])[1]))
-for number in (signal.SIGPIPE, signal.SIGXFSZ):  # Python ignores them, and what is ignored stays so
+for number in (signal.SIGPIPE, signal.SIGXFSZ):  # Python ignores them, and ignored signals are inherited
     signal.signal(number, signal.SIG_DFL)
 os.execv(sys.argv[2], sys.argv[2:])

@@ -1,4 +1,4 @@
-"""Effects of faults on the outputs of dsdpv1-sim: causes each fault for each output; docs/robustness.md has the table.
+"""The effect of faults on the outputs of dsdpv1-sim: each fault is applied to each output, and docs/robustness.md has the table.
 
     outputs.py DSDPV1_SIM           does all and compares the table with the page
     outputs.py DSDPV1_SIM --write   ... and writes it
@@ -73,7 +73,7 @@ FAULTS = [
 
 
 def prepare(program, folder):
-    """The inputs of all, and what each output is without a fault."""
+    """The inputs of all, and each output without a fault."""
     with open(os.path.join(folder, "s.yaml"), "w", encoding="UTF-8") as file:
         file.write(SCENARIO)
     shutil.copy(os.path.join(ROOT, "scenarios", "dsdpv1.gsd"), os.path.join(folder, "device.gsd"))
@@ -108,7 +108,7 @@ def one(program, folder, fault, function, output):
 
 
 def rows(program, folder):
-    """For each fault, outputs with the same effect are in one row."""
+    """For each fault, outputs with the same result share a row."""
     with ThreadPoolExecutor(4) as pool:
         jobs = [(fault, output, pool.submit(one, program, folder, fault, function, output))
                 for fault, function, outputs in FAULTS for output in outputs]
@@ -121,14 +121,14 @@ def rows(program, folder):
 
 
 def who(outputs):
-    """A command alone stands for all of its outputs."""
+    """A command alone means all of its outputs."""
     for every, words in ((ALL, "all"), (ALL + SAVES, "all"), (QUICK, "all but rtl-random (stimulus)"), (QUICK + SAVES, "all but rtl-random (stimulus)")):
         if outputs == every:
             return words
     texts = []
     for command in dict.fromkeys(output.words[0] for output in outputs):
         kinds = [output.kind for output in outputs if output.words[0] == command]
-        every = [output.kind for output in ALL if output.words[0] == command]  # the save files stand for themselves
+        every = [output.kind for output in ALL if output.words[0] == command]  # the save files are listed separately
         texts.append(command if kinds == every or not kinds[0] else "%s (%s)" % (command, ", ".join(kinds)))
     return ", ".join(texts)
 

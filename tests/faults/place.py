@@ -1,4 +1,4 @@
-"""A folder where one fault is done to one output of dsdpv1-sim, and what is found there afterwards."""
+"""A folder in which one fault is applied to one output of dsdpv1-sim, and its contents afterwards."""
 import os
 import re
 import shutil
@@ -36,7 +36,7 @@ def has_changes(content):
 
 
 class Place:
-    """A folder with the inputs of `kept`, where one fault is done to one output."""
+    """A folder with the inputs of `kept`, in which one fault is applied to one output."""
 
     def __init__(self, program, output, kept):
         self.program, self.output = program, output
@@ -44,7 +44,7 @@ class Place:
         shutil.copytree(kept, self.path, symlinks=True, dirs_exist_ok=True)
         self.inputs = {*os.listdir(self.path), *output.besides}
         self.started = []
-        self.heard = {}  # of processes, what they have said while they were waited for
+        self.heard = {}  # output of processes while they were awaited
 
     def file(self, name=None):
         return os.path.join(self.path, name or self.output.file)
@@ -88,7 +88,7 @@ class Place:
         return self.neutral(text)
 
     def neutral(self, text):
-        """Without what differs from output to output."""
+        """Without the parts that differ between outputs."""
         text = re.sub(r"n{100,}(\.\w+)?", "NAME", text)
         text = text.replace(self.output.file or "/", "FILE").replace("./FILE", "FILE")
         text = re.sub(r"--(wave|log|result|trace|output|difference|stimulus|tsv|replay|list|capture|report|chip|json|table|junit)\b", "OPTION", text)
@@ -120,7 +120,7 @@ class Place:
         return " complete"
 
     def part(self, something=False, of=""):
-        """The temporary file, of the process with this number; `something`: once there is something to be read in it, of FST a block of changes."""
+        """The temporary file of the process with this number; `something`: once it has readable content, for FST a block of changes."""
         def there():
             return [name for name in os.listdir(self.path) if name.endswith("%s.part" % of) and name not in self.inputs
                     and (not something or has_changes(read(self.file(name))))]

@@ -1,4 +1,4 @@
-"""Signals while a command starts or runs, and two that run at once. Each returns what is left, the exit code, the line."""
+"""Signals while a command starts or runs, and two simultaneous commands. Each returns the remaining files, the exit code, the line."""
 import os
 import signal
 import subprocess
@@ -25,7 +25,7 @@ def hung_up(place):
 
 
 def kill(place):
-    """When there is something to be read, if there is before the end; of FST, more than its head."""
+    """Sends the signal when there is something to read, if that is before the end; for FST, more than its head."""
     process = place.start_endless()
     place.part(something=place.output.simulates and place.output.kind not in ("result", "report"))
     process.kill()
@@ -42,7 +42,7 @@ def killed_and_recovered(place):
 
 
 def starting(place, number):
-    """The start is held at a FIFO without a reader."""
+    """The start blocks at a FIFO without a reader."""
     os.mkfifo(place.file("hold.vcd"))
     process = place.start(place.output.command(more=place.output.held("hold.vcd"), endless=True))
     part = place.part()
@@ -69,7 +69,7 @@ def killed_at_start(place):
 
 
 def two_at_once(place):
-    """Both are running before the first of them ends: its temporary file is its own."""
+    """Both are running before the first of them ends: each has its own temporary file."""
     processes = [place.start_endless() for _ in range(2)]
     parts = [name for name in os.listdir(place.path) if name.endswith(".part") and name not in place.inputs]
     check(len({name.split(".")[-2] for name in parts}) == 2, "they do not have a temporary file each: %s" % parts)

@@ -1,4 +1,4 @@
-"""Outputs other than files: terminals, FIFOs, /dev/null, standard output. Each fault returns what is left, the exit code, the line."""
+"""Outputs that are not files: terminals, FIFOs, /dev/null, standard output. Each fault returns the remaining files, the exit code, the line."""
 import os
 import select
 import signal
@@ -83,7 +83,7 @@ def fifo_reader_gone(place):
 
 
 def full_pipe_and_interrupted(place):
-    """Another output waits for its reader when the signal comes: it continues afterwards, and no output is spoilt."""
+    """Another output waits for its reader when the signal comes: it continues afterwards, and no output is damaged."""
     os.mkfifo(place.file("pipe.vcd"))
     process = place.start(place.output.command(more=place.output.beside("pipe.vcd"), endless=True))
     with open(place.file("pipe.vcd"), "rb", buffering=0) as pipe:
@@ -105,7 +105,7 @@ def stdout_full(place):
 
 
 def stdout_full_in_the_middle(place):
-    """The limit is far beyond the run's files; what is said begins a few bytes before it."""
+    """The limit is far beyond the run's files; the output begins a few bytes before it."""
     limit = 100_000_000
     with tempfile.TemporaryFile() as file:
         file.seek(limit - 100)

@@ -1,4 +1,4 @@
-"""Faults of sweeps. Each yields what is left, the exit code, the line, and takes the fault away afterwards."""
+"""Faults of sweeps. Each yields the remaining files, the exit code, the line, and removes the fault afterwards."""
 import os
 import shutil
 import signal
@@ -80,7 +80,7 @@ def is_a_file(place):
 
 
 def holds_something_else(place):
-    """Results without a sweep's description are something else, too."""
+    """Results without a sweep's description count as something else."""
     rows = []
     for name in ("thesis.txt", "results.csv"):
         os.mkdir(place.file())
@@ -94,7 +94,7 @@ def holds_something_else(place):
 # --- signals --------------------------------------------------------------------------------------------------------------
 
 def running(place, number):
-    """The run stands still until the sweep has told it to end."""
+    """The run is stopped until the sweep has told it to end."""
     sweep, run = place.start_and_hold()
     sweep.send_signal(number)
     wait_for_pending(run, signal.SIGTERM)
@@ -115,7 +115,7 @@ def hung_up(place):
 
 
 def killed(place):
-    """Its run ends with it, and both have no time to remove anything."""
+    """Its run ends with it, and neither has time to remove anything."""
     sweep, run = place.start_and_hold()
     sweep.kill()
     wait_for_the_end_of(run)
@@ -138,7 +138,7 @@ def run_killed_twice(place):
 # --- two at once ----------------------------------------------------------------------------------------------------------
 
 def second_one(place):
-    """The first continues as if there had been none."""
+    """The first one continues undisturbed."""
     sweep, run = place.start_and_hold()
     second = place.start(place.output.command())
     _, errors = second.communicate(timeout=DEADLINE)
@@ -150,7 +150,7 @@ def second_one(place):
 
 
 def both_at_start(place):
-    """Which is the first is left to chance, and whether it ends before the other begins."""
+    """Which one is first is random, as is whether it ends before the other begins."""
     both = [place.start(place.output.command()) for _ in range(2)]
     for process in both:
         process.wait(DEADLINE)
@@ -160,7 +160,7 @@ def both_at_start(place):
     yield ["all complete", "0; of the other 2 as in the row above, or 0 when it has come after the first", ""]
 
 
-# --- what is kept, and is not what it should be ---------------------------------------------------------------------------
+# --- wrong kept files -----------------------------------------------------------------------------------------------------
 
 def points_damaged(place):
     """Cut off, empty, another point's, of another sweep, of another form."""
@@ -261,7 +261,7 @@ def written_twice(place):
     yield from written_while_running(place, 2)
 
 
-# --- its own input --------------------------------------------------------------------------------------------------------
+# --- wrong input files ----------------------------------------------------------------------------------------------------
 
 def refused(place, put, source, name, words):
     """Puts the source into the place of a file in the folder, where it must stay as it is."""

@@ -1,4 +1,4 @@
-"""Effects of faults on the folder of dsdpv1-sim sweep: causes each fault; docs/robustness.md has the table.
+"""The effect of faults on the folder of dsdpv1-sim sweep: each fault is applied, and docs/robustness.md has the table.
 
     sweeps.py DSDPV1_SIM           does all and compares the table with the page
     sweeps.py DSDPV1_SIM --write   ... and writes it

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Many at once in one folder, regressions that are disturbed, goldens on a full disk, and what all commands do alike: docs/robustness.md has the rules.
+"""Many commands at once in one folder, disturbed regressions, goldens on a full disk, and the common behaviour of all commands: docs/robustness.md
+has the rules.
 
     together.py DSDPV1_SIM [--many N] [TEST...]
 """
@@ -31,7 +32,7 @@ MANY = 12
 
 
 class Folder(unittest.TestCase):
-    """Each test has a folder with a scenario and what a run of it writes."""
+    """Each test has a folder with a scenario and the output of its run."""
 
     program, kept = None, None
 
@@ -178,7 +179,7 @@ class Regression(Folder):
         os.remove(self.file("device.gsd"))
         code, lines = self.end(process)
         self.assertEqual((code, lines[-1]), (2, "device.gsd: was changed while the regression ran, allowed is the same content for all of its runs"))
-        self.assertEqual(self.do(*self.WORDS)[0], 1)  # what a scenario refuses is what its run has come to
+        self.assertEqual(self.do(*self.WORDS)[0], 1)  # a refusal of a scenario is the result of its run
         self.assertIn("device.gsd: no such file", self.said)
 
 

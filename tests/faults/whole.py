@@ -1,4 +1,4 @@
-"""Checks that an output is complete: the same as that of an undisturbed run, or, of a run that was ended early, right up to its end."""
+"""Checks that an output is whole: the same as that of an undisturbed run, or, for a run ended early, valid up to its end."""
 import json
 import os
 import re
@@ -19,7 +19,7 @@ def last_line(content):
 
 
 def packets(content):
-    """The number of complete blocks of a pcapng file, and of bytes after them."""
+    """The number of whole blocks in a pcapng file, and of the bytes after them."""
     at, count = 0, 0
     while at + 12 <= len(content):
         length = struct.unpack_from("<I", content, at + 4)[0]
@@ -54,7 +54,7 @@ def ended_early(program, path, content):
 
 
 def readable(path, content):
-    """A temporary file that a killed run has left: whole lines of simulated time, except perhaps the last; FST's is for `recover`."""
+    """A temporary file left by a killed run: whole lines of simulated time, except perhaps the last; FST's is for `recover`."""
     ending = os.path.splitext(re.sub(r"\.\d+\.part$", "", path))[1]
     if ending == ".fst":
         return True
@@ -67,7 +67,7 @@ def readable(path, content):
 
 
 def without_wall_time(content):
-    """Runs differ in their duration and pace, the port, and the wave's path in a save file."""
+    """Removes the differences between runs: duration and pace, the port, and in a save file the path of the wave."""
     if content.startswith(b"{"):
         result = json.loads(content)
         for key in ("wall_s", "real_time_factor", "pacing"):

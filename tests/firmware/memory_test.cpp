@@ -1,4 +1,4 @@
-// The functions that stand in for a C library on the board, as the host's own ones do it.
+// The board's replacements for C library functions, compared with the host's.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-// Readers of captures: what they tell, and how they refuse.
+// Readers of captures: their output and errors.
 #include "bus/capture/captured_telegram.hpp"
 #include "bus/telegram/explain.hpp"
 #include "tests/fuzz/input.hpp"
@@ -14,7 +14,7 @@ inline void take(const bus::capture::CapturedTelegram& telegram) {
   bus::explain_bytes(bus::decode(telegram.bytes));
 }
 
-/// `read` of a capture; what it throws is one line.
+/// `read` of a capture; an exception has one line.
 template <class Read>
 void read_capture(const Read& read) {
   try {

@@ -1,4 +1,4 @@
-"""The corpora under version control: few small inputs that enter all the code that larger ones do, and what was found once."""
+"""The corpora under version control: few small inputs that reach all the code of larger ones, and former findings."""
 import pathlib
 import re
 import shutil
@@ -18,7 +18,7 @@ def of(name):
 
 
 def features(control):
-    """The contents of libFuzzer's control file of a merge: the code that each input reaches, with its counters."""
+    """The contents of libFuzzer's control file for a merge: the code reached by each input, with its counters."""
     lines = control.read_text(encoding="utf-8").splitlines()
     names = lines[2:2 + int(lines[0])]
     entered = {}
@@ -46,7 +46,7 @@ def chosen(entered, had):
 
 
 def minimise(name, work, call):
-    """Chooses among the corpus and `work`, where fuzzing has left what it found."""
+    """Chooses among the corpus and `work`, the findings of fuzzing."""
     own = of(name)
     with tempfile.TemporaryDirectory() as folder:
         pool, control, merged = (pathlib.Path(folder) / each for each in ("pool", "control", "merged"))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fuzzes what takes input from outside, with clang's libFuzzer under the sanitizers. ./run fuzz builds the programs and calls it."""
+"""Fuzzes readers of external input with clang's libFuzzer under the sanitizers. ./run fuzz builds the programs and calls it."""
 import argparse
 import datetime
 import json
@@ -96,9 +96,9 @@ def program(name):
 
 
 def call(name, words, asan="", **options):
-    """libFuzzer with the limits that a finding is judged by; standard input is empty, as a path may name it."""
+    """libFuzzer with the limits that define a finding; standard input is empty, because a path may name it."""
     target = target_list.find(name)
-    # Freed memory is kept until 16 MB more are freed: the larger default makes processors and forks slow.
+    # Freed memory of an input is kept until 16 MB more are freed: with the default of libFuzzer processors and forks are slow.
     environment = {**os.environ, "ASAN_OPTIONS": f"detect_leaks=1:max_allocation_size_mb=4096:quarantine_size_mb=16:malloc_context_size=8:{target.asan}:{asan}",
                    "UBSAN_OPTIONS": "print_stacktrace=1"}
     # Entropic counts rare features of all inputs, for which it takes a third of the time.
@@ -117,7 +117,7 @@ def findings(path):
 
 
 def fuzz(name, arguments):
-    """One target; what libFuzzer says is kept in build/fuzz/NAME.log."""
+    """Fuzzes one target; the output of libFuzzer is kept in build/fuzz/NAME.log."""
     found = folder("findings", name)
     before = findings(found)
     log_file = BUILD / f"{name}.log"
@@ -134,7 +134,7 @@ def fuzz(name, arguments):
 
 
 def tell(outcome):
-    """A line of the table, and of a finding where it is, what it is, and how to see it again."""
+    """A line of the table; for a finding its place, its kind, and how to reproduce it."""
     rate = outcome["inputs"] // max(1, outcome["seconds"])
     found = ", ".join(outcome["found"]) or ("failed" if outcome["failed"] else "nothing")
     print("\t".join(map(str, [outcome["target"], outcome["inputs"], outcome["seconds"], rate, found])), flush=True)

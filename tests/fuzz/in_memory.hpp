@@ -1,5 +1,5 @@
 #pragma once
-// An input as a file for those that want a path. One per process; no file remains.
+// An input as a file for readers that need a path. One per process; leaves nothing.
 #include <sys/mman.h>
 #include <unistd.h>
 

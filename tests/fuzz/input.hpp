@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the targets: an input handed out piece by piece, and the report of a broken promise that does not crash.
+// Shared by the targets: divides an input into pieces, and reports broken promises that are not crashes.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -48,13 +48,12 @@ class Input {
   std::size_t size_;
 };
 
-/// A promise of the code under test; `what` says which was broken. Ends a fuzzer, and fails the test that replays.
+/// A promise of the code under test; `what` names it. If broken, it ends a fuzzer and fails the replay test.
 inline void promise(bool kept, std::string_view what) {
   if (!kept) throw std::logic_error("broken promise: " + std::string(what));
 }
 
-/// An error begins with the name of the file. Its quotations may contain any bytes: the caller that prints them makes
-/// them printable.
+/// An error begins with the name of the file. Quoted text in it may be anything: its printer makes it printable.
 inline void promise_named(const std::string& error, const std::string& name) {
   if (error.rfind(name + ":", 0) != 0) promise(false, "an error names its file: " + error);
 }
@@ -63,7 +62,7 @@ inline void promise_named(const std::string& error, const std::string& name) {
 
 namespace dsdpv1 {
 
-/// A target: one file, one of these. libFuzzer's name for it; the test that replays the corpora gives each another.
+/// A target: one per file, with libFuzzer's name; the test that replays the corpora renames each.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 }  // namespace dsdpv1

@@ -1,5 +1,5 @@
-// Every input of the corpora once, without libFuzzer: what fuzzing has found stays mended. In the preset debug under
-// the sanitizers.
+// Runs every input of the corpora once, without libFuzzer, so that former findings stay fixed. In the preset debug
+// under the sanitizers.
 #include <gtest/gtest.h>
 
 #include <cstdint>

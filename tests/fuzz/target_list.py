@@ -1,4 +1,4 @@
-"""The targets: what each takes, how long an input is at most, and how many inputs are to be without a finding."""
+"""The targets: their input, its maximum length, and the number of inputs required without a finding."""
 import dataclasses
 
 
@@ -24,8 +24,7 @@ TARGETS = (
     Target("sigrok", 4096, "sessions of sigrok: archives as they are, and right ones round any content"),
     Target("vcd", 2048, "waves as text"),
     Target("fst", 2048, "waves in FST, read by a separate process", flags=("-malloc_limit_mb=1000000",),
-           # That process need not get the memory that it requests, nor learn where in the library it was damaged; little freed memory makes forks
-           # cheap.
+           # The process may be refused memory, and needs no place of the damage in the library; little freed memory makes it cheap to fork.
            asan="max_allocation_size_mb=256:symbolize=0:quarantine_size_mb=1"),
     Target("serve", 1024, "what a host writes to a socket of `serve`, in pieces and with pauses"),
     Target("elf", 8192, "firmware for the ARM board, and its lines of source"),

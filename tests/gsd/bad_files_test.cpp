@@ -1,4 +1,4 @@
-// Each file of tests/bad/gsd has one fault, and beside it the one line that tells it.
+// Each file of tests/bad/gsd has one fault, with the expected error line beside it.
 #include <gmock/gmock.h>
 
 #include "bus/gsd/report.hpp"

@@ -1,4 +1,4 @@
-// No input may crash the reader or what is built on it: every sample cut off at many places and with bytes changed.
+// No input may crash the reader or its users: every sample truncated at many places and with changed bytes.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -15,7 +15,7 @@ using gsd_test::parse;
 
 class DamagedGsd : public testing::TestWithParam<std::filesystem::path> {};
 
-/// Reads it and, where that works, uses it for all that a file is good for.
+/// Reads it and, if that works, uses all functions on it.
 void use(const std::string& text) {
   const bus::GsdResult result = parse(text);
   EXPECT_LE(result.diagnostics.size(), 201U);

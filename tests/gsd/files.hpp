@@ -47,7 +47,7 @@ inline std::vector<std::string> lines(const bus::GsdResult& result) {
   return list;
 }
 
-/// A small right file with `body` behind its first seven lines.
+/// A small valid file with `body` after its first seven lines.
 inline std::string file_with(const std::string& body) {
   return "#Profibus_DP\nGSD_Revision = 3\nVendor_Name = \"V\"\nModel_Name = \"M\"\nIdent_Number = 0x1234\n"
          "12M_supp = 1\nMaxTsdr_12M = 800\n" +

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""find_package says what is not there: a component, and one that another needs.
+"""find_package reports missing items: a component, and one required by another.
 
     components_test.py CMAKE STAGE FOLDER
 """
@@ -12,7 +12,7 @@ cmake, stage, folder = (pathlib.Path(each) for each in sys.argv[1:])
 
 
 def refusal(components, missing=""):
-    """CMake's message about components if the targets of one are missing, as one line."""
+    """CMake's message, as one line, for components with the targets of one missing."""
     prefix = folder / "prefix"
     shutil.rmtree(folder, ignore_errors=True)
     (config,) = stage.glob("lib*/**/dsdpv1-config.cmake")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The .deb and the .tar.gz that cpack makes: what the .deb asks for, and that what is in it runs where it is unpacked, without root.
+"""The .deb and the .tar.gz made by cpack: the dependencies of the .deb, and that its contents run where they are unpacked, without root.
 
     package_test.py CPACK BUILD CXX HERE
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Programs that are compiled with what pkg-config says, and nothing else, in an empty folder.
+"""Programs compiled only with the options of pkg-config, in an empty folder.
 
     pkg_config_test.py CXX CC STAGE HERE
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""BUILD_SHARED_LIBS: the C++ libraries as shared ones, installed, and a program with them; as a part of another project, so that nothing
-else of this one is built.
+"""BUILD_SHARED_LIBS: the C++ libraries as shared ones, installed, and a program with them; as a part of another project, so that nothing else of
+this one is built.
 
     shared_test.py CMAKE ROOT BUILD FOLDER HERE
 """
@@ -26,7 +26,7 @@ def call(*command):
 
 
 def settings(build):
-    """Those of this build, but without optimisation: that the libraries find each other does not depend on it, and it is half the time."""
+    """Settings of this build, but without optimisation, which does not affect linking and takes half the time."""
     cache = (build / "CMakeCache.txt").read_text(encoding="utf-8").splitlines()
     values = {name.partition(":")[0]: value for name, _, value in (line.partition("=") for line in cache if "=" in line)}
     ccache = values.get("DSDPV1_CCACHE", "")

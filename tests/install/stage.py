@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Installs the build and moves what is installed to another place, where all other tests use it.
+"""Installs the build and moves the installation to another place, where all other tests use it.
 
     stage.py CMAKE BUILD STAGE        BUILD is installed at STAGE.installed, then moved to STAGE
 
-Files for users must not contain a path of this machine: neither of the build nor of the first installation.
+Installed files for users must not contain paths of this machine: neither of the build nor of the first installation.
 """
 import pathlib
 import shutil

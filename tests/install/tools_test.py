@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The installed programs: they run by what is installed with them; manual page and completions are those of the program.
+"""The installed programs: they run with the installed files; manual page and completions match the program.
 
     tools_test.py STAGE what        what: runs, version, manual, completion
 """
@@ -27,7 +27,7 @@ def commands_of(sim):
 
 
 def check_runs(stage, sim):
-    """Data is found beside the program: a scenario that is only there is known by its name."""
+    """Data is found beside the program: a scenario only installed there can be used by name."""
     data = stage / "share/dsdpv1"
     shutil.copy(data / "scenarios/power_on_12m.yaml", data / "scenarios/only_here.yaml")
     try:
@@ -46,7 +46,7 @@ def check_runs(stage, sim):
 
 
 def check_version(stage, sim):
-    """It stands in one place, and is the same everywhere."""
+    """The version is defined in one place, and is the same everywhere."""
     version = call(sim, "--version").split()[-1]
     told = {each.name: re.search(r"^Version: (.*)$", each.read_text(), re.M)[1] for each in stage.rglob("*.pc")}
     assert len(told) >= 7 and set(told.values()) == {version}, (version, told)
@@ -79,7 +79,7 @@ def completed(file, *words):
     return set(call("bash", "-c", BASH.format(file=file, words=quoted)).split())
 
 
-# The function's arguments for zsh's _arguments.
+# The arguments that the function would pass to zsh's _arguments.
 ZSH = """_arguments() {{ print -rl -- "$@" }}
 f() {{ words=(dsdpv1-sim {command} -) CURRENT=3; source {file} }}; f"""
 

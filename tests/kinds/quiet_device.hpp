@@ -1,5 +1,5 @@
 #pragma once
-// A device without actions and reports, for tests of its input pins.
+// A device with pins that neither acts nor reports, for tests of its inputs.
 #include "bus/time.hpp"
 #include "tb/chip/pin_device.hpp"
 

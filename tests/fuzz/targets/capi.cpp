@@ -1,5 +1,5 @@
-// Calls of the C API in any order, with right and wrong arguments: each returns one of its statuses, and never that the
-// library itself is at fault.
+// Calls of the C API in any order, with valid and invalid arguments: each returns one of its statuses, and never the
+// one for a fault of the library.
 #include "dsdpv1/dsdpv1.h"
 
 #include <array>
@@ -38,7 +38,7 @@ template <class T>
 class Objects {
  public:
   T* pick(fuzz::Input& input) const { return all_[input.below(all_.size())]; }
-  /// Where the next one goes; nullptr when there are enough.
+  /// The place of the next one; nullptr if there are enough.
   T** place() {
     for (std::size_t i = 0; i + 1 < all_.size(); ++i)
       if (all_[i] == nullptr) return &all_[i];
@@ -91,7 +91,7 @@ class Caller {
   T* or_null(T& place) {
     return input_.byte() % 16 == 0 ? nullptr : &place;
   }
-  /// As many ticks of what is left; none when they are more.
+  /// As many of the remaining ticks; none if that is too many.
   std::uint64_t spend(std::uint64_t ticks) {
     if (ticks > left_) return 0;
     left_ -= ticks;
@@ -248,7 +248,7 @@ class Caller {
     options.baud = static_cast<dpsim_baud>(input_.below(12)) - 1;
     check(dpsim_bus_create(input_.byte() % 2 == 0 ? nullptr : &options, place));
   }
-  /// Chips and masters go with it: which ones are the bus's is not kept here, so all are forgotten.
+  /// Its chips and masters are destroyed as well: their bus is not recorded here, so all are forgotten.
   void end_bus() {
     for (dpsim_chip* each : chips_)
       if (each != nullptr && on_bus(each)) chips_.forget(each);

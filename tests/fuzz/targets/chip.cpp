@@ -1,5 +1,6 @@
-// The chip at its pins: a host and a line without manners, and with them, so that it gets somewhere. The model against
-// itself: step, skip and dozing change the same pins at the same ticks, report the same, and have the same cells.
+// The chip at its pins: a host and a line that break rules, and keep them, so that it makes progress. Compares the
+// model with itself: step, skip and dozing change the same pins at the same ticks, report the same, and have the same
+// cells.
 #include <gtest/gtest.h>
 
 #include "kinds/dsdpv1/random/host_verbs.hpp"
@@ -17,7 +18,7 @@ constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr Tick kLongest = 25'000 * kCycle;  ///< step evaluates each of them
 constexpr Tick kSetup = 200, kStrobe = 600, kHold = 200;
 
-/// Sends while others do what they want.
+/// Sends independently of other stations.
 class Master : public bus::Agent, private bus::Listener {
  public:
   explicit Master(bus::Segment& segment) : sender_(segment, segment.attach("master", this)) {}
@@ -113,7 +114,7 @@ class Play {
     wait(low);
     set(Pin::kReset, 1);
   }
-  /// The level of the line, until another input lets it go.
+  /// Forces the line's level until another input releases it.
   void force() {
     const std::uint8_t how = input_.byte();
     segment_.force(timeline_.now(), how % 3 == 2 ? std::nullopt : std::optional<bool>(how % 3 == 1));

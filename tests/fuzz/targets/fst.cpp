@@ -1,4 +1,4 @@
-// A wave in FST. A damaged file may crash the library, in its separate process, but not the reader.
+// A wave in FST. Its library may crash on a damaged file, in a separate process; the reader may not.
 #include <pthread.h>
 #include <unistd.h>
 
@@ -6,13 +6,13 @@
 
 #include "tests/fuzz/wave_events.hpp"
 
-// Defined by the sanitizers only.
+// From the sanitizers; null without them.
 extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());  // NOLINT
 
 namespace dsdpv1 {
 namespace {
 
-/// That process skips the work of libFuzzer and the sanitizers at the end of a program.
+/// Disables the exit actions of libFuzzer and the sanitizers in that process.
 void be_somebody_else() {
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(nullptr);
   for (const int each : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(each, SIG_DFL);

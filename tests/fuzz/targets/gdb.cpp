@@ -1,4 +1,4 @@
-// Input from gdb to a halted processor, in pieces as from a network.
+// Bytes from a gdb, in pieces as delivered by a network, to a halted processor.
 #include "board/gdb/gdb_commands.hpp"
 #include "tests/board/fake_target.hpp"
 #include "tests/board/small_elf.hpp"

@@ -1,4 +1,4 @@
-// A GSD file, and what a master makes of it.
+// A GSD file, and the data that a master derives from it.
 #include "bus/gsd/gsd.hpp"
 
 #include <sstream>

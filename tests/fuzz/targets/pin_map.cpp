@@ -1,4 +1,4 @@
-// A map of pins, for RTL of a user's own.
+// A map of pins, for a user's RTL.
 #include "cosim/pin_map.hpp"
 
 #include "io/input/input_error.hpp"

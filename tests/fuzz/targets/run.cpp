@@ -1,4 +1,4 @@
-// A scenario carried out for its first 2 ms, in step and in skip: the same telegrams, events and verdicts.
+// Runs a scenario for its first 2 ms, in step and in skip: both must give the same telegrams, events and verdicts.
 #include "tb/bench/bench.hpp"
 
 #include "io/input/input_error.hpp"
@@ -19,7 +19,7 @@ bool names_other_files(const tb::scenario::Scenario& scenario) {
   return false;
 }
 
-/// Its result, without the parts that differ from run to run.
+/// The result, without the parts that differ between runs.
 std::string run(const tb::scenario::Scenario& scenario, tb::Engine engine) {
   tb::RunOptions options;
   options.engine = engine;

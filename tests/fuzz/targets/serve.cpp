@@ -1,5 +1,5 @@
-// Bytes of a host at a socket of `serve`, in pieces and with pauses: put together to telegrams, sent on the segment,
-// heard by a monitor, and now and then answered by another station. No byte is lost, made up or exchanged.
+// Bytes of a host at a socket of `serve`, in pieces and with pauses: assembled to telegrams, sent on the segment,
+// received by a monitor, and sometimes answered by another station. No byte may be lost, added or changed.
 #include "bus/monitor/monitor.hpp"
 #include "bus/telegram/telegram.hpp"
 #include "tb/serve/framing.hpp"
@@ -39,7 +39,7 @@ class Host {
       other_.run(timeline_.now());
     }
   }
-  /// It hangs up: bytes not yet handed over are discarded.
+  /// Hangs up: bytes not passed on yet are dropped.
   void hang_up() {
     written_.resize(written_.size() - intake_.size());
     intake_.clear();

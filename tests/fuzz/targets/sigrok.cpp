@@ -1,5 +1,5 @@
 // A session of sigrok. After a first byte 0 comes the archive itself; else its metadata up to a byte 0 and its samples,
-// which are put into a right archive, so that inputs get beyond the checksums.
+// which are packed into a valid archive, so that inputs pass the checksums.
 #include "bus/capture/sigrok_reader.hpp"
 
 #include <zlib.h>

@@ -1,5 +1,5 @@
-// Saved states of chips, damaged: refused, and the chip is unchanged; or taken, and then it continues in step and in
-// skip, whatever it contains. Undamaged, both do what the chip does that was not interrupted.
+// Damaged saved states of chips: either refused, with the chip unchanged, or accepted; then step and skip continue from
+// it without a fault. Undamaged, both do the same as the uninterrupted chip.
 #include <memory>
 
 #include "model/dsdpv1/chip_state.hpp"
@@ -16,7 +16,7 @@ using State = std::vector<std::uint8_t>;
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr std::size_t kHead = 20;  ///< magic, version, size, checksum
 
-/// The output of a chip. Time never goes back, and no pin has a level that it cannot have.
+/// The chip's reports. Time never decreases, and no pin has an impossible level.
 struct Heard {
   std::vector<Input> pins;
   Tick last = 0;
@@ -30,7 +30,7 @@ struct Heard {
   static void call(void* self, Tick at, Pin pin, Level level) { static_cast<Heard*>(self)->add(at, pin, level); }
 };
 
-/// A moment of a scenario: what was saved there, the inputs after it, and what came of them.
+/// A moment of a scenario: the state saved there, the inputs after it, and their results.
 struct Moment {
   Config config;
   State state;
@@ -98,7 +98,7 @@ std::unique_ptr<Chip> restored(const Moment& moment, Engine engine, const State&
   return chip;
 }
 
-/// Bytes of the state and what is to be in their place. True: they differ.
+/// Replaces bytes of the state. Returns true if they differ.
 bool damage(State& state, fuzz::Input& input) {
   const State whole = state;
   for (int count = static_cast<int>(input.below(8)); count > 0 && !input.empty(); --count) {

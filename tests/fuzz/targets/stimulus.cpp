@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::promise_named(error.what(), "a.stim");
     return 0;
   }
-  constexpr std::size_t kShort = 2000;  // beyond it time is spent on repeating, not on anything new
+  constexpr std::size_t kShort = 2000;  // longer ones only repeat the same
   if (stimulus.size() > kShort) return 0;
   const std::string written = cosim::to_text(stimulus, kind);
   fuzz::promise(cosim::to_text(cosim::parse_stimulus(written, "again.stim", kind), kind) == written,

@@ -1,4 +1,4 @@
-// A wave as text. Input that begins as FST belongs to another target.
+// A wave as text. Another target handles input that begins as FST.
 #include "tests/fuzz/wave_events.hpp"
 
 namespace dsdpv1 {

@@ -1,5 +1,5 @@
-// A master polls a slave that is not there, a monitor counts its telegrams, and the checks judge a user who writes
-// without having asked.
+// A master polls a missing slave, a monitor counts its telegrams, and the checks judge a user who writes without a
+// request.
 #include <dsdpv1/bus/master/master1.hpp>
 #include <dsdpv1/bus/monitor/monitor.hpp>
 #include <dsdpv1/kinds/dsdpv1/checks/checks.hpp>

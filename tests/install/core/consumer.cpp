@@ -1,4 +1,4 @@
-// Takes the chip out of reset, waits until it says that it works (D1), and puts what it says into words.
+// Takes the chip out of reset, waits until it reports that it works (D1), and prints its events.
 #include <string>
 
 #include "model/dsdpv1/chip.hpp"

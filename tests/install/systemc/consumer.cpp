@@ -1,4 +1,4 @@
-// The pin module among signals of a bench's own: out of reset, until it says that it works (D1).
+// The pin module with signals of a bench: out of reset, until it reports that it works (D1).
 #include <systemc>
 
 #include "model/systemc/dsdpv1_pins.hpp"

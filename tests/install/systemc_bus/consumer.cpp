@@ -1,6 +1,5 @@
-// A master on a segment in SystemC's time, and on the same segment the chip as a TLM module: out of reset it says that
-// it works (D1), searches the baud rate, and leaves the line to the master, who asks for it in vain as long as no user
-// CPU gives it an address.
+// A master on a segment in SystemC's time, and on the same segment the chip as a TLM module: out of reset it reports
+// that it works (D1), searches the baud rate, and does not answer the master, because no user CPU gives it an address.
 #include <tlm_utils/simple_initiator_socket.h>
 #include <dsdpv1/bus/master/master1.hpp>
 #include <dsdpv1/bus/monitor/monitor.hpp>

@@ -57,7 +57,7 @@ class OutputFiles : public testing::Test {
   fs::path folder_;
 };
 
-/// No file may become longer while it stands.
+/// Limits the length of files during its lifetime.
 class LargestFile {
  public:
   explicit LargestFile(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""GTKWave, without a screen, opens waves with the save files that --wave-save has written: it shows every signal that the file names, in its order, and all that the
-wave has.
+"""GTKWave, without a screen, opens waves with the save files written by --wave-save: it shows every signal that the file names, in its order, and
+all signals of the wave.
 
     gtkwave_test.py SIM
 """

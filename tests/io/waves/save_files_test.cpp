@@ -1,4 +1,4 @@
-// Files for viewers beside a wave: what they show, in which order, and under which names.
+// Viewer files beside a wave: their signals, order, and names.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

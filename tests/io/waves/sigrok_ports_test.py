@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The serial ports of a DSDPV1-RSU in a wave as it is, decoded by sigrok-cli: SPI at three clocks, the UART at its eight rates. It finds nothing wrong, and the bytes
-are those of the telegrams in the log.
+"""The serial ports of a DSDPV1-RSU in an unmodified wave, decoded by sigrok-cli: SPI at three clocks, the UART at its eight rates. It finds no
+fault, and the bytes match the telegrams in the log.
 
 usage: sigrok_ports_test.py DSDPV1_SIM"""
 import concurrent.futures
@@ -14,7 +14,7 @@ PICOSECONDS = 10**12
 CLOCKS_KHZ = (9000, 4500, 250)
 RATES = {"9.6k": 9_600, "19.2k": 19_200, "38.4k": 38_400, "57.6k": 57_600, "115.2k": 115_200, "230.4k": 230_400, "460.8k": 460_800, "1.8432M": 1_843_200}
 SAMPLES_A_BIT = 32
-# Read, write, and the third command; then an error, one for the other card, and bytes that are no telegram: all with correct characters.
+# Read, write, and the port's own command; then an error, one for the other card, and an invalid one: all with valid characters.
 SPI = ("01 00 14 01", "21 00 20 03 00 55 FF", "41 02 AA 0F", "01 08 14 01", "02 00 14 01", "61 00 14 01")
 UART = ("01 00 04 01", "21 00 20 03 00 55 FF", "41 00 01 30 02 01 AA", "01 08 04 01", "02 00 04 01", "61 00 04 01")
 
@@ -30,13 +30,13 @@ def run(program, mode, user, telegrams, end_us, pins, folder):
     signals = [word for pin in pins for word in ("--wave-signals", f"card.{pin}")]
     done = subprocess.run([program, "run", scenario, "--quiet", "--no-progress", "--wave", wave, "--wave-wires", *signals, "--log", log, "--checks", "off"],
                           check=False)
-    assert done.returncode == 3, done.returncode  # telegrams are spoilt on purpose, and the bus is empty
+    assert done.returncode == 3, done.returncode  # disturbed telegrams are intended, and the bus is empty
     lines = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
     return wave, [(line["text"].startswith(("reply", "error", "refused")), line["bytes"].split()) for line in lines if line["kind"] == "host"]
 
 
 def decoded(wave, ps_a_sample, decoder, rows):
-    """sigrok's contents of each of these rows, and its warnings."""
+    """The content of these rows in sigrok, and its warnings."""
     command = ["sigrok-cli", "-i", wave, "-I", f"vcd:downsample={ps_a_sample}", "-P", decoder, "-A", decoder.split(":")[0]]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     lines = [line.split(": ", 1)[1] for line in done.stdout.splitlines()]

@@ -10,7 +10,7 @@ import tempfile
 
 SLAVE = {"name": "demo", "address": 5, "init": {"ident": 0x0CC9, "max_inputs": 8, "max_outputs": 8, "max_prm": 10, "max_cfg": 1, "cfg": [0x37]}}
 MASTER = {"name": "plc", "address": 2, "slaves": [{"slave": "demo"}]}
-# Rate, its bits a second as sigrok wants them, and how long it takes until some telegrams have been sent.
+# Rate, its bit/s for sigrok, and the time until some telegrams have been sent.
 RATES = (("12M", 12_000_000, "3ms"), ("6M", 6_000_000, "4ms"), ("3M", 3_000_000, "5ms"), ("1.5M", 1_500_000, "8ms"), ("500k", 500_000, "20ms"),
          ("187.5k", 187_500, "30ms"), ("93.75k", 93_750, "60ms"), ("45.45k", 45_455, "180ms"), ("19.2k", 19_200, "120ms"), ("9.6k", 9_600, "180ms"))
 PICOSECONDS = 10**12
@@ -28,7 +28,7 @@ def run(program, rate, end, folder):
 
 
 def decoded(wave, bits):
-    """sigrok's result for the line: bytes and warnings."""
+    """The bytes that sigrok reads from the line, and its warnings."""
     command = ["sigrok-cli", "-i", wave, "-I", f"vcd:downsample={PICOSECONDS // (bits * SAMPLES_A_BIT)}", "-P",
                f"uart:rx=line:baudrate={bits}:parity=even:format=hex", "-A", "uart"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)

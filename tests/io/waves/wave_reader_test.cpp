@@ -1,4 +1,4 @@
-// Reading of waves: files of simulators, with their habits, and files that are not waves.
+// Reads waves: the output of simulators, with its peculiarities, and invalid files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -59,7 +59,7 @@ class ReadWaves : public testing::Test {
     }
     return lines;
   }
-  /// A reader's message about a refused file, without the folder.
+  /// A reader's error for a rejected file, without the folder.
   std::string refusal(const std::string& name) const {
     try {
       const auto reader = tb::read_wave(path(name));

@@ -196,7 +196,7 @@ TEST_F(Waves, FstInBlocksHoldsTheSameChanges) {
   for (const auto& [name, saves] : {std::pair("one.fst", 1), std::pair("many.fst", 60)}) {
     auto wave = tb::open_wave(path(name));
     write_long(*wave, saves);
-    for (int idle = 1; idle < 10; ++idle) wave->save(60'000 + idle * 1000);  // no event, time continues
+    for (int idle = 1; idle < 10; ++idle) wave->save(60'000 + idle * 1000);  // time advances without changes
     wave->set(70'000, 1, 7);
     wave->finish(80'000);
   }

@@ -1,4 +1,4 @@
-"""A logic analyser at the pins of a run: its wave, sampled with an independent clock and jitter, as the files that analysers write."""
+"""A logic analyser at the pins of a run: its wave, sampled with a separate clock and jitter, in the file formats of analysers."""
 import bisect
 import io
 import math
@@ -12,7 +12,7 @@ ALL = SINGLE + BUSES
 
 
 def read_wave(path, scope):
-    """The first level of each pin and the times in ps at which it changes. A and D are split into wires; X and Z keep the level."""
+    """For each pin its first level and the times in ps at which it changes. For A and D each wire; X and Z keep the level."""
     codes, levels, edges, scopes = {}, {}, {}, []
     end = now = 0
     with open(path, encoding="utf-8") as wave:
@@ -45,7 +45,7 @@ def read_wave(path, scope):
 
 
 def sample(pins, end, rate, ppm=0.0, jitter_ns=0.0, skew_ns=0.0, seed=1):
-    """Numbers of the samples at which each pin is first seen at its new level. `ppm`: the analyser's clock is fast by so much."""
+    """Numbers of the samples at which each pin has its new level for the first time. `ppm`: the analyser's clock is fast by this much."""
     chance = random.Random(seed)
     per_ps = rate * 1e-12 * (1 + ppm * 1e-6)
     phase = chance.random()
@@ -71,7 +71,7 @@ def level_at(trace, number):
 
 
 def changes(sampled):
-    """Sample numbers at which something changes, and the pins that do."""
+    """Sample numbers with changes, and the pins that change."""
     by_number = {}
     for wire, (_, numbers) in sampled.items():
         for number in numbers:
@@ -135,7 +135,7 @@ def only(pins, names):
 
 
 def shifted(pins, wire, after, by):
-    """The pin's first edge after `after` comes later by `by`, both in ps."""
+    """Delays the first edge of the pin after `after` by `by`, both in ps."""
     first, edges = pins[wire]
     edges = list(edges)
     at = bisect.bisect_left(edges, after)

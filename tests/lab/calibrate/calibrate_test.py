@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Captures of a chip with other parameters, as an analyser takes them, and what calibrate makes of them.
+"""Captures of a chip with other parameters, as recorded by an analyser, and calibrate's results for them.
 
     calibrate_test.py SIM CASE [ENGINE]     ENGINE: rtl where it is built, else skip
 """
@@ -37,7 +37,7 @@ masters:
 script:
 {script}
 """
-# The user holds the DPRAM while parameters and configuration come: both are written in one access, and the second pulse of INTR0 waits.
+# The user holds the DPRAM while parameters and configuration arrive: both are written in one access, and the second pulse of INTR0 waits.
 TWO_PULSES = "  - {at: 1500us, do: hold_dpram, slave: board, for: 400us}"
 SLOW_SCENARIO = """
 name: A chip of other times, at 1.5 Mbit/s
@@ -95,7 +95,7 @@ def contradicted(result):
 
 
 def assert_holds(each, right):
-    """The interval has the right value in it."""
+    """The interval contains the right value."""
     low, high = each.get("lo"), each.get("hi")
     assert each["verdict"] != "not shown", each
     assert (low is None or low <= right) and (high is None or right <= high), (each, right)
@@ -142,7 +142,7 @@ def slow_parameters(folder):
 
 
 def slow_samples(folder):
-    """Where samples hide strobes, accesses and releases, nothing of a right chip is contradicted."""
+    """If samples miss strobes, accesses and releases, calibrate contradicts no ruling for a correct chip."""
     pins, end = run(folder, FAST_SCENARIO, {})
     host = {name: trace for name, trace in pins.items() if not name.startswith("PB")}
     for rate in (24e6, 12e6, 8e6, 4e6, 1e6):
@@ -184,7 +184,7 @@ def answer_times(pins, after):
 
 
 def contradictions(folder):
-    """Each planted contradiction is named: its ruling, where, and by how much; nothing else is."""
+    """Each planted contradiction is reported with its ruling, place, and amount; there are no others."""
     pins, end = run(folder, FAST_SCENARIO, {})
     after = 7 * MS
     begin, finish = answer_times(pins, after)
@@ -234,7 +234,7 @@ def shift_all(trace, begin, finish, by):
 
 
 def chip_block(folder):
-    """calibrate writes a scenario's `chip`, and a run with it has the chip's times."""
+    """The output of calibrate is a scenario's `chip`, and a run with it has the chip's own times."""
     pins, end = run(folder, FAST_SCENARIO, FAST, TWO_PULSES)
     capture = take(folder, pins, end, 200e6, ppm=-80, jitter_ns=1)
     calibrate(folder, capture, "--chip", "chip.yaml", "--jitter", "2")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Compares docs/calibrate.md with the output of dsdpv1-sim for a capture made as the page says.
+"""The example in docs/calibrate.md matches the output of dsdpv1-sim for a capture made as described there.
 
-    docs_example.py SIM            fails when it is something else
+    docs_example.py SIM            fails if it differs
     docs_example.py SIM --write    writes it
 """
 import pathlib

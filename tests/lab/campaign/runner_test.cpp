@@ -27,7 +27,7 @@ using Words = std::vector<std::string>;
 
 const Kind kKind{"test", "jobs", [](const std::string& /*name*/) { return false; }};
 
-/// A child's actions: exit CODE TEXT, kill SIGNAL TEXT, wait FILE (until it is there), hang.
+/// A child's actions: exit CODE TEXT, kill SIGNAL TEXT, wait FILE (until it exists), hang.
 int play(const Words& words) {
   if (words[0] == "hang")
     for (;;) pause();

@@ -1,4 +1,4 @@
-// Job arrays without a cluster: commands in its place say what a test wants. tests/lab/slurm has a real one.
+// Job arrays without a cluster: scripts replace its commands. tests/lab/slurm has a real one.
 #include "lab/campaign/slurm.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using tb::campaign::Submission;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Where commands are looked for.
+/// The search path for commands.
 std::string search_path() {
   const char* path = std::getenv("PATH");
   return path != nullptr ? path : "";

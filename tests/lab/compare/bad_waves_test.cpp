@@ -1,4 +1,4 @@
-// Files that are not waves, or damaged ones: one line, exit 2, and no output files.
+// Invalid or damaged waves: one line, exit 2, and no outputs are left.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 class BadWaves : public testing::Test {
  protected:
   void SetUp() override { waves_.write("good.vcd", vcd("wire 1 ! a", "#0\n0!\n#10\n1!\n#20\n")); }
-  /// The message about the command line; it must be one line with exit code 2.
+  /// The error for the command line; it must be one line with exit code 2.
   std::string refusal(const std::string& arguments) const {
     const Called called = call("compare " + arguments, waves_.folder());
     EXPECT_EQ(called.status, 2) << arguments;

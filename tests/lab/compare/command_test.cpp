@@ -1,4 +1,4 @@
-// compare as a whole: this program's own waves, and everything that it writes.
+// compare as a whole: this program's waves, and all of its output.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

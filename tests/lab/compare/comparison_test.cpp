@@ -1,4 +1,4 @@
-// Equality and differences with their times: rules, windows, tolerance, clock, masks.
+// Equal and different waves, and the time of the difference: rules, windows, tolerance, clock, masks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

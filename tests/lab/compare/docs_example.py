@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Compares docs/compare.md with the output of dsdpv1-sim.
+"""The examples in docs/compare.md match the output of dsdpv1-sim.
 
-    docs_example.py SIM            fails when it is something else
-    docs_example.py SIM --write    writes it
+    docs_example.py SIM            fails if they differ
+    docs_example.py SIM --write    writes them
 """
 import pathlib
 import re

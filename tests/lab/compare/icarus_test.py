@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The reference RTL under Icarus, driven by the pins of a golden trace, and its wave against the golden.
+"""The reference RTL under Icarus, driven by the pins of a golden trace, and its wave compared with the golden.
 
     icarus_test.py SIM
 
-The inputs are read from the golden's VCD by a reader of this script's own. The wave must be equal; with a fault in the RTL `compare` must
-name the cycle, pin and levels that `traces check` names for the same RTL under Verilator.
+An independent reader takes the inputs from the golden's VCD. The wave must be equal; with a fault in the RTL `compare` must name the same cycle,
+pin and levels as `traces check` for the same RTL under Verilator.
 """
 import json
 import pathlib
@@ -79,7 +79,7 @@ def simulate(folder, wave, fault=0):
 
 
 def compare(sim, folder, wave):
-    """Its result and its text."""
+    """Its finding, and its text."""
     status, said = run([sim, "compare", "golden.vcd", wave, "--scope-a", SLAVE, "--scope-b", "bench.dut", "--pins", "rtl_ref", "--shift", BEGIN,
                         "--to", f"{END}ps", "--json", "result.json"], folder)
     expect(f"compare {wave}", status in (0, 1), said)

@@ -1,4 +1,4 @@
-// Which signals belong together, and what people write on the command line.
+// Matching signals of two waves, and the options for it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using tb::compare::Options;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// "top(dut(a b) c)" as scopes and wires, each with its own value 0 at time 0.
+/// "top(dut(a b) c)" as scopes and wires, each with its own value, 0 at time 0.
 std::string tree(const std::string& text) {
   std::string declared, changes = "$enddefinitions $end\n#0\n", word;
   char code = '!';

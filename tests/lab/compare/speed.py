@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How long compare takes for large files, and how much memory.
+"""Measures the time and memory that compare needs for large files.
 
-    speed.py SIM [MEGABYTES]    measures, by default 1000 MB as VCD against a copy of itself
-    speed.py SIM --check        fails when 60 MB need more memory than 6 MB
+    speed.py SIM [MEGABYTES]    measures, by default 1000 MB as VCD compared with a copy of itself
+    speed.py SIM --check        fails if 60 MB need more memory than 6 MB
 
-Its speed is judged in instructions: the row compare of ./run bench --instructions.
+The row compare of ./run bench --instructions judges its speed.
 """
 import os
 import pathlib

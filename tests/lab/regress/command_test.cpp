@@ -123,8 +123,8 @@ TEST_F(RegressCommand, ARunThatHangsIsKilledAndNamed) {
   EXPECT_THAT(file("report.xml"), HasSubstr("<testcase classname=\"scenarios/long.yaml\" name=\"skip pins\""));
 }
 
-// The child is killed when its log has begun, so that there are last lines. SIGABRT, as the sanitizers answer a SIGSEGV
-// themselves.
+// The child is killed when its log has begun, so that it has last lines. SIGABRT, because the sanitizers handle a
+// SIGSEGV themselves.
 TEST_F(RegressCommand, ARunThatCrashesIsAFailureWithItsSignalAndTheEndOfItsLog) {
   write("scenarios/long.yaml", with("600us", "3000s"));
   EXPECT_EQ(bash("\"$SIM\" regress scenarios/long.yaml --json >out 2>err & regress=$!\n"
@@ -175,7 +175,7 @@ TEST_F(RegressCommand, FailedRunsAgainWhatHasNotPassed) {
   ASSERT_EQ(regress("").status, 1);
   auto before = times();
   write("scenarios/bad.yaml", kGood);
-  write("scenarios/good.yaml", with("INITIALISED", "BUS_TELEGRAM_ERROR"));  // has passed and is not run again
+  write("scenarios/good.yaml", with("INITIALISED", "BUS_TELEGRAM_ERROR"));  // has passed and is not checked
   const Called called = regress("--failed --json");
   EXPECT_EQ(called.status, 1);
   EXPECT_THAT(called.err, HasSubstr("1 of 3 runs are there already"));

@@ -1,4 +1,4 @@
-// From the command line to the runs: what is combined, left out, refused, and in which shard a run is.
+// From the command line to the runs: combinations, exclusions, errors, and the shard of a run.
 #include "lab/regress/plan.hpp"
 
 #include <gmock/gmock.h>

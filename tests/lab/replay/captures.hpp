@@ -1,5 +1,5 @@
 #pragma once
-// Captures made of telegrams, one after the other.
+// Captures made from telegrams in sequence.
 #include <utility>
 #include <vector>
 
@@ -44,7 +44,7 @@ class Capture {
     now_ = telegram.end;
     return telegram.start;
   }
-  /// Where the last one ended.
+  /// The end of the last one.
   bus::Tick now() const { return now_; }
   tb::replay::Recording finish() { return recorder_.finish(); }
 

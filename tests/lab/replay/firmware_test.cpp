@@ -1,4 +1,4 @@
-// The information of a capture about the slave's user CPU.
+// The evidence about the slave's user CPU in a capture.
 #include "lab/replay/firmware.hpp"
 
 #include <gmock/gmock.h>

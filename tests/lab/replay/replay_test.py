@@ -54,7 +54,7 @@ def sim(folder, *arguments, status=0):
 
 
 def record(folder, baud="12M", behaviour="count", diagnosis=DIAGNOSIS, **outputs):
-    """Runs the scenario at the rate; its capture. The scenario stays as run.yaml."""
+    """Runs the scenario at the rate and returns its capture. The scenario is kept as run.yaml."""
     bit = 1e6 / pcapng.BITS[baud]
     end = int(max(40000, 30000 * bit))
     cycle = max(40, int(300 * bit))
@@ -107,7 +107,7 @@ def every_rate(folder):
 
 
 def shipped_scenarios(folder):
-    """The model acts like a shipped scenario's slave; if its user CPU decides, with that user CPU."""
+    """The model does the same as a shipped scenario's slave; if its user CPU decides, with that one."""
     for name, slave, *options in (("power_on_12m", 5), ("diagnosis", 5), ("read_services", 5), ("sync_freeze", 11), ("sync_freeze", 12),
                                   ("watchdog", 5), ("two_slaves", 3), ("two_slaves", 40), ("set_slave_address", 126),
                                   ("min_tsdr_45k45", 5), ("dpv1_c2_two_masters", 5), ("baud_change", 5, "--baud", "12M"),
@@ -119,7 +119,7 @@ def shipped_scenarios(folder):
 
 
 def coarse_times(folder):
-    """pcap knows no rate and may know microseconds only: less than the bus is exact to, and said."""
+    """pcap has no rate and may have microseconds only: less exact than the bus, which is reported."""
     _, packets = pcapng.read(record(folder, "500k"))
     pcapng.classic(folder / "ns.pcap", packets, 1)
     pcapng.classic(folder / "us.pcap", packets, 1000)
@@ -164,7 +164,7 @@ def answers(packets):
 
 
 def planted(folder, plant):
-    """The capture at 12 Mbit/s with something changed: plant(packets) gives the position of what is to be found."""
+    """The capture at 12 Mbit/s with a change: plant(packets) returns the position of the expected finding."""
     head, packets = pcapng.read(record(folder))
     at = plant(packets)
     pcapng.write(folder / "planted.pcapng", head, packets)
@@ -178,8 +178,7 @@ def first(folder, *options):
 
 
 def changed_byte(folder):
-    """A byte of an answer: which one, and what it means. The recorded inputs are given to the model, so that it is the scenario's user
-    CPU that has to have others."""
+    """A byte of an answer: which one, and its meaning. The model gets the recorded inputs, so the scenario's user CPU must have others."""
     head, packets = pcapng.read(record(folder, behaviour='constant, constant: "11 22 33 44"', diagnosis=""))
     result, _ = replayed(folder, "run.pcapng", "--scenario", "run.yaml")
     expect("unchanged", (result["equal"], result["compared"] > 30), (True, True))
@@ -195,7 +194,7 @@ def changed_byte(folder):
 
 
 def missing_answer(folder):
-    """One that the recorded slave did not give."""
+    """An answer that the recorded slave did not give."""
     def plant(packets):
         at = answers(packets)[30]
         del packets[at]
@@ -209,7 +208,7 @@ def missing_answer(folder):
 
 
 def answer_without_syn(folder):
-    """A request 20 bit times after the last activity: what the recorded slave answered all the same, the chip ignores (S3)."""
+    """A request 20 bit times after the last activity: the recorded slave answered it, the chip ignores it (S3)."""
     def plant(packets):
         at = answers(packets)[30]
         before = packets[at - 2]
@@ -225,7 +224,7 @@ def answer_without_syn(folder):
 
 
 def shifted_answer(folder):
-    """By 3 bit times: within what TSDR may be, found with a tolerance. To 5: before min_TSDR, found without one."""
+    """By 3 bit times: within the range of TSDR, found with a tolerance. To 5: before min_TSDR, found without one."""
     def shift(bits):
         def plant(packets):
             at = answers(packets)[30]
@@ -248,8 +247,8 @@ def shifted_answer(folder):
 
 
 def unlock(folder):
-    """A Set_Prm that unlocks the slave does not change its min_TSDR (S17): it still answers after 11 bit times. One with neither
-    Lock nor Unlock does (S28)."""
+    """A Set_Prm that unlocks the slave does not change its min_TSDR (S17): it still answers after 11 bit times. One with neither Lock nor Unlock
+    does (S28)."""
     def at_end(packets, *telegrams):
         """After the last packet, each 60 bit times after the one before, answers 11.2."""
         now = packets[-1].ns + len(packets[-1].data) * 11e9 / 12e6
@@ -269,7 +268,7 @@ def unlock(folder):
         request = pcapng.Packet(packets[prm].block()[8:-4])
         request.change(9, lock)
         request.change(9 + 3, 100)
-        # Unlocked it shows the diagnosis of before the start; with only another min_TSDR it continues exchanging.
+        # Unlocked it shows the diagnosis from before the start; with another min_TSDR only it continues to exchange.
         asked, answer = packets[diag:diag + 2] if lock else packets[-2:]
         at_end(packets, (request, 60), (packets[prm + 1], 11.2 if lock else 100.2), (asked, 60), (answer, 11.2))
         pcapng.write(folder / "planted.pcapng", head, packets)

@@ -1,6 +1,6 @@
 #pragma once
-// A user CPU and a chip as nothing but levels: every pin of a chip's user side is moved by the test, so that each rule
-// can be kept by a tick and broken by a tick, also those that no program on the native CPU can break.
+// A user CPU and a chip as plain levels: the test sets every pin of a chip's user side, so that each rule can be kept
+// by a tick and violated by a tick, including those that no program on the native CPU can violate.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -14,10 +14,10 @@ namespace dsdpv1::checks_test {
 using bus::Tick;
 using checks::Check;
 
-/// Table 15 with room to spare; a test changes what it is about. Ticks of 1/12 ns.
+/// Table 15 with margin; a test changes the times that it needs. Ticks of 1/12 ns.
 struct Timing {
   Tick address_setup = 300, low = 600, data_setup = 500, data_hold = 200, address_hold = 200, cs_trail = 100;
-  std::optional<Tick> sample = {};  ///< of D, after the fall of RD, by a user who tells it
+  std::optional<Tick> sample = {};  ///< of D, after the fall of RD, by a user who reports it
 };
 
 class Board {
@@ -80,7 +80,7 @@ class Board {
     plan(fall + t.low + t.address_hold, Pin::kA, 0x7FF);
     carry_out();
   }
-  /// B006 as the rule wants it, the chip having been there.
+  /// Counts B006 by the rule, after an access of the chip.
   void count() {
     read(0x006, 1);
     write(0x006, 2);

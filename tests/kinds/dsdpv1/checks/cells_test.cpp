@@ -15,14 +15,14 @@ namespace {
 using checks::Check;
 using checks_test::Board;
 
-/// A hold with B006 counted right and what a test does in it.
+/// A hold with B006 counted correctly and the test's actions in it.
 template <class Act>
 void in_hold(Board& board, const Act& act) {
   board.ask();
   board.count();
   act();
   board.release();
-  board.ask();  // time continues
+  board.ask();  // time advances
   board.count();
   board.release();
   board.checks().finish(board.now());
@@ -97,7 +97,7 @@ const Case kCases[] = {
      [](Board& board) { outputs(board, false); }},
     {"CrcFetchedOfAnEmptyBlock", Check::kCrcFetched,
      [](Board& board) {
-       board.read(0x410, 0x00);  // a look, nothing fetched
+       board.read(0x410, 0x00);  // a read that fetches nothing
      },
      [](Board& board) {
        board.read(0x00E, 0x02);
@@ -191,7 +191,7 @@ const Case kCases[] = {
      [](Board& board) { board.read(0x00D, 0x01); }},
     {"VerdictUnfetchedOnParameters", Check::kVerdictUnfetched,
      [](Board& board) {
-       board.write(0x010, 0x80);  // before the fetching: what counts is the release
+       board.write(0x010, 0x80);  // before the fetch: the release counts
        fetch_parameters(board);
      },
      [](Board& board) {
@@ -218,7 +218,7 @@ const Case kCases[] = {
        board.write(0x010, 0x80);
        next_hold(board);
        board.read(0x010, 0x00);
-       board.write(0x010, 0x80);  // a second one, on what?
+       board.write(0x010, 0x80);  // a second one, without a block
      }},
     {"VerdictUnfetchedSeenEarlier", Check::kVerdictUnfetched,
      [](Board& board) {
@@ -248,7 +248,7 @@ const Case kCases[] = {
        next_hold(board);
        board.read(0x00E, 0x02);
        next_hold(board);
-       board.write(0x010, 0x80);  // on the newer block, which was not fetched
+       board.write(0x010, 0x80);  // on the newer block, which has not been fetched
      }},
     {"VerdictUnfetchedWhenANewerBlockCame", Check::kVerdictUnfetched,
      [](Board& board) {
@@ -257,7 +257,7 @@ const Case kCases[] = {
        next_hold(board);
        board.read(0x00E, 0x02);
        board.read(0x010, 0x80);
-       board.write(0x010, 0xA0);  // the verdict stands since the earlier hold
+       board.write(0x010, 0xA0);  // the verdict has been set since the earlier hold
      },
      [](Board& board) {
        fetch_parameters(board);

@@ -1,4 +1,5 @@
-// Holding the chip off and the right to access (5.1, H1, H2), pin by pin: cases beyond the limits of values_test.cpp.
+// Who holds the chip off and who may access (5.1, H1, H2), pin by pin: cases not covered by the limits of
+// values_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>

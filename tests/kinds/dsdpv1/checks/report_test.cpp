@@ -1,4 +1,4 @@
-// The program's output about checks: docs/checks.md, the result file, the table, the log.
+// The program's reports of checks: docs/checks.md, the result file, the table, the log.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

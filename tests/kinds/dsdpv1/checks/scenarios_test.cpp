@@ -1,7 +1,7 @@
-// Each check that a user CPU can break, by a scenario built for it: found with --checks fail and the run fails, found
-// and passed when the scenario allows it, and nothing else is found. Firmware on the ARM board violates the rules
-// that the driver cannot violate on the native user CPU (firmware/rude.c). Rules that only the chip or separately
-// moved pins can violate are in values_test.cpp and cells_test.cpp.
+// Each check that a user CPU can violate, with a scenario made for it: with --checks fail the run fails; if the
+// scenario allows it, the run passes; and there are no other findings. Firmware on the ARM board (firmware/rude.c)
+// violates the checks that the driver on the native user CPU cannot. Checks that only the chip, or directly moved pins,
+// can violate are in values_test.cpp and cells_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct Case {
   const char* user_cpu;             ///< beside cycle
   const char* script;               ///< actions
   const char* limits;               ///< of checks
-  std::vector<const char*> events;  ///< violations that the core itself reports, allowed
+  std::vector<const char*> events;  ///< allowed violations that the core itself reports
 };
 
 void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
@@ -275,10 +275,10 @@ struct UartCase {
   const char* name;
   const char* order;
   const char* event;
-  /// Where the chip sees what is wrong at `at` of the pins: two cycles later, and an edge of RXD a cycle after its own.
+  /// When the chip sees a fault at `at` of the pins: two cycles later, and an edge of RXD a cycle after its own.
   tb::Tick (*seen)(tb::Tick at);
   checks::Check check;
-  bool spoilt;  ///< the telegram, or what is left of it, is followed by a silence
+  bool spoilt;  ///< the telegram, or its rest, is followed by a silence
 };
 
 tb::Tick sampled_two_cycles_later(tb::Tick at) { return at + 500; }

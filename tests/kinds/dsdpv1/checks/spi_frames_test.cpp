@@ -24,7 +24,7 @@ const Bytes kClaim = with_crc({0x21, 0x00, 0x14, 0x01, 0x02}), kRelease = with_c
             kLook = with_crc({0x01, 0x00, 0x14, 0x01}), kWrite = with_crc({0x21, 0x00, 0x20, 0x01, 0x55}),
             kDone = with_crc({0xA1, 0x00}), kRefused = with_crc({0xE1, 0x00});
 
-/// A host and what the chip answers it.
+/// A host and the chip's replies.
 class Host {
  public:
   explicit Host(std::optional<Tick> longest = {}, std::uint32_t reply_gap = 0)
@@ -32,7 +32,7 @@ class Host {
     checks.on_violation([this](const checks::Violation& violation) { violations.push_back(violation); });
     set(1000, Pin::kReset, 1);
   }
-  /// A frame whose XSS falls at `at`; the tick of the request's last bit.
+  /// A frame whose XSS falls at `at`; returns the tick of the request's last bit.
   Tick frame(Tick at, const Bytes& request, const Bytes& reply) {
     Bytes out = request, in(request.size(), 0xFF);
     out.insert(out.end(), reply.size(), 0xFF);

@@ -1,4 +1,4 @@
-// The checks of SPI (SP2): kept at the limit, violated one tick beyond, and nothing else is found.
+// The checks of SPI (SP2): kept at the limit, violated one tick beyond, without other findings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using checks::Check;
 
 constexpr Level kParallel = 0, kSpi = 1, kUart = 2;
 
-/// A master whose times a test sets; ticks of 1/12 ns, those of SP2 with room to spare.
+/// A master with times set by the test; ticks of 1/12 ns, by default SP2 with margin.
 struct Frame {
   Tick lead = 1000, high = 1000, low = 1000, lag = 1000, gap = 1000;
   Tick setup = 500, hold = 500;  ///< of MOSI, which is the other level outside

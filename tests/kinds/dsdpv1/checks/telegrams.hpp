@@ -1,5 +1,5 @@
 #pragma once
-// Data_Exchange on the line as the bus monitor tells it, for a station whose PBRTS the board moves.
+// Data_Exchange on the line as reported by the bus monitor, for a station whose PBRTS the board moves.
 #include "bus/monitor/monitor.hpp"
 #include "tests/kinds/dsdpv1/checks/board.hpp"
 
@@ -21,7 +21,7 @@ class Exchanges {
     board.wait(end - board.now());
     return request(board);
   }
-  /// The station's answer to a master, framed by PBRTS, which reveals its address.
+  /// An answer of the station, framed by PBRTS, from which its address is learnt.
   void answered(Board& board) const {
     board.set(Pin::kPbrts, 1);
     board.wait(1000);

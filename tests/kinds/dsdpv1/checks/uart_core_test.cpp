@@ -1,5 +1,5 @@
-// The checks of the UART port against the chip itself: random lines, right and wrong in every way that a check knows.
-// Both are written apart, and find the same number of the same.
+// The checks of the UART port compared with the chip: random lines, valid and with every kind of fault known to a
+// check. Both are independent, and must have the same findings.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The checks of the UART port: kept at the limit, violated one tick beyond, at the tick where that happens.
+// The checks of the UART port: kept at the limit, violated one tick beyond, at the tick of the violation.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -24,7 +24,8 @@ constexpr Tick kInterval = 7 * 11 * 26 / 2;  // UA3: 3.5 characters, in cycles
 const Bytes kRead = with_crc({0x01, 0x00, 0x00, 0x01}), kOtherCard = with_crc({0x02, 0x00, 0x00, 0x01}),
             kReply = with_crc({0x81, 0x00, 0x55});
 
-/// Where silence ends a telegram whose last character begins at `fell`: a start bit there is too late, or heard again.
+/// When silence ends a telegram whose last character begins at `fell`: a start bit there is too late, or received
+/// again.
 constexpr Tick silence_after(Tick fell) { return (fell / kCycle + 1 + 11 * 26 + kInterval + 1) * kCycle; }
 /// The tick at which the chip samples bit `index` (0 start, 10 stop) of a character that begins at `fell`.
 constexpr Tick sampled(Tick fell, int index) { return (fell / kCycle + 1 + 13 + index * 26) * kCycle; }

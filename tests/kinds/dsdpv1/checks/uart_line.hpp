@@ -15,8 +15,8 @@ struct LineCharacter {
   bool wrong_parity = false, no_stop_bit = false;
 };
 
-/// Start, data, parity, stop of one character from `at` on, `bit` ticks each; the end of its stop bit, at which the
-/// line is left as it is.
+/// Sends start, data, parity, stop of one character from `at` on, `bit` ticks each; returns the end of its stop bit,
+/// after which the line keeps its level.
 inline Tick put_character(const std::function<void(Tick, bool)>& set, Tick at, Tick bit,
                           const LineCharacter& character) {
   bool parity = character.wrong_parity, line = true;

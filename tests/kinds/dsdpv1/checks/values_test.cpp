@@ -1,5 +1,5 @@
-// Every check that measures a time: kept at its limit, violated one tick beyond, and nothing else is found. The pins
-// are driven directly, because the native user CPU cannot break most of these rules by a tick, and some of them not at
+// Every check that measures a time: kept at its limit, violated one tick beyond, without other findings. The pins are
+// driven directly, because the native user CPU cannot violate most of these rules by a tick, and some of them not at
 // all.
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using checks_test::Board;
 using checks_test::Tick;
 using checks_test::Timing;
 
-/// Does what the check is about with a margin of `margin` ticks to the default limit, or what `limits` says.
+/// Performs the case of the check with a margin of `margin` ticks to the default limit, or to that in `limits`.
 struct Case {
   const char* name;
   Check check;
@@ -60,7 +60,7 @@ void sync_window_of_a_new_request(Board& board, Tick margin) {
   sync_window(board, margin);
 }
 
-/// Both were never low: what R_REQ did while R_STA was high does not count.
+/// Both were never low: changes of R_REQ while R_STA was high do not count.
 void sync_window_of_a_renewed_request(Board& board, Tick margin) {
   board.ask(751);
   board.set(Pin::kRReq, 0);
@@ -90,7 +90,7 @@ void not_owner(Board& board, Tick margin) {
   board.set(Pin::kCsr, 1);
 }
 
-/// As `not_owner`; the address takes a tick, so that is the least that a kept one shows.
+/// As `not_owner`; the address takes a tick, so that is the minimum margin of a kept one.
 void not_owner_kept_by_a_tick(Board& board, Tick margin) { not_owner(board, margin < 0 ? margin : margin - 1); }
 
 /// The first of the two to fall ends the right to access.
@@ -360,7 +360,7 @@ TEST(Tw, ASampleThatNobodyHasToldIsTheEndOfTheRead) {
   EXPECT_EQ(board.checks().record(Check::kTw).worst_value, Timing{}.low);
   late.sample = 380;
   board.read(0x014, 0, late);
-  board.read(0x014, 0);  // told of one read, not of the next
+  board.read(0x014, 0);  // reported for one read, not for the next
   const checks::Record& record = board.checks().record(Check::kTw);
   EXPECT_EQ(record.worst_value, 380);
   EXPECT_EQ(record.count, 4U);

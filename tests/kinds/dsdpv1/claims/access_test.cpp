@@ -14,7 +14,7 @@ class MadeAccesses : public MadePins {
   MadeAccesses() { show({wire::kLReq, wire::kLSta}); }
 };
 
-/// Holds of 400 cycles; each leaves work for the chip, and 60 cycles after it an access without work.
+/// Holds of 400 cycles; each leaves work for the chip, and 60 cycles later comes an access without.
 void add_long_holds(MadeAccesses& made) {
   for (int at = 100; at < 30'000; at += 500) {
     made.high(wire::kRReq, at, at + 400);

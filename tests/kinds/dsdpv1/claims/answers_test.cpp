@@ -167,8 +167,7 @@ TEST(CalibrateAnswers, AfterWhatIsNoTelegramIdleTimeBeginsWithItsEnd) {
   EXPECT_EQ(claim(capture.judge(), "S3", "33 bit times").verdict, Verdict::kContradicted);
 }
 
-/// The second half of one request comes so many cycles later than 1 bit time after the first half; the request is not
-/// answered.
+/// The second half of one request comes so many cycles later than 1 bit time after the first, and is not answered.
 Verdict unanswered_with_gap(double cycles) {
   MadeCapture capture(k1M5);
   exchange_data(capture, 2);
@@ -209,8 +208,8 @@ TEST(CalibrateAnswers, ALowLevelBeforeTheDecisionMakesTheRequestVoid) {
   EXPECT_EQ(claim(disturbed(0.5, 20), "S3", "nobody asked").verdict, Verdict::kContradicted);
 }
 
-/// min_TSDR is 140 bit times. So many characters that form no telegram begin 40 bit times after a request, whose
-/// answer begins `tsdr` after them.
+/// min_TSDR is 140 bit times. Characters that are not a telegram, so many, begin 40 bit times after a request, whose
+/// answer begins `tsdr` after it.
 MadeCapture disturbed_for_long(int baud, std::size_t characters, double tsdr) {
   constexpr double kMinTsdr = 140, kBegins = 40;
   MadeCapture capture(baud);

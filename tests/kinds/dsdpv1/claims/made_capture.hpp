@@ -1,5 +1,5 @@
 #pragma once
-// An artificial capture: telegrams and pins of a station 5 as a test wants them, exact to a tenth of a cycle.
+// A synthetic capture: telegrams and pins of a station 5 as a test needs them, exact to a tenth of a cycle.
 #include <string>
 
 #include "kinds/dsdpv1/claims/wires.hpp"
@@ -34,7 +34,7 @@ Telegram diagnosis(std::uint8_t status1, std::uint8_t status2);
 
 class MadeCapture {
  public:
-  /// A capture of these pins besides PBRXD, PBTXD and PBRTS; all except INTR0 and PBF are initially low.
+  /// With these pins besides PBRXD, PBTXD and PBRTS; all except INTR0 and PBF are low at first.
   explicit MadeCapture(int baud, const std::vector<Wire>& pins = {});
 
   double bit() const { return static_cast<double>(bus::baud(baud_).bit); }
@@ -66,21 +66,21 @@ class MadeCapture {
   void exchange(const Telegram& asked, const Telegram& answered, double tsdr = 11) {
     request(asked), answer(answered, tsdr);
   }
-  /// Lead and trail of the driver for the answers that follow, in cycles.
+  /// For the following answers; cycles.
   void set_driver(double lead, double trail) { lead_ = lead, trail_ = trail; }
   /// A telegram for another station ends the search: BR rises, and now() is where.
   void find_rate();
-  /// 12 bits after the last start bit and 3 to 4 cycles: now() is there; to be called at the end of a request.
+  /// Advances now() to 12 bits after the last start bit plus 3 to 4 cycles; call it at the end of a request.
   void decide() { wait_bits(1), wait_cycles(3.5); }
 
-  /// The capture's clock is fast by so much.
+  /// Makes the capture's clock fast by this much.
   void stretch(double ppm);
-  /// Edges are up to so much early or late.
+  /// Makes edges up to this much early or late.
   void jitter(Tick most);
-  /// The capture begins there: what was before it is not in it.
+  /// The capture begins there, without earlier changes.
   void begin_at(Tick at);
   calibrate::Result judge();
-  /// By an analyser that takes so many samples a second.
+  /// By an analyser with this sample rate.
   calibrate::Result judge_sampled(double rate);
 
  private:
@@ -92,11 +92,11 @@ class MadeCapture {
   calibrate::Record record_{calibrate::wires()};
 };
 
-/// The claim of this ruling whose text has these words; fails the test when there is none.
+/// The claim of this ruling whose text has these words; fails the test without one.
 const calibrate::ClaimResult& claim(const calibrate::Result& result, const std::string& ruling,
                                     const std::string& words);
 const calibrate::ParameterResult& parameter(const calibrate::Result& result, const std::string& key);
-/// "S3: what it says: how, ..." of all contradicted claims; empty when there is none.
+/// "S3: claim: evidence, ..." of all contradicted claims; empty without any.
 std::string contradicted(const calibrate::Result& result);
 
 }  // namespace dsdpv1::calibrate_test

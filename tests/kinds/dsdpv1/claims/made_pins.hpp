@@ -1,5 +1,5 @@
 #pragma once
-// Captures made edge by edge, exact to the tick, and what calibrate says of them.
+// Captures made edge by edge, exact to the tick, and calibrate's results for them.
 #include <cmath>
 #include <string>
 #include <utility>

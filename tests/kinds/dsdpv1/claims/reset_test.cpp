@@ -1,4 +1,4 @@
-// H6, and resets: what shows them where RESET is not in the capture, and what they cut.
+// H6, and resets: the evidence for them if RESET is not in the capture, and what they cut.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ void add_cut_work(MadePins& made) {
   made.low(wire::kIntr0, 2'025, kCut);
 }
 
-/// The start-up access and what follows.
+/// The start-up access and the next ones.
 void add_start_up(MadePins& made, double start, double cycles = 2'054) {
   made.access(start, cycles);
   made.access(start + cycles + 1, 8);

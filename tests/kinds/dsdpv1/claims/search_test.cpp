@@ -1,4 +1,4 @@
-// S1, S10: what ends the search, and when, in captures made for it.
+// S1, S10: the end of the search and its time, in synthetic captures.
 #include <gtest/gtest.h>
 
 #include "tests/kinds/dsdpv1/claims/made_capture.hpp"

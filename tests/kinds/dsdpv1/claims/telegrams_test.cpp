@@ -1,4 +1,4 @@
-// The contents of telegrams (S5, S13, S20, S21, S26, facts), in captures made for this test.
+// The content of telegrams (S5, S13, S20, S21, S26, facts), in synthetic captures.
 #include <gtest/gtest.h>
 
 #include "tests/kinds/dsdpv1/claims/made_capture.hpp"

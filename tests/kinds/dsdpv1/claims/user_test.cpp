@@ -9,7 +9,7 @@ namespace {
 
 using testing::IsEmpty;
 
-/// The chip has the DPRAM every 48 cycles until 388; the user holds it from 410 to 2000.
+/// The chip accesses the DPRAM every 48 cycles until 388; the user holds it from 410 to 2000.
 class MadeHold : public MadePins {
  public:
   explicit MadeHold(bool request = true) {
@@ -190,7 +190,7 @@ TEST(CalibrateWrite, WhoseDataChangeWithinASampleOfItsEndIsNotKnown) {
   }
 }
 
-/// Outputs of one byte whose CRC is not right.
+/// Outputs of one byte with a wrong CRC.
 void read_wrong_outputs(MadeHold& made, int at) {
   made.read(at, 0x319, 0x01);
   made.read(at + 20, 0x31A, 0x07);
@@ -225,7 +225,7 @@ TEST(CalibrateRead, OfABlockThatTheChipHasWrittenSinceShowsItsCrc) {
     read_wrong_outputs(made, 2'200);
     EXPECT_EQ(claim(made.judged(4'000), "D2", "").tally.fails, news == 0x01 ? 1U : 0U) << news;
   }
-  MadeHold unread;  // the bit stood already
+  MadeHold unread;  // the bit was already set
   unread.write(500, 0x00E, 0x01);
   unread.write(520, 0x31A, 0x00);
   hold_again(unread, 2'000);

@@ -1,4 +1,4 @@
-// S1, S22: what ends DATA_EXCH, and what BR's fall follows, in captures made for it.
+// S1, S22: the causes of leaving DATA_EXCH and of BR's fall, in synthetic captures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -148,7 +148,7 @@ TEST(CalibrateWatchdog, AnotherMasterThatKeepsItAliveIsContradicted) {
   EXPECT_EQ(claim(station.judge(), "S1", "ends DATA_EXCH").verdict, Verdict::kContradicted);
 }
 
-/// The watchdog is 20 ms, then what `change` makes of it; PBF rises so many ms after the last telegram.
+/// The watchdog is 20 ms, then modified by `change`; PBF rises so many ms after the last telegram.
 calibrate::Result coarse_watchdog(const std::function<void(MadeCapture&)>& change, double ms) {
   MadeCapture capture(k12M, {wire::kBr, wire::kPbf});
   capture.begins_high(wire::kBr);

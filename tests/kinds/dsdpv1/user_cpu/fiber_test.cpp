@@ -12,7 +12,7 @@ namespace {
 
 using user_cpu::Fiber;
 
-/// A fiber needs itself to suspend.
+/// A fiber's body needs the fiber to suspend.
 struct Coroutine {
   template <typename Body>
   explicit Coroutine(const Body& body) : fiber([this, body] { body(fiber); }) {}

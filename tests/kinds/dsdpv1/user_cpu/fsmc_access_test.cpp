@@ -1,4 +1,4 @@
-// The FSMC's edges against the figures of the STM32F103xE datasheet and against its own HCLK counts.
+// The FSMC's edges compared with the figures of the STM32F103xE datasheet and with its own HCLK counts.
 #include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
 
 #include "bus/time.hpp"

@@ -34,7 +34,7 @@ class NativeCpu : public testing::Test {
 
   void let_it_ask() { cpu->others = &others; }
 
-  /// As a bench tells them.
+  /// As reported by a bench.
   struct OnTimeline final : user_cpu::Others {
     explicit OnTimeline(NativeCpu& of) : test(of) {}
     Tick quiet_until() override { return test.timeline.quiet_until(*test.cpu); }

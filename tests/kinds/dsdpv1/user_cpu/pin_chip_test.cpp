@@ -1,4 +1,4 @@
-// A host access on a chip of the bench: all of its edges in one turn, except those after one that has an observer.
+// A host access on a chip of the bench: all of its edges in one turn, except those after an edge that is reported.
 #include "kinds/dsdpv1/chip/dsdpv1_pin_chip.hpp"
 
 #include <gtest/gtest.h>
@@ -27,13 +27,13 @@ struct WithCore {
         core(device->chip()),
         chip(name, std::move(device), Part::kDsdpv1, 0, segment) {}
 
-  std::unique_ptr<tb::CoreDevice> device;  ///< until the chip has it
+  std::unique_ptr<tb::CoreDevice> device;  ///< until the chip takes it
   const dsdpv1::Chip& core;
   tb::Dsdpv1PinChip chip;
   user_cpu::HostBus& host = static_cast<user_cpu::HostBus&>(*chip.user_side());
 };
 
-/// When events came.
+/// Records the times of events.
 struct Heard : tb::ChipListener {
   void event(std::size_t /*slave*/, const profibus::Event& event) override { events.push_back(event.at); }
   std::vector<Tick> events;
@@ -181,7 +181,7 @@ TEST_F(PutOffTest, AResetInTheMiddleForgetsTheRest) {
 
 // --- telegrams of others ---------------------------------------------------------------------------------------------
 
-/// A chip that has found its rate, at 12 Mbit/s, and a sender.
+/// A chip that has found its rate, at 12 Mbit/s, and another sender.
 struct ForeignTelegramsTest : PinChipTest, bus::Listener {
   ForeignTelegramsTest() {
     Tick at = kStart;
@@ -220,7 +220,7 @@ TEST_F(ForeignTelegramsTest, AreCountedThoughTheChipHasNoTurn) {
   ASSERT_TRUE(core.status().baud_index.known());
   const auto before = core.status().telegrams_received;
   for (int i = 0; i < 3; ++i) send_to_others(i);
-  EXPECT_EQ(core.status().telegrams_received, before);  // it has not been told
+  EXPECT_EQ(core.status().telegrams_received, before);  // not passed to it
   chip.sync(begin_of(3));
   EXPECT_EQ(core.status().telegrams_received, before + 3);
 }

@@ -25,7 +25,7 @@ struct PinChange {
   bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
 };
 
-/// Records its inputs and drives D as set by the test.
+/// Records its inputs and drives D as set.
 struct FakePins : QuietDevice {
   void set(Tick at, tb::PinNumber pin, Level level) override { changes.push_back({at, static_cast<Pin>(pin), level}); }
   void advance(Tick to) override { reached = to; }

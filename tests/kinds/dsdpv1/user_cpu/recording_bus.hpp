@@ -1,5 +1,5 @@
 #pragma once
-// A HostBus that writes down what the CPU does. An access has two edges: one at its start, one 1000 ticks later.
+// A HostBus that records the CPU's actions. An access has two edges: one at its start, one 1000 ticks later.
 #include <cstdint>
 #include <string>
 #include <vector>

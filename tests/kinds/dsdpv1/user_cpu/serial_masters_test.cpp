@@ -29,7 +29,7 @@ void PrintTo(const Change& change, std::ostream* out) {
   *out << "{" << change.at << ", " << static_cast<int>(change.pin) << ", " << change.level << "}";
 }
 
-/// Changes only; MISO gives what `answer` says.
+/// Records changes; MISO comes from `answer`.
 class Recorder : public user_cpu::SerialPins {
  public:
   void set_serial(Tick at, Pin pin, bool level) override {

@@ -33,7 +33,7 @@ static void break_a_rule(void) {
 #if defined RUDE_NO_REQUEST
   while (!port_stm32.get_l_sta(NULL)) {
   }
-  while (port_stm32.get_l_sta(NULL)) { /* the chip has just released it, so this is not a collision */
+  while (port_stm32.get_l_sta(NULL)) { /* the chip has just finished, so it is not a collision */
   }
   port_stm32.set_r_sta(NULL, true);
   port_stm32.set_r_sta(NULL, false);
@@ -51,8 +51,7 @@ static void break_a_rule(void) {
 #endif
 }
 
-/* The parameters that the master has sent, with their CRC or without; or a verdict on a block that was not fetched.
- */
+/* The parameters sent by the master, with or without their CRC; or a verdict on a block that was not fetched. */
 static bool fetch_parameters(void) {
   take();
   const uint8_t flags = port_dpram_read(DSDPV1_REG_CHIP_COMMAND_1);
