@@ -37,8 +37,7 @@ class Core {
 /// The parts of the C API in use.
 struct Use {
   bool receives = true;  ///< requests are passed by dpsim_chip_receive, else one call per edge
-  bool keeps =
-      false;  ///< changes of all pins are kept and taken after each advance; else only those of PinCounter are counted
+  bool keeps = false;    ///< all pin changes are kept and taken after each advance; else PinCounter counts
 };
 
 /// The same through the C API.
