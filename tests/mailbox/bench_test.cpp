@@ -1,5 +1,5 @@
-// The mailbox on the bench, brought to data exchange by a scenario: nothing of tb/bench, tb/scenario, bus/ and
-// model/profibus/ knows it.
+// The mailbox on the bench; a scenario brings it to data exchange. tb/bench, tb/scenario, bus/ and model/profibus/ do
+// not know it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// A mailbox on a segment: PBRTS enables the driver, PBTXD is what it drives, PBRXD hears the line at all times. Keeps
-// what the chip did.
+// A mailbox on a segment: PBRTS enables the driver, PBTXD is its input, PBRXD always hears the line. Keeps the chip's
+// outputs and events.
 #include <cstddef>
 #include <string>
 #include <vector>

@@ -12,13 +12,13 @@ using profibus::first_edge_after;
 using profibus::kNever;
 using profibus::kTicksPerCycle;
 
-constexpr Cycle kResetSynchroniser = 2;  // the third rising edge after RESET's runs: two flip-flops, then the logic
+constexpr Cycle kResetSynchroniser = 2;  // the third rising edge after RESET's rise: two flip-flops, then the logic
 
-// The outputs that are registers of the rising edge; MISO is the SPI port's own.
+// The outputs that are registers of the rising edge; the SPI port drives MISO itself.
 constexpr std::uint32_t kEdgeOutputs = kOutputPins & ~mask(Pin::kMiso);
 constexpr std::uint32_t kResetLevels = mask(Pin::kInt) | mask(Pin::kPbtxd);
 
-// The times are the station's own defaults.
+// The times are the station's defaults.
 profibus::StationConfig station_config() {
   profibus::StationConfig config;
   config.capacities = kCapacities;
@@ -54,7 +54,7 @@ struct Chip::Impl {
   PinSink sink;
   std::uint32_t watched = 0;
   Tick now = 0;
-  Cycle done = 0;  // the last rising edge that was evaluated
+  Cycle done = 0;  // the last evaluated rising edge
   Tick planned_edge = kNever;
   bool reset_pin = false, running = false, rxd = true;
   Cycle release_at = kNever;
@@ -104,7 +104,7 @@ void Chip::Impl::enter_reset(Tick at) {
 
 // --- time ------------------------------------------------------------------------------------------------------------
 
-// The plan is queried far more often than changed, so each caller of a block updates it here.
+// Kept because it is read far more often than changed: every caller of a block updates it.
 void Chip::Impl::plan() {
   const Cycle cycle = std::min({release_at, port.next(), station.next()});
   planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
@@ -120,7 +120,7 @@ void Chip::Impl::advance(Tick to) {
   done = std::max(done, now / kTicksPerCycle);
 }
 
-// The user's side acts before the station, which counts on it.
+// The user's side acts before the station, which relies on it.
 void Chip::Impl::rising_edge(Cycle cycle) {
   done = cycle;
   if (cycle == release_at) {

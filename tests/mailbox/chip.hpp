@@ -54,8 +54,8 @@ class Chip {
   void set(Tick at, Pin pin, Level level);
   /// Evaluates everything up to and including tick `to`; pin changes and events leave through the sinks on the way.
   void advance(Tick to);
-  /// The tick of the next rising CLK edge at which the chip acts without new input; never before `now()`. With
-  /// Engine::kStep the next rising edge.
+  /// The tick of the next rising CLK edge at which the chip acts by itself; never before `now()`. With Engine::kStep
+  /// the next rising edge.
   Tick next_event() const;
   Tick now() const;
   /// The present level of a pin, input or output.

@@ -91,7 +91,7 @@ class Cpu : public user_cpu::StationCpu {
     user_.run(now);
     outputs_.assign(user_.outputs().begin(), user_.outputs().end());
   }
-  void interrupt_changed(Tick, bool) override {}  // the program looks at INT itself
+  void interrupt_changed(Tick, bool) override {}  // the program reads INT itself
   void command(Tick, const user_cpu::Command& command) override {
     const auto* set = std::get_if<user_cpu::command::SetInputs>(&command);
     if (set == nullptr) throw std::invalid_argument("the program of a mailbox only knows set_inputs");

@@ -1,5 +1,5 @@
 #pragma once
-// The mailbox as a kind of chip: all that scenarios and the bench need to know of it.
+// The mailbox as a kind of chip: everything that scenarios and the bench need.
 #include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::mailbox {

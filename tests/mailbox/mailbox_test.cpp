@@ -1,4 +1,4 @@
-// The mailbox at its pins, with its user and a master, and its two engines against each other.
+// The mailbox at its pins, with its user and a master, and its two engines compared with each other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,14 +35,14 @@ Bytes write_frame(const Bytes& inputs) {
   frame.insert(frame.end(), inputs.begin(), inputs.end());
   return frame;
 }
-/// The result of a read: nothing during the command, then the outputs.
+/// The bytes that MISO shows in a read: zero during the command, then the outputs.
 Bytes shown(const Bytes& outputs) {
   Bytes seen = {0};
   seen.insert(seen.end(), outputs.begin(), outputs.end());
   return seen;
 }
 
-/// A chip on a segment, and an agent that moves its pins directly.
+/// A chip on a segment; the test moves its pins directly.
 struct ByHand {
   explicit ByHand(Engine engine = Engine::kSkip) : board(segment, engine) {
     timeline.check_announcements();
@@ -59,7 +59,7 @@ struct ByHand {
     run(4 * kCycle);
   }
   void select() { set(Pin::kXss, 0); }
-  /// The first `bits` of `bytes`, zeros after their end; returns the levels of MISO meanwhile.
+  /// Sends the first `bits` of `bytes`, then zeros; returns the bits on MISO.
   Bytes clock(const Bytes& bytes, std::size_t bits) {
     Bytes seen((bits + 7) / 8, 0);
     for (std::size_t i = 0; i < bits; ++i) {
@@ -70,7 +70,7 @@ struct ByHand {
     }
     return seen;
   }
-  /// XSS rises, and the frame acts.
+  /// XSS rises, and the frame takes effect.
   void deselect() {
     set(Pin::kXss, 1, kHalfSck);
     deselected = timeline.now();
@@ -226,7 +226,7 @@ bus::SlaveParameters slave_parameters() {
   return slave;
 }
 
-/// A master on the chip's segment, and a monitor that must not complain.
+/// A master on the chip's segment, and a monitor that must report nothing.
 struct Plant : ByHand {
   explicit Plant(Engine engine = Engine::kSkip, int baud = 0)
       : ByHand(engine), master(segment, config(baud)), monitor(segment) {
@@ -268,7 +268,7 @@ struct MailboxOnTheBus : testing::Test, Plant {
     frame(kStart);
     ASSERT_TRUE(bring_up()) << master.slave(kSlave).reason;
   }
-  /// The master falls silent; its last outputs wait.
+  /// The master stops; its last outputs are still unread.
   void stop_master() {
     master.stop();
     run(kTicksPerMs);
@@ -355,7 +355,7 @@ TEST_F(MailboxOnTheBus, TheWatchdogClearsTheOutputsAndSaysSo) {
 TEST_F(MailboxOnTheBus, AStartHidesNoOutputsFromTheUser) {
   start_and_bring_up();
   stop_master();
-  run(60 * kTicksPerMs);  // the watchdog: zeros wait
+  run(60 * kTicksPerMs);  // the watchdog: zeros are to be read
   ASSERT_EQ(status().dp_state, DpState::kWaitPrm);
   ASSERT_EQ(int_level(), 0);
   frame(kStart);
@@ -424,7 +424,7 @@ struct MailboxUser : testing::Test, UsersPlant {};
 TEST_F(MailboxUser, StartsTheChipAndKeepsItsPeriod) {
   run(20 * kTicksPerUs);
   EXPECT_EQ(status().dp_state, DpState::kWaitPrm);
-  run(1010 * kTicksPerUs);  // the tenth round ends some 15 us after its beginning
+  run(1010 * kTicksPerUs);  // the tenth round ends about 15 us after its beginning
   EXPECT_EQ(user.counters().frames, 1U + 2U * 10U);
   EXPECT_EQ(user.counters().inputs_written, 10U);
   EXPECT_EQ(user.counters().outputs_received, 0U) << "no master";
@@ -501,7 +501,7 @@ void expect_same(const ByHand& step, const ByHand& skip) {
 class MailboxEngines : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(BaudIndex, MailboxEngines, testing::Values(0, 1));
 
-// From power-on through data exchange, a reset in the middle of it, and the watchdog.
+// From power-on through data exchange with a reset in the middle, and the watchdog.
 TEST_P(MailboxEngines, StepAndSkipGiveTheSamePinsAndEvents) {
   const auto play = [](UsersPlant& plant) {
     ASSERT_TRUE(plant.bring_up());
@@ -525,7 +525,7 @@ TEST_P(MailboxEngines, StepAndSkipGiveTheSamePinsAndEvents) {
   expect_same(step, skip);
 }
 
-/// Frames right and wrong, with any clock and gap, and now and then a reset; the same for each seed.
+/// Correct and faulty frames with any clock and gap, and an occasional reset; the same for each seed.
 class RandomFrames {
  public:
   RandomFrames(ByHand& chip, unsigned seed) : chip_(chip), random_(seed) {}

@@ -1,5 +1,5 @@
 #pragma once
-// The pins of the mailbox, each one wire, and how a change of one leaves or enters the chip.
+// The pins of the mailbox, each one wire, and the way in which their changes leave and enter the chip.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ enum class Pin : std::uint8_t {
   kPbrxd,
   // outputs
   kMiso,  ///< kLevelZ while not selected
-  kInt,   ///< low-active: outputs that were not read
+  kInt,   ///< low-active: unread outputs
   kPbtxd,
   kPbrts,
 };

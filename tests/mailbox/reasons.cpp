@@ -14,7 +14,7 @@ const profibus::ReasonRow detail::kReasonRows[] = {
 
 namespace {
 
-// Values fixed in this chip appear as the value, others as their place in the start frame.
+// Fixed properties of this chip appear as their value, the others as their place in the start frame.
 constexpr profibus::Words make_words() {
   profibus::Words words;
   words.ident = "bytes 2 and 3 of the start frame";

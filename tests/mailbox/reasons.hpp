@@ -1,5 +1,5 @@
 #pragma once
-// The reasons of the mailbox: those of its SPI port, and all that the chip has, in its own words.
+// The reasons of the mailbox: those of its SPI port, and all reasons of the chip in its wording.
 #include <string>
 #include <vector>
 
@@ -17,7 +17,7 @@ enum class ReasonIndex : std::size_t {
 extern const profibus::ReasonRow kReasonRows[static_cast<std::size_t>(ReasonIndex::kCount)];
 }  // namespace detail
 
-/// Reasons of the SPI port only: `mailbox::Reason::kStarted`.
+/// The reasons of the SPI port: `mailbox::Reason::kStarted`.
 struct Reason {
 #define X(id, ...) \
   static constexpr profibus::Reason id{detail::kReasonRows[static_cast<std::size_t>(detail::ReasonIndex::id)]};
@@ -29,7 +29,7 @@ struct Reason {
 std::vector<profibus::Reason> reasons();
 /// The event in words, one line, without the time.
 std::string describe(const profibus::Event& event);
-/// The text of a reason with its placeholders, and what to do about it.
+/// The text of a reason with its placeholders, and the remedy.
 std::string text_template(profibus::Reason reason);
 std::string advice(profibus::Reason reason);
 

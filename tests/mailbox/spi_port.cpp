@@ -6,9 +6,9 @@ namespace dsdpv1::mailbox {
 namespace {
 
 constexpr unsigned kByteBits = 8;
-constexpr unsigned kMostBits = 0xFFFF;  // an event's number has 16 bits; no frame comes near them
-constexpr Cycle kFrameDelay = 1;        // the second rising edge after XSS's: one after the first
-constexpr int kHighestAddress = 125;    // 126 would be for Set_Slave_Address, which this chip has not
+constexpr unsigned kMostBits = 0xFFFF;  // an event's number has 16 bits; no frame comes near
+constexpr Cycle kFrameDelay = 1;        // the second rising edge after XSS's rise: one after the first
+constexpr int kHighestAddress = 125;    // 126 would be for Set_Slave_Address, which this chip lacks
 
 /// The bits of a whole frame; 0: no command.
 unsigned frame_size(std::uint8_t code) {
@@ -20,9 +20,8 @@ unsigned frame_size(std::uint8_t code) {
   }
 }
 
-/// The start frame has address and ident; all else is fixed. Nothing is left to the user's judgement: the parameters
-/// must
-/// have no user bytes and the configuration must be kConfiguration.
+/// The start frame has the address and the ident number; all else is fixed. The user judges nothing: the parameters
+/// must have no user bytes and the configuration must be kConfiguration.
 profibus::SlaveConfig slave_config(std::uint8_t address, std::uint16_t ident) {
   profibus::SlaveConfig config;
   config.address = address;
@@ -98,7 +97,7 @@ void SpiPort::shift_out() {
   to_send_ <<= 1;
 }
 
-// All 8 bytes at once: what comes from the master later is for the next frame, and keeps INT low.
+// All 8 bytes at once: later data from the master is for the next frame and keeps INT low.
 void SpiPort::load_outputs() {
   const profibus::IoBlock& outputs = user_.outputs();
   for (std::size_t i = 0; i < kDataBytes; ++i) to_send_ = to_send_ << kByteBits | outputs.bytes[i];
@@ -138,7 +137,7 @@ void SpiPort::start(Cycle now) {
   }
   const auto ident = static_cast<std::uint16_t>(frame_[2] << 8 | frame_[3]);
   log_.at_cycle(now, Reason::kStarted, address, ident);
-  // The slave forgets its mail: its outputs are news all the same.
+  // The slave forgets its mail; its outputs are still unread.
   unread_ = unread_ || user_.mail().output.due.waiting();
   user_.initialise(now, slave_config(address, ident));
 }

@@ -42,7 +42,7 @@ class SpiPort {
   void set(Tick at, Pin pin, bool high);
   bool level(Pin pin) const;
 
-  /// The rising edge of `now`: a complete frame acts. To be called before the station's.
+  /// The rising edge of `now`: a complete frame takes effect. Must be called before the station's.
   void eval(Cycle now);
   Cycle next() const { return acts_at_; }
 
@@ -65,7 +65,7 @@ class SpiPort {
   bool enabled_ = false, xss_ = true, sck_ = false, mosi_ = false;
 
   bool selected_ = false;
-  unsigned bits_ = 0;  // of this select
+  unsigned bits_ = 0;  // in this select
   std::array<std::uint8_t, kDataFrame> shift_{};
   std::uint64_t to_send_ = 0;  // the next bit for MISO is the highest
   Level miso_ = 0;
@@ -73,7 +73,7 @@ class SpiPort {
   Cycle acts_at_ = profibus::kNever;
   unsigned frame_bits_ = 0;
   std::array<std::uint8_t, kDataFrame> frame_{};
-  bool unread_ = false;  // outputs that a frame has loaded but not yet read to its end
+  bool unread_ = false;  // outputs that a frame has loaded but not yet read completely
 };
 
 }  // namespace dsdpv1::mailbox

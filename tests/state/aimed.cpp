@@ -24,11 +24,11 @@ constexpr Tick kStartUp = 4200 * kCycle;  // RAM cleared, B004 written
 constexpr Tick kBusBit = 4 * kCycle;      // 12 Mbit/s
 constexpr Tick kMs = profibus::kCyclesPerMs * kCycle;
 
-/// Pin changes, one after the other, with marked moments.
+/// Moves the pins one after the other and marks the moments.
 class Script {
  public:
   Script(std::string name, const Config& config) { all_.stimulus = {std::move(name), config, {}, 0}; }
-  /// Continues from the pins of a scenario at `from`.
+  /// Continues from the state of a scenario's pins at `from`.
   Script(std::string name, const Recorded& scenario, Tick from) : Script(std::move(name), scenario.config) {
     const auto behind = std::find_if(scenario.inputs.begin(), scenario.inputs.end(),
                                      [from](const Input& each) { return each.at > from; });
@@ -39,9 +39,9 @@ class Script {
   Tick now() const { return now_; }
   void wait(Tick ticks) { now_ += ticks; }
   void set(Pin pin, Level level) { all_.stimulus.inputs.push_back({now_, pin, level}); }
-  /// Saved here.
+  /// The chip is saved here.
   void mark() { all_.moments.push_back({now_, all_.stimulus.inputs.size()}); }
-  /// Waits for so many edges of CLK; saved at each.
+  /// Waits for `count` edges of CLK; the chip is saved at each.
   void mark_cycles(int count) {
     for (int i = 0; i < count; ++i) {
       wait(kCycle - now_ % kCycle);
@@ -77,7 +77,7 @@ class Chance {
 
 // --- a user at the parallel port -------------------------------------------------------------------------------------
 
-/// Keeps no limit for sure: strobes, set-up and hold times are chance, and so is who has the DPRAM.
+/// Guarantees no limit: strobes, set-up and hold times are random, and so is the owner of the DPRAM.
 class Clumsy {
  public:
   Clumsy(Script& script, Chance& chance) : script_(script), chance_(chance) {}
@@ -158,7 +158,7 @@ Aimed clumsy_user(unsigned seed) {
   return script.done(kStartUp);
 }
 
-/// An address that changes between RD's fall and the edge that takes it.
+/// An address that changes between RD's fall and the edge that latches it.
 Aimed exact_read() {
   Script script = started("exact_read");
   script.set(Pin::kRReq, 1);
@@ -180,7 +180,7 @@ Aimed exact_read() {
   return script.done(100 * kCycle);
 }
 
-/// Shorter than a cycle and longer: what the two flip-flops have on their way.
+/// Pulses shorter and longer than a cycle: the contents of the two flip-flops are saved.
 Aimed pulses(Pin pin) {
   Chance chance(3);
   Script script = started(std::string("pulses_of_") + name(pin));
@@ -195,9 +195,9 @@ Aimed pulses(Pin pin) {
 
 // --- a host at the serial ports --------------------------------------------------------------------------------------
 
-constexpr std::uint8_t kNoCommand = 0x20;  // of B010: a bit that stays
+constexpr std::uint8_t kNoCommand = 0x20;  // of B010: a bit that remains
 
-/// MOSI of a frame: the request, and so many bytes more for its reply.
+/// MOSI of a frame: the request and `reply` more bytes for its reply.
 Bytes and_reply(Bytes request, std::size_t reply) {
   request.resize(request.size() + reply, 0xFF);
   return request;
@@ -226,7 +226,7 @@ void change_straps(Script& script) {
   }
 }
 
-/// Bits of MOSI, SCK's rise `low` after each; `falls(bit, of the last byte)` is what happens from there on.
+/// Bits of MOSI, each followed by SCK's rise after `low`; `falls(bit, of the last byte)` continues from there.
 template <class Falls>
 void clock(Script& script, const Bytes& bytes, Tick low, const Falls& falls) {
   for (const std::uint8_t& byte : bytes)
@@ -238,7 +238,7 @@ void clock(Script& script, const Bytes& bytes, Tick low, const Falls& falls) {
     }
 }
 
-/// Frames whose times are chance, down to several edges in one tick; MISO is late as it may be.
+/// Frames with random times, down to several edges in one tick; MISO has its maximum delay.
 class Frames {
  public:
   Frames(Script& script, Chance& chance) : script_(script), chance_(chance) {}
@@ -246,7 +246,7 @@ class Frames {
   void send(const Bytes& request, std::size_t reply) {
     usual_ = chance_.one_in(3) ? 1000 : chance_.one_in(2) ? 500 : 260;
     together_ = chance_.one_in(3);
-    if (usual_ != 260) script_.wait(kCycle - script_.now() % kCycle);  // with CLK
+    if (usual_ != 260) script_.wait(kCycle - script_.now() % kCycle);  // in step with CLK
     step(Pin::kXss, 0);
     for (const std::uint8_t byte : and_reply(request, reply)) {
       for (int bit = 7; bit >= 0; --bit) {
@@ -268,7 +268,8 @@ class Frames {
   void step(Pin pin, Level level) {
     script_.set(pin, level);
     if (chance_.one_in(100)) script_.mark();
-    if (together_ && chance_.one_in(6)) return chance_.one_in(2) ? script_.mark() : void();  // the next at this tick
+    if (together_ && chance_.one_in(6))
+      return chance_.one_in(2) ? script_.mark() : void();  // the next edge is at this tick
     script_.wait(together_ && chance_.one_in(10) ? chance_.from_to(1, 60) : usual_ / 2);
     if (together_ && chance_.one_in(40)) script_.mark();
   }
@@ -300,7 +301,7 @@ Aimed hasty_spi(unsigned seed) {
   return script.done(200 * kCycle);
 }
 
-/// SCK far too fast: several changes of MISO wait in a row.
+/// SCK is far too fast: changes of MISO queue up.
 Aimed racing_spi() {
   Config config;
   config.spi_miso_delay = 600;
@@ -314,10 +315,11 @@ Aimed racing_spi() {
   };
   script.set(Pin::kXss, 0);
   script.wait(800);
-  bytes(read_telegram(0x001, 200), 700, false);  // longer than the bytes sent, whose number is reported
+  bytes(read_telegram(0x001, 200), 700,
+        false);  // longer than the data to be sent: the chip reports how much it has sent
   for (const Tick half : {400, 35, 130, 33, 55, 65}) bytes({0xFF}, half, true);
   Chance chance(1);
-  for (int i = 0; i < 60; ++i) bytes({0x5A}, chance.from_to(3, 12), i % 2 == 0);  // some within a cycle
+  for (int i = 0; i < 60; ++i) bytes({0x5A}, chance.from_to(3, 12), i % 2 == 0);  // some fall into one cycle
   script.mark_cycles(4);
   script.wait(800);
   for (const Tick low : {20, 20, 500, 20}) {
@@ -332,8 +334,8 @@ Aimed racing_spi() {
   return script.done(200 * kCycle);
 }
 
-/// Frames in which one thing follows on another within the cycle: a frame that ends with its last bit, and what the
-/// DPRAM gets from them, byte by byte.
+/// Frames with two events in the same cycle: a frame that ends with its last bit, and the DPRAM's update from it, byte
+/// by byte.
 Aimed exact_spi() {
   Config config;
   config.spi_reply_gap = 4;
@@ -367,7 +369,7 @@ Aimed exact_spi() {
   return script.done(300 * kCycle);
 }
 
-/// Edges of SCK with those of CLK, as the port loads what it sends, and of XSS and SCK at one tick.
+/// Edges of SCK coincide with those of CLK when the port loads its data to send, and XSS and SCK change at one tick.
 Aimed ties_of_spi() {
   Script script = at_port("ties_of_spi", HostMode::kSpi);
   for (int high = 3; high <= 7; ++high) {
@@ -387,12 +389,12 @@ Aimed ties_of_spi() {
     script.wait(4 * kCycle);
     script.set(Pin::kXss, 1);
     script.mark();
-    script.set(Pin::kSck, 1);  // at this tick: it counts
+    script.set(Pin::kSck, 1);  // at this tick: the edge counts
     script.wait(4 * kCycle);
     script.set(Pin::kSck, 0);
     script.wait(20 * kCycle);
   }
-  script.set(Pin::kXss, 0);  // as fast as bytes that are loaded are sent a byte later
+  script.set(Pin::kXss, 0);  // at the speed at which loaded bytes are sent one byte later
   script.wait(4 * kCycle);
   const auto bytes = [&script](const Bytes& all, Tick half) {
     clock(script, all, half, [&script, half](int, bool) {
@@ -408,7 +410,7 @@ Aimed ties_of_spi() {
   return script.done(100 * kCycle);
 }
 
-/// The edge at which the port begins to listen, after a reset, and one of SCK at the same tick.
+/// The edge at which the port begins to listen after a reset, and an edge of SCK at the same tick.
 Aimed awaking_spi() {
   Script script = at_port("awaking_spi", HostMode::kSpi);
   for (int cycles = 1; cycles < 10; ++cycles) {
@@ -430,13 +432,13 @@ Aimed awaking_spi() {
   return script.done(kStartUp);
 }
 
-/// Telegrams of the UART, right ones and spoilt ones, and characters in the middle of a reply.
+/// Telegrams of the UART, correct and corrupted, and characters in the middle of a reply.
 class Characters {
  public:
   Characters(Script& script, Chance& chance, int rate)
       : script_(script), chance_(chance), bit_(kUbrCycles.at(static_cast<std::size_t>(rate)) * kCycle) {}
 
-  /// Nothing is left to chance: saved at each edge at which it is judged and carried out.
+  /// Not random: the chip is saved at each edge at which the request is checked and carried out.
   void say(const Bytes& request) {
     for (const std::uint8_t& byte : request) {
       const std::uint16_t bits = bus::Character::of(byte).bits;
@@ -524,20 +526,20 @@ Aimed exact_uart() {
 
 // --- a master --------------------------------------------------------------------------------------------------------
 
-/// A master after the pins of a scenario, whose bus is then silent except for this sender.
+/// Continues after the pins of a scenario: from there on, only this master sends on the bus.
 class Master {
  public:
   /// `marks`: cycles after a marked telegram at which the chip is saved.
   Master(Script& script, std::uint8_t own, std::uint8_t slave, Tick bit = kBusBit, int marks = 12)
       : script_(script), own_(own), slave_(slave), bit_(bit), marks_(marks) {}
 
-  /// A request without SAPs, or with them, and time for its answer. `marked`: saved after it, and during it.
+  /// A request with or without SAPs, and time for its answer. `marked`: the chip is saved after and during the request.
   void ask(std::uint8_t function, const Bytes& saps, const Bytes& data, bool marked = true) {
     send(telegram(slave_, function, saps, data), marked);
     script_.wait(kAnswer * bit_);
     if (marked) script_.mark();
   }
-  /// After one for another station and without T_SYN: it is then not a request.
+  /// Follows a telegram for another station without T_SYN, so the chip ignores it.
   void ask_too_soon(std::uint8_t function, const Bytes& data) {
     send(telegram(slave_ + 1, function, {}, {}), false);
     send(telegram(slave_, function, {}, data), true, kSyn / 3);
@@ -575,26 +577,26 @@ class Master {
 };
 
 constexpr std::uint8_t kSrd = 0x5D, kSrdOther = 0x7D;  // with FCV; FCB 0 and 1
-constexpr unsigned kIdent = 0x0CC9;                    // of the scenarios' slaves
+constexpr unsigned kIdent = 0x0CC9;                    // ident number of the scenarios' slaves
 
-/// Data of Set_Prm; `options` is DPV1_Status_1. A Min T_SDR that is not the slave's so far.
+/// Parameters of Set_Prm; `options` is DPV1_Status_1. Their Min T_SDR differs from the slave's present one.
 Bytes parameters(std::uint8_t options) {
   return {0xB8, 0x01, 0x01, 0x20, kIdent >> 8, kIdent & 0xFF, 0x01, options, 0, 0};
 }
 
-/// The scenario's slave in data exchange, whose user releases the DPRAM.
+/// The scenario's slave in data exchange; the user has released the DPRAM.
 Script in_data_exchange(std::string name) {
   static const Recorded scenario = [] {
     Recorded slave = recorded("power_on_12m").at(0);
     slave.config.intr_gap = 20'000;  // longer than some telegrams
     return slave;
   }();
-  Script script(std::move(name), scenario, 3 * kMs);  // so the scenario promises
+  Script script(std::move(name), scenario, 3 * kMs);  // the scenario guarantees data exchange here
   for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr, Pin::kPbrxd}) script.set(pin, 1);
   script.set(Pin::kDIn, kLevelZ);
   script.wait(10 * kCycle);
   for (const Pin pin : {Pin::kRReq, Pin::kRSta}) script.set(pin, 0);
-  script.wait(2000 * kCycle);  // whatever the scenario's master was sending is over
+  script.wait(2000 * kCycle);  // the last telegram of the scenario's master is over
   return script;
 }
 
@@ -608,7 +610,7 @@ void give(Script& script) {
   script.set(Pin::kRReq, 0);
 }
 
-/// The user writes some cells, and gives the DPRAM back.
+/// The user writes some cells and returns the DPRAM.
 void write(Script& script, const std::vector<std::pair<int, std::uint8_t>>& cells) {
   take(script);
   for (const auto& [address, value] : cells) {
@@ -627,7 +629,7 @@ void write(Script& script, const std::vector<std::pair<int, std::uint8_t>>& cell
   give(script);
 }
 
-/// ... and reads the status.
+/// The user reads the status.
 void read_status(Script& script) {
   take(script);
   for (const int address : {regs::kChipStatus2, regs::kChipStatus4, regs::kChipCommand2, regs::kUserCommand2}) {
@@ -643,7 +645,7 @@ void read_status(Script& script) {
   give(script);
 }
 
-/// A C1 request beside a C2 flag that the user has not cleared.
+/// A C1 request while the user has not yet cleared a C2 flag.
 Aimed acyclic_flags() {
   const Recorded scenario = recorded("dpv1_c1").at(0);
   Script script("acyclic_flags", scenario, 69 * kMs);
@@ -657,7 +659,7 @@ Aimed acyclic_flags() {
   return script.done(2000 * kCycle);
 }
 
-/// The user's commands, read at the head of an access and used later in it.
+/// The user's requests; the chip reads them at the head of an access and uses them later in it.
 Aimed commands() {
   Script script = in_data_exchange("commands");
   using Cells = std::vector<std::pair<int, std::uint8_t>>;
@@ -677,7 +679,7 @@ Aimed commands() {
   return script.done(2000 * kCycle);
 }
 
-/// Parameters and a configuration that the user judges late, and then Fail_Safe: a Data_Exchange without outputs.
+/// Parameters and a configuration that the user judges late, then Fail_Safe: a Data_Exchange without outputs.
 Aimed judged_late() {
   Script script = in_data_exchange("judged_late");
   Master master(script, 2, 5);
@@ -698,7 +700,7 @@ Aimed judged_late() {
   return script.done(2000 * kCycle);
 }
 
-/// An address that may not be changed any more, and a master that tries.
+/// An address that is locked, and a master that tries to change it.
 Aimed locked_address() {
   Script script = in_data_exchange("locked_address");
   Bytes unlock = parameters(0);
@@ -709,7 +711,7 @@ Aimed locked_address() {
   return script.done(2000 * kCycle);
 }
 
-/// Each request again, as if its answer had been lost.
+/// Repeats each request, as if its answer had been lost.
 Aimed repetitions() {
   Script script = in_data_exchange("repetitions");
   Master master(script, 2, 5);
@@ -721,7 +723,7 @@ Aimed repetitions() {
   return script.done(2000 * kCycle);
 }
 
-/// The user has the DPRAM for itself while parameters, a configuration and outputs come; then it gets them at once.
+/// The user owns the DPRAM while parameters, a configuration and outputs arrive; then it gets them at once.
 Aimed held_mail() {
   Script script = in_data_exchange("held_mail");
   Master master(script, 2, 5);
@@ -744,7 +746,7 @@ Aimed held_mail() {
   return script.done(2000 * kCycle);
 }
 
-/// Functions that the chip does not support, and a Slave_Diag that reports it.
+/// Functions that the chip does not support, and a Slave_Diag that reports them.
 Aimed unsupported() {
   Script script = in_data_exchange("unsupported");
   Master master(script, 2, 5);
@@ -768,7 +770,7 @@ Aimed frozen() {
 
 constexpr Tick kCharacter = 11 * kBusBit;
 
-/// A slave in data exchange at 12 Mbit/s, told a telegram as a run from `start` on.
+/// A slave in data exchange at 12 Mbit/s; it hears a telegram as a run from `start` on.
 Act hears_run(std::string name, const Bytes& telegram, Tick saved, std::function<void(Chip& chip, Tick start)> rest) {
   const Recorded begin = in_data_exchange("").done(0).stimulus;
   const Tick start = begin.end + 60 * kBusBit;
@@ -814,7 +816,7 @@ std::vector<Act> runs() {
   return all;
 }
 
-/// A read that was found too short when it was sampled is not found so again when it ends.
+/// A read that was reported as too short when sampled is not reported again at its end.
 Act sampled_too_early() {
   const Recorded begin = in_data_exchange("").done(0).stimulus;
   const auto before = [begin](Chip& chip) {
@@ -832,7 +834,7 @@ Act sampled_too_early() {
           }};
 }
 
-/// Channels of second masters that say nothing more: they are closed when their time is over.
+/// Channels of second masters that send nothing more: they are closed at their timeout.
 Act silent_channels(int ms) {
   static const Recorded scenario = recorded("dpv1_c2_two_masters").at(0);
   const Tick from = ms * kMs;
@@ -848,7 +850,7 @@ Act silent_channels(int ms) {
 
 std::vector<Act> acts() {
   std::vector<Act> all = runs();
-  // both idle, a request each, and polled for the one or the other while the user has it
+  // both idle; a request each; polled for one and for the other while the user has it
   for (const int ms : {200, 251, 253, 255}) all.push_back(silent_channels(ms));
   all.push_back(sampled_too_early());
   return all;

@@ -1,6 +1,6 @@
 #pragma once
-// Stimulus that no scenario has, and the moments of it at which a chip is saved: in the middle of what lasts a few
-// ticks, and before what only a user, a host or a master out of order would do.
+// Stimuli that no scenario has, and the moments at which a chip is saved: during actions of a few ticks, and before
+// actions of a faulty user, host or master.
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace dsdpv1::state_test {
 
-/// Between two inputs, which may be of one tick.
+/// A moment between two inputs, which may be at the same tick.
 struct Moment {
   Tick at;
-  std::size_t inputs;  ///< that have been
+  std::size_t inputs;  ///< number of inputs before it
 };
 
 struct Aimed {
@@ -20,10 +20,10 @@ struct Aimed {
   std::vector<Moment> moments;  ///< in order of time
 };
 
-/// All of them. Those with a seed in their name are random, and the same each time.
+/// All stimuli. Those with a seed in their name are random, and the same each time.
 std::vector<Aimed> aimed();
 
-/// Calls of a chip other than set(), before it is saved and from then on.
+/// Calls other than set() on a chip, before it is saved and after.
 struct Act {
   std::string name;
   Config config;

@@ -1,4 +1,4 @@
-// Chips that are saved where it matters most: another one that is restored there continues like the first.
+// Chips are saved at critical moments: a chip restored there behaves as the first.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace dsdpv1::state_test {
 namespace {
 
-// As a chip with another history.
+// Gives a chip another history.
 void disturb(Chip& chip, Heard& heard) {
   chip.set(777, Pin::kReset, 1);
   chip.set(5'000'000, Pin::kRReq, 1);

@@ -1,4 +1,4 @@
-// States that are restored, and those that are refused with a line of words while the chip stays unchanged.
+// Valid states are restored; others are refused with a one-line message, and the chip remains unchanged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ void play(Chip& chip, const Recorded& slave, Tick until) {
   chip.advance(until);
 }
 
-/// In the middle of data exchange.
+/// A state in the middle of data exchange.
 State some_state(Engine engine = Engine::kSkip) {
   static const Recorded slave = recorded("power_on_12m").at(0);
   Config config = slave.config;
@@ -29,7 +29,8 @@ State some_state(Engine engine = Engine::kSkip) {
   return chip.save();
 }
 
-/// Why a chip with this configuration refuses `state`; that it does, and is the same afterwards, is tested.
+/// The reason for which a chip with this configuration refuses `state`; also checks that it refuses and remains
+/// unchanged.
 std::string refusal(const State& state, const Config& config = {}) {
   Chip chip(config);
   chip.set(1000, Pin::kReset, 1);
@@ -102,8 +103,7 @@ TEST(ChipState, AValueThatNoChipHasIsRefusedThoughItsChecksumIsRight) {
   EXPECT_NE(refusal(end_state(State(whole.begin(), whole.end() - 1))), "");
 }
 
-/// The format's guard: a state that has changed wants another kStateVersion. Then these numbers are those of the new
-/// one.
+/// Guards the format: a changed state requires a new kStateVersion. Then these numbers become those of the new version.
 TEST(ChipState, OfAChipFromPowerOnIsThatOfItsVersion) {
   const State fresh = Chip().save();
   std::uint32_t checksum = 0;
@@ -117,9 +117,8 @@ void keep(void* pins, Tick at, Pin pin, Level level) {
   static_cast<std::vector<Input>*>(pins)->push_back({at, pin, level});
 }
 
-/// The output of a chip with the engine `goes_on`, restored from one with `saved` at `tick`. It watches what the
-/// other
-/// did not, which may have dozed.
+/// The output changes of a chip with the engine `goes_on`, restored from one with `saved` at `tick`. Only this one is
+/// watched; the other may have dozed.
 std::vector<Input> lives_on(const Recorded& slave, Engine saved, Engine goes_on, Tick tick) {
   Config config = slave.config;
   config.engine = saved;

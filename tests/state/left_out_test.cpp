@@ -1,5 +1,5 @@
-// Omits each field of a state: a chip that is restored without it, so that the field has its value of a new chip,
-// must at some moment act differently from the one with it. fields.tsv has all fields, and why some can be left out.
+// Leaves out each field of a state: a chip restored without it, whose field then has its initial value, must differ at
+// some moment from the one with it. fields.tsv lists all fields, and why some can be left out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using profibus::StateWriter;
 /// A line of fields.tsv.
 struct Row {
   StateField field;
-  std::string name, reason;  ///< why nothing can find it; empty: something does
+  std::string name, reason;  ///< why no test can detect its absence; empty: a test does
 };
 
 std::vector<Row> rows() {
@@ -44,7 +44,7 @@ std::vector<Row> rows() {
   return rows;
 }
 
-/// The bytes of the marks of what is unknown in the RAM are one field.
+/// The bytes of the marks for unknown RAM contents are one field.
 std::vector<StateField> fields_of_a_state() {
   static_cast<void>(Chip().save());
   std::vector<StateField> fields;
@@ -69,7 +69,7 @@ TEST(StateFields, HaveTheirRowsInTheirOrder) {
   EXPECT_EQ(known.size(), fields.size());
 }
 
-/// The output of a chip from a state on; empty if it is refused.
+/// The outcome of a chip from a state on; none when refused.
 struct Seen {
   Heard heard;
   std::string at_once, at_the_end;
@@ -126,7 +126,7 @@ class Search {
   void look(const State& state, const Config& config, Way way, const Rest& rest) {
     Heard none;
     const State fresh = make_chip(config, way, none)->save();
-    // fields that nothing should find are tried less often
+    // fields that should have no effect are tried less often
     constexpr unsigned kSeldom = 10;
     const bool all = ++moments_ % kSeldom == 0;
     std::optional<Seen> right;
@@ -147,7 +147,8 @@ class Search {
   unsigned moments_ = 0;
 };
 
-/// At and soon after the first two of each event, and the first three changes of each pin; and some at random.
+/// At and soon after the first two occurrences of each event and the first three changes of each pin, and some random
+/// ticks.
 Aimed telling(const Recorded& slave, std::mt19937& random) {
   Heard heard;
   const auto chip = make_chip(slave.config, Way::kSkip, heard);

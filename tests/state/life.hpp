@@ -1,5 +1,5 @@
 #pragma once
-// The output of a chip, and its answers to queries.
+// The outputs of a chip, and its answers to queries.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dsdpv1::state_test {
 
-/// The engine and observers of a chip: it dozes if L_REQ and L_STA have no observer.
+/// The way to evaluate and observe a chip: it dozes when nobody observes L_REQ and L_STA.
 enum class Way : std::uint8_t { kSkip, kDoze, kStep };
 const char* words(Way way);
 
@@ -19,13 +19,13 @@ struct Heard {
 };
 bool operator==(const Heard& a, const Heard& b);
 
-/// A chip that tells `heard`, which outlives it.
+/// A chip that reports to `heard`, which outlives it.
 std::unique_ptr<Chip> make_chip(Config config, Way way, Heard& heard);
 
-/// Counters, levels of all pins, runs that it need not hear and, in step, its inner state.
+/// Counters, levels of all pins, runs that it need not hear and, in step mode, its internal state.
 std::string asked(const Chip& chip, const Config& config, Way way);
 
-/// The inputs of `slave` from the number `from` on, as far as they come before or at `until`.
+/// The inputs of `slave` from number `from` on, up to and including `until`.
 void play(Chip& chip, const Recorded& slave, std::size_t from, Tick until);
 
 }  // namespace dsdpv1::state_test

@@ -1,5 +1,5 @@
 #pragma once
-// Stimulus of which there is plenty: what the golden traces say that the pins of each slave of each scenario got.
+// Plentiful stimulus: the inputs of each slave of each scenario, from the golden traces.
 #include <string>
 #include <vector>
 
@@ -25,7 +25,7 @@ struct Recorded {
 
 /// Names of the scenarios that have a golden trace.
 std::vector<std::string> recorded_scenarios();
-/// All slaves of one of them.
+/// All slaves of a scenario.
 std::vector<Recorded> recorded(const std::string& scenario);
 
 }  // namespace dsdpv1::state_test

@@ -1,5 +1,5 @@
-// The pins of all scenarios again, to a chip that lives through and to one that is saved and restored at random ticks,
-// each time into a chip with another history: the same pins, the same events, and byte for byte the same state.
+// Replays the pins of all scenarios to a chip that runs through and to one that is saved and restored at random ticks,
+// each time into a chip with another history: the pins, the events and the state, byte by byte, must be the same.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using profibus::kTicksPerCycle;
 
-/// Half of them anywhere, half soon after an input: within characters, accesses, frames.
+/// Half of the ticks anywhere, half soon after an input: within characters, accesses, frames.
 std::vector<Tick> random_ticks(const Recorded& slave, int count, std::mt19937& random) {
   std::vector<Tick> ticks;
   const auto below = [&](Tick limit) { return static_cast<Tick>(random() % static_cast<std::uint64_t>(limit)); };
@@ -35,7 +35,7 @@ class Lives {
         way_(way),
         unbroken_(make_chip(slave.config, way, expected_)),
         restored_{make_chip(slave.config, way, heard_), make_chip(slave.config, way, heard_)} {
-    restored_[1]->set(777, Pin::kReset, 1);  // another history, of which nothing may stay
+    restored_[1]->set(777, Pin::kReset, 1);  // another history, which must not show
     restored_[1]->set(5'000'000, Pin::kRReq, 1);
     restored_[1]->advance(7'777'777);
     heard_ = {};
@@ -81,7 +81,7 @@ class Lives {
 struct Case {
   std::string scenario;
   Way way;
-  int ticks;  ///< of each slave
+  int ticks;  ///< per slave
 };
 void PrintTo(const Case& each, std::ostream* out) { *out << each.scenario << words(each.way); }
 
@@ -104,7 +104,7 @@ std::vector<Case> cases(std::initializer_list<Way> ways, int ticks) {
 }
 std::string name_of(const ::testing::TestParamInfo<Case>& info) { return info.param.scenario + words(info.param.way); }
 
-// Dozing and step also in the conformance tests, whose chips are restored from time to time.
+// The conformance tests also cover dozing and step: they restore their chips from time to time.
 INSTANTIATE_TEST_SUITE_P(Short, RecordedLives, ::testing::ValuesIn(cases({Way::kSkip}, 30)), name_of);
 INSTANTIATE_TEST_SUITE_P(Nightly, RecordedLives, ::testing::ValuesIn(cases({Way::kSkip, Way::kDoze, Way::kStep}, 1000)),
                          name_of);

@@ -18,7 +18,7 @@ using sc_core::sc_time;
 
 namespace {
 
-/// The effects of one transaction, in ticks.
+/// The result of one transaction, in ticks.
 struct Outcome {
   tlm::tlm_response_status response = tlm::TLM_OK_RESPONSE;
   Tick took = 0, delay_left = 0;
@@ -50,7 +50,7 @@ struct World : sc_core::sc_module {
   static TlmOptions options() {
     TlmOptions options;
     options.report_violations = false;
-    options.observed = 0;  // R_REQ, R_STA and RESET are heard in any case
+    options.observed = 0;  // R_REQ, R_STA and RESET are always observed
     return options;
   }
 
@@ -67,7 +67,7 @@ struct World : sc_core::sc_module {
     meet_another();
     wait_until(120 * kUs);
     violate();
-    wait_until(130 * kUs);  // what was written settles
+    wait_until(130 * kUs);  // until the chip has processed the writes
     release();
   }
   void run_ahead() {
@@ -80,7 +80,7 @@ struct World : sc_core::sc_module {
     transport(true, false, 0x130, 0);
     too_early = transport(false, false, 0x130, 0);
   }
-  /// An agent that acts at the end of the access may read the chip; one tick later is harmless.
+  /// Another process may look at the chip at the end of the access; one tick later it is no conflict.
   void meet_another() {
     other.notify(to_time(kRead));
     at_another = transport(true, false, 0x130, 0);
@@ -96,7 +96,7 @@ struct World : sc_core::sc_module {
     events_ahead = events.size();
     violating_waited = transport(false, true, 0x140, 0, 1, timing);
   }
-  /// A pin that is moved without the initiator's knowledge takes effect at the chip's time.
+  /// A pin that another process moves is seen at the chip's time.
   void release() {
     const Tick now = dsdpv1::systemc::current_tick();
     transport(true, false, 0x130, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the SystemC benches: a simulation runs once, before the tests, which check its recording.
+// Shared by the SystemC benches: a simulation runs once, before the tests, which check its records.
 #include <cstdlib>
 #include <ostream>
 #include <string>
@@ -15,8 +15,8 @@ namespace dsdpv1 {
 /// Defined by every test program: builds its bench and runs it.
 void simulate();
 
-/// First thing in `simulate`: 1 fs, or as many of them as the environment says (DSDPV1_RESOLUTION_FS: 1, 10, 100, 1000;
-/// others for a resolution that is refused).
+/// To be called first in `simulate`: 1 fs, or the number of fs in the environment (DSDPV1_RESOLUTION_FS: 1, 10, 100,
+/// 1000; others for a refused resolution).
 inline void set_resolution() {
   const char* femtoseconds = std::getenv("DSDPV1_RESOLUTION_FS");
   sc_core::sc_set_time_resolution(femtoseconds != nullptr ? std::strtod(femtoseconds, nullptr) : 1, sc_core::SC_FS);
@@ -55,7 +55,7 @@ inline void collect_reports() {
     if ((actions & sc_core::SC_THROW) != 0) throw report;
   });
 }
-/// The texts of reports of a type that come from a module.
+/// The texts of a module's reports of a type.
 inline std::vector<std::string> reports_of(const std::string& type, const std::string& module) {
   std::vector<std::string> texts;
   for (const auto& [id, text] : reports())
@@ -68,7 +68,7 @@ inline void wait_until(dsdpv1::Tick tick) {
   if (at > sc_core::sc_time_stamp()) sc_core::wait(at - sc_core::sc_time_stamp());
 }
 
-/// A pin module with separate signals, its pins recorded.
+/// A pin module among its signals; its pins are recorded.
 struct PinBench {
   sc_core::sc_signal<bool> reset, r_req, r_sta, csr, rd, wr, pbrxd;
   sc_core::sc_signal<sc_dt::sc_uint<11>> a;
@@ -88,14 +88,14 @@ struct PinBench {
     };
   }
 
-  /// Each at its time, `shift` ticks later. As `drive`, in a thread.
+  /// Sets each at its time, `shift` ticks later. Call it in a thread, as `drive`.
   void play(const Changes& inputs, Tick shift = 0) {
     for (const Change& c : inputs) {
       wait_until(c.at + shift);
       drive(c.pin, c.level);
     }
   }
-  /// From one process only: D counts its drivers by process.
+  /// To be called from one process only: D counts its drivers by process.
   void drive(dsdpv1::Pin pin, dsdpv1::Level level) {
     const bool high = level != 0;
     switch (pin) {
@@ -115,7 +115,7 @@ struct PinBench {
   }
 };
 
-/// A thread or method out of a lambda.
+/// Makes a thread or method from a lambda.
 template <class Body>
 void thread(Body body) {
   sc_core::sc_spawn(body);

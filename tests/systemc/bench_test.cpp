@@ -1,6 +1,6 @@
-// A user CPU with the C driver brings two chips up: one by its pins in a plain timeline, one through the TLM socket
-// inside of SystemC. Both must do the same at the same ticks. Then one that runs ahead of simulation time does it once
-// more. Another CPU is reset in the middle of an access.
+// A user CPU with the C driver brings two chips up: one by its pins in a plain timeline, one through the TLM socket in
+// SystemC. Both must behave identically at the same ticks. A CPU that runs ahead of simulation time then repeats it.
+// Another CPU is reset in the middle of an access.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ const user_cpu::ProgramOptions& options() {
     user_cpu::ProgramOptions options;
     options.station.max_cfg = DSDPV1_MAX_CFG;
     options.inputs = user_cpu::InputSource::kCount;
-    options.start_delay = 2 * kReset;  // sooner, and the user holds off the chip's start-up (H6)
+    options.start_delay = 2 * kReset;  // if earlier, the user delays the chip's start-up (H6)
     return options;
   }();
   return shared;
@@ -53,7 +53,7 @@ class Once : public bus::Agent {
   std::function<void()> action_;
 };
 
-/// The core, its output changes recorded.
+/// The core; its output changes are recorded.
 class RecordedCore : public ChipAgent {
  public:
   RecordedCore() {
@@ -97,7 +97,7 @@ Changes without_data(const Changes& all) {
   return some;
 }
 
-/// From kEnd on, when no other agent acts any more.
+/// Runs from kEnd on, when no other agent acts any more.
 struct DecoupledRun : private user_cpu::Others {
   bus::Timeline& timeline;
   systemc_bench::TimelineModule& timeline_module;

@@ -1,4 +1,4 @@
-// Missing or impossible bindings are reported by name, each in a separate process.
+// Missing and impossible bindings are reported by name, each in a separate process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 namespace {
 
-/// The result of a platform that `build` makes.
+/// The outcome of a platform that `build` makes.
 template <class Build>
 std::string start(Build build) {
   return in_a_process_of_its_own([=]() -> std::string {
@@ -65,7 +65,7 @@ TEST(Binding, AStrapThatThereIsNotIsNamed) {
 
 TEST(Binding, APinOfTheRsuThatIsNotBoundIsNamed) {
   EXPECT_THAT(start([] { return std::make_unique<systemc::RsuPinModule>("chip"); }),
-              HasSubstr("port not bound: port 'chip.UIV'"));  // SystemC begins with the last
+              HasSubstr("port not bound: port 'chip.UIV'"));  // SystemC checks the last port first
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ const std::vector<std::uint8_t> kFdlStatus = {0x10, kAddress, kMaster, 0x49, 0x5
 
 constexpr Tick kPhase = 100;
 
-/// A chip's characters, and the times of their reports.
+/// The characters that a chip sends, and the times at which they are reported.
 struct Ear : tlm::tlm_analysis_if<BusCharacter> {
   std::vector<BusCharacter> heard;
   std::vector<sc_time> heard_at;
@@ -35,10 +35,10 @@ struct Ear : tlm::tlm_analysis_if<BusCharacter> {
   }
 };
 
-/// A chip without an observer of its pins, so that characters are passed as runs in both directions.
+/// A chip whose pins nobody observes, so that characters pass as runs: to it, and from it.
 struct Unheard : sc_core::sc_module, Ear {
   dsdpv1::systemc::TlmModule chip;
-  tlm_utils::simple_initiator_socket<Unheard> cpu{"cpu"};  // there, and idle
+  tlm_utils::simple_initiator_socket<Unheard> cpu{"cpu"};  // required, idle
 
   Unheard(const sc_core::sc_module_name& name, sc_core::sc_signal<bool>& reset, sc_core::sc_signal<bool>& low)
       : sc_module(name), chip("chip", options()) {
@@ -56,7 +56,7 @@ struct Unheard : sc_core::sc_module, Ear {
 
 struct World : sc_core::sc_module, Ear {
   dsdpv1::systemc::TlmModule chip{"chip"};
-  tlm_utils::simple_initiator_socket<World> cpu{"cpu"};  // there, and idle
+  tlm_utils::simple_initiator_socket<World> cpu{"cpu"};  // required, idle
   sc_core::sc_signal<bool> reset, r_req, r_sta, pbtxd, pbrts, pbrxd;
   Unheard phased{"phased", reset, r_req};
   Unheard two_rates{"two_rates", reset, r_req};  // the last character of the first telegram has half the rate
@@ -102,7 +102,7 @@ struct World : sc_core::sc_module, Ear {
     pbrxd.write(true);
   }
 
-  /// The user's part past the pins: table 2's initialisation data and their flag.
+  /// The user's part without the pins: table 2's initialisation data and their flag.
   static void initialise(dsdpv1::systemc::TlmModule& chip) {
     std::vector<std::uint8_t> init = {16, kAddress, 0x0C, 0x0D, 0, 0, 0, 4, 4, 0, 0, 0, 2, 0, 2, 0x13, 0x23};
     std::uint16_t crc = 0xFFFF;  // D2

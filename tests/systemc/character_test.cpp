@@ -21,7 +21,7 @@ TEST(Character, FrameHasStartDataEvenParityAndStop) {
   EXPECT_EQ(frame_of(0xE5, true, false), 0b0'1'11100101'0);
 }
 
-/// Puts a frame's edges into a collector.
+/// Passes a frame's edges to a collector.
 void feed(CharacterCollector& collector, Tick start, Tick bit, std::uint16_t frame) {
   bool level = true;
   for (int i = 0; i < 11; ++i) {

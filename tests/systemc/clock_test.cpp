@@ -1,4 +1,4 @@
-// A bound CLK: its frequency is checked, and it alone makes the chip's cycles.
+// A bound CLK: its frequency is checked, and only its edges make the chip's cycles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

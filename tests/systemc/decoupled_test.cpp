@@ -1,5 +1,5 @@
 // The user CPU with the C driver, coupled to simulation time and decoupled from it, at 1 fs and at 1 ps: the chip, its
-// bus, its DPRAM and the CPU itself do the same at the same ticks.
+// bus, its DPRAM and the CPU behave identically at the same ticks.
 #include <gtest/gtest.h>
 
 #include "tests/systemc/own_process.hpp"

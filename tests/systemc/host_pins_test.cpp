@@ -1,5 +1,5 @@
-// One program of transactions for the TLM module and, through HostPins, for the pin module: answers, times and pins
-// have to be the same.
+// One sequence of transactions for the TLM module and, through HostPins, for the pin module: answers, times and pins
+// must be the same.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
@@ -24,7 +24,7 @@ struct Transaction {
   sc_dt::uint64 address;
   Bytes data;
   AccessTiming timing = {};
-  Bytes enables = {};  ///< none: all
+  Bytes enables = {};  ///< empty: all
   bool ahead = false;
 };
 
@@ -43,15 +43,15 @@ AccessTiming write_low(Tick ticks) {
   return timing;
 }
 
-/// Transactions in turn; the first one by a user who does not own the DPRAM, the others by its owner.
+/// Consecutive transactions; the first by an initiator that does not own the DPRAM, the others by the owner.
 const std::vector<Transaction>& transactions() {
   static const std::vector<Transaction> all = {
       {kRead, 0x004, {0}},
       {kWrite, 0x130, {4, 0x11, 0x22, 0x33}},
       {kRead, 0x130, {0, 0, 0, 0}},
       {kRead, 0x131, {9, 9, 9, 9}, {}, {0xFF, 0x00}},    // every other byte
-      {kRead, 0x131, {9}, sampled(dsdpv1::kTw)},         // D is certain
-      {kRead, 0x131, {9, 9}, sampled(dsdpv1::kTw - 1)},  // and not yet: the burst ends at its first byte
+      {kRead, 0x131, {9}, sampled(dsdpv1::kTw)},         // D is valid
+      {kRead, 0x131, {9, 9}, sampled(dsdpv1::kTw - 1)},  // D is not valid yet: the burst ends at its first byte
       {kRead, 0x800, {9}},                               // refused, as the next four
       {kWrite, 0x7FF, {1, 2}},                           //
       {kRead, 0x130, {}},                                //
@@ -70,14 +70,14 @@ struct Outcome {
   Bytes data;
 };
 
-/// A user CPU without the handshake, which the bench does for it.
+/// A user CPU without the handshake, which the bench does.
 struct Initiator : sc_core::sc_module {
   tlm_utils::simple_initiator_socket<Initiator> socket{"socket"};
   explicit Initiator(const sc_core::sc_module_name& name) : sc_module(name) {}
 
   Outcome transport(Transaction transaction) {
     tlm::tlm_generic_payload payload;
-    auto* timing = new AccessTimingExtension;  // owned by the payload, also when this process is killed
+    auto* timing = new AccessTimingExtension;  // owned by the payload, even when this process is killed
     timing->timing = transaction.timing;
     timing->ahead = transaction.ahead;
     payload.set_extension(timing);
@@ -94,7 +94,7 @@ struct Initiator : sc_core::sc_module {
   }
 };
 
-/// One of the two chips and its user CPU.
+/// One of the two chips with its user CPU.
 struct Side {
   sc_core::sc_signal<bool> reset, r_req, r_sta;
   std::unique_ptr<Initiator> cpu;
@@ -150,7 +150,7 @@ struct World {
     thread([this] { kill(); });
   }
 
-  /// The pin module's signals are those of its bench.
+  /// The pin module's signals are those of the bench.
   void follow() {
     for (;;) {
       pin_bench.reset.write(pins.reset.read());
@@ -160,7 +160,7 @@ struct World {
     }
   }
 
-  /// When all is over: an initiator ends in the middle of its access, and another one comes at once.
+  /// At the end: an initiator ends in the middle of its access, and another one starts immediately.
   void kill() {
     wait_until(150 * kUs);
     pins.changes = pin_bench.changes;
@@ -174,7 +174,7 @@ struct World {
 
 std::unique_ptr<World> world;
 
-/// Those of the accesses, and what the chip does with D; at one tick in any order.
+/// The changes of the accesses and of the chip's D; those at one tick in any order.
 Changes of_accesses(const Changes& all) {
   Changes some;
   std::copy_if(

@@ -1,6 +1,6 @@
-// The sanitizer's search for leaks in a SystemC program: run by ctest with `held`, where it must find
-// nothing, and with `lost`, where it must find the block. `held` ends the program inside of sc_main, with the block on
-// the main thread's stack.
+// Checks the sanitizer's leak scan in a SystemC program: ctest runs it with `held`, where it must find nothing, and
+// with `lost`, where it must find the block. `held` ends the program inside of sc_main, with the block on the main
+// thread's stack.
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -11,21 +11,21 @@
 namespace dsdpv1 {
 namespace {
 
-/// A compiler may omit an unused allocation.
+/// Volatile: a compiler may omit an unused allocation.
 std::unique_ptr<volatile int[]> make_block() {
   auto block = std::make_unique<volatile int[]>(1000);
   block[0] = 1;
   return block;
 }
 
-/// Out of line, so that no register and no frame still in use has the address of what it has lost.
+/// Out of line, so that no register and no live frame holds the address of the lost block.
 [[gnu::noinline]] void lose_a_block() {
   static_cast<void>(make_block().release());
-}  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): the search for leaks is to find it
+}  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): the leak scan must find it
 
 }  // namespace
 
-/// Processes that end and one that does not: SystemC leaves the stack of each in another way.
+/// Processes that end and one that does not: SystemC leaves their stacks in different ways.
 void simulate() {
   thread([] { wait_until(1 * kUs); });
   thread([] { wait_until(3 * kUs); });

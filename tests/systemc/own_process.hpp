@@ -1,5 +1,5 @@
 #pragma once
-// SystemC has one time resolution, one quantum and one simulation a process: who wants to compare two starts others.
+// SystemC has one time resolution, one quantum and one simulation per process: comparisons need further processes.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@
 
 namespace dsdpv1 {
 
-/// The first line that is another, of both; empty when the texts are the same. For texts too long for EXPECT_EQ.
+/// The first line that differs, of both texts; empty when they are the same. For texts too long for EXPECT_EQ.
 inline std::string first_difference(const std::string& a, const std::string& b) {
   if (a == b) return "";
   std::istringstream in_a(a), in_b(b);
@@ -27,7 +27,7 @@ inline std::string first_difference(const std::string& a, const std::string& b) 
   }
 }
 
-/// Never returns: what the tests do after `body` is the business of the process that has started this one.
+/// Never returns: the tests after `body` belong to the parent process.
 [[noreturn]] inline void answer(const std::function<std::string()>& body, std::FILE* file) {
   try {
     const std::string text = body();
@@ -39,9 +39,8 @@ inline std::string first_difference(const std::string& a, const std::string& b) 
   }
 }
 
-/// The result of `body`, called in a process that begins as a copy of this one and ends after it. Throws when it ends
-/// in
-/// another way.
+/// The result of `body`, called in a process that starts as a copy of this one and ends after the call. Throws when the
+/// process ends otherwise.
 inline std::string in_a_process_of_its_own(const std::function<std::string()>& body) {
   std::FILE* file = std::tmpfile();
   if (file == nullptr) throw std::runtime_error("no temporary file");

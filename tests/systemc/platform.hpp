@@ -1,6 +1,6 @@
 #pragma once
-// A platform as users build them: the TLM module, a user CPU with the C driver that judges parameters and configuration
-// and exchanges data, and a station that takes it from power-on to data exchange.
+// A platform as users build it: the TLM module, a user CPU with the C driver that judges parameters and configuration
+// and exchanges data, and a station that brings it from power-on to data exchange.
 #include <iomanip>
 #include <ostream>
 #include <sstream>
@@ -27,9 +27,9 @@ constexpr std::uint8_t kSlave = 9, kMaster = 2;
 constexpr int kExchanges = 12;
 constexpr Tick kBit = 1000, kBusBegins = 400 * kUs, kBetween = 150 * kUs;  // 12 Mbit/s
 constexpr Tick kEnd = kBusBegins + (kExchanges + 8) * kBetween;
-constexpr int kSerialSlower = 10;  ///< of a user CPU at a serial port, about
+constexpr int kSerialSlower = 10;  ///< approximate factor for a user CPU at a serial port
 
-/// The requests of a master that brings its slave up.
+/// The requests with which a master starts its slave.
 inline std::vector<bus::Bytes> requests() {
   using namespace bus;  // NOLINT(google-build-using-namespace)
   constexpr std::uint8_t kFirst = fc::kRequest | fc::kFcb | fc::kSrdHigh;
@@ -49,7 +49,7 @@ inline std::vector<bus::Bytes> requests() {
   return all;
 }
 
-/// The user's program; what it sees goes into a log, with its local time.
+/// The user's program; it logs its observations with its local time.
 class User {
  public:
   std::ostringstream log;
@@ -114,10 +114,10 @@ class User {
   std::uint8_t count_ = 0;
 };
 
-/// A station at the chip's line that brings it up, and all reports of the run.
+/// A station on the chip's line that starts the chip, and the complete report of the run.
 class Station : tlm::tlm_analysis_if<BusCharacter> {
  public:
-  /// `adds_up`: the station's times are sums of rounded ones, as of who knows nothing of ticks.
+  /// `adds_up`: the station's times are sums of rounded times, as of a station without ticks.
   /// `slower`: so much later, and with longer pauses.
   Station(dsdpv1::systemc::TlmModule& chip, const User& user, bool adds_up, int slower = 1)
       : chip_(chip), user_(user), adds_up_(adds_up), slower_(slower) {
@@ -130,7 +130,7 @@ class Station : tlm::tlm_analysis_if<BusCharacter> {
   }
 
   int answered() const { return answered_; }
-  /// With the DPRAM in the end.
+  /// With the DPRAM at the end.
   std::string told() {
     chip_.sync();
     std::ostringstream out;
@@ -184,13 +184,13 @@ struct Platform {
   }
   static dsdpv1::systemc::TlmOptions options() {
     dsdpv1::systemc::TlmOptions options;
-    options.observed = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);  // the pins of an access have no observer
+    options.observed = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);  // the pins of an access are not observed
     return options;
   }
   std::string told() { return station.told(); }
 };
 
-/// The same with a DSDPV1-RSU, at one of its serial ports.
+/// The same with a DSDPV1-RSU, on one of its serial ports.
 template <class Cpu>
 struct SerialPlatform {
   User user;

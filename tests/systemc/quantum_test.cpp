@@ -1,4 +1,4 @@
-// An initiator with a quantum that knows nothing but TLM-2.0: what b_transport does with its delay.
+// An initiator with a quantum that uses plain TLM-2.0: tests how b_transport treats its delay.
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 const Tick kRead = HostAccess::read(0, {}).duration(), kWrite = HostAccess::write(0, 0, {}).duration();
 
-/// The effects of one transaction, in ticks.
+/// The result of one transaction, in ticks.
 struct Outcome {
   tlm::tlm_response_status response = tlm::TLM_INCOMPLETE_RESPONSE;
   Tick took = 0, delay_left = 0;
@@ -87,7 +87,7 @@ struct World : sc_core::sc_module {
     return {payload.get_response_status(), dsdpv1::systemc::current_tick() - begin, to_tick(annotated), data};
   }
 
-  /// A CPU whose chip is in reset, and whose RESET is not bound.
+  /// Misuse by a CPU whose chip is in reset; nobody has bound its RESET.
   void misuse(DriverCpu& itself) {
     try {
       itself.set_reset(true);

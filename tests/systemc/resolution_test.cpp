@@ -1,4 +1,4 @@
-// The time resolution is a property of the process: each of these fixes its own.
+// The time resolution is a property of the process: each test sets it in a new process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace dsdpv1 {
 namespace {
 
-/// The result of a module at this resolution; 0: none is set before.
+/// The outcome of a module at this resolution; 0: no resolution is set before.
 std::string module_at(double value, sc_core::sc_time_unit unit) {
   return in_a_process_of_its_own([=] {
     collect_reports();
@@ -30,7 +30,7 @@ TEST(Resolution, AModuleTakesThatOfThePlatform) {
   EXPECT_EQ(module_at(1, sc_core::SC_FS), "accepted 1 fs");
   EXPECT_EQ(module_at(100, sc_core::SC_FS), "accepted 100 fs");
   EXPECT_EQ(module_at(1, sc_core::SC_PS), "accepted 1 ps");
-  EXPECT_EQ(module_at(0, sc_core::SC_FS), "accepted 1 ps");  // SystemC's own
+  EXPECT_EQ(module_at(0, sc_core::SC_FS), "accepted 1 ps");  // SystemC's default
 }
 
 TEST(Resolution, ACoarserOneThanAPicosecondIsAClearError) {

@@ -1,5 +1,5 @@
-// The pins of the DSDPV1-RSU in SystemC: the inputs of golden traces as signals, over SPI and over the UART; over SPI
-// with a CLK, too. The outputs are those of the golden, tick by tick.
+// The pins of the DSDPV1-RSU in SystemC, with the inputs of golden traces as signals: over SPI, over the UART, and over
+// SPI with a CLK. The outputs must match the golden, tick by tick.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,10 +17,10 @@ using dsdpv1::systemc::to_time;
 namespace {
 
 constexpr Tick kEnd = 20'000 * kUs;    // in data exchange
-constexpr Tick kClkEnd = 2'500 * kUs;  // of a bound CLK, which is dear: initialised
-constexpr std::size_t kSlave = 0;      // of the golden; its pins are its first signals
+constexpr Tick kClkEnd = 2'500 * kUs;  // with a bound CLK, which is slow: initialised
+constexpr std::size_t kSlave = 0;      // in the golden; its pins are its first signals
 
-/// A golden's contents up to kEnd, in order of time: levels of pins, those of power-on first.
+/// The contents of a golden up to kEnd, in order of time: pin levels, those of power-on first.
 Changes changes_of(const tb::traces::Trace& trace, bool inputs) {
   Changes changes;
   for (int number = 0; number < kRsuPinCount; ++number) {
@@ -33,7 +33,7 @@ Changes changes_of(const tb::traces::Trace& trace, bool inputs) {
   return changes;
 }
 
-/// The module among signals, which play a golden's inputs.
+/// The module among its signals, which play a golden's inputs.
 struct Board {
   std::map<Pin, sc_core::sc_signal<bool>> wires;
   sc_core::sc_signal<sc_dt::sc_uint<11>> a;
@@ -43,7 +43,7 @@ struct Board {
   sc_core::sc_signal_resolved miso;
   sc_core::sc_signal<bool> clk;
   systemc::RsuPinModule chip;
-  Changes seen;  ///< of the signals of the outputs
+  Changes seen;  ///< of the output signals
 
   Board(const char* name, const Changes& inputs, bool with_clk, Engine engine = Engine::kSkip)
       : chip(name, options(engine)) {
@@ -63,7 +63,7 @@ struct Board {
   }
 
  private:
-  /// As the goldens' scenarios have it.
+  /// As in the goldens' scenarios.
   static PinOptions options(Engine engine) {
     PinOptions options;
     options.chip.engine = engine;
@@ -92,7 +92,7 @@ struct Board {
       case Pin::kAdr: adr.write(value); break;
       case Pin::kUbr: ubr.write(value); break;
       case Pin::kUiv: uiv.write(value); break;
-      case Pin::kDIn: d.write(sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_Z)); break;  // of an unused parallel port
+      case Pin::kDIn: d.write(sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_Z)); break;  // an unused parallel port
       default: wires[pin].write(level != 0);
     }
   }
@@ -107,7 +107,7 @@ struct Board {
   void see(Pin pin, Level level) { seen.push_back({dsdpv1::systemc::current_tick(), pin, level}); }
 };
 
-/// A golden, and the boards that play it.
+/// A golden and the boards that play it.
 struct Played {
   std::unique_ptr<tb::traces::Trace> trace;
   Changes inputs, outputs;
@@ -126,7 +126,7 @@ struct World {
 
 std::unique_ptr<World> world;
 
-/// The changes of each signal after power-on and before `end`.
+/// Each signal's changes after power-on and before `end`.
 std::map<Pin, Changes> by_pin(const Changes& all, Tick end) {
   std::map<Pin, Changes> pins;
   for (const Change& change : all)
@@ -134,7 +134,7 @@ std::map<Pin, Changes> by_pin(const Changes& all, Tick end) {
   return pins;
 }
 
-/// `port`: its output, with so many changes at least.
+/// `port`: its output, with at least `least` changes.
 void expect_golden(const Board& board, const Played& played, Pin port, std::size_t least, Tick end = kEnd) {
   const auto seen = by_pin(board.seen, end), golden = by_pin(played.outputs, end);
   EXPECT_GT(golden.at(port).size(), least);

@@ -1,4 +1,4 @@
-// The SPI and the UART socket of the DSDPV1-RSU: times, responses, what a killed initiator leaves.
+// The SPI and the UART socket of the DSDPV1-RSU: times, responses, effects of a killed initiator.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
@@ -30,7 +30,7 @@ struct Outcome {
   Bytes data;
 };
 
-/// A chip, its initiator and what both do.
+/// A chip, its initiator and their outputs.
 struct Side : sc_core::sc_module, tlm::tlm_analysis_if<std::uint8_t> {
   RsuTlmModule chip;
   tlm_utils::simple_initiator_socket<Side> socket{"socket"};
@@ -60,7 +60,7 @@ struct Side : sc_core::sc_module, tlm::tlm_analysis_if<std::uint8_t> {
     heard_at.push_back(current_tick());
   }
 
-  /// `change`: what is special about the payload.
+  /// `change`: modifies the payload.
   Outcome transport(tlm::tlm_command command, Bytes data,
                     const std::function<void(tlm::tlm_generic_payload&)>& change = {}, Tick delay = 0) {
     tlm::tlm_generic_payload payload;
@@ -127,7 +127,7 @@ struct World {
     at_the_delay = read_with_low(kMisoDelay);
     after_the_delay = read_with_low(kMisoDelay + 1);
   }
-  /// SCK is low for so many ticks.
+  /// SCK is low for `low` ticks.
   Outcome read_with_low(Tick low) {
     return spi.transport(
         tlm::TLM_READ_COMMAND, with_room(kReadB014),

@@ -1,5 +1,5 @@
-// Telegrams as runs in the TLM module: two chips on the same line, of one every change of a pin is heard, of the other
-// none. Their reports on the bus are the same, whatever disturbs the telegrams.
+// Telegrams as runs in the TLM module: two chips on the same line. Every pin change of one is observed, none of the
+// other. Their reports of the bus must be the same, whatever interrupts the telegrams.
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
 
@@ -26,7 +26,7 @@ const std::vector<std::uint8_t> kFdlStatus = {0x10, kAddress, 2, 0x49, 0x54, 0x1
 const std::vector<std::uint8_t> kToAnother = {0x10, 7, 2, 0x49, 0x52, 0x16};
 const std::vector<std::uint8_t> kNoTelegram = {0x10, kAddress, 0x00, 0xFF, 0x16};
 
-/// A chip and what it tells.
+/// A chip and its reports.
 struct Station : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
   TlmModule chip;
   tlm_utils::simple_initiator_socket<Station> cpu{"cpu"};
@@ -52,7 +52,7 @@ struct Station : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
     sent.push_back(character);
     sent_at.push_back(sc_core::sc_time_stamp());
   }
-  /// The user's part past the pins: table 2's initialisation data and their flag.
+  /// The user's part without the pins: table 2's initialisation data and their flag.
   void initialise() {
     chip.sync();
     std::vector<std::uint8_t> init = {16, kAddress, 0x0C, 0x0D, 0, 0, 0, 4, 4, 0, 0, 0, 2, 0, 2, 0x13, 0x23};
@@ -166,8 +166,7 @@ struct Line : sc_core::sc_module {
     const Tick last = end - kCharacter + 1, now = dsdpv1::systemc::current_tick();
     put({to_time(std::max(now, last + choose(10 * kBit))), to_time(kBit), 0xA5, true, true});
   }
-  /// The baud rate is given up while a telegram for another station is on the line (S22), which another one finds
-  /// again.
+  /// The baud rate is given up during a telegram for another station (S22); another telegram finds it again.
   void search_in_telegram() {
     const Tick length = static_cast<Tick>(kToAnother.size()) * kCharacter;
     wait_until(dsdpv1::systemc::current_tick() + choose(static_cast<int>(length)));

@@ -10,7 +10,7 @@ int sc_main(int argc, char* argv[]) {
   testing::InitGoogleTest(&argc, argv);
   try {
     if (!testing::GTEST_FLAG(list_tests)) dsdpv1::simulate();
-  } catch (const sc_core::sc_report& report) {  // SystemC would hand it to a handler that a bench has replaced
+  } catch (const sc_core::sc_report& report) {  // SystemC would pass it to a handler that a bench has replaced
     std::cerr << report.what() << "\n";
     return 1;
   }

@@ -1,5 +1,5 @@
-// User CPUs with the C driver at the SPI and the UART socket of a DSDPV1-RSU, at 1 fs and at 1 ps: from power-on to
-// data exchange, with everything at the same ticks.
+// User CPUs with the C driver on the SPI and the UART socket of a DSDPV1-RSU, at 1 fs and at 1 ps: from power-on to
+// data exchange, all at the same ticks.
 #include <gtest/gtest.h>
 
 #include "tests/systemc/own_process.hpp"

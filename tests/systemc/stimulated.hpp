@@ -1,6 +1,6 @@
 #pragma once
-// One stimulus, and all the modules that take it, in one simulation: the pin module (CLK unbound, bound, another phase,
-// in step) and the TLM module.
+// One stimulus for all modules in one simulation: the pin module (CLK unbound, bound, with another phase, in step) and
+// the TLM module.
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include <string>
@@ -55,7 +55,7 @@ inline void add_telegram(Changes& stimulus) {
   }
 }
 
-/// Everything that happens to the chip, in order of time.
+/// All inputs of the chip, in order of time.
 inline const Changes& stimulus() {
   static const Changes all = [] {
     Changes s = {{kResetAt, Pin::kReset, 1}, {kRequestAt, Pin::kRReq, 1}, {kOwnAt, Pin::kRSta, 1}};
@@ -122,7 +122,7 @@ struct StimulatedTlm : sc_core::sc_module {
   }
 
   void access() {
-    sc_core::sc_time delay = to_time(kFirstAccess);  // as of a loosely-timed initiator that runs ahead
+    sc_core::sc_time delay = to_time(kFirstAccess);  // as for a loosely-timed initiator that runs ahead
     for (const Transaction& t : kTransactions) {
       tlm::tlm_generic_payload payload;
       std::uint8_t byte = t.value;

@@ -1,4 +1,4 @@
-// Ticks and simulation time, at the resolution that the environment gives: it is a property of the process.
+// Ticks and simulation time at the resolution from the environment, which is a property of the process.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,17 +18,17 @@ void simulate() { set_resolution(); }
 
 namespace {
 
-/// In steps of the resolution: three ticks are 250 ps.
+/// The resolution; three ticks are 250 ps.
 std::int64_t femtoseconds() { return std::llround(sc_core::sc_get_time_resolution().to_seconds() * 1e15); }
 std::int64_t units_per_three_ticks() { return 250'000 / femtoseconds(); }
 
-/// Five hours at 1 fs, five thousand at 1 ps: what SystemC's time holds.
+/// Five hours at 1 fs, five thousand at 1 ps: the range of SystemC's time.
 Tick random_tick() {
   static std::mt19937_64 random(20261124);
   return static_cast<Tick>(random() % (18'000ULL * 12'000'000'000 * static_cast<std::uint64_t>(femtoseconds())));
 }
 
-/// By how many thirds of a unit the time of a tick is off.
+/// The error of a tick's time, in thirds of a unit.
 std::int64_t thirds_off(Tick tick) {
   const std::uint64_t whole =
       static_cast<std::uint64_t>(tick) / 3 * static_cast<std::uint64_t>(units_per_three_ticks());

@@ -20,7 +20,7 @@ using tlm::tlm_generic_payload;
 
 namespace {
 
-/// The effects of one transaction.
+/// The result of one transaction.
 struct Outcome {
   tlm::tlm_response_status response = tlm::TLM_INCOMPLETE_RESPONSE;
   sc_time took;        ///< from the call to the return
@@ -115,7 +115,7 @@ struct World : sc_core::sc_module {
     reset_alone();
   }
 
-  /// In the middle of its strobe.
+  /// The initiator is killed during its strobe.
   std::vector<Level> kill_in_a_write(Cpu& initiator, dsdpv1::systemc::TlmModule& module) {
     const HostAccess access = HostAccess::write(0x160, 0x5A, {});
     const auto edge_of = [&](Pin pin, Level level) {
@@ -133,7 +133,7 @@ struct World : sc_core::sc_module {
     return levels;
   }
 
-  /// The user still holds the DPRAM.
+  /// The user still owns the DPRAM.
   void reset_alone() {
     wait_until(150 * kUs);
     reset.write(false);
@@ -226,7 +226,7 @@ struct World : sc_core::sc_module {
     return outcome;
   }
 
-  /// D comes 125 to 375 ticks after the read has begun, as the phase of CLK has it.
+  /// D is valid 125 to 375 ticks after the start of the read, depending on the phase of CLK.
   void do_samples() {
     AccessTiming timing;
     for (Tick phase = 0; phase < profibus::kTicksPerCycle; phase += 5) {

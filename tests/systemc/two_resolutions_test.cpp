@@ -1,5 +1,5 @@
-// One stimulus at 1 fs and at 1 ps, each in a separate process: all reports of the modules and their signals are the
-// same, in ticks.
+// One stimulus at 1 fs and at 1 ps, each in a separate process: all reports of the modules and their signals must be
+// the same, in ticks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void list(std::ostream& out, const char* what, const StimulatedPins& pins) {
   for (const auto& [at, levels] : pins.data_bus) out << "D at tick " << to_tick(at) << " = " << levels << "\n";
 }
 
-/// All reports of a run at so many femtoseconds.
+/// The complete report of a run at this resolution.
 std::string told_at(double femtoseconds) {
   return in_a_process_of_its_own([=] {
     sc_core::sc_set_time_resolution(femtoseconds, sc_core::SC_FS);

@@ -1,4 +1,4 @@
-// One stimulus for the bare core, the pin module (CLK unbound, bound, another phase) and the TLM module, all in one
+// One stimulus for the bare core, the pin module (CLK unbound, bound, with another phase) and the TLM module, in one
 // simulation: every pin must change at the same tick of the chip.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using stimulated::World;
 
 namespace {
 
-/// Changes at one tick may come in any order of pins.
+/// Changes at one tick may have any order of pins.
 Changes sorted(Changes changes) {
   std::stable_sort(changes.begin(), changes.end(),
                    [](const Change& a, const Change& b) { return a.at != b.at ? a.at < b.at : a.pin < b.pin; });
@@ -49,7 +49,7 @@ Changes core_trace(Engine engine) {
   return sorted(changes);
 }
 
-/// RESET falls before the chip's next event and rises at its very tick, at which a chip in RESET has nothing to do.
+/// RESET falls before the chip's next event and rises exactly at its tick, when a chip in RESET does nothing.
 template <class Bench>
 void reset_up_to_the_next_event(Bench& bench) {
   wait_until(kUs);
@@ -80,11 +80,11 @@ struct ResetTlm : sc_core::sc_module {
   }
 };
 
-/// Out of reset, and the user owns the DPRAM.
+/// The chip is out of reset, and the user owns the DPRAM.
 const Changes kOwnership = {
     {0, Pin::kDIn, kLevelZ}, {kUs, Pin::kReset, 1}, {100 * kUs, Pin::kRReq, 1}, {110 * kUs, Pin::kRSta, 1}};
 
-/// The user drives D already while the chip still does, with the same value: nothing moves on D when the chip lets go.
+/// The user already drives D while the chip still drives the same value: D does not change when the chip releases it.
 struct SharedD : PinBench {
   static constexpr Tick kEdge = 124 * kUs;
   static constexpr Level kValue = 0x5A;
@@ -104,7 +104,7 @@ struct SharedD : PinBench {
   }
 };
 
-/// A write whose CSR rises together with WR.
+/// A write whose CSR and WR rise together.
 struct StrobesTogether : PinBench {
   static constexpr std::uint16_t kCell = 0x022;
 
@@ -183,7 +183,7 @@ TEST(Views, TheDataBusIsReleasedThenUnknownThenDriven) {
     if (at >= to_time(kFirstAccess)) seen.push_back(level);
   ASSERT_GE(seen.size(), 5U);
   seen.resize(5);
-  // The user's write, then the chip's answer to the read of the same byte.
+  // The user's write, then the chip's answer to a read of the same byte.
   EXPECT_THAT(seen, testing::ElementsAre("01011010", "ZZZZZZZZ", "XXXXXXXX", "01011010", "ZZZZZZZZ"));
 }
 

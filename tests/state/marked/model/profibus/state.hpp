@@ -1,5 +1,5 @@
 #pragma once
-// Replaces the core's header, for a core whose writer records the position of each field of a state.
+// Replaces the core's header for a core whose writer notes the positions of the fields of a state.
 #define StateWriter UnmarkedStateWriter
 #include "../../../../../model/profibus/state.hpp"
 #undef StateWriter
@@ -16,7 +16,7 @@ class StateWriter : public StateArchive<StateWriter> {
   static constexpr bool kReads = false;
 
   StateWriter() { fields().clear(); }
-  /// Those of the state that was written last.
+  /// The fields of the state written last.
   static std::vector<StateField>& fields() {
     static std::vector<StateField> all;
     return all;
@@ -24,7 +24,7 @@ class StateWriter : public StateArchive<StateWriter> {
 
   template <class T>
   void number(const T& value, T least, T most) {
-    // of times, what says whether there is one goes before the number, which alone may be below 0
+    // for times, the flag that says whether there is one precedes the number; only the number may be below 0
     if (sizeof(T) == sizeof(Tick) && least < T{0})
       fields().back().size += sizeof(T);
     else
