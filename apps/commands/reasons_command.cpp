@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 
 #include "apps/commands/command.hpp"
 #include "apps/options/outputs.hpp"
-#include "bus/monitor/monitor.hpp"
+#include "bus/capture/lower_case.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "kinds/dsdpv1/checks/markdown.hpp"
@@ -17,47 +16,6 @@
 
 namespace dsdpv1::app {
 namespace {
-
-struct FlagText {
-  bus::FlagKind kind;
-  const char *meaning, *advice;
-};
-constexpr FlagText kFlags[] = {
-    {bus::FlagKind::kCollision, "two stations drive the line at once",
-     "Give each station an address of its own, run one master at a time, and let requests wait for the answer or the "
-     "slot time."},
-    {bus::FlagKind::kGap, "more than 1 bit time of idle inside a telegram",
-     "Send the characters of a telegram without a pause. Slaves ignore such a telegram."},
-    {bus::FlagKind::kSynViolated, "a request began less than T_SYN (33 bit times) after the last activity",
-     "The master must leave 33 bit times of idle before a request. Slaves ignore it otherwise."},
-    {bus::FlagKind::kTsdrEarly, "an answer came before min_TSDR", "Look at min_TSDR of Set_Prm and at who answered."},
-    {bus::FlagKind::kTsdrLate, "an answer came after max_TSDR",
-     "Look at who answered; MaxTsdr of the GSD file must hold at this baud rate."},
-    {bus::FlagKind::kCharacterError, "a character with wrong parity or a low stop bit",
-     "Disturbed line, a second sender, or another baud rate or parity than 8E1."},
-    {bus::FlagKind::kTelegramError, "a telegram with a wrong delimiter, length or FCS, or one that broke off",
-     "Disturbed line, or a sender that builds telegrams wrongly: `dsdpv1-sim decode` explains the bytes."},
-    {bus::FlagKind::kUnanswered, "no answer within the slot time",
-     "Nothing while masters look for stations or slaves search the baud rate. Else the slave's own reason stands "
-     "beside it in the log."},
-    {bus::FlagKind::kUnexpectedAnswer, "an answer that nobody asked for, or by the wrong station",
-     "Two stations with the same address, or a master whose slot time is too short: its request and the late answer "
-     "overlap."},
-    {bus::FlagKind::kGlitch, "a low level shorter than half a bit",
-     "Disturbed line. The chip ignores it while idle (S10)."},
-    {bus::FlagKind::kTwoMasters, "a master sends while another has the token",
-     "Masters on one segment must share the token: each takes part in the ring, with an address of its own and the "
-     "same slot time."},
-};
-static_assert(std::size(kFlags) == bus::kFlagKinds);
-
-std::vector<tb::CodeText> bus_codes() {
-  std::vector<tb::CodeText> list;
-  for (const FlagText& flag : kFlags)
-    list.push_back({tb::scenario::flag_code(flag.kind), flag.kind == bus::FlagKind::kUnanswered ? "info" : "violation",
-                    flag.meaning, flag.advice});
-  return list;
-}
 
 void add_check_codes(std::vector<tb::CodeText>& list, const tb::ChipKind& kind) {
   for (const checks::Rule& rule : kind.rules()) {
@@ -86,13 +44,14 @@ void print(std::string& text, const std::vector<tb::CodeText>& reasons) {
 void print_table(std::string& text, const std::string& head, const std::vector<tb::CodeText>& reasons) {
   text += head + "\n| code | kind | text | what to do |\n|---|---|---|---|\n";
   for (const tb::CodeText& each : reasons)
-    text += fmt::format("| `{}` | {} | {} | {} |\n", each.code, each.severity, each.text, each.advice);
+    text += fmt::format("| <a id=\"{}\"></a>`{}` | {} | {} | {} |\n", bus::capture::lower_case(each.code), each.code,
+                        each.severity, each.text, each.advice);
 }
 
 /// Those of the monitor stand beside those of the kind of chip; those of the checks have a page of their own.
 std::vector<tb::CodeTable> tables_of(const tb::ChipKind& kind) {
   std::vector<tb::CodeTable> tables = kind.codes();
-  tables.push_back({"The bus", "What the bus monitor saw on the line.", bus_codes()});
+  tables.push_back({"The bus", "What the bus monitor saw on the line.", tb::scenario::flag_codes()});
   return tables;
 }
 

@@ -23,10 +23,20 @@ constexpr const char* kRmStates[] = {"not in use", "in use", "in use, connected"
 
 constexpr std::uint16_t kNone = 0xFFFF;  // kNoSap in 16 bits
 
-// `format` is empty for decimal, "4x" for four hexadecimal digits, "state", "rate" and "rm" for their names, "sap" for
-// a number or "none"; "high" and "low" are the bytes, the low one also as "low2x".
+// Ticks of 1/12 ns in the unit that leaves 1 to 999: "10.000 ns", "2.700 us".
+std::string time_text(unsigned ticks) {
+  const bool is_long = ticks >= 12'000;
+  const unsigned thousandths = is_long ? (ticks + 6) / 12 : (ticks * 1000 + 6) / 12;
+  std::string digits = std::to_string(thousandths);
+  if (digits.size() < 4) digits.insert(0, 4 - digits.size(), '0');
+  return digits.insert(digits.size() - 3, ".") + (is_long ? " us" : " ns");
+}
+
+// `format` is empty for decimal, "4x" for four hexadecimal digits, "ns" for a time, "state", "rate" and "rm" for their
+// names, "sap" for a number or "none"; "high" and "low" are the bytes, the low one also as "low2x".
 std::string field_text(std::uint16_t value, const std::string& format) {
   if (format.empty()) return std::to_string(value);
+  if (format == "ns") return time_text(value);
   if (format == "sap") return value == kNone ? "none" : std::to_string(value);
   if (format == "state") return kStates[value % std::size(kStates)];
   if (format == "rate") return kRates[value % std::size(kRates)];

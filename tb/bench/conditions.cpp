@@ -41,6 +41,8 @@ class Parts {
 
 std::string shown(const bus::Bytes& bytes) { return bytes.empty() ? "none" : bytes_text(bytes, kShownBytes); }
 
+std::string times_text(std::int64_t count) { return count == 1 ? "once" : fmt::format("{} times", count); }
+
 // Each function handles one group of keys; `facts` is null if only the wanted text is needed.
 
 void add_state(Parts& parts, const Condition& c, const ChipStatus& status) {
@@ -85,9 +87,9 @@ void add_event(Parts& parts, const Condition& c, const Facts* facts) {
       count >= least && (!bounded || count <= *c.count_at_most),
       [&] {
         return bounded ? fmt::format("event {} {} to {} times", c.event.text, least, *c.count_at_most)
-                       : fmt::format("event {} at least {} times", c.event.text, least);
+                       : fmt::format("event {} at least {}", c.event.text, times_text(least));
       },
-      [&] { return fmt::format("{} times", count); });
+      [&] { return times_text(count); });
 }
 
 void add_tsdr(Parts& parts, const Condition& c, const Tsdr& tsdr) {

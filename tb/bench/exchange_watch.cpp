@@ -6,16 +6,14 @@
 #include <array>
 #include <string_view>
 
+#include "io/input/units.hpp"
+
 namespace dsdpv1::tb {
 namespace {
 
 using scenario::Action;
 using scenario::ActionKind;
 using scenario::Expectation;
-
-std::string microseconds(Tick tick) {
-  return fmt::format("{:.3f} us", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
-}
 
 constexpr std::array<std::string_view, 2> kEnds = {"WD_EXPIRED", "BAUD_LOST"};  ///< events that end data exchange
 
@@ -145,7 +143,7 @@ void ExchangeWatch::master_state(Tick now, const std::string& master, const std:
     entry->why = stations_.master(master).slave(*stations_.listed_address(member)).step_reason;
     const auto& end = ends_[index_of(entry->slave)];
     if (end && end->at >= *entry->since)
-      entry->why += fmt::format("; {} at {}", profibus::code(end->reason), microseconds(end->at));
+      entry->why += fmt::format("; {} at {}", profibus::code(end->reason), moment_text(end->at));
   }
   entry->in = in;
 }
@@ -179,10 +177,10 @@ ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult& s
     result.seen = "never, " + state + " at the end";
   else if (entry.left != 0)
     result.seen = fmt::format("left {} time{} without the script, first at {}{}; {} at the end", entry.left,
-                              entry.left == 1 ? "" : "s", microseconds(entry.first_left),
+                              entry.left == 1 ? "" : "s", moment_text(entry.first_left),
                               entry.why.empty() ? "" : ", " + entry.why, state);
   else
-    result.seen = fmt::format("since {}{}{}", microseconds(*entry.since), there ? "" : ", but at the end " + state,
+    result.seen = fmt::format("since {}{}{}", moment_text(*entry.since), there ? "" : ", but at the end " + state,
                               result.left_out ? ": the script keeps it away" : "");
   if (result.passed || result.left_out || there) return result;
   if (!slave.master_reason.empty()) result.seen += fmt::format("; {}: {}", entry.master, slave.master_reason);
@@ -210,7 +208,7 @@ std::string ExchangeWatch::waits_for(const SlaveResult& slave) const {
   if (stands == steps.end())
     return slave.status.dp_state == profibus::DpState::kOffline ? "its user CPU has not initialised it" : "";
   const std::string code = profibus::code((*stands)->reason);
-  return fmt::format("{} since {}: {}. {}", code, microseconds((*stands)->at), scenario_.kind->describe(**stands),
+  return fmt::format("{} since {}: {}. {}", code, moment_text((*stands)->at), scenario_.kind->describe(**stands),
                      advice_of(*scenario_.kind, code));
 }
 

@@ -123,7 +123,7 @@ void Script::judge(std::size_t index, Tick now, bool last_chance) {
   ExpectationResult& result = expectations_[index];
   const std::string there = seen(expectation, facts);
   result.passed = passed;
-  result.seen = fmt::format("{} at {} ns", there, nanoseconds(now));
+  result.seen = fmt::format("{} at {}", there, moment_text(now));
   judged_[index] = true;
   const std::string& station = expectation.slave.empty() ? "bus" : expectation.slave.text;
   journal_.log(now, station, "expect", fmt::format("{}: {}, seen {}", passed ? "met" : "FAILED", result.text, there));
@@ -134,7 +134,7 @@ std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
     const scenario::Expectation& expectation = scenario_.expect[i];
     if (!interrupted && !expectation.at && !expectation.by) judge(i, now, true);
     if (judged_[i]) continue;
-    expectations_[i].seen = fmt::format("the run ended at {} ns", nanoseconds(now));
+    expectations_[i].seen = "the run ended at " + moment_text(now);
   }
   return expectations_;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/input/units.hpp"
 #include "tb/bench/verdict.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/report/text_table.hpp"
@@ -9,14 +10,10 @@
 namespace dsdpv1::tb {
 namespace {
 
-std::string when(Tick tick) {
-  return fmt::format("{:.3f} us", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
-}
-
 JunitCase case_of_run(const RunResult& result) {
   JunitCase made{result.file, fmt::format("run, engine {}, view {}", result.engine, result.view), result.wall_s,
                  std::nullopt, whole_summary(result)};
-  if (result.interrupted) made.failure = "interrupted at " + when(result.simulated);
+  if (result.interrupted) made.failure = "interrupted at " + moment_text(result.simulated);
   if (verdict(result) == Verdict::kNothingJudged)
     made.failure = "nothing judged: no data exchange, and nothing was expected";
   return made;
@@ -27,7 +24,7 @@ std::string violations_text(const RunResult& result) {
   for (const Repeated& each : result.violated)
     if (!each.allowed)
       text += fmt::format("{} times {} {}{}{}, first at {}: {}\n", each.count, each.station, each.code,
-                          each.place.empty() ? "" : " at ", each.place, when(each.first), each.text);
+                          each.place.empty() ? "" : " at ", each.place, moment_text(each.first), each.text);
   return text;
 }
 
@@ -42,8 +39,9 @@ JunitCase case_of(const RunResult& result, const CheckResult& check) {
   JunitCase made{result.file, fmt::format("{}: {}", check.slave, check.rule->id), 0, std::nullopt, ""};
   const std::uint64_t count = check.record.violations - check.allowed;
   if (count == 0) return made;
-  const std::string text = fmt::format("violated {} times, first at {}: {}\n{}\n", count, when(check.listed.front().at),
-                                       check.listed.front().text, check.rule->rule);
+  const std::string text =
+      fmt::format("violated {} times, first at {}: {}\n{}\n", count, moment_text(check.listed.front().at),
+                  check.listed.front().text, check.rule->rule);
   (result.checks_mode == ChecksMode::kFail ? made.failure.emplace() : made.output) = text;
   return made;
 }
@@ -60,7 +58,7 @@ JunitCase case_of(const RunResult& result, const ExpectationResult& expectation)
 JunitCase case_of(const RunResult& result, const LockstepResult& lockstep) {
   JunitCase made{result.file, "model and RTL are the same", 0, std::nullopt, ""};
   if (const auto& difference = lockstep.difference)
-    made.failure = fmt::format("{} at {}: {}", difference->slave, when(difference->at), difference->what);
+    made.failure = fmt::format("{} at {}: {}", difference->slave, moment_text(difference->at), difference->what);
   return made;
 }
 

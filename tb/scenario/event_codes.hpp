@@ -10,6 +10,8 @@ namespace dsdpv1::tb::scenario {
 
 /// "BUS_T_SYN", "BUS_COLLISION", ...: flags of the bus monitor.
 std::string flag_code(bus::FlagKind kind);
+/// All of these with what they say.
+std::vector<CodeText> flag_codes();
 /// The program of a user CPU stopped with a fault.
 constexpr const char* kFirmwareFault = "ARM_FAULT";
 /// All codes of the kind of chip and of the monitor, and the ids of the checks.

@@ -13,7 +13,7 @@ using profibus::Reason;
 using profibus::Words;
 
 /// The valid placeholders of events; a name that is not in words.inc is kept.
-const std::regex kValue("\\{[abc](:(2x|3x|4x|state|rate|sap|rm|high|low|low2x))?\\}");
+const std::regex kValue("\\{[abc](:(2x|3x|4x|ns|state|rate|sap|rm|high|low|low2x))?\\}");
 
 std::string without_values(const std::string& text) { return std::regex_replace(text, kValue, ""); }
 
@@ -47,6 +47,14 @@ TEST(ReasonTables, AChipsWordStandsWhereTheTextNamesIt) {
             "Sync ignored: not asked for in Set_Prm (MODE_REG0.3 = 1; 0: Not_Supported)");
   EXPECT_EQ(dsdpv1::describe({0, Reason::kGcSync, 1}),
             "Sync ignored: not asked for in Set_Prm (B024.2 = 1; 0: Not_Supported)");
+}
+
+TEST(ReasonTables, TicksAreWrittenAsTimes) {
+  EXPECT_EQ(dsdpv1::describe({0, dsdpv1::Reason::kWriteLowTooShort, 0x006, 120}),
+            "Ts: WR was low for 10.000 ns of at least 12.500 ns when B006 was written");
+  EXPECT_EQ(dsdpv1::describe({0, dsdpv1::Reason::kSpiWriteGap, 11'999, 32'400, 1}),
+            "a frame begins 999.917 ns of at least 2.700 us after a telegram that writes (not heard: 1)");
+  EXPECT_EQ(dsdpv1::describe({0, dsdpv1::Reason::kSpiSckHigh, 0, 1}), "SCK was high for 0.000 ns of at least 0.083 ns");
 }
 
 }  // namespace

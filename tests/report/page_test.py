@@ -4,6 +4,7 @@
 """
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +20,7 @@ DIAGRAMS = {"take": ["OWNERSHIP_SYNC_WINDOW", "OWNERSHIP_BOTH_OWN", "OWNERSHIP_N
             "read": ["TIMING_TC", "TIMING_TW"], "write": ["TIMING_TS", "TIMING_TD", "TIMING_ADDRESS_HOLD", "TIMING_DATA_HOLD", "TIMING_CSR"]}
 TICKS = 12  # in a nanosecond
 NAMES = """return [...document.querySelectorAll(arguments[0])].map(each => each.getAttribute(arguments[1]))"""
+COLOURS = """return [...document.querySelectorAll(arguments[0])].map(each => getComputedStyle(each).color + getComputedStyle(each).fontWeight)"""
 TEXTS = """return [...document.querySelectorAll(arguments[0])].map(each => each.textContent)"""
 # Texts of charts that leave their drawing, or that lie on another text of the same one.
 UNREADABLE = """
@@ -37,6 +39,31 @@ for (const svg of document.querySelectorAll("svg")) {
   });
 }
 return faults;"""
+
+
+# The contrast of each text with its ground (WCAG 2): texts of charts have their fill, and the page behind them.
+CONTRASTS = """
+const light = colour => {
+  const [r, g, b] = colour.match(/[\\d.]+/g).slice(0, 3).map(each => each / 255).map(each => each <= 0.04045 ? each / 12.92 : ((each + 0.055) / 1.055) ** 2.4);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+};
+const isClear = colour => colour === "rgba(0, 0, 0, 0)";
+const ground = each => {
+  for (let at = each; at; at = at.parentElement) {
+    const bar = at.matches("g.telegram") ? getComputedStyle(at.querySelector("rect")).fill : getComputedStyle(at).backgroundColor;
+    if (!isClear(bar)) return bar;
+  }
+};
+const seen = new Map();
+for (const each of document.querySelectorAll("body *")) {
+  if (each.matches("script, style, noscript, noscript *") || !each.getClientRects().length) continue;
+  if (![...each.childNodes].some(one => one.nodeType === 3 && one.textContent.trim())) continue;
+  const style = getComputedStyle(each), text = each instanceof SVGElement ? style.fill : style.color;
+  const a = light(text), b = light(ground(each)), ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+  const name = each.tagName + "." + (each.getAttribute("class") || "") + " in " + (each.closest("[class]") || each).getAttribute("class");
+  seen.set(name, Math.min(ratio, seen.get(name) || 99));
+}
+return [...seen];"""
 
 
 def check(condition, what):
@@ -77,10 +104,62 @@ def facts(page, report):
     check(page.run("return document.title").startswith("%s: %s (dsdpv1-sim " % (result["scenario"], verdict)), "title")
     same(page.run(TEXTS, ".verdict"), [verdict], "verdict")
     shown = dict(zip(page.run(TEXTS, "dt"), page.run(TEXTS, "dd")))
+    same(shown["violations"], "%s expected, %s unexpected" % (f"{expected_violations(result):,}", f"{result['violations']:,}"), "violations")
+    allowed = re.search(r"(\d+) violations? allowed", verdict)
+    same(expected_violations(result), int(allowed.group(1)) if allowed else 0, "violations of the verdict")
+    done, violated = ({each["id"] for each in result["checks"] if each[key]} for key in ("count", "violations"))
+    same(shown["checks"], "%d of %d kept" % (len(done - violated), len(done)) if done else "none", "checks")
+    check(re.fullmatch(r"[\d.]+ s, [\d.]+ times (slower|faster) than real time", shown["took"]), "took %s" % shown["took"])
     same(shown["telegrams"], "%s right, %s wrong" % (f"{result['telegrams']:,}", f"{result['wrong_telegrams']:,}"), "telegrams")
     same(shown["expectations"], "%d of %d met" % (sum(each["passed"] for each in judged), len(judged)), "expectations")
-    same(page.run(TEXTS, "#expectations tbody td:nth-child(2)"), [each["text"] for each in result["expectations"]], "expectations")
+    expectations(page, result)
     same(page.run(TEXTS, "#stations .table:first-of-type tbody td:first-child"), [each["name"] for each in result["slaves"]], "slaves")
+
+
+def expected_violations(result):
+    return sum(each["allowed"] for each in result["checks"]) + sum(each["count"] for each in result["violated"] if each["allowed"])
+
+
+def expectations(page, result):
+    """In groups, the unmet first; only these are marked."""
+    groups = [(name, some) for name, passed in (("Not met", False), ("Not judged", None), ("Met", True))
+              if (some := [each for each in result["expectations"] if each["passed"] is passed])]
+    same(page.run(TEXTS, "#expectations h3"), ["%s: %d" % (name, len(some)) for name, some in groups], "groups of expectations")
+    for name, some in groups:
+        at = "#expectations [data-group='%s'] tbody " % name
+        same([page.run(TEXTS, at + "td:nth-child(%d)" % i) for i in (1, 2, 3)], [[str(each[key]) for each in some] for key in ("text", "seen", "line")], name)
+        same(len(page.run(TEXTS, at + "tr.bad")), len(some) if name == "Not met" else 0, "marked as bad of " + name)
+    colours = set(page.run(COLOURS, "#expectations [data-group=Met] td"))
+    check(colours <= set(page.run(COLOURS, "body")), "expectations that are met are coloured: %s" % colours)
+    for each in result["expectations"]:
+        for number, unit in re.findall(r"at (-?[\d.]+) (ns|us|ms|s)\b", each["seen"]):
+            check(float(number) < 1000 and (float(number) >= 1 or unit == "ns"), "a time is not in the unit that leaves 1 to 999: " + each["seen"])
+
+
+def whole_words(page):
+    """The file's name breaks after a slash, if at all."""
+    lines = page.run("""return [...document.querySelectorAll("[data-fact=file] dd span")].map(each => each.getClientRects().length)""")
+    check(lines and set(lines) == {1}, "a name of a file or folder is broken: %s" % lines)
+
+
+def codes(page, report, base=""):
+    """A code is a link to its explanation on the page; what the page knows of the documents leads to headings and rows that they have."""
+    links = page.run(NAMES, "a.code, svg a", "href")
+    check(links, "no links to codes")
+    for link in set(links):
+        check(page.run("return document.querySelectorAll(arguments[0]).length", "tr[id='%s']" % link[1:]) == 1, "a dead link: " + link)
+    used = {each["id"] for each in report.result["checks"]} | {each["code"] for key in ("events", "violated", "refused") for each in report.result[key]}
+    rows = page.run("return [...document.querySelectorAll('#codes tbody tr')].map(row => [...row.cells].map(each => each.textContent))")
+    explained = {row[0]: row for row in rows}
+    same({re.sub(r"(reasons|checks)\.md$", "", each) for each in explained}, used, "codes that are explained")
+    check(all(row[2] and row[3] for row in rows), "a code without what it is or what to do")
+    documented = page.run(NAMES, "a.documents", "href")
+    same(len(documented), len(rows) if base else 0, "links to the documents")
+    for link in documented:
+        name, anchor = link[len(base) + 1:].split("#")
+        text = (ROOT / "docs" / name).read_text(encoding="UTF-8")
+        check(link.startswith(base + "/"), "a link elsewhere: " + link)
+        check("### %s\n" % anchor.upper() in text or '<a id="%s"></a>' % anchor in text, "a dead link: " + link)
 
 
 def counts(page):
@@ -91,8 +170,20 @@ def shown_time(page):
     return [float(page.run("return document.querySelector('svg.telegrams').getAttribute(arguments[0])", each)) / TICKS for each in ("data-from", "data-to")]
 
 
+def first_window(page, report):
+    """The chart begins with the first exchange of data: its telegrams stand alone and are wide enough to be read."""
+    begin, end = shown_time(page)
+    first = next(each for each in report.telegrams if "Data_Exchange" in each["text"])
+    check(begin < first["at_ns"] < end, "the first exchange, at %s, is not shown first: %s to %s" % (first["at_ns"], begin, end))
+    check(2 <= sum(counts(page)) <= 40 and max(counts(page)) == 1, "too many telegrams to be read at first: %s" % counts(page))
+    widths = [float(each) for each in page.run(NAMES, "g.telegram rect", "width")]
+    check(max(widths) > 40, "bars of at most %s pixels" % max(widths))
+
+
 def telegrams(page, report):
     """As many as the log has, all and in each part of time."""
+    first_window(page, report)
+    page.click("section#telegrams .buttons button:last-child")
     same(sum(counts(page)), len(report.telegrams), "telegrams of the chart")
     whole = shown_time(page)
     same(whole, [0, report.result["simulated_ns"]], "time of the chart")
@@ -162,6 +253,32 @@ def readable(page):
     page.resize(1280, 1000)
 
 
+def layout(page):
+    """What a table, a title or an axis must not do."""
+    whole_words(page)
+    section = page.run("return document.querySelector('#expectations').clientWidth")
+    for selector in ("#expectations table", ".diagram table", "#codes table"):
+        widths = page.run("return [...document.querySelectorAll(arguments[0])].map(each => each.getBoundingClientRect().width)", selector)
+        check(widths and min(widths) > 0.9 * section, "%s: %s of %s pixels" % (selector, widths, section))
+    lines = page.run("return [...document.querySelectorAll('.histogram figcaption')].map(each => each.getBoundingClientRect().height / parseFloat(getComputedStyle(each).lineHeight))")
+    check(lines and all(abs(each - 2) < 0.1 for each in lines), "titles of histograms have more lines than title and station: %s" % lines)
+
+
+def dark(program, folder, page):
+    """In light and dark each text stands out from what is behind it."""
+    for scenario in ("scenarios/violations.yaml", "scenarios/rsu_spi.yaml"):
+        report, grounds = Report(program, folder, scenario), []
+        for wanted in (False, True):
+            page.dark(wanted)
+            opened(page, report)
+            grounds.append(page.run("return getComputedStyle(document.body).backgroundColor"))
+            contrasts = page.run(CONTRASTS)
+            check(len(contrasts) > 30, "only %d kinds of text" % len(contrasts))
+            same([(name, round(ratio, 1)) for name, ratio in contrasts if ratio < 4.5], [], "texts that are hard to read on %s" % grounds[-1])
+        check(grounds[0] != grounds[1], "the page is not dark where it should be")
+    page.dark(False)
+
+
 def violations(page, report):
     """A picture each, in which is what the checks have kept of the pins."""
     listed = [(each, one) for each in report.result["checks"] for one in each["listed"]]
@@ -183,14 +300,49 @@ def violations(page, report):
             check((change["pin"], at, change["level"]) in steps, "%s at %s: %s is not in its picture" % (rule["id"], one["at_ns"], change))
     check(compared > len(listed), "only %d changes compared" % compared)
     same(page.messages(), [], "messages")
+    rows = page.run("return [...document.querySelectorAll('#violations tbody tr')].map(row => [...row.cells].map(each => each.textContent))")
+    sums = {}
+    for each in report.result["violated"]:
+        sums[each["slave"], each["code"]] = sums.get((each["slave"], each["code"]), 0) + each["count"]
+    same({tuple(row[:2]): row[2] for row in rows[-len(sums):]}, {key: f"{count:,}" for key, count in sums.items()}, "violations of the chip")
 
 
 def usual(program, folder, page):
     report = Report(program, folder, "scenarios/power_on_12m.yaml")
     opened(page, report)
-    for each in (facts, telegrams, histograms, margins, diagrams):
+    for each in (facts, telegrams, histograms, margins, diagrams, codes):
         each(page, report)
+    layout(page)
     readable(page)
+    page.click("#checks svg a")
+    same(page.run("return document.querySelector('tr:target').id.replace('code-', '')"), page.run(NAMES, "#checks g.margin", "data-id")[0], "row of the code")
+
+
+def unmet(program, folder, page):
+    """What was not met stands first and is marked."""
+    report = Report(program, folder, own_scenario(folder, "expect:\n", "expect:\n  - {slave: demo, dp_state: data_exch, by: 1ms}\n"), status=1)
+    opened(page, report)
+    facts(page, report)
+    same(page.run(TEXTS, "#expectations h3")[0], "Not met: 1", "first group")
+
+
+def documented(program, folder, page):
+    """A program that knows where the documents are published links to their headings and rows."""
+    report = Report(program, folder, "scenarios/violations.yaml")
+    text = report.page.read_text(encoding="UTF-8")
+    check('"documents":"",' in text, "the build's own address of the documents is not empty")
+    report.page.write_text(text.replace('"documents":"",', '"documents":"https://docs.invalid/dsdpv1",'), encoding="UTF-8")
+    opened(page, report)
+    codes(page, report, "https://docs.invalid/dsdpv1")
+
+
+def own_scenario(folder, before, after, name="own.yaml"):
+    """power_on_12m with another text in it."""
+    text = (ROOT / "scenarios/power_on_12m.yaml").read_text(encoding="UTF-8")
+    check(text.count(before) == 1, "power_on_12m has no longer one %s" % before)
+    (pathlib.Path(folder) / name).write_text(text.replace(before, after), encoding="UTF-8")
+    shutil.copy(ROOT / "scenarios/dsdpv1.gsd", folder)
+    return str(pathlib.Path(folder) / name)
 
 
 def several_slaves(program, folder, page):
@@ -207,6 +359,7 @@ def violated(program, folder, page):
     facts(page, report)
     margins(page, report)
     violations(page, report)
+    codes(page, report)
     readable(page)
 
 
@@ -231,17 +384,13 @@ def tlm(program, folder, page):
 
 def evil(program, folder, page):
     """Names of others stay texts."""
-    scenario = pathlib.Path(folder) / "<b>&'.yaml"
-    text = (ROOT / "scenarios/power_on_12m.yaml").read_text(encoding="UTF-8")
-    first = next(line for line in text.splitlines() if line.startswith("name:"))
-    scenario.write_text(text.replace(first, "name: " + json.dumps(EVIL)), encoding="UTF-8")
-    shutil.copy(ROOT / "scenarios/dsdpv1.gsd", folder)
-    report = Report(program, folder, str(scenario))
+    scenario = own_scenario(folder, "name: Power-on to data exchange at 12 Mbit/s, judged by the user", "name: " + json.dumps(EVIL), "<b>&'.yaml")
+    report = Report(program, folder, scenario)
     opened(page, report)
     facts(page, report)
     same(page.run("return document.querySelector('h1').firstChild.textContent"), EVIL, "name")
     same(page.run("return document.querySelectorAll('#evil, img, main b:not(summary b)').length"), 0, "elements that the name has made")
-    check(str(scenario) in page.run(TEXTS, "dd"), "file")
+    check(scenario in page.run(TEXTS, "dd"), "file")
 
 
 def limited(program, folder, page):
@@ -257,7 +406,7 @@ def limited(program, folder, page):
 
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
-    for each in (usual, several_slaves, violated, acyclic, tlm, evil, limited):
+    for each in (usual, several_slaves, violated, unmet, documented, dark, acyclic, tlm, evil, limited):
         with tempfile.TemporaryDirectory(prefix="dsdpv1_report_") as folder, browser() as page:
             print(each.__name__.replace("_", " "), flush=True)
             each(program, folder, page)

@@ -85,6 +85,9 @@ std::string example_of(profibus::Reason reason) {
   if (is_choice) event = {0, reason, 1, 1, 0};
   if (has("{a:4x}")) event.a = 0x0CC9;
   if (has("{a:high}")) event.a = 0x015F;
+  if (has("12.500 ns")) event.b = 120;
+  if (has("31.250 ns")) event.b = 360;
+  if (has("{a:ns}")) event.a = 480, event.b = 600;
   if (has("{b:4x}")) event.b = 0x1234;
   const std::string example = dsdpv1::describe(event);
   return example == text ? "" : example;
@@ -115,7 +118,7 @@ std::vector<CodeText> board_codes() {
 
 const std::vector<CodeTable>& dsdpv1_codes() {
   static const std::vector<CodeTable> tables = {
-      {"The chip", "`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal.", chip_codes()},
+      {"The chip", "`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal, `{a:ns}` a time.", chip_codes()},
       {"The driver", "What a call of the C driver returned to the user program.", driver_codes()},
       {"The ARM board", "See [arm_board.md](arm_board.md).", board_codes()}};
   return tables;

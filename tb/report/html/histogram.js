@@ -48,10 +48,10 @@ function drawHistogram(svg, width, times) {
   svg.append("g").attr("class", "axis").attr("transform", `translate(${left},0)`).call(d3.axisLeft(y).tickValues(powers).tickFormat(d3.format("~s")));
   for (const limit of times.limits) drawLimit(svg, x, limit / unit, top);
   const ticks = Math.max(2, Math.floor((right - left) / 70));
-  const axis = d3.axisBottom(x).ticks(ticks);
-  if (x.base) axis.tickFormat(x.tickFormat(ticks, "~g"));
+  const format = x.tickFormat(ticks, x.base ? "~g" : undefined), withUnit = each => format(each) && format(each) + " " + name;
+  const axis = d3.axisBottom(x).ticks(ticks).tickFormat(times.bit ? format : withUnit);
   svg.append("g").attr("class", "axis").attr("transform", `translate(0,${top + PLOT})`).call(axis);
-  svg.append("text").attr("class", "unit").attr("x", right).attr("y", top + PLOT + 36).attr("text-anchor", "end").text(name);
+  if (times.bit) svg.append("text").attr("class", "unit").attr("x", right).attr("y", top + PLOT + 36).attr("text-anchor", "end").text(name);
 }
 
 function histogram(parent, times) {

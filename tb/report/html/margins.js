@@ -22,7 +22,7 @@ function drawMargins(svg, width, checks) {
   const rows = svg.selectAll("g.margin").data(checks).join("g").attr("class", each => "margin" + (each.worst_margin_ns < 0 ? " bad" : ""))
     .attr("transform", (_, row) => `translate(0,${18 + row * ROW})`).attr("data-id", each => each.id).attr("data-margin", each => each.worst_margin_ns);
   const room = Math.floor((left - 12) / 6.6);
-  rows.append("text").attr("class", "label").attr("x", left - 10).attr("y", ROW / 2 + 3)
+  rows.append("a").attr("href", each => "#code-" + each.id).append("text").attr("class", "label").attr("x", left - 10).attr("y", ROW / 2 + 3)
     .text(each => each.id.length > room ? "…" + each.id.slice(-room + 1) : each.id);
   rows.append("line").attr("class", "rule").attr("x1", left).attr("x2", right).attr("y1", ROW).attr("y2", ROW);
   rows.each(function (check) {

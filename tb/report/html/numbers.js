@@ -25,9 +25,16 @@ function nsText(ns) {
   return ns === null ? "–" : timeText(ns * TICKS_PER_NS);
 }
 
-// Where in the run: always in microseconds, as the log has it.
+// Where in the run, to the nanosecond: "63.280 µs", "5.000021 ms", "120.000 ms".
 function momentText(ticks) {
-  return (ticks / TICKS_PER_NS / 1000).toFixed(3) + " µs";
+  const [unit, name] = unitOf(ticks);
+  return (ticks / unit).toFixed({s: 9, ms: 6}[name] || 3).replace(/(\.\d{3})((?:\d{3})*?)(?:000)+$/, "$1$2") + " " + name;
+}
+
+// "2.6 times slower than real time".
+function paceText(factor) {
+  const times = Math.max(factor, 1 / factor);
+  return `${times.toFixed(times < 10 ? 1 : 0)} times ${factor < 1 ? "slower" : "faster"} than real time`;
 }
 
 const countText = d3.format(",");

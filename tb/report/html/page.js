@@ -2,6 +2,7 @@
 const run = JSON.parse(document.getElementById("run").textContent);
 const result = run.result;
 const page = d3.select("#page");
+const explained = new Set(run.codes.map(each => each.code));
 
 function section(id, title) {
   const part = page.append("section").attr("id", id);
@@ -9,14 +10,34 @@ function section(id, title) {
   return part;
 }
 
-// rows: a list of cells each, texts or numbers; heads that end in " #" are numbers.
+// The code of an event or the id of a check, with a link to its row in the last table.
+function linked(parent, code) {
+  if (!explained.has(code)) return parent.append("span").text(code);
+  return parent.append("a").attr("class", "code").attr("href", "#code-" + code).text(code);
+}
+
+// Texts of files and folders break after a slash only.
+function breaking(parent, path) {
+  for (const part of path.split(/(?<=\/)/)) {
+    parent.append("span").text(part);
+    parent.append("wbr");
+  }
+}
+
+function cell(parent, content) {
+  if (content && content.code) linked(parent, content.code);
+  else parent.text(content);
+}
+
+// rows: a list of cells each, texts, numbers or {code}; heads that end in " #" are numbers.
 function table(parent, heads, rows, classOf = () => null) {
   const isNumber = heads.map(each => each.endsWith(" #"));
   const whole = parent.append("div").attr("class", "table").append("table");
   whole.append("thead").append("tr").selectAll("th").data(heads).join("th").attr("scope", "col").attr("class", (_, i) => isNumber[i] ? "number" : null)
     .text(each => each.replace(/ #$/, ""));
   const lines = whole.append("tbody").selectAll("tr").data(rows).join("tr").attr("class", (_, i) => classOf(i));
-  lines.selectAll("td").data(each => each).join("td").attr("class", (_, i) => isNumber[i] ? "number" : null).text(each => each);
+  lines.selectAll("td").data(each => each).join("td").attr("class", (_, i) => isNumber[i] ? "number" : null)
+    .each(function (each) { cell(d3.select(this), each); });
   return whole;
 }
 
@@ -26,26 +47,38 @@ function header() {
   head.append("h1").text(result.scenario).append("span").attr("class", `verdict ${result.verdict}`).text(result.verdict_text);
   const met = result.expectations.filter(each => each.passed).length;
   const judged = result.expectations.filter(each => each.passed !== null).length;
-  const broken = d3.sum(result.checks, each => each.violations), allowed = d3.sum(result.checks, each => each.allowed);
+  const done = new Set(result.checks.filter(each => each.count > 0).map(each => each.id));
+  const violated = new Set(result.checks.filter(each => each.violations > 0).map(each => each.id));
   const facts = [["file", result.file], ["engine, view", `${result.engine}, ${result.view}`], ["simulated", nsText(result.simulated_ns)],
-    ["took", `${trimmed(result.wall_s, 2)} s, ${trimmed(result.real_time_factor, 2)} × real time`],
+    ["took", trimmed(result.wall_s, 2) + " s" + (result.real_time_factor > 0 ? ", " + paceText(result.real_time_factor) : "")],
     ["telegrams", `${countText(result.telegrams)} right, ${countText(result.wrong_telegrams)} wrong`],
-    ["expectations", `${met} of ${judged} met`], ["checks violated", countText(broken) + (allowed ? `, of these ${countText(allowed)} allowed` : "")],
-    ["violations that count", countText(result.violations)]];
+    ["expectations", `${met} of ${judged} met`], ["checks", done.size ? `${done.size - violated.size} of ${done.size} kept` : "none"], ["violations", violationsText()]];
   const list = head.append("dl");
   for (const [name, value] of facts) {
     const item = list.append("div").attr("data-fact", name);
     item.append("dt").text(name);
-    item.append("dd").text(value);
+    breaking(item.append("dd"), value);
   }
+}
+
+// "4,789 expected, 0 unexpected": of checks, of the chip and on the bus.
+function violationsText() {
+  const expected = d3.sum(result.checks, each => each.allowed) + d3.sum(result.violated.filter(each => each.allowed), each => each.count);
+  const unjudged = result.violations_not_judged;
+  return `${countText(expected)} expected, ${countText(result.violations)} unexpected` + (unjudged ? `, ${countText(unjudged)} not judged` : "");
 }
 
 function expectations() {
   const part = section("expectations", "Expectations");
   if (!result.expectations.length) return part.append("p").text("The scenario expects nothing.");
-  const words = each => each.passed === null ? "not judged" : each.passed ? "met" : "not met";
-  table(part, ["verdict", "expected", "seen", "line #"], result.expectations.map(each => [words(each), each.text, each.seen, each.line]),
-    i => ({true: "good", false: "bad"})[result.expectations[i].passed]);
+  const groups = [["Not met", false], ["Not judged", null], ["Met", true]];
+  for (const [title, passed] of groups) {
+    const some = result.expectations.filter(each => each.passed === passed);
+    if (!some.length) continue;
+    const group = part.append("div").attr("data-group", title).attr("class", passed === false ? "unmet" : null);
+    group.append("h3").text(`${title}: ${some.length}`);
+    table(group, ["expected", "seen", "line #"], some.map(each => [each.text, each.seen, each.line]), () => passed === false ? "bad" : null).classed("wide", true);
+  }
 }
 
 function stations() {
@@ -67,7 +100,8 @@ function telegrams() {
     part.append("p").attr("class", "note limited").text(`The first ${countText(data.rows.length)} of ${countText(data.count)} telegrams are shown.`);
   telegramLegend(part, data);
   const end = Math.max(result.simulated_ns * TICKS_PER_NS, d3.max(data.rows, each => each[1]));
-  telegramChart(part.append("div").attr("class", "chart"), data, flags, data.count > data.rows.length ? d3.max(data.rows, each => each[1]) : end);
+  const chart = part.append("div").attr("class", "chart");
+  telegramChart(chart, data, flags, data.count > data.rows.length ? d3.max(data.rows, each => each[1]) : end);
 }
 
 function times() {
@@ -81,7 +115,7 @@ function times() {
 function checks() {
   const part = section("checks", "Checks");
   if (!result.checks.length) return part.append("p").text("No check was on.");
-  part.append("p").attr("class", "note").text("The worst margin of each check is the mark, all margins are the strip; left of 0 a check is violated.");
+  part.append("p").attr("class", "note").text("The worst margin of each check is the mark, all margins are the strip; left of 0 a check is violated. Violations are expected where the scenario allows them.");
   const names = [...new Set(result.checks.map(each => each.slave))];
   for (const name of names) {
     const own = result.checks.filter(each => each.slave === name && each.count > 0);
@@ -90,10 +124,10 @@ function checks() {
     margins(parent.append("div").attr("class", "chart"), own);
     const details = parent.append("details");
     details.append("summary").text("Numbers");
-    table(details, ["check", "count #", "violations #", "allowed #", "limit #", "worst value #", "worst margin #", "when #", "clause"],
-      own.map(each => [each.id, countText(each.count), countText(each.violations), countText(each.allowed), nsText(each.limit_ns), nsText(each.worst_value_ns),
+    table(details, ["check", "count #", "violations #", "expected #", "limit #", "worst value #", "worst margin #", "when #", "clause"],
+      own.map(each => [{code: each.id}, countText(each.count), countText(each.violations), countText(each.allowed), nsText(each.limit_ns), nsText(each.worst_value_ns),
         nsText(each.worst_margin_ns), each.at_ns === null ? "–" : momentText(each.at_ns * TICKS_PER_NS), each.clause]),
-      i => own[i].violations ? "bad" : null).attr("class", "checks");
+      i => own[i].violations > own[i].allowed ? "bad" : null).classed("checks", true);
   }
 }
 
@@ -108,7 +142,8 @@ function diagram(parent, each) {
   const seen = span => span.from !== null && span.to !== null;
   table(figure, ["", "measured #", "limit #", "margin #", "check", "clause"],
     each.picture.spans.map(span => [span.name, seen(span) ? timeText(span.to - span.from) : "longer than waited for", limitText(span), span.margin === null ? "" : timeText(span.margin),
-      span.check || "", span.clause || ""]), i => each.picture.spans[i].margin !== null && each.picture.spans[i].margin < 0 ? "bad" : null);
+      span.check ? {code: span.check} : "", span.clause || ""]), i => each.picture.spans[i].margin !== null && each.picture.spans[i].margin < 0 ? "bad" : null)
+    .classed("wide spans", true);
 }
 
 function diagrams() {
@@ -124,7 +159,7 @@ function diagrams() {
   }
 }
 
-// Pictures that nobody looks at are not drawn.
+// A picture is drawn when its details are opened.
 function whenOpen(details, draw) {
   let drawn = false;
   const open = () => {
@@ -139,7 +174,7 @@ function whenOpen(details, draw) {
 function violation(parent, each, open) {
   const details = parent.append("details").attr("class", "violation").attr("data-id", each.check).property("open", open);
   const summary = details.append("summary");
-  summary.append("b").text(each.check);
+  linked(summary.append("b"), each.check);
   summary.append("span").text(` at ${momentText(each.at)} (${each.slave}): ${each.text}`);
   whenOpen(details, () => {
     details.append("p").text(`${each.rule} (${each.clause}).`);
@@ -154,38 +189,72 @@ function violation(parent, each, open) {
 
 const MOST_OPEN = 40;
 
-// The first of each check is open.
+function groupsOf(list, keyOf) {
+  const groups = new Map();
+  for (const each of list) groups.set(keyOf(each), [...(groups.get(keyOf(each)) || []), each]);
+  return [...groups.values()];
+}
+
+// The first of each check and slave is open, the others are below it.
 function violations() {
   const part = section("violations", "Violations");
-  const others = result.events.filter(each => each.severity === "violation");
-  if (!run.violations.length && !others.length) return part.append("p").text("There were none.");
-  const kinds = run.violations.map(each => each.slave + " " + each.check);
-  run.violations.forEach((each, i) => violation(part, each, i < MOST_OPEN && kinds.indexOf(kinds[i]) === i));
+  if (!run.violations.length && !result.violated.length) return part.append("p").text("There were none.");
+  groupsOf(run.violations, each => each.slave + " " + each.check).forEach(([first, ...others], i) => {
+    violation(part, first, i < MOST_OPEN);
+    if (!others.length) return;
+    const more = part.append("details").attr("class", "more");
+    more.append("summary").text(`${others.length} more pictures of ${first.check} at ${first.slave}`);
+    for (const each of others) violation(more, each, false);
+  });
   if (run.not_pictured)
     part.append("p").attr("class", "note").text(`${countText(run.not_pictured)} more have no picture; the counts are in the table of the checks.`);
-  if (!others.length) return;
+  if (!result.violated.length) return;
   part.append("h3").text("Of the chip and on the bus");
-  eventTable(part, others);
+  repeatedTable(part, result.violated, "unexpected #");
+}
+
+// A row for each station and code, at whatever places. `head`: "unexpected #" of violations; refusals are neither.
+function repeatedTable(parent, all, head = null) {
+  const groups = groupsOf(all, each => each.slave + " " + each.code);
+  const unexpected = group => d3.sum(group.filter(each => each.allowed === false), each => each.count);
+  const optional = (group, what) => head ? [what(group)] : [];
+  table(parent, ["station", "code", "count #", ...optional(null, () => head), "first #", "last #", "what, the first time"],
+    groups.map(group => [group[0].slave, {code: group[0].code}, countText(d3.sum(group, each => each.count)), ...optional(group, each => countText(unexpected(each))),
+      momentText(group[0].first_ns * TICKS_PER_NS), momentText(d3.max(group, each => each.last_ns) * TICKS_PER_NS), group[0].text]),
+    i => unexpected(groups[i]) ? "bad" : null).classed("wide", true);
 }
 
 const MOST_EVENTS = 200;
 
 function eventTable(parent, events) {
   table(parent, ["time #", "station", "code", "severity", "what"],
-    events.slice(0, MOST_EVENTS).map(each => [momentText(each.at_ns * TICKS_PER_NS), each.slave, each.code, each.severity + (each.allowed ? ", allowed" : ""), each.text]),
+    events.slice(0, MOST_EVENTS).map(each => [momentText(each.at_ns * TICKS_PER_NS), each.slave, {code: each.code}, each.severity + (each.allowed ? ", expected" : ""), each.text]),
     i => events[i].severity === "violation" && !events[i].allowed ? "bad" : null);
   if (events.length > MOST_EVENTS) parent.append("p").attr("class", "note").text(`The first ${MOST_EVENTS} of ${countText(events.length)}.`);
 }
 
 function events() {
   const part = section("events", "Refusals and events");
-  if (result.refused.length)
-    table(part, ["refused", "station", "count #", "first #", "last #", "what"],
-      result.refused.map(each => [each.code, each.slave, countText(each.count), momentText(each.first_ns * TICKS_PER_NS), momentText(each.last_ns * TICKS_PER_NS), each.text]));
+  if (result.refused.length) repeatedTable(part, result.refused);
   if (!result.events.length) return part.append("p").text("No event.");
   const details = part.append("details");
   details.append("summary").text(`${countText(result.events.length + result.events_dropped)} events`);
   whenOpen(details, () => eventTable(details, result.events));
 }
 
-for (const draw of [header, expectations, stations, telegrams, times, checks, diagrams, violations, events]) draw();
+// Where a code stands in the documents, when the program was built to know where they are.
+function documents(parent, each) {
+  if (run.documents) parent.append("a").attr("class", "documents").attr("href", `${run.documents}/${each.page}#${each.code.toLowerCase()}`).text(each.page);
+}
+
+function codes() {
+  if (!run.codes.length) return;
+  const part = section("codes", "Checks and codes of this run");
+  part.append("p").attr("class", "note").text("All codes: dsdpv1-sim reasons, and the pages reasons.md and checks.md of the documents.");
+  const whole = table(part, ["code", "kind", "what", "what to do"], run.codes.map(each => [each.code, each.kind, each.text, each.advice])).classed("wide", true);
+  whole.selectAll("tbody tr").attr("id", (_, i) => "code-" + run.codes[i].code);
+  whole.selectAll("td:first-child").each(function (_, i) { documents(d3.select(this), run.codes[i]); });
+}
+
+for (const draw of [header, expectations, stations, telegrams, times, checks, diagrams, violations, events, codes]) draw();
+if (location.hash) location.replace(location.hash);

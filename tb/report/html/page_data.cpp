@@ -1,8 +1,12 @@
 #include "tb/report/html/page_data.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tb/report/result_fields.hpp"
+#include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::tb::html {
 namespace {
@@ -88,6 +92,40 @@ Json diagram_of(const ChipKind& kind, const std::string& slave, const DiagramWat
   return json;
 }
 
+Json code_of(const CodeText& each) {
+  return {{"code", each.code},
+          {"kind", each.severity},
+          {"text", each.example.empty() ? each.text : "such as: " + each.example},
+          {"advice", each.advice},
+          {"page", "reasons.md"}};
+}
+
+Json code_of(const checks::Rule& rule) {
+  return {{"code", rule.id},
+          {"kind", "check"},
+          {"text", fmt::format("{} ({})", rule.rule, rule.clause)},
+          {"advice", rule.advice},
+          {"page", "checks.md"}};
+}
+
+/// What the run's checks and events mean; the checks first.
+Json codes_of(const RunResult& result, const ChipKind& kind) {
+  std::set<std::string> used;
+  for (const CheckResult& each : result.checks) used.insert(each.rule->id);
+  for (const Occurrence& each : result.occurrences) used.insert(each.code);
+  for (const Repeated& each : result.refused) used.insert(each.code);
+  for (const Repeated& each : result.violated) used.insert(each.code);
+  Json codes = Json::array();
+  for (const checks::Rule& rule : kind.rules())
+    if (used.erase(rule.id) != 0) codes.push_back(code_of(rule));
+  std::vector<CodeTable> tables = kind.codes();
+  tables.push_back({"", "", scenario::flag_codes()});
+  for (const CodeTable& table : tables)
+    for (const CodeText& each : table.codes)
+      if (used.erase(each.code) != 0) codes.push_back(code_of(each));
+  return codes;
+}
+
 Json violation_of(const scenario::Scenario& scenario, const ViolationPicture& picture) {
   const checks::Rule& rule = scenario.kind->rules()[picture.violation.check.index];
   return {{"slave", scenario.slaves[picture.slave].name.text},
@@ -130,6 +168,8 @@ std::string page_data(const RunResult& result, const RunRecorder& recorder, cons
   for (const ViolationPicture& each : recorder.pictures()) violations.push_back(violation_of(scenario, each));
   const Json json = {{"version", version},
                      {"chip", scenario.kind->title()},
+                     {"documents", DSDPV1_DOCUMENTS_URL},
+                     {"codes", codes_of(result, *scenario.kind)},
                      {"telegrams", telegrams_of(recorder.telegrams())},
                      {"times", times},
                      {"diagrams", diagrams},

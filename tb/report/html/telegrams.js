@@ -81,6 +81,14 @@ function drawFlags(plot, flags, scale) {
     .attr("transform", each => `translate(${scale(each.at_ns * TICKS_PER_NS)},2)`), each => `${each.code}\n${each.text}`);
 }
 
+// The first exchange of data and what is round it, as [from, to]; of a run without one its first telegram.
+function firstExchange(data, telegrams, end) {
+  const found = telegrams.findIndex(each => data.groups[each.group] === "data exchange");
+  const first = telegrams[Math.max(0, found)], answer = telegrams.slice(found + 1, found + 3).find(each => each.lane !== first.lane) || first;
+  const length = answer.end - first.start, from = Math.max(0, first.start - 4 * length);
+  return [from, Math.min(end, from + 12 * length)];
+}
+
 function telegramChart(parent, data, flags, end) {
   const telegrams = telegramsOf(data);
   const lanes = data.lanes.length;
@@ -109,6 +117,7 @@ function telegramChart(parent, data, flags, end) {
     const control = zoomable(parent, svg, scale, Math.max(2, end / (2 * 12000)), redraw);
     showPart = overview(svg, width, bottom + 26, telegrams, scale, control.show);
     redraw(scale);
+    control.show(...firstExchange(data, telegrams, end));
   });
 }
 
