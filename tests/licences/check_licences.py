@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""docs/licences.md against what the build puts into each program, the lists of packages, and REUSE.toml.
+"""~docs/licences.md compared with the contents of each program, the lists of packages, and REUSE.toml.
 
     check_licences.py BUILD_FOLDER [--root FOLDER]
 
-One line a fault, exit 1 when there is any. Files are given to Debian's packages by dpkg.
+One line per fault, exit 1 when there is any. dpkg assigns files to Debian's packages.
 """
 import argparse
 import pathlib
@@ -37,7 +37,7 @@ def fits(licence, allowed=frozenset(FITS_STRICT)):
 
 
 def listed_packages(root):
-    """Package to the list that has it."""
+    """Maps each package to its list."""
     found = {}
     for name in LISTS:
         for line in (root / name).read_text(encoding="utf-8").splitlines():
@@ -48,12 +48,12 @@ def listed_packages(root):
 
 
 def versions(text):
-    """Package, as PyPI compares names, to its version, of a list or of its lock."""
+    """Maps each package, with PyPI's normalised name, to its version; from a list or its lock."""
     return {re.sub(r"[-_.]+", "-", name).lower(): version for name, version in re.findall(r"^([\w.-]+)==([^\s\\]+)", text, re.M)}
 
 
 def faults_of_locks(root):
-    """The packages in the lists and their locks. The tests' packages come to the others, of which their lock may have some again."""
+    """The packages in the lists and their locks. The tests' packages are installed in addition, so their lock may repeat some."""
     known = {}
     for name in LISTS[1:]:
         lock = name.replace(".txt", ".lock")
@@ -65,7 +65,7 @@ def faults_of_locks(root):
 
 
 class Debian:
-    """Files and packages to source packages: a library, its headers and its runtime have one."""
+    """Maps files and packages to source packages: a library, its headers and its runtime share one."""
 
     def __init__(self, files, packages):
         self._package_of = dict(self._owners(files))
@@ -100,7 +100,7 @@ def foreign(program, root):
 
 
 def faults_of_program(name, found, rows, source):
-    """Its packages against the rows, and against each other. `found`: their sources; `source`: of a package of the page."""
+    """Compares its packages with the rows, and with each other. `found`: their sources; `source`: of a package of the page."""
     label, mine = label_of(name), []
     for each in sorted(found):
         fitting = [row for row in rows if each in map(source, row.packages)]
@@ -123,7 +123,7 @@ def stale_rows(found, rows, source):
 
 
 def faults_of_lists(listed, found, rows, source):
-    """Packages that are installed against the rows."""
+    """Compares the installed packages with the rows."""
     named = {package for row in rows for package in row.packages}
     for package, where in listed.items():
         if package not in named:
@@ -140,7 +140,7 @@ def pattern_of(path):
 
 
 class Reuse:
-    """The licences of the project's own files: the last rule that fits counts."""
+    """The licences of the project's own files: the last matching rule applies."""
 
     def __init__(self, text):
         self._rules = []
@@ -156,7 +156,7 @@ class Reuse:
 
 
 def faults_of_own(name, files, reuse):
-    """The project's own files in a program with something that is GPL-2.0-only."""
+    """The project's own files in a program with a GPL-2.0-only part."""
     for file in sorted(files):
         if not fits(reuse.licence(file)):
             yield f"REUSE.toml: {file} is {reuse.licence(file)}, but is in {name}, which is {STRICT}"

@@ -19,7 +19,7 @@ class Edge:
 
 @dataclasses.dataclass
 class Program:
-    libraries: set  # paths of system libraries on the link line, and of those that they need
+    libraries: set  # paths of system libraries on the link line, and of their dependencies
     files: set  # sources and headers, absolute
 
 
@@ -28,7 +28,7 @@ def words_of(text):
 
 
 def edges_of(text):
-    """First output to its edge."""
+    """Maps the first output to its edge."""
     edges, last = {}, None
     for line in text.splitlines():
         match = EDGE.match(line)
@@ -46,7 +46,7 @@ def linked(edges):
 
 
 def objects_of(edges, name):
-    """The objects of a program: its own and all of the static libraries'."""
+    """The objects of a program: its own and those of all its static libraries."""
     found, open_names, seen = set(), [name], set()
     while open_names:
         here = open_names.pop()
@@ -71,7 +71,7 @@ def system_libraries(edges, name):
 
 
 def notes_of(text):
-    """Object to the files that it was compiled from."""
+    """Maps each object to the files from which it was compiled."""
     notes, files = {}, []
     for line in text.splitlines():
         if line.startswith("    "):
@@ -82,7 +82,7 @@ def notes_of(text):
 
 
 def needed(path):
-    """The libraries that the dynamic linker would load with it, and those that they need."""
+    """The libraries that the dynamic linker would load with it, with their dependencies."""
     told = subprocess.run(["ldd", path], capture_output=True, text=True, check=False).stdout
     return set(re.findall(r"=> (/\S+)", told))
 
@@ -92,7 +92,7 @@ def absolute(folder, files):
 
 
 def programs(folder):
-    """Path of each program and shared library that was built, relative to `folder`, to what is in it."""
+    """Maps the path of each built program and shared library, relative to `folder`, to its contents."""
     edges = edges_of((folder / "build.ninja").read_text(encoding="utf-8"))
     notes = notes_of(subprocess.run(["ninja", "-C", folder, "-t", "deps"], capture_output=True, text=True, check=True).stdout)
     made = {}

@@ -80,20 +80,20 @@ def chosen(arguments):
 
 
 def targets(names):
-    """The targets to build before a fault."""
+    """The targets that a list's faults need."""
     stages = {stage for name in names for stage in suite.STAGES[name]}
     return sorted({stage.program for stage in stages} | {"dsdpv1-sim"} | ({"dsdpv1_rtl_libraries", "dsdpv1_firmware"} if stages else set()))
 
 
 # -------------------------------------------------------------------------------------------------------------- looking
 class Running:
-    """The tests that run now, each with its children a group that an interrupted command ends."""
+    """The running tests, each with its children in a process group that an interrupted command ends."""
 
     def __init__(self):
         self.lock, self.groups, self.ended = threading.Lock(), set(), False
 
     def call(self, words, **options):
-        """Its output; None when it did not end in time."""
+        """The test's output; None when it did not end in time."""
         with self.lock:
             if self.ended:
                 raise KeyboardInterrupt
@@ -136,7 +136,7 @@ def failed_test(printed):
 
 
 class Hunt:
-    """Looks for faults with the tests of one finished build."""
+    """Searches for faults with the tests of one finished build."""
 
     def __init__(self):
         self.build = overlay.Build(BUILD, ROOT)
@@ -147,7 +147,7 @@ class Hunt:
         self.build.know(suite.SIM)
 
     def look(self, fault):
-        """The test that finds the fault, and after how many seconds."""
+        """The test that finds the fault, and the seconds until then."""
         folder = PLACE / fault.name
         shutil.rmtree(folder, ignore_errors=True)
         begin = time.monotonic()
@@ -158,7 +158,7 @@ class Hunt:
         return found, time.monotonic() - begin
 
     def stage(self, built, stage):
-        """The test of this stage that fails, None when none does."""
+        """The test of this stage that fails; None when none does."""
         name = self.build.program(stage.program)
         sim = built.link(suite.SIM) if stage.calls_sim else None
         program = built.link(name) or (sim and BUILD / name)
@@ -184,7 +184,7 @@ def read_record():
 
 
 def record(outcomes):
-    """The latest outcome of each fault that is listed, in the lists' order; a fault that was not looked for keeps its own."""
+    """The latest outcome of each listed fault, in the lists' order; a fault without a new search keeps its old outcome."""
     today = datetime.date.today().isoformat()
     rows = read_record()
     rows.update({(fault.list, fault.name): [today, fault.list, fault.name, found, f"{seconds:.0f}"] for fault, found, seconds in outcomes})
@@ -197,7 +197,7 @@ def record(outcomes):
 
 
 def controls(faults):
-    """For each list one that changes nothing."""
+    """A control for each list: it changes nothing."""
     return [lists.control(fault) for fault in {fault.list: fault for fault in faults}.values()]
 
 

@@ -14,17 +14,17 @@ NEEDED = {"name", "file", "replace", "by", "what"}
 
 
 class BadList(Exception):
-    """One line: file, line, what is wrong, what is allowed."""
+    """One line: file, line, error, allowed values."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Fault:
     list: str
     name: str
-    file: str     # the source, from the project's folder on
-    replace: str  # stands in it once
+    file: str     # the source, relative to the project's folder
+    replace: str  # occurs in it once
     by: str
-    what: str     # is wrong then
+    what: str     # the resulting error
     where: str    # file and line of the list
     block: str = ""
     rule: str = ""
@@ -35,7 +35,7 @@ class Fault:
 
 
 def control(fault):
-    """No fault at all, built the same way: what it fails would be found without one."""
+    """No fault, built the same way: a test that fails with it would fail without a fault."""
     return dataclasses.replace(fault, name=f"none_{fault.list}", by=fault.replace + " ", what="nothing", where=f"tests/planted/{fault.list}.yaml")
 
 
@@ -71,7 +71,7 @@ def check(fault, root, known_rulings):
 
 
 def read(name, root=ROOT):
-    """The faults of one list, in its order. BadList when one does not fit its source any more."""
+    """The faults of one list, in its order. BadList when one no longer fits its source."""
     path = root / "tests" / "planted" / f"{name}.yaml"
     shown = path.relative_to(root)
     try:

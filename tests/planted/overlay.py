@@ -1,6 +1,7 @@
-"""Builds programs with one fault beside a finished build: what depends on the faulty file is compiled again, the rest of the objects is the build's own.
+"""~Builds programs with one fault beside a finished build: files that depend on the faulty file are compiled again; the other objects are those of
+the build.
 
-Neither the sources nor the build are written. The faulty file is in a separate folder, which the compiler searches first.
+Neither the sources nor the build are changed. The faulty file is in a separate folder, which the compiler searches first.
 """
 import pathlib
 import re
@@ -18,18 +19,18 @@ class Failed(Exception):
 
 
 class Build:
-    """A finished build of ninja: how each of its files is made, and from what."""
+    """A finished build by ninja: the command for each of its files, and its inputs."""
 
     def __init__(self, folder, root):
         self.folder, self.root = pathlib.Path(folder), pathlib.Path(root)
-        self.commands = {}  # of what is made: object, archive, program
+        self.commands = {}  # for each product: object, archive, program
         self.users = self.read_dependencies()
 
     def ninja(self, *words):
         return subprocess.run(["ninja", "-C", self.folder, *words], capture_output=True, text=True, check=True).stdout
 
     def read_dependencies(self):
-        """The objects that have read a file, of each file of the project."""
+        """For each file of the project, the objects that have read it."""
         users, made = {}, None
         for line in self.ninja("-t", "deps").splitlines():
             if not line.startswith("    "):
@@ -39,7 +40,7 @@ class Build:
         return users
 
     def know(self, program):
-        """Reads how a program and all that it is made of is made."""
+        """Reads the commands that make a program and its parts."""
         if program in self.commands:
             return
         for line in self.ninja("-t", "commands", program).splitlines():
@@ -52,7 +53,7 @@ class Build:
         return shlex.split(next(part for part in self.commands[made].split(" && ") if re.search(MAKES, part)))
 
     def program(self, target):
-        """The path of a test program, from the build's folder on."""
+        """The path of a test program, relative to the build's folder."""
         return next(name for name in (f"tests/{folder.name}/{target}" for folder in (self.root / "tests").iterdir()) if (self.folder / name).is_file())
 
 
@@ -62,7 +63,7 @@ class Overlay:
     def __init__(self, build, fault, folder):
         self.build, self.fault, self.folder = build, fault, pathlib.Path(folder)
         self.sources = self.folder / "sources"
-        self.place = {}  # of what has been made again: object, archive or program of the build
+        self.place = {}  # new products: object, archive or program of the build
         source = self.sources / fault.file
         source.parent.mkdir(parents=True, exist_ok=True)
         source.write_text(fault.planted(build.root), encoding="utf-8")
@@ -79,7 +80,7 @@ class Overlay:
         return str(path)
 
     def compiled_from(self, source):
-        """The faulty file itself, or a file of the build that puts the faulty one together with others."""
+        """The faulty file itself, or a file of the build that includes it together with others."""
         file = self.build.folder / source
         if file == self.build.root / self.fault.file:
             return str(self.sources / self.fault.file)
@@ -103,11 +104,11 @@ class Overlay:
         kept[kept.index("-o") + 1] = self.new_place(made)
         kept[kept.index("-c") + 1] = self.compiled_from(source)
         first = next(i for i, word in enumerate(kept) if word.startswith("-I"))
-        beside = (self.build.root / self.fault.file).parent  # of what the faulty file includes without a folder
+        beside = (self.build.root / self.fault.file).parent  # for includes of the faulty file without a folder
         self.run([*kept[:first], f"-I{self.sources}", "-iquote", str(beside), *kept[first:]])
 
     def archive(self, made):
-        """True when it has one of the objects that depend on the faulty file."""
+        """True when it contains an object that depends on the faulty file."""
         words = self.build.words(made)
         members = [word for word in words if word.endswith(".o")]
         if not [member for member in members if self.update(member)]:
@@ -116,7 +117,7 @@ class Overlay:
         return True
 
     def update(self, made):
-        """Makes a file of the build again if it depends on the faulty one; whether it does."""
+        """Makes a file of the build again if it depends on the faulty one; returns whether it does."""
         if made in self.place:
             return True
         if made.endswith(".o"):

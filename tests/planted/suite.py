@@ -1,4 +1,4 @@
-"""Which tests look for a fault, and in which order: those first that are over soon and find most. All are tests of the ordinary suite."""
+"""The tests that search for a fault, in order: the shortest and most successful first. All are tests of the ordinary suite."""
 import dataclasses
 import json
 import subprocess
@@ -10,7 +10,7 @@ LONG, NIGHTLY = "long", "nightly"
 @dataclasses.dataclass(frozen=True)
 class Stage:
     program: str
-    long: bool = False     # its cases with that label; else those without
+    long: bool = False     # only its cases with the label long; else those without
     calls_sim: bool = False
     names: str = ""        # part of the names; else all
 
@@ -27,11 +27,11 @@ STAGES = {
     "driver": (Stage("driver_test"), Stage("user_cpu_test"), SCENARIOS),
     "checks": (Stage("checks_test"), Stage("user_cpu_test"), SCENARIOS),
 }
-SECONDS = 600  # of a stage: the limit that its tests have
+SECONDS = 600  # per stage: the time limit of its tests
 
 
 def read(build):
-    """The cases of each test program that run when the suite does, with their labels."""
+    """The cases of each test program that the suite runs, with their labels."""
     listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=True).stdout
     cases = {}
     for test in json.loads(listed)["tests"]:

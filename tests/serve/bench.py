@@ -19,12 +19,12 @@ BITS_PER_SECOND = {"19.2k": 19200, "45.45k": 45450, "187.5k": 187500, "500k": 50
 DEADLINE = 300  # seconds for one wait; far more than a busy machine needs
 LATE_MS = 25    # half of pyprofibus's shortest time limit that matters: 50 ms for an answer
 ATTEMPTS = 5
-PAUSE_S = 5   # before the second one, twice as long before the third, ...: a machine is busy for a while
-LATE_S = []   # how long a host that was to talk did not come to do so
+PAUSE_S = 5   # before the second attempt, twice as long before the third, ...: a machine is busy for a while
+LATE_S = []   # delays of hosts that were due to talk
 
 
 class Failure(Exception):
-    """A check that did not hold."""
+    """A failed check."""
 
 
 def check(holds, text):
@@ -33,7 +33,8 @@ def check(holds, text):
 
 
 def talks(since, within_s):
-    """A host that had to talk within `within_s` of `since` does so now. The moment; when it is late, the machine is to blame (`was_late`)."""
+    """A host that had to talk within `within_s` of `since` does so now. Returns the time; a late host means that the machine is to blame
+    (`was_late`)."""
     now = time.monotonic()
     if now - since > within_s:
         LATE_S.append(now - since)
@@ -41,7 +42,7 @@ def talks(since, within_s):
 
 
 def was_late():
-    """True if a host was busy since the last call."""
+    """True if a host was late since the last call."""
     late = bool(LATE_S)
     LATE_S.clear()
     return late
@@ -64,7 +65,7 @@ def exit_code(case, was_busy, pause_s=PAUSE_S):
 
 
 class Lines:
-    """The lines of a pipe, without ever waiting longer than asked for."""
+    """The lines of a pipe; never waits longer than requested."""
 
     def __init__(self, pipe):
         self.pipe = pipe
@@ -103,14 +104,14 @@ class Serve:
         try:
             self.ready = self.lines.next(time.monotonic() + DEADLINE)
             check(self.ready is not None, "serve did not start: " + self.said())
-        except BaseException:  # an interrupt, too: who has asked for it never gets it
+        except BaseException:  # an interrupt, too: otherwise nobody would end it
             self.kill()
             raise
         self.port = os.path.join(folder, "dp")
         self.log = self.result = None
 
     def said(self):
-        return os.pread(self.errors.fileno(), 1 << 20, 0).decode()  # leaves the place alone where serve writes
+        return os.pread(self.errors.fileno(), 1 << 20, 0).decode()  # leaves serve's write position unchanged
 
     def growing_log(self):
         """The path of the log while it is being written."""
@@ -124,11 +125,11 @@ class Serve:
             with open(path, encoding="UTF-8") as file:
                 if re.search(pattern, file.read()):
                     return
-            time.sleep(0.05)  # polls; nothing depends on how long
+            time.sleep(0.05)  # polls; the interval does not matter
         raise Failure("the log never said " + pattern)
 
     def end(self, read_log=True):
-        """A log of minutes has millions of lines: not to be read by whoever measures how long the end takes."""
+        """A log of minutes has millions of lines: a test that measures how long the end takes must not read it."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
         output, _ = self.process.communicate(timeout=DEADLINE)
@@ -150,7 +151,7 @@ class Serve:
         return self.result["pacing"]["error_max_us"] / 1000 if self.result else 0
 
     def settle(self):
-        """Ends serve also after a failed check: the lag is printed at the end."""
+        """Ends serve also after a failed check: serve prints its lag at the end."""
         if self.result is None:
             with contextlib.suppress(Failure, OSError, ValueError, subprocess.TimeoutExpired):
                 self.end(read_log=False)
@@ -163,7 +164,7 @@ class Serve:
 
 
 class LogLine:
-    """'  123.000 ns  echo   info   PRM_OK: text' as fields; the code of info, refusal and violation lines apart."""
+    """'  123.000 ns  echo   info   PRM_OK: text' as fields; info, refusal and violation lines have their code as a separate field."""
 
     def __init__(self, text):
         fields = text.split(None, 4)
@@ -185,12 +186,12 @@ class Master:
         self.process = subprocess.Popen([python, os.path.join(HERE, "master.py"), path], stdout=subprocess.PIPE,
                                         stderr=subprocess.STDOUT)
         self.lines = Lines(self.process.stdout)
-        self.words = []      # what pyprofibus itself printed
+        self.words = []      # pyprofibus's own output
         self.exchanges = []  # events of exchanges
         self.did = []        # actions, with the place in the list of exchanges where they happened
 
     def run_until(self, holds):
-        """Takes in events until `holds()`; True, or False when the master has ended before."""
+        """Reads events until `holds()`; True, or False if the master ended before."""
         deadline = time.monotonic() + DEADLINE
         while not holds():
             line = self.lines.next(deadline)
@@ -211,7 +212,7 @@ class Master:
         return True
 
     def finish(self):
-        """Until all cycles of the plan are done."""
+        """Waits until all cycles of the plan are done."""
         self.run_until(lambda: False)
         status = self.process.wait(timeout=DEADLINE)
         check(status == 0, "the master ended with %d:\n%s" % (status, "\n".join(self.words[-20:])))

@@ -1,20 +1,20 @@
-"""The smallest DP master class 1 over a socket to `serve`: it brings one slave up and exchanges data with it."""
+"""The smallest DP master class 1 over a socket to `serve`: it starts one slave and exchanges data with it."""
 import os
 import time
 
 MASTER, SLAVE = 2, 8
 IDENT = (0x0C, 0xC9)                         # scenarios/dsdpv1.gsd
-PARAMETERS = bytes([0x80, 1, 1, 11, *IDENT, 0])  # locked, no watchdog: whoever follows finds the slave as it was left; min TSDR 11 bit times
-CONFIGURATION = bytes([0x31])                # 2 bytes in, 2 bytes out; no consistency over them
+PARAMETERS = bytes([0x80, 1, 1, 11, *IDENT, 0])  # locked, no watchdog: the next host finds the slave unchanged; min TSDR 11 bit times
+CONFIGURATION = bytes([0x31])                # 2 bytes in, 2 bytes out; without consistency
 SLAVE_DIAG, SET_PRM, CHK_CFG, MASTER_SAP = 60, 61, 62, 62
 SHORT_ACKNOWLEDGE = b"\xe5"
 FDL_STATUS = bytes([0x10, SLAVE, MASTER, 0x49, SLAVE + MASTER + 0x49, 0x16])
-ASKED_EVERY_S = 0.02  # a slave that looks for the baud rate hears only what comes while it listens at the right one
-WANTED_S = 0.5  # how long an answer is waited for: thousands of slot times, as a busy computer is late
+ASKED_EVERY_S = 0.02  # a slave that searches the baud rate hears a request only while it listens at the right rate
+WANTED_S = 0.5  # time limit for an answer: thousands of slot times, because a busy computer is late
 
 
 class Silent(Exception):
-    """No answer, or none that fits: the master begins again."""
+    """No answer, or an unsuitable one: the master begins again."""
 
 
 def with_data(function, data, saps=()):
@@ -25,7 +25,7 @@ def with_data(function, data, saps=()):
 
 
 def length_of(begun):
-    """Length of the telegram that begins so; None when it is not known yet."""
+    """Length of the telegram with this beginning; None when it is not known yet."""
     if begun[:1] == SHORT_ACKNOWLEDGE:
         return 1
     if begun[:1] == b"\x10":
@@ -36,7 +36,7 @@ def length_of(begun):
 
 
 class DpHost:
-    """Speaks on a socket that is its own as long as it lives. `repeats` counts requests without an answer."""
+    """Uses a socket exclusively. `repeats` counts requests without an answer."""
 
     def __init__(self, connection):
         self.fd = connection.fileno()
@@ -45,7 +45,7 @@ class DpHost:
         self.repeats = 0
 
     def function(self):
-        """SRD high with the next frame count bit; the first without one that counts."""
+        """SRD high with the next frame count bit; the first without a valid one."""
         if self.count_bit is None:
             self.count_bit = False
             return 0x6D
@@ -71,7 +71,7 @@ class DpHost:
         raise Silent("no answer, but " + (got.hex() or "nothing"))
 
     def find(self, within):
-        """Asks for the slave until it answers: before this host has its turn, and before the slave has the baud rate, it does not."""
+        """Repeats its request until the slave answers: it does so only when it is this host's turn and the slave has found the baud rate."""
         deadline, got = time.monotonic() + within, b""
         while not got:
             if time.monotonic() > deadline:
@@ -108,12 +108,12 @@ class DpHost:
             raise Silent("no acknowledgement but " + got.hex())
 
     def bring_up(self):
-        """From any state to data exchange, as a master does it: diagnosis, parameters, configuration, diagnosis."""
+        """From any state to data exchange, in the order of a master: diagnosis, parameters, configuration, diagnosis."""
         self.diagnosis()
         self.acknowledged(SET_PRM, PARAMETERS)
         self.acknowledged(CHK_CFG, CONFIGURATION)
         deadline = time.monotonic() + 10
-        while self.diagnosis()[0] & 0x07:  # not ready, wrong configuration, not there
+        while self.diagnosis()[0] & 0x07:  # not ready, wrong configuration, not present
             if time.monotonic() > deadline:
                 raise Silent("not ready after 10 s")
 
@@ -124,7 +124,7 @@ class DpHost:
         return got[7:9]
 
     def insist(self, action, within):
-        """Repeats until it is answered; Silent after `within` seconds."""
+        """Repeats the request until it is answered; Silent after `within` seconds."""
         deadline = time.monotonic() + within
         while True:
             try:

@@ -39,7 +39,7 @@ CASES = {}
 
 
 def fault(what, others, says, port="tcp", status=0, may=(), stop=signal.SIGINT, options=()):
-    """A row of the table. `says`: the lines that must come; `may`: those that can come as well; no others."""
+    """A row of the table. `says`: the required lines; `may`: lines that can appear, too; no others."""
     def register(body):
         CASES[body.__name__] = (body, what, others, says, port, status, may, stop, options)
         return body
@@ -54,7 +54,7 @@ def pattern(template):
 
 
 def check_said(said, says, may):
-    """Every line is a known one, and each that must come has come. How fast this computer is does not matter."""
+    """Every line is a known one, and all required lines are present. The speed of this computer does not matter."""
     usual = re.compile("serve: the log grows as |.*this computer is too slow")
     lines = [line for line in said.splitlines() if not usual.match(line)]
     for line in lines:
@@ -64,7 +64,7 @@ def check_said(said, says, may):
 
 
 def do(program, name):
-    """Carries out a case; its row."""
+    """Carries out a case; returns its row."""
     body, what, others, says, port, status, may, stop, options = CASES[name]
     with Folder() as folder:
         serve = Serve(program, folder, SCENARIO, *options, port=port_options(port))
@@ -92,7 +92,7 @@ def host(serve):
 
 
 def reset(connection):
-    """Ends a connection as when its computer resets it: at once, whatever is still on the way."""
+    """Ends a connection as a reset of its computer does: at once, with data still on the way."""
     connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     connection.close()
 
@@ -101,7 +101,7 @@ def until(holds, what):
     end = time.monotonic() + DEADLINE
     while not holds():
         check(time.monotonic() < end, "never: " + what)
-        time.sleep(0.01)  # polls; nothing depends on how long
+        time.sleep(0.01)  # polls; the interval does not matter
 
 
 def said(serve, template, count=1):
@@ -111,7 +111,7 @@ def said(serve, template, count=1):
 
 
 def flood(serve, fd, payload, seconds):
-    """Simulated time continues meanwhile. Bytes written; what was sent is cut off anywhere."""
+    """Checks that simulated time continues meanwhile. Returns the bytes written; the data can end anywhere."""
     begin, before, written = time.monotonic(), simulated_s(serve), 0
     while time.monotonic() < begin + seconds or simulated_s(serve) < before + 0.2:
         check(time.monotonic() < begin + DEADLINE, "simulated time stands still")
@@ -125,7 +125,7 @@ def log_so_far(serve):
 
 
 def read_to_the_end(connection):
-    """How it ends: "closed" or "reset"."""
+    """The end of the connection: "closed" or "reset"."""
     connection.setblocking(True)
     connection.settimeout(DEADLINE)
     try:
@@ -137,7 +137,7 @@ def read_to_the_end(connection):
 
 
 def answered_in_turn(serve, connection):
-    """A host that waited: nothing has come for it so far, it asks, it gets its answer and nothing else."""
+    """A host that waited has received nothing so far; it asks, and gets its answer and nothing else."""
     said(serve, TURN)
     fd = connection.fileno()
     check(read_some(fd, 1, 0.1) == b"", "it got what was not meant for it")
@@ -145,7 +145,7 @@ def answered_in_turn(serve, connection):
 
 
 def close_and_open_again(serve, fd):
-    """The next host that opens the pseudo-terminal gets no bytes of the one before."""
+    """The next host that opens the pseudo-terminal gets no bytes of the previous one."""
     os.close(fd)
     said(serve, CLOSED)
     fd = open_raw(serve.port)
@@ -246,7 +246,7 @@ def twenty_hosts(serve):
         try:
             with host(serve) as refused:
                 check(refused.recv(1) == b"", "it got something")
-        except ConnectionResetError:  # also while it connects
+        except ConnectionResetError:  # also during the connection
             pass
     for each in hosts:
         ask(each.fileno())
@@ -259,11 +259,11 @@ def silent_host(serve):
     with host(serve) as silent:
         ask(silent.fileno())
         time.sleep(1.5)
-        ask(silent.fileno())  # while no other host waits it keeps the port
+        ask(silent.fileno())  # it keeps the port while no other host waits
         spoke = time.monotonic()
         with host(serve) as other:
             said(serve, WAITS)
-            for _ in range(5):  # and while it talks
+            for _ in range(5):  # also while it talks
                 time.sleep(0.4)
                 ask(silent.fileno())
                 spoke = talks(spoke, 1)
@@ -313,8 +313,9 @@ def sigterm_during_flood(serve):
 
 
 def ten_seconds(program):
-    """Junk and telegrams by both kinds of port: what the long run in the page shows, in short. The exit code; tried again when a serve was late, as
-    a processor of the machine may be gone for seconds."""
+    """Junk and telegrams on both kinds of port: a short version of the page's long run. Returns the exit code; tries again when a serve was late,
+    because a
+    processor of the machine may be taken away for seconds."""
     late_ms = 0.0
 
     def case():

@@ -3,7 +3,7 @@
 
     flood.py DSDPV1_SIM [--port tcp|pty] [--kind junk|telegrams] [--minutes 10] [--write]
 
-Without --port both are flooded at the same time, without --kind one kind after the other. --write puts the table into docs/robustness.md.
+Without --port it floods both ports at the same time, without --kind one kind after the other. --write puts the table into docs/robustness.md.
 """
 import argparse
 import contextlib
@@ -24,7 +24,7 @@ from page import replace_table  # noqa: E402
 
 PAYLOADS = {"junk": bytes([0x00, 0xFF, 0x55, 0x16, 0xAA] * 819), "telegrams": STATUS_REQUEST * 680}
 EVERY_S = 1.0
-MOST_GROWTH_KB = 4096  # from the first minute (or tenth of a short run) on: the list of the first 10 000 events takes 2 to 3 MB until it is full
+MOST_GROWTH_KB = 4096  # from the first minute (or tenth of a short run) on: the list of the first 10 000 events needs 2 to 3 MB until it is full
 
 
 def rss_kb(pid):
@@ -50,7 +50,7 @@ def tcp_number(serve):
 
 
 def connect(serve, port):
-    """A descriptor that writes to serve, and whatever has to live as long."""
+    """A descriptor that writes to serve, and the object that must live as long."""
     if port == "pty":
         fd = open_raw(serve.port)
         os.set_blocking(fd, False)
@@ -65,7 +65,7 @@ def port_options(port):
 
 
 def push(fd, payload, patience=0.05):
-    """Writes what the other side takes at once, waits a little for it to take more, and reads what it sends. Bytes written."""
+    """Writes as much as the other side accepts, waits a little for it to accept more, and reads its output. Returns the bytes written."""
     readable, writable, _ = select.select([fd], [fd], [], patience)
     if readable:
         os.read(fd, 65536)
@@ -78,7 +78,7 @@ def push(fd, payload, patience=0.05):
 
 
 def keep_pushing(fd, payload, serve):
-    """Until serve has ended; for DEADLINE at most."""
+    """Writes until serve has ended; for DEADLINE at most."""
     end = time.monotonic() + DEADLINE
     with contextlib.suppress(OSError):  # serve has closed it
         while serve.process.poll() is None and time.monotonic() < end:
@@ -133,7 +133,8 @@ class Flood:
         return next(sample for sample in self.samples if sample[0] >= min(60, self.seconds / 10))
 
     def judge(self):
-        """Memory is flat, simulated time never stops, and the line is full; SIGINT was obeyed during the flood, or there would be no result."""
+        """Memory is flat, simulated time never stops, and the line is full; serve obeyed SIGINT during the flood, otherwise there would be no
+        result."""
         growth = self.samples[-1][1] - self.settled()[1]
         what = "%s by %s: " % (self.kind, self.port)
         check(growth < MOST_GROWTH_KB, what + "memory has grown by %d KB" % growth)
@@ -156,7 +157,7 @@ HEAD = """| flood | for | bytes offered | of them sent on the line | memory afte
 
 
 def floods(program, pairs, seconds):
-    """Each pair of kind and port, all at the same time: the rows, what does not hold, and by how many ms a serve came late at most."""
+    """Runs each pair of kind and port, all at the same time. Returns the rows, the failures, and the greatest lateness of a serve in ms."""
     rows, wrong, late_ms = {}, [], [0.0]
 
     def one(kind, port):
@@ -165,7 +166,7 @@ def floods(program, pairs, seconds):
             late_ms.append(flood.serve.late_ms())
             rows[kind, port] = flood.row()
             flood.judge()
-        except Exception as error:  # handed to the thread that waits
+        except Exception as error:  # passed to the thread that waits
             wrong.append(str(error))
     threads = [threading.Thread(target=one, args=pair) for pair in pairs]
     for thread in threads:

@@ -1,4 +1,4 @@
-// Telegrams from the pieces in which an operating system hands them over.
+// Assembles telegrams from the pieces that an operating system delivers.
 #include "tb/serve/framing.hpp"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(Framing, ATelegramThatBreaksOffIsHandedOverAfterAWhile) {
 }
 
 TEST(Framing, CompleteTelegramsAreTakenApartHoweverLateTheyAreLookedAt) {
-  // A busy computer may come back to them after more than kPatience; together they would lack T_SYN on the line.
+  // A busy computer may read them more than kPatience later; joined, they would lack T_SYN on the line.
   Intake intake;
   Bytes twice = kStatus;
   twice.insert(twice.end(), kStatus.begin(), kStatus.end());
@@ -73,7 +73,7 @@ TEST(Framing, CompleteTelegramsAreTakenApartHoweverLateTheyAreLookedAt) {
 
 TEST(Framing, TakingTelegramsFromTheFrontCostsTheSameHoweverManyWait) {
   Intake intake;
-  constexpr std::size_t kTelegrams = 700'000;  // 4 MB; moving the rest for each of them took minutes
+  constexpr std::size_t kTelegrams = 700'000;  // 4 MB; moving the rest for each telegram would take minutes
   Bytes many;
   for (std::size_t i = 0; i < kTelegrams; ++i) many.insert(many.end(), kStatus.begin(), kStatus.end());
   intake.take(many, kNow);

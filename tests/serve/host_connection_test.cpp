@@ -1,4 +1,4 @@
-// Input and output of a port are bounded, and nothing of one peer is left for the next.
+// Input and output of a port are bounded, and the next peer gets nothing of the previous one.
 #include "tb/serve/host_connection.hpp"
 
 #include <gtest/gtest.h>
@@ -15,11 +15,11 @@ namespace {
 using bus::Bytes;
 using tb::Descriptor;
 
-/// A port whose other end is in the test.
+/// A port whose other end belongs to the test.
 class Port : public tb::serve::HostConnection {
  public:
   std::string name() const override { return "port"; }
-  /// The host that has the port from now on.
+  /// The host that uses the port from now on.
   Descriptor connect() {
     std::array<int, 2> ends{};
     EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
@@ -42,7 +42,7 @@ class HostConnectionTest : public testing::Test {
     port_.say = [this](const std::string& text) { said_.push_back(text); };
     port_.on_gone = [this] { ++gone_; };
   }
-  /// As many as there are.
+  /// Reads all available bytes.
   static std::size_t read_all(const Descriptor& host) {
     std::array<char, 65536> bytes{};
     std::size_t total = 0;

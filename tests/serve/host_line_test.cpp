@@ -1,4 +1,4 @@
-// The host as a station of the segment: times that it cannot keep are kept for it.
+// The host as a station of the segment: serve keeps the times that the host cannot keep.
 #include "tb/serve/host_line.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 """Scheduling delay of a process: a thread sleeps 1 ms at a time, a loop reads the clock all the time, and the greatest overshoot is kept.
 
-A thread that waits for Python's lock is also late, so its overshoot includes a loop that holds the lock. But a loop that looks at a port again
-and again gives the lock away each time. The scheduler may leave it there for a second while the thread runs at once.
+A thread that waits for Python's lock is also late, so its overshoot includes a loop that holds the lock. But a loop that polls a port releases
+~the lock each time. The scheduler may then suspend the loop for a second while the thread runs without delay.
 """
 import os
 import threading
@@ -11,13 +11,13 @@ NAP_S = 0.001
 
 
 class Watch:
-    """From now on the file at `path` holds the greatest overshoot of this process, in ms."""
+    """The file at `path` holds the greatest overshoot of this process so far, in ms."""
 
     def __init__(self, path):
         self.file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666)
         self.greatest = 0.0
-        self.lock = threading.Lock()  # of it and the file
-        self.read = None  # when the loop has read the clock last
+        self.lock = threading.Lock()  # of `greatest` and the file
+        self.read = None  # time of the loop's last look at the clock
         threading.Thread(target=self.nap_for_ever, daemon=True).start()
 
     def was_late(self, late):
@@ -31,11 +31,11 @@ class Watch:
         woke = time.monotonic()
         while True:
             time.sleep(NAP_S)
-            before, woke = woke, time.monotonic()  # from one nap's end to the next one's: no moment between them is left out
+            before, woke = woke, time.monotonic()  # from the end of one nap to the end of the next: no moment is left out
             self.was_late(woke - before - NAP_S)
 
     def clock(self):
-        """The time, for a loop that asks for it all the time."""
+        """The time, for a loop that reads it continuously."""
         before, self.read = self.read, time.monotonic()
         if before is not None:
             self.was_late(self.read - before)

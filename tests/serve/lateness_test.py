@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The reason to repeat cases with pyprofibus: a late process is detected, and nothing else is forgiven.
+"""~The condition for repeating cases with pyprofibus: a late process is detected, and no other failure is forgiven.
 
     lateness_test.py DSDPV1_SIM CASE      CASE: one of the functions below
 """
@@ -30,7 +30,7 @@ def wait_for_lateness(path, least_ms):
     end = time.monotonic() + DEADLINE
     while lateness.greatest_ms(path) < least_ms:
         check(time.monotonic() < end, "not noticed: %.1f ms of %.1f ms" % (lateness.greatest_ms(path), least_ms))
-        time.sleep(0.01)  # polls; nothing depends on how long
+        time.sleep(0.01)  # polls; the interval does not matter
 
 
 def is_late(program, stop):
@@ -43,7 +43,7 @@ def is_late(program, stop):
                 wait_for_lateness(late, 0.001)
                 stop(watched)
                 os.waitid(os.P_PID, watched.pid, os.WSTOPPED)
-                time.sleep(STOPPED_MS / 1000)  # this is how long it is late
+                time.sleep(STOPPED_MS / 1000)  # the process is late by this time
                 watched.send_signal(signal.SIGCONT)
                 wait_for_lateness(late, 0.9 * STOPPED_MS)
                 watched.communicate(b"\n")

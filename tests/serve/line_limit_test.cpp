@@ -1,4 +1,4 @@
-// The first lines of a second are said, the others counted.
+// The first lines of a second are printed, the others counted.
 #include "tb/serve/line_limit.hpp"
 
 #include <gtest/gtest.h>

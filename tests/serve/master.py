@@ -33,8 +33,9 @@ def write_configuration(plan):
 
 
 def slow_down(factor, watch):
-    """pyprofibus's time limits are fixed (10 ms to 100 ms). Where a busy machine cannot keep them its clock goes slower. It is watched: its loop
-    reads it at least once a turn."""
+    """pyprofibus's time limits are fixed (10 ms to 100 ms). Where a busy machine cannot keep them, its clock runs slower. The clock measures
+    lateness,
+    because pyprofibus's loop reads it at least once per turn."""
     def clock():
         return watch.clock() / factor
     for module in (pyprofibus.dp_master, pyprofibus.phy, pyprofibus.phy_serial, pyprofibus.util):
@@ -49,7 +50,7 @@ def tell(**event):
 def describe(config, plan):
     """Slave descriptions with the plan's modules, groups and deliberate mistakes."""
     for conf, slave in zip(config.slaveConfs, plan["slaves"]):
-        conf.gsd.clearConfiguredModules()  # those that the GSD file presets would come in addition
+        conf.gsd.clearConfiguredModules()  # the GSD file's presets would be added otherwise
         for module in slave["modules"]:
             conf.gsd.setConfiguredModule(module)
         description = conf.makeDpSlaveDesc()

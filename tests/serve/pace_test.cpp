@@ -1,4 +1,4 @@
-// Simulated against real time, with a clock made by hand.
+// Simulated time compared with real time, with a clock that the test sets.
 #include "tb/serve/pace.hpp"
 
 #include <gtest/gtest.h>

@@ -33,7 +33,7 @@ class Folder(tempfile.TemporaryDirectory):
 
 
 def read_some(fd, count, patience=DEADLINE):
-    """Up to `count` bytes, fewer when they have not come within `patience` seconds."""
+    """Reads up to `count` bytes; fewer if `patience` seconds have passed."""
     os.set_blocking(fd, False)
     got, end = b"", time.monotonic() + patience
     while len(got) < count and time.monotonic() < end:
@@ -94,7 +94,7 @@ def pty_hang_up_and_next_opener(program):
 
 
 def one_shot_hosts(program):
-    """A telegram of a host that hangs up at once is sent all the same, and its answer is not the next one's."""
+    """A telegram of a host that hangs up at once is sent, and the next host does not get its answer."""
     for port in (("--pty", "dp"), ("--tcp", "0")):
         def body(serve):
             for time_round in range(1, 3):
@@ -108,7 +108,7 @@ def one_shot_hosts(program):
 
 
 def telegram_in_pieces(program):
-    """Bytes that come one by one are a telegram without gaps on the segment."""
+    """Bytes that arrive one by one form a telegram without gaps on the segment."""
     def body(serve):
         fd = open_raw(serve.port)
         ask(fd)
@@ -126,7 +126,7 @@ def telegram_in_pieces(program):
 
 
 def requests_in_one_write(program):
-    """The second request waits for the answer of the first, and T_SYN."""
+    """The second request waits for the first one's answer and for T_SYN."""
     def body(serve):
         fd = open_raw(serve.port)
         ask(fd)
@@ -139,7 +139,7 @@ def requests_in_one_write(program):
 
 
 def broken_off_telegram(program):
-    """Half a telegram does not hold up the next one for long, and the log says what came."""
+    """Half a telegram delays the next one only briefly, and the log reports its bytes."""
     def body(serve):
         fd = open_raw(serve.port)
         ask(fd)
@@ -182,7 +182,7 @@ def tcp_one_after_the_other(program):
 
 
 def serial_port(program):
-    """A pseudo-terminal in place of a serial port: whole answers, taken alone, a line when it goes."""
+    """A pseudo-terminal in place of a serial port: whole answers, exclusive use, a line when it disappears."""
     wire, device = pty.openpty()
     tty.setraw(device)
     name = os.ttyname(device)
@@ -201,7 +201,7 @@ def serial_port(program):
 
 
 def bad_ports(program):
-    """One line and exit code 2 for everything that cannot be had."""
+    """One line and exit code 2 for each port that cannot be opened."""
     with Folder() as folder:
         with open(os.path.join(folder, "scenario.yaml"), "w", encoding="UTF-8") as file:
             file.write(SCENARIO)
@@ -237,12 +237,12 @@ def shipped_scenario(program):
 
 
 def too_slow_is_said(program):
-    """A computer that stalls for 0.3 s is too slow, as serve catches up 0.1 s at most: serve reports it and continues."""
+    """A computer that stalls for 0.3 s is too slow, because serve catches up 0.1 s at most: serve reports it and continues."""
     def body(serve):
         fd = open_raw(serve.port)
         ask(fd)
         serve.process.send_signal(signal.SIGSTOP)
-        time.sleep(0.3)  # this is how long it stands still
+        time.sleep(0.3)  # duration of the stall
         serve.process.send_signal(signal.SIGCONT)
         serve.wait_for_log("too slow")
         ask(fd)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""A real DP master, pyprofibus, against the served model.
+"""A real DP master, pyprofibus, with the served model.
 
     pyprofibus_test.py DSDPV1_SIM CASE      CASE: one of the functions below, or `list`
 
-Exit code 77 (skipped) when pyprofibus is not in .venv: ./run test installs it. A case is tried again only when the machine was too
-busy to keep up with real time, which serve and the master themselves measure, and then with a slower clock for pyprofibus; or when the
-line shows that pyprofibus has taken an answer for another slave's.
+Exit code 77 (skipped) when pyprofibus is not in .venv: ./run test installs it. A case is repeated only in two situations: the machine was too
+~busy for real time, as measured by serve and the master (the repetition has a slower clock for pyprofibus), or the line shows that pyprofibus has
+~taken an answer for another slave's.
 """
 import os
 import re
@@ -18,11 +18,11 @@ from bench import BITS_PER_SECOND, DEADLINE, HERE, LATE_MS, ROOT, Failure, Maste
 
 PYTHON = os.path.join(ROOT, ".venv", "bin", "python")
 AFTER_THE_END = {"WD_EXPIRED", "BAUD_LOST"}  # what a slave says when its master has gone
-SLOWER = 4           # how much slower pyprofibus's clock may go: its requests still come in every window of the baud search
+SLOWER = 4           # maximum slowdown of pyprofibus's clock: its requests still fall into every window of the baud search
 ANSWER_CHARS = 255   # so long pyprofibus keeps the line for an answer; then another slave's request goes out, and since a short
                      # acknowledge names no slave it takes the one that comes too late as the answer of both
 
-# first_master.py as it is, its lateness watched and its clock slower.
+# first_master.py unchanged, with its lateness measured and its clock slowed down
 FIRST_MASTER = """import sys
 import first_master, lateness, master
 master.slow_down(%d, lateness.Watch(sys.argv[1]))
@@ -46,12 +46,12 @@ def scenario(baud, slaves, script=""):
 
 
 class Run:
-    """Serve and master together; both are gone afterwards."""
+    """Serve and master together; both end with the block."""
 
-    late_ms = 0, 0       # of the last run: by how much serve and the master came late
-    limit_ms = LATE_MS   # of the last run: by how much each may
-    mixed_up = False     # the last one: see left_out_set_prm
-    slower = 1           # how much slower pyprofibus's clock goes
+    late_ms = 0, 0       # in the last run: lateness of serve and of the master
+    limit_ms = LATE_MS   # in the last run: its limit for each
+    mixed_up = False     # in the last run: see left_out_set_prm
+    slower = 1           # slowdown of pyprofibus's clock
 
     def __init__(self, program, baud, stations, script="", **plan):
         if len(stations) > 1:
@@ -79,8 +79,8 @@ class Run:
 
 
 def left_out_set_prm(log):
-    """True if a slave was sent a Chk_Cfg without a Set_Prm before: no answer of a slave, right or wrong, requires that. The
-    master has taken a short acknowledge, which names no slave, for the answer to a Set_Prm that was still to be sent."""
+    """True if a slave got a Chk_Cfg without a preceding Set_Prm: no answer of a slave, right or wrong, causes that. The
+    master has taken a short acknowledge, which names no slave, for the answer to a Set_Prm that it had not sent yet."""
     parameterised = set()
     for line in log:
         request = re.match(r"\d+ -> (\d+)  request .*(Set_Prm|Chk_Cfg)", line.text) if line.kind == "telegram" else None
@@ -93,7 +93,7 @@ def left_out_set_prm(log):
 
 # ------------------------------------------------------------------------------------------------------------- checks
 def check_clean(run, program):
-    """No error on either side, up to the end of the master: in the log, in the monitor, in every telegram decoded again."""
+    """Neither side reports an error up to the end of the master: in the log, in the monitor, in every telegram decoded again."""
     check(run.serve.status == 0, "serve ended with %s: %s" % (run.serve.status, run.serve.said()))
     check(run.serve.result["wrong_telegrams"] == 0, "wrong telegrams on the segment")
     bad = [line.text for line in run.serve.log if line.kind in ("refusal", "violation") and line.code not in AFTER_THE_END]
@@ -110,7 +110,7 @@ def numbers(texts):
 
 
 def check_loop(run, name, cycles):
-    """The master's own outputs come back in order, and the slave's user CPU saw each of them, in order."""
+    """The master's outputs come back in order, and the slave's user CPU saw each of them, in order."""
     sent = numbers(event["sent"] for event in run.master.of(name))
     got = numbers(event["got"] for event in run.master.of(name))
     check(sent == list(range(cycles)) or len(sent) >= cycles, "only %d exchanges" % len(sent))
@@ -181,11 +181,11 @@ def sync_freeze(program):
                   "%s minds another group than its own: %s" % (name, ignored))
         check([event["did"] for _, event in run.master.did] == [action["do"] for action in actions], "not all commands were sent")
 
-        # Places in the order of all exchanges: when one slave is brought up again, the slaves' own counts drift apart.
+        # Indexes into the list of all exchanges: after a restart of one slave, the slaves' own counts differ.
         places = [0] + [place for place, _ in run.master.did] + [len(run.master.exchanges)]
 
         def inputs(name, begin, end):
-            """How many different inputs came between two commands, without the exchanges that were under way at them."""
+            """The number of different inputs between two commands, without the exchanges around the commands."""
             margin = 6
             got = [event["got"] for event in run.master.exchanges[places[begin]:places[end]] if event["slave"] == name]
             return set(got[margin:-margin])
@@ -202,7 +202,7 @@ def sync_freeze(program):
 
 
 def diagnosis(program):
-    """A diagnosis of the user CPU makes the master read it, and the exchange continues."""
+    """A diagnosis of the user CPU makes the master read it, and data exchange continues."""
     script = ('  - {when: {slave: echo, data_exchanges: 100}, do: set_diagnosis, slave: echo, type: external, bytes: "03 44 55"}\n'
               '  - {when: {slave: echo, data_exchanges: 200}, do: set_diagnosis, slave: echo, type: external_gone, bytes: "01"}\n')
     with Run(program, "500k", [slave("echo", 8)], script, cycles=300, slaves=[dict(IO2, name="echo", address=8)]) as run:
@@ -228,7 +228,7 @@ def unplug_and_replug(program):
     with Run(program, "500k", [slave("echo", 8)], script, cycles=300, slaves=plan) as run:
         run.master.finish()
         run.serve.end()
-        # A telegram on the line at that moment is cut off; a telegram of this scenario lasts less than 1 ms. Nothing else breaks.
+        # A telegram on the line at that moment is cut off; a telegram of this scenario lasts less than 1 ms. There are no other errors.
         moments = [line.ns for line in run.serve.log if line.text in ("unplugged", "plugged in")]
         bad = [line.text for line in run.serve.log if line.kind == "violation" and not any(0 <= line.ns - at < 1e6 for at in moments)]
         check(len(moments) == 2 and not bad, "violations apart from the unplugging: %s" % bad)
@@ -253,7 +253,7 @@ def wrong_ident(program):
 
 
 def wrong_configuration(program):
-    """A slave that takes only its own configuration refuses another one and names the byte."""
+    """A slave that accepts only its own configuration refuses another one and names the byte."""
     slaves = [slave("echo", 8, init=", init: {cfg_mode: 1}")]
     plan = [dict(IO2, name="echo", address=8, modules=["4 bytes in, 4 bytes out"])]
     with Run(program, "500k", slaves, cycles=1, slaves=plan) as run:
@@ -265,7 +265,7 @@ def wrong_configuration(program):
 
 
 def killed_master(program):
-    """The watchdog ends what a master began that was killed: 300 ms after its last telegram, to the millisecond."""
+    """After the master is killed, the watchdog ends data exchange 300 ms after its last telegram, to the millisecond."""
     plan = [dict(IO2, name="echo", address=8, watchdog=300)]
     with Run(program, "500k", [slave("echo", 8)], cycles=100000, slaves=plan) as run:
         check(run.master.run_until(lambda: len(run.master.exchanges) >= 100), "the master ended")
@@ -312,14 +312,14 @@ def installed():
 
 
 def was_too_busy():
-    """If so, the next run has a slower clock."""
+    """Prints the lateness; if it is too great, the next run has a slower clock."""
     print("late at most: serve %.1f ms, the master %.1f ms; above %.1f ms it is the machine's fault" % (*Run.late_ms, Run.limit_ms))
     busy, Run.late_ms, Run.slower = max(Run.late_ms) > Run.limit_ms, (0, 0), SLOWER
     return busy
 
 
 def untangled(case, program):
-    """The case, again when pyprofibus has mixed up its slaves: a few ms between an answer and its next look at the port are enough for that."""
+    """Runs the case, again if pyprofibus has mixed up its slaves: a few ms between an answer and its next look at the port can cause that."""
     for _ in range(MIX_UPS):
         try:
             return case(program)

@@ -1,4 +1,4 @@
-// Every code is explained, and docs/reasons.md is what the program prints.
+// Every code is explained, and docs/reasons.md equals the program's output.
 #include <gtest/gtest.h>
 
 #include <algorithm>

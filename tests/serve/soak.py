@@ -51,7 +51,7 @@ EXIT_CODES = {HELD: 0, FAILED: 1, INTERRUPTED: 130}
 
 # ------------------------------------------------------------------------------------------------- hosts that misbehave
 class Hosts:
-    """Each method misbehaves for about a second or a few; `join` is the time when the decent host begins to wait: once another host has the port."""
+    """Each method misbehaves for about a second or a few; `join` is called when the decent host begins to wait: once another host has the port."""
 
     def __init__(self, port, chance, join):
         self.port, self.chance, self.join = port, chance, join
@@ -80,14 +80,14 @@ class Hosts:
         self.leave(host)
 
     def floods(self):
-        """Requests one after the other, whose answers it reads."""
+        """Requests one after the other; it reads their answers."""
         host = self.connect()
         self.join()
         self.write(host, PAYLOADS["telegrams"], self.chance.uniform(0.5, 5))
         self.leave(host)
 
     def reads_nothing(self):
-        """Requests, as many as fit, and never an answer read."""
+        """As many requests as fit; it never reads an answer."""
         host = self.connect()
         self.join()
         host.setblocking(False)
@@ -100,7 +100,7 @@ class Hosts:
         self.leave(host)
 
     def trickles(self):
-        """A telegram byte by byte, with pauses about as long as a broken telegram is waited for."""
+        """A telegram byte by byte, with pauses close to the time limit for an incomplete telegram."""
         host = self.connect()
         self.join()
         for byte in bytes([0x68, 0xF9, 0xF9, 0x68]) + bytes(self.chance.randrange(40)):
@@ -109,14 +109,14 @@ class Hosts:
         self.leave(host)
 
     def breaks_off(self):
-        """The beginning of a right telegram."""
+        """The beginning of a valid telegram."""
         host = self.connect()
         self.join()
         host.send(STATUS_REQUEST[:self.chance.randrange(1, len(STATUS_REQUEST))])
         self.leave(host)
 
     def reconnects(self):
-        """Comes and goes."""
+        """Connects and hangs up."""
         self.join()
         for _ in range(self.chance.randrange(20, 300)):
             host = self.connect()
@@ -124,7 +124,7 @@ class Hosts:
             self.leave(host)
 
     def crowds(self):
-        """Fourteen more that wait, of which each says something."""
+        """Fourteen more hosts that wait; each sends something."""
         hosts = [self.connect() for _ in range(15)]
         self.join()
         for host in hosts:
@@ -164,7 +164,7 @@ class Soak:
         self.rounds += 1
 
     def exchange(self, host):
-        """The inputs are the outputs of an exchange before: of the last but one or two, as the slave's program has an independent cycle."""
+        """The inputs are the outputs of an earlier exchange: the last but one or two, because the slave's program has an independent cycle."""
         sent = [b"\x00\x00"]
         for number in range(EXCHANGES):
             outputs = ((self.exchanges + number) & 0xFFFF).to_bytes(2, "big")
@@ -209,7 +209,7 @@ class Soak:
 
 
 def listens_at(pid):
-    """The IPv4 addresses at which a process listens, in the kernel's notation, and those of IPv6, which there must be none of."""
+    """The IPv4 addresses at which a process listens, in the kernel's notation, and the IPv6 addresses, of which there must be none."""
     sockets = {os.readlink("/proc/%d/fd/%s" % (pid, fd)) for fd in os.listdir("/proc/%d/fd" % pid)}
     found = []
     for table in ("tcp", "tcp6"):
@@ -226,7 +226,7 @@ def record(soak, seed, peak, verdict):
 
 
 def soak_for(program, hours, seed, keep):
-    """The verdict and words for it."""
+    """Returns the verdict and a text."""
     verdict, words = HELD, "all held"
     with tempfile.TemporaryDirectory(prefix="dsdpv1_soak_") as folder:
         serve = Serve(program, folder, SCENARIO, port=("--tcp", "0"), log=False)

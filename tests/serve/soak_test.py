@@ -16,7 +16,7 @@ SOAK = "import pathlib, sys, soak; soak.records.HERE = pathlib.Path(sys.argv.pop
 
 
 def state_and_parent(pid):
-    """None when it is not there."""
+    """None if there is no such process."""
     try:
         with open("/proc/%d/stat" % pid, encoding="ascii") as file:
             state, parent = file.read().rpartition(")")[2].split()[:2]
@@ -31,7 +31,7 @@ def children_of(parent):
 
 
 def is_there(pid):
-    """One that has ended without a wait for it is not."""
+    """A zombie does not count."""
     found = state_and_parent(pid)
     return found is not None and found[0] != "Z"
 
@@ -42,7 +42,7 @@ def interrupted_by(program, number):
         serves = []
         try:
             lines = Lines(soak.stdout)
-            lines.next(time.monotonic() + DEADLINE)  # the first sample: it runs for hours
+            lines.next(time.monotonic() + DEADLINE)  # the first sample: the soak would run for hours
             serves = children_of(soak.pid)
             check(len(serves) == 1, "it has %d processes" % len(serves))
             soak.send_signal(number)

@@ -268,8 +268,7 @@ class Frames {
   void step(Pin pin, Level level) {
     script_.set(pin, level);
     if (chance_.one_in(100)) script_.mark();
-    if (together_ && chance_.one_in(6))
-      return chance_.one_in(2) ? script_.mark() : void();  // the next edge is at this tick
+    if (together_ && chance_.one_in(6)) return chance_.one_in(2) ? script_.mark() : void();  // next edge: same tick
     script_.wait(together_ && chance_.one_in(10) ? chance_.from_to(1, 60) : usual_ / 2);
     if (together_ && chance_.one_in(40)) script_.mark();
   }
@@ -315,8 +314,7 @@ Aimed racing_spi() {
   };
   script.set(Pin::kXss, 0);
   script.wait(800);
-  bytes(read_telegram(0x001, 200), 700,
-        false);  // longer than the data to be sent: the chip reports how much it has sent
+  bytes(read_telegram(0x001, 200), 700, false);  // longer than the bytes sent, whose number is reported
   for (const Tick half : {400, 35, 130, 33, 55, 65}) bytes({0xFF}, half, true);
   Chance chance(1);
   for (int i = 0; i < 60; ++i) bytes({0x5A}, chance.from_to(3, 12), i % 2 == 0);  // some fall into one cycle

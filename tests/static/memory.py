@@ -1,7 +1,7 @@
-"""Valgrind's memcheck over one run of each kind: reads of what was never written, accesses outside of what is had, and memory that is lost.
+"""~Valgrind's memcheck over one run of each kind: reads of uninitialised memory, accesses outside of allocated memory, and leaks.
 
-The view tlm is not among them: valgrind cannot follow how SystemC's threads switch their stacks, and takes what is on them for never written. The preset
-debug has that view under AddressSanitizer. Waves of the runs and what the later cases read stand in one folder: the cases are in the order in which they need each other.
+The view tlm is excluded: valgrind cannot follow the stack switches of SystemC's threads, and takes stack contents for uninitialised. The preset
+~debug checks that view with AddressSanitizer. The cases depend on their order: later ones read files of earlier ones, all in one folder.
 """
 import dataclasses
 import pathlib
@@ -56,7 +56,7 @@ CASES = (
 
 
 def errors_in(logs):
-    """The errors that valgrind counts in each process, and the first words about them."""
+    """The number of errors that valgrind counts in each process, and its first message about them."""
     counts = [int(count) for log in logs for count in re.findall(r"ERROR SUMMARY: (\d+) errors", log)]
     words = [line.split("== ", 1)[1] for log in logs for line in log.splitlines() if re.search(r"== (Invalid|Conditional|Use of|Syscall|.*definitely lost in)", line)]
     if not counts:
@@ -65,7 +65,7 @@ def errors_in(logs):
 
 
 def carry_out(case, folder):
-    """Errors (None: something else went wrong), words about them, seconds."""
+    """Errors (None: another failure), a text about them, seconds."""
     begin = time.monotonic()
     words = [word.format(scenarios=ROOT / "scenarios") for word in case.words]
     result = subprocess.run([*VALGRIND, SIM, *words], cwd=folder, capture_output=True, text=True, check=False, timeout=LIMIT_S)

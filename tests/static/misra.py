@@ -1,4 +1,4 @@
-"""The C driver under the required and mandatory rules of MISRA C:2012 that cppcheck's addon knows: each report is explained in misra_deviations.txt.
+"""~The C driver under the required and mandatory rules of MISRA C:2012 that cppcheck's addon knows: misra_deviations.txt explains each report.
 
 The numbers of the rules and their categories are facts of the standard; its texts may not be copied, so none is here.
 """
@@ -47,7 +47,7 @@ def reports_in(said, root=ROOT):
 
 
 def deviations(text):
-    """Rule | file | part of the line | why; * is any."""
+    """Rule | file | part of the line | reason; * is any."""
     found = []
     for number, line in enumerate(text.splitlines(), 1):
         if line and not line.startswith("#"):
@@ -59,7 +59,7 @@ def deviations(text):
 
 
 def judge(reports, explained):
-    """Lines about what is not explained, and about explanations of nothing; counts the places of each deviation."""
+    """Lines about unexplained reports, and about explanations without a report; counts the places of each deviation."""
     for report in reports:
         if report.rule in ADVISORY:
             continue
@@ -74,7 +74,7 @@ def judge(reports, explained):
 
 
 def addon():
-    """Where Debian has it; cppcheck itself finds it without being told."""
+    """Debian's path; cppcheck itself finds it without help."""
     return next(pathlib.Path("/usr/lib").glob("*/cppcheck/addons/misra.py"))
 
 

@@ -24,7 +24,7 @@ INDIRECT = "__indirect_call"
 
 
 class Unknown(Exception):
-    """Something that would make a figure wrong."""
+    """A cause of a wrong figure."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Depth:
 
 
 class Graph:
-    """Functions of one build: their bytes, and the functions that they call."""
+    """Functions of one build: their stack bytes, and the functions that they call."""
 
     def __init__(self):
         self.own, self.calls = {}, {}
@@ -49,7 +49,7 @@ class Graph:
             self.calls.setdefault(caller, set()).add((called, place))
 
     def named(self, file, function):
-        """The function of that file, also one that the compiler has changed a little (constprop, isra, part)."""
+        """The function of that file, also in a modified copy by the compiler (constprop, isra, part)."""
         exact = [f"{file}:{function}", function]
         found = [each for each in exact if each in self.own]
         return found or [each for each in self.own if re.match(rf"{re.escape(file)}:{function}\.", each)]
@@ -114,7 +114,7 @@ class Depths:
 
 
 def public_functions():
-    """Those that the headers declare for applications, each with the ports it is for."""
+    """The functions that the headers declare for applications, each with its ports."""
     found = {}
     for header in ("dsdpv1.h", "dsdpv1_acyclic.h", "dsdpv1_spi.h", "dsdpv1_uart.h"):
         text = re.sub(r"/\*.*?\*/", "", (DRIVER / header).read_text(encoding="utf-8"), flags=re.S)
@@ -134,7 +134,7 @@ def build(level):
 
 
 def measure():
-    """Rows: function, then for each port bytes at each level, then what it calls of the application."""
+    """Rows: function, then for each port bytes at each level, then the application's functions that it calls."""
     depths = {(level, port): Depths(graph, port) for level in LEVELS for graph in [build(level)] for port in PORTS}
     rows = []
     for function, ports in public_functions().items():

@@ -56,7 +56,7 @@ def parse(words):
 
 
 class Table:
-    """The results, printed as they come."""
+    """The results, printed as they arrive."""
 
     def __init__(self):
         self.rows, self.failed = [], False
@@ -69,7 +69,7 @@ class Table:
             print(f"static: {part}: {case}: {words}", file=sys.stderr)
 
     def counted(self, part):
-        """For what counts errors: a run that did not come to its end is one, too."""
+        """For parts that count errors: an unfinished run is an error, too."""
         def tell(case, errors, words, seconds):
             self.add(part, case, "not carried out" if errors is None else f"{errors} errors", words or ("" if errors == 0 else "errors"))
         return tell

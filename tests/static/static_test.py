@@ -1,4 +1,4 @@
-"""Breaks what the tools of ./run static read, to see that each of them finds it and nothing else."""
+"""Plants errors into the inputs of ./run static's tools, and checks that each tool finds them and nothing else."""
 import pathlib
 import tempfile
 import unittest

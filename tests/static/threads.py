@@ -1,5 +1,6 @@
-"""Clang's ThreadSanitizer over what has threads: the campaigns of lockstep, whose cases run beside each other, in model and RTL, and the C API, whose
-chips may each have a thread.
+"""~Clang's ThreadSanitizer for everything with threads: lockstep campaigns, whose cases run in parallel in model and RTL, and the C API, where
+each
+~chip may have its own thread.
 
 `serve`, `sweep` and `regress` have none: they wait for descriptors and start processes.
 """

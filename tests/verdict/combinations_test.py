@@ -101,7 +101,7 @@ def serve(situation, folder):
 
 
 def traces(situation, folder):
-    """A run that does not pass has no golden; against that of a run that passes it is found, too."""
+    """A run that does not pass has no golden; a comparison with the golden of a passing run finds it, too."""
     number = SITUATIONS[situation][2]
     (folder / "goldens").mkdir()
     done = call(SIM, "traces", "regenerate", "x.yaml", "--folder", "goldens", "--no-progress", cwd=folder)
@@ -140,7 +140,7 @@ def lockstep(situation, folder):
 
 
 def cosim(situation, folder):
-    """The example of docs/cosim.md, mended, built once for all."""
+    """The example of docs/cosim.md with its error corrected, built once for all."""
     example = ROOT / "examples" / "own_rtl"
     pins = folder / "pins.yaml"
     pins.write_text((example / "pins.yaml").read_text() + "parameters: {RESET_VALUE: 1, PULSE: 64}\n")

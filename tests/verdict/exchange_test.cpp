@@ -13,8 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A slave that reaches data exchange at 2 ms, `more`: of the scenario, `master_slave` and `user_cpu`: more of their
-/// keys.
+/// A slave that reaches data exchange at 2 ms; `more`: further parts of the scenario; `master_slave` and `user_cpu`:
+/// further keys.
 struct Given {
   std::string more = {}, master_slave = {}, user_cpu = {}, init = {};
   std::string end = "8ms";
@@ -104,7 +104,7 @@ TEST(ImpliedExchange, StaysExpectedBesideOtherExpectations) {
 
 // --- the script
 
-/// A master that stops cuts its telegram off.
+/// A master that stops cuts off its telegram.
 const std::string kCut = "allow:\n  - {event: BUS_CHARACTER_ERROR}\n  - {event: BUS_TELEGRAM_ERROR}\n";
 
 TEST(ImpliedExchange, IsNotJudgedToTheEndWhenTheScriptKeepsTheSlaveAway) {
@@ -159,7 +159,7 @@ TEST(ImpliedExchange, MustComeBackInTime) {
 }
 
 TEST(ImpliedExchange, OfOneSlaveMayEndWithAnotherOnlyByItsOwnFault) {
-  // The user loses the DPRAM for good, which no script has told it to.
+  // The user loses the DPRAM for good, without a script.
   expect_fails({"", "", "start_delay: 100ms"}, "never, OFFLINE at the end");
 }
 
