@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""~docs/licences.md compared with the contents of each program, the lists of packages, and REUSE.toml.
+"""docs/licences.md compared with the contents of each program, the lists of packages, and REUSE.toml.
 
     check_licences.py BUILD_FOLDER [--root FOLDER]
 

@@ -1,4 +1,4 @@
-"""~Builds programs with one fault beside a finished build: files that depend on the faulty file are compiled again; the other objects are those of
+"""Builds programs with one fault beside a finished build: files that depend on the faulty file are compiled again; the other objects are those of
 the build.
 
 Neither the sources nor the build are changed. The faulty file is in a separate folder, which the compiler searches first.

@@ -1,4 +1,4 @@
-"""The C API as bindings/python/generate.py has read it against what the C compiler makes of the headers: sizes, members, constants.
+"""The C API as read by bindings/python/generate.py, compared with the C compiler's view of the headers: sizes, members, constants.
 
     layout_test.py COMPILER
 """
@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def expectations():
-    """Expression of C to the value that Python has."""
+    """Maps an expression of C to Python's value."""
     for name, value in vars(_c).items():
         if isinstance(value, int) and name.startswith("DPSIM_"):
             yield f"(long long){name}", value if value < 2**63 else value - 2**64

@@ -1,4 +1,4 @@
-"""The module dsdpv1: each part once, and what is Python's own: exceptions, callbacks, threads, numpy."""
+"""The module dsdpv1: each part once, and Python's additions: exceptions, callbacks, threads, numpy."""
 import copy
 import dataclasses
 import functools
@@ -193,7 +193,7 @@ class ChipTest(unittest.TestCase):
 
     @staticmethod
     def begun(**options):
-        """A chip in the middle of an access of the user, and what brings it to the end."""
+        """A chip in the middle of an access of the user, and the function that completes the access."""
         chip = dsdpv1.Chip(**options)
         chip.set("RESET", 1, at=1 * US)
         chip.set("R_REQ", 1, at=150 * US)

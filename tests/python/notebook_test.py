@@ -1,7 +1,7 @@
-"""Executes the notebooks of examples/python and compares what they show with what is stored in them.
+"""Executes the notebooks of examples/python and compares their output with the stored output.
 
-    notebook_test.py            exit 1 when one fails or shows something else
-    notebook_test.py --update   stores what they show now
+    notebook_test.py            exit 1 when one fails or its output differs
+    notebook_test.py --update   stores the new output
 """
 import argparse
 import os
@@ -21,7 +21,7 @@ def shown(cell):
 
 
 def clean(notebook):
-    """Without what differs from run to run."""
+    """The notebook without the parts that differ from run to run."""
     for cell in notebook.cells:
         cell.metadata.clear()
         if cell.cell_type == "code":
@@ -34,7 +34,7 @@ def clean(notebook):
 
 
 def execute(path):
-    """The notebook with what it shows now; the exception of a cell that fails."""
+    """The notebook with its new output; the exception of a cell that fails."""
     notebook = nbformat.read(path, as_version=4)
     with tempfile.TemporaryDirectory() as folder:  # the kernel's files
         os.environ.update({"IPYTHONDIR": folder, "JUPYTER_RUNTIME_DIR": folder, "DSDPV1_ROOT": str(ROOT)})

@@ -1,7 +1,7 @@
-"""Makes the wheel and uses it where nothing else of the project is.
+"""Makes the wheel and uses it without the rest of the project.
 
-    wheel_test.py FOLDER [BUILD]    FOLDER keeps what is compiled; BUILD: a build whose library goes into the wheel, else one is compiled.
-The preset default compiles the same by the same commands, so that a compiler's cache has it.
+    wheel_test.py FOLDER [BUILD]    FOLDER keeps the compiled files; BUILD: a build whose library goes into the wheel, else one is compiled.
+The preset default compiles the same by the same commands, so the compiler's cache has it.
 """
 import os
 import pathlib
@@ -39,7 +39,7 @@ def wheel_of(folder, build):
 
 
 def names_are_right(wheel):
-    """One wheel for every Python 3; what it needs is in it, tests and sources are not."""
+    """One wheel for every Python 3; it contains its dependencies, but neither tests nor sources."""
     names = zipfile.ZipFile(wheel).namelist()
     wanted = ("dsdpv1/__init__.py", "dsdpv1/py.typed", "dsdpv1/lib/libdsdpv1.so.0", "cocotbext/profibus/__init__.py")
     missing = [name for name in wanted if name not in names]

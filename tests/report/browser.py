@@ -39,7 +39,7 @@ class Browser:
         return self.call("POST", "/goog/cdp/execute", {"cmd": command, "params": parameters})
 
     def resize(self, width, height):
-        """The inside of the window."""
+        """The inner size of the window."""
         self.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     def dark(self, wanted=True):
@@ -50,7 +50,7 @@ class Browser:
         self.call("POST", "/url", {"url": "file://" + str(path)})
 
     def run(self, script, *arguments):
-        """The value of a function's body in the page."""
+        """The result of a function's body in the page."""
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
     def find(self, selector):
@@ -65,7 +65,7 @@ class Browser:
         self.call("POST", "/actions", {"actions": [{"type": "wheel", "id": "wheel", "actions": [scroll]}]})
 
     def drag(self, selector, begin, end):
-        """From one point of an element to another, both seen from its middle."""
+        """Drags from one point of an element to another, both relative to its middle."""
         def move(x, y):
             return {"type": "pointerMove", "duration": 50, "x": x, "y": y, "origin": {ELEMENT: self.find(selector)}}
         actions = [move(*begin), {"type": "pointerDown", "button": 0}, move(*end), {"type": "pointerUp", "button": 0}]
@@ -76,7 +76,7 @@ class Browser:
         return [each["message"] for each in self.call("POST", "/se/log", {"type": "browser"})]
 
     def requests(self):
-        """The addresses that the page has asked for."""
+        """The addresses that the page has requested."""
         events = [json.loads(each["message"])["message"] for each in self.call("POST", "/se/log", {"type": "performance"})]
         return [each["params"]["request"]["url"] for each in events if each["method"] == "Network.requestWillBeSent"]
 

@@ -1,4 +1,4 @@
-// The timing diagrams of the DSDPV1: which edges they measure from and to (P5, P9, P11, table 15, figure 5).
+// The timing diagrams of the DSDPV1: the edges between which they measure (P5, P9, P11, table 15, figure 5).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ const tb::TimingDiagram& diagram(std::string_view id) {
   return *std::find_if(all.begin(), all.end(), [id](const tb::TimingDiagram& each) { return each.id == id; });
 }
 
-/// One diagram over pins that are moved by hand. Ticks of 1/12 ns, a cycle of CLK is 250.
+/// One diagram over pins that the test moves. Ticks of 1/12 ns; a cycle of CLK is 250.
 class Watched {
  public:
   explicit Watched(const char* id)
@@ -36,7 +36,7 @@ class Watched {
     watch_.finish();
     return watch_.instances();
   }
-  /// From and to of the span of the last instance that was kept.
+  /// The span of the last kept instance, from start to end.
   tb::html::MeasuredSpan span(std::string_view name) {
     watch_.finish();
     if (!watch_.worst()) return {};

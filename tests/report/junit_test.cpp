@@ -1,4 +1,4 @@
-// JUnit's XML: read back by an XML parser, and judged by a schema.
+// JUnit's XML: read back by an XML parser, and validated by a schema.
 #include "tb/report/junit.hpp"
 
 #include <gtest/gtest.h>

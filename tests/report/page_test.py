@@ -15,14 +15,14 @@ from browser import browser
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EVIL = "</script><b id=evil>\"&'</b><img src=x onerror=alert(1)><!-- <script>"
-# The checks whose limits stand in a timing diagram.
+# The checks whose limits appear in a timing diagram.
 DIAGRAMS = {"take": ["OWNERSHIP_SYNC_WINDOW", "OWNERSHIP_BOTH_OWN", "OWNERSHIP_NOT_OWNER"], "give_back": ["OWNERSHIP_RELEASED_IN_ACCESS"],
             "read": ["TIMING_TC", "TIMING_TW"], "write": ["TIMING_TS", "TIMING_TD", "TIMING_ADDRESS_HOLD", "TIMING_DATA_HOLD", "TIMING_CSR"]}
 TICKS = 12  # in a nanosecond
 NAMES = """return [...document.querySelectorAll(arguments[0])].map(each => each.getAttribute(arguments[1]))"""
 COLOURS = """return [...document.querySelectorAll(arguments[0])].map(each => getComputedStyle(each).color + getComputedStyle(each).fontWeight)"""
 TEXTS = """return [...document.querySelectorAll(arguments[0])].map(each => each.textContent)"""
-# Texts of charts that leave their drawing, or that lie on another text of the same one.
+# Texts of charts that leave their drawing or overlap another text of it.
 UNREADABLE = """
 const faults = [];
 for (const svg of document.querySelectorAll("svg")) {
@@ -41,7 +41,7 @@ for (const svg of document.querySelectorAll("svg")) {
 return faults;"""
 
 
-# The contrast of each text with its ground (WCAG 2): texts of charts have their fill, and the page behind them.
+# The contrast of each text with its background (WCAG 2): texts of charts have their fill, and the page behind them.
 CONTRASTS = """
 const light = colour => {
   const [r, g, b] = colour.match(/[\\d.]+/g).slice(0, 3).map(each => each / 255).map(each => each <= 0.04045 ? each / 12.92 : ((each + 0.055) / 1.055) ** 2.4);
@@ -76,7 +76,7 @@ def same(seen, expected, what):
 
 
 class Report:
-    """A run with all that says what it was."""
+    """A run with all its outputs."""
 
     def __init__(self, program, folder, scenario, *words, status=0):
         stem = pathlib.Path(folder) / pathlib.Path(scenario).stem
@@ -92,7 +92,7 @@ class Report:
 
 
 def opened(page, report):
-    """Opens it: no message, and nothing asked for but the page."""
+    """Opens the page: no message, and no request except the page itself."""
     page.open(report.page)
     same(page.messages(), [], "messages")
     same([urllib.parse.unquote(each) for each in page.requests()], ["file://" + str(report.page)], "requests")
@@ -143,7 +143,7 @@ def whole_words(page):
 
 
 def codes(page, report, base=""):
-    """A code is a link to its explanation on the page; what the page knows of the documents leads to headings and rows that they have."""
+    """A code is a link to its explanation on the page; links into the documents lead to existing headings and rows."""
     links = page.run(NAMES, "a.code, svg a", "href")
     check(links, "no links to codes")
     for link in set(links):
@@ -171,7 +171,7 @@ def shown_time(page):
 
 
 def first_window(page, report):
-    """The chart begins with the first exchange of data: its telegrams stand alone and are wide enough to be read."""
+    """The chart begins with the first exchange of data: its telegrams do not overlap and are wide enough to be read."""
     begin, end = shown_time(page)
     first = next(each for each in report.telegrams if "Data_Exchange" in each["text"])
     check(begin < first["at_ns"] < end, "the first exchange, at %s, is not shown first: %s to %s" % (first["at_ns"], begin, end))
@@ -181,7 +181,7 @@ def first_window(page, report):
 
 
 def telegrams(page, report):
-    """As many as the log has, all and in each part of time."""
+    """As many as in the log, all of them and in each interval."""
     first_window(page, report)
     page.click("section#telegrams .buttons button:last-child")
     same(sum(counts(page)), len(report.telegrams), "telegrams of the chart")
@@ -195,7 +195,7 @@ def telegrams(page, report):
         page.wheel("svg.telegrams .ground", -300)
     begin, end = shown_time(page)
     check(end - begin < (part[1] - part[0]) / 4, "the wheel does not zoom: %s" % [begin, end])
-    # The log has the time at which a telegram has ended.
+    # The log has the time at which a telegram ends.
     inside = [each for each in report.telegrams if begin + 1 < each["at_ns"] < end - 1]
     check(len(inside) <= sum(counts(page)) <= len(inside) + 2, "%d telegrams shown of %d" % (sum(counts(page)), len(inside)))
     check(inside and max(counts(page)) == 1, "telegrams do not stand alone when they are large: %s" % counts(page))
@@ -228,7 +228,7 @@ def margins(page, report):
 
 
 def diagrams(page, report):
-    """The instance shown is the one of which the checks tell."""
+    """The shown instance is the one that the checks name."""
     slave = report.result["slaves"][0]["name"]
     same(page.run(NAMES, "section > .diagram", "data-id"), [*DIAGRAMS, "intr0", "answer"], "diagrams")
     for ident, rules in DIAGRAMS.items():
@@ -254,7 +254,7 @@ def readable(page):
 
 
 def layout(page):
-    """What a table, a title or an axis must not do."""
+    """Rules for tables, titles and axes."""
     whole_words(page)
     section = page.run("return document.querySelector('#expectations').clientWidth")
     for selector in ("#expectations table", ".diagram table", "#codes table"):
@@ -265,7 +265,7 @@ def layout(page):
 
 
 def dark(program, folder, page):
-    """In light and dark each text stands out from what is behind it."""
+    """In light and dark mode each text has enough contrast with its background."""
     for scenario in ("scenarios/violations.yaml", "scenarios/rsu_spi.yaml"):
         report, grounds = Report(program, folder, scenario), []
         for wanted in (False, True):
@@ -280,7 +280,7 @@ def dark(program, folder, page):
 
 
 def violations(page, report):
-    """A picture each, in which is what the checks have kept of the pins."""
+    """One picture each, with the pin changes that the checks have kept."""
     listed = [(each, one) for each in report.result["checks"] for one in each["listed"]]
     check(listed, "the scenario has no violation any more")
     same(sorted(page.run(NAMES, "details.violation", "data-id")), sorted(each["id"] for each, _ in listed), "violations")
@@ -319,7 +319,7 @@ def usual(program, folder, page):
 
 
 def unmet(program, folder, page):
-    """What was not met stands first and is marked."""
+    """Unmet expectations come first and are marked."""
     report = Report(program, folder, own_scenario(folder, "expect:\n", "expect:\n  - {slave: demo, dp_state: data_exch, by: 1ms}\n"), status=1)
     opened(page, report)
     facts(page, report)
@@ -327,7 +327,7 @@ def unmet(program, folder, page):
 
 
 def documented(program, folder, page):
-    """A program that knows where the documents are published links to their headings and rows."""
+    """A program that knows the published address of the documents links to their headings and rows."""
     report = Report(program, folder, "scenarios/violations.yaml")
     text = report.page.read_text(encoding="UTF-8")
     check('"documents":"",' in text, "the build's own address of the documents is not empty")
@@ -337,7 +337,7 @@ def documented(program, folder, page):
 
 
 def own_scenario(folder, before, after, name="own.yaml"):
-    """power_on_12m with another text in it."""
+    """power_on_12m with another text."""
     text = (ROOT / "scenarios/power_on_12m.yaml").read_text(encoding="UTF-8")
     check(text.count(before) == 1, "power_on_12m has no longer one %s" % before)
     (pathlib.Path(folder) / name).write_text(text.replace(before, after), encoding="UTF-8")
@@ -374,7 +374,7 @@ def acyclic(program, folder, page):
 
 
 def tlm(program, folder, page):
-    """Also where there are few pins to see."""
+    """Also with few visible pins."""
     report = Report(program, folder, "scenarios/two_slaves.yaml", "--view", "tlm")
     opened(page, report)
     facts(page, report)
@@ -383,7 +383,7 @@ def tlm(program, folder, page):
 
 
 def evil(program, folder, page):
-    """Names of others stay texts."""
+    """Names that look like markup remain text."""
     scenario = own_scenario(folder, "name: Power-on to data exchange at 12 Mbit/s, judged by the user", "name: " + json.dumps(EVIL), "<b>&'.yaml")
     report = Report(program, folder, scenario)
     opened(page, report)
@@ -394,7 +394,7 @@ def evil(program, folder, page):
 
 
 def limited(program, folder, page):
-    """A page that has not all telegrams says so."""
+    """A page without all telegrams says so."""
     report = Report(program, folder, "scenarios/two_slaves.yaml")
     text = report.page.read_text(encoding="UTF-8")
     count = '"telegrams":{"count":%d,' % len(report.telegrams)

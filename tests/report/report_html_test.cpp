@@ -1,4 +1,4 @@
-// The parts of a report that gather what the page shows.
+// The parts of a report that collect the page's contents.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The page about results is the one that the program prints.
+// The page about results equals the program's output.
 #include "tb/report/result_fields.hpp"
 
 #include <gtest/gtest.h>

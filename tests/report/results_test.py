@@ -1,5 +1,5 @@
-"""The schemas of results: each kind of run, and of random stimulus, has a result that is right by it, and it finds each member that is
-missing, unknown or of another type.
+"""The schemas of results: each kind of run, and of random stimulus, has a valid result, and the schema detects each missing or unknown
+member and each wrong type.
 
     results_test.py DSDPV1_SIM [rtl]
 """
@@ -58,7 +58,7 @@ def results(program, folder, with_rtl):
 
 
 def results_of_rtl_random(program, folder):
-    """Model and RTL are the same; a case that differs; it again."""
+    """Model and RTL are the same; a case that differs; its replay."""
     files = ["--difference", os.path.join(folder, "d.vcd")]
     case = os.path.join(folder, "case.stimulus")
     for what, words, status in (("same", ["--cycles", "20000"], 0), ("case", ["--fault", FAULT, "--stimulus", case, *files], 1),
@@ -71,7 +71,7 @@ def results_of_rtl_random(program, folder):
 
 
 def places(value, path=()):
-    """The paths of all objects in a result, one of each list."""
+    """The paths of all objects in a result, one for each list."""
     if isinstance(value, dict) and path[-1:] not in [(name,) for name in ANY_NAMES]:
         yield path
         for name, each in value.items():
@@ -87,7 +87,7 @@ def at(value, path):
 
 
 def shortened(value):
-    """With one item of each list."""
+    """The value with one item of each list."""
     if isinstance(value, list):
         return [shortened(each) for each in value[:1]]
     return {name: shortened(each) for name, each in value.items()} if isinstance(value, dict) else value

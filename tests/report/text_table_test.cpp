@@ -1,4 +1,4 @@
-// Tables as wide as they need, and as wide as a terminal.
+// Tables as wide as their contents, and as wide as a terminal.
 #include "tb/report/text_table.hpp"
 
 #include <gmock/gmock.h>

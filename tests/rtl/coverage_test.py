@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The report of the RTL's coverage on made-up data: what it counts, what it wants explained, what it refuses."""
+"""The report of the RTL's coverage on made-up data: its counts, required explanations, refusals."""
 import pathlib
 import subprocess
 import sys

@@ -22,7 +22,7 @@ def parameters(rsu):
 
 
 def ports_of_pins(rsu):
-    """(direction, highest bit, name), as table 1 and R2 have them; D and what can be released have a side for each direction."""
+    """(direction, highest bit, name), as in table 1 and R2; D and releasable pins have a side for each direction."""
     for kind, _, width, direction, level, name in PIN.findall(read("model/dsdpv1/pins.inc")):
         if kind != "RSU_PIN" or rsu:
             yield direction.lower() + "put", "" if width == "1" else str(int(width) - 1), name + ("_i" if direction == "In" else "_o")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""./run test ends with its longest tests, the names of those that did not pass and what they said, as made-up reports have it."""
+"""./run test ends with its longest tests, the names of the failed ones and their output; with made-up reports."""
 import subprocess
 import sys
 import tempfile
@@ -19,7 +19,7 @@ def case(name, result=FAILED, said=""):
 
 
 def told(script="failures", **reports):
-    """A script's output about these presets."""
+    """A script's output for these presets."""
     with tempfile.TemporaryDirectory(prefix="dsdpv1_failures_") as name:
         folders = [Path(name, preset) for preset in (*reports, "without_a_report")]
         for folder in folders:

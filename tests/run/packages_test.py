@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The groups of packages.txt against what is used: what dsdpv1-sim is compiled and linked from, and what a configuration without tests finds, is in the groups of
-`./run demo`; what one with tests finds is in those of `./run test` and `./run nightly`. Files are given to packages by dpkg.
+"""The groups of packages.txt compared with their use: the files from which dsdpv1-sim is compiled and linked, and those found by a configuration
+without tests, are in the groups of `./run demo`; those found with tests are in those of `./run test` and `./run nightly`. dpkg assigns files to
+packages.
 
     packages_test.py ROOT PACKAGES DSDPV1_SIM FOLDER      FOLDER: for a configuration without tests
 """
@@ -34,7 +35,7 @@ def names_of_groups():
 
 
 class Installed:
-    """The packages of this machine: what brings what."""
+    """The packages of this machine and their dependencies."""
 
     def __init__(self):
         self._needs, self._providers, self.base = {}, {}, set()
@@ -60,7 +61,7 @@ class Installed:
 
 
 def owners(files):
-    """File to the packages that have it; what no package has is not Debian's."""
+    """Maps each file to the packages that contain it; a file without one is not Debian's."""
     wanted = {}
     for file in files:
         real = os.path.realpath(file)
@@ -75,13 +76,13 @@ def owners(files):
 
 
 def cached(build):
-    """The files that CMake has searched and found: file to the name of its variable."""
+    """The files that CMake has searched and found: maps each file to the name of its variable."""
     entries = re.findall(r"^([^#/\n][^:\n]*):(?:FILEPATH|PATH|INTERNAL)=(/usr/.+)$", (build / "CMakeCache.txt").read_text(encoding="utf-8"), re.M)
     return {file: name for name, file in entries if name not in UNASKED and os.path.exists(file)}
 
 
 def strangers(files, known):
-    """A line for each package that none of the files' groups bring; `files`: to what they are there for."""
+    """A line for each package that none of the groups of its files installs; `files`: maps each file to its purpose."""
     found = {", ".join(sorted(each)): files[file] for file, each in sorted(owners(files).items()) if not each & known}
     return [f"{package}, for {what}" for package, what in found.items()]
 

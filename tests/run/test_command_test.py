@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""./run test with a made-up CMake and ctest: its end, by Ctrl-C or by a kill, also ends the build of the preset debug, which runs beside the tests;
-with
-tests that pass it succeeds, and with one that fails it does not.
+"""./run test with a made-up CMake and ctest: its end, by Ctrl-C or by a kill, also ends the build of the preset debug, which runs beside the
+tests. It succeeds if all tests pass, and fails if one fails.
 
     test_command_test.py ROOT
 """
@@ -24,7 +23,7 @@ echo $$ >"{folder}/$what.new" && mv "{folder}/$what.new" "{folder}/$what"
 exec sleep 300
 """
 
-# Leaves the report that it is asked for.
+# Writes the requested report.
 ENDING = """#!/bin/sh
 for last; do :; done
 case "$last" in
@@ -34,7 +33,7 @@ esac
 
 
 def project(root, folder, tools):
-    """A folder in which ./run has nothing to install and nothing to configure, and what comes after the tests says nothing."""
+    """A folder in which ./run has nothing to install or configure, and the steps after the tests print nothing."""
     for name in ("run", "packages.txt", "requirements.lock", "requirements-test.lock"):
         shutil.copy(root / name, folder / name)
     (folder / ".venv/bin").mkdir(parents=True)
@@ -75,7 +74,7 @@ def goes_on(process):
 
 
 def ends_with(root, end):
-    """`end` is called with the process."""
+    """Calls `end` with the process."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         project(root, folder, WAITING.format(folder=folder))
@@ -96,7 +95,7 @@ def ends_with(root, end):
 
 
 def tests_that_end(root, failures):
-    """The output of ./run test and its exit code, with so many failing tests of each preset."""
+    """The output of ./run test and its exit code, with these numbers of failing tests per preset."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         project(root, folder, ENDING.format(failures=failures))

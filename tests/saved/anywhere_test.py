@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A run is saved at edges of its pins: the file is the same whatever else is written, a trace or a wave, for which the bench makes edges of what it
-else carries as a whole. Else the run could not be restored without them.
+"""A run is saved at edges of its pins: the file is the same with and without a trace or a wave. For these the bench produces the edges of
+characters that it otherwise passes as a whole; if the file depended on them, a run could not be restored without them.
 
 usage: anywhere_test.py DSDPV1_SIM [--seed N]"""
 import argparse
@@ -12,7 +12,7 @@ import tempfile
 import runs
 
 PS_PER_TICK = 1000 / runs.TICKS_PER_NS
-EDGES = 12  # of each pin, and of the line
+EDGES = 12  # for each pin, and for the line
 CASES = (("bus_timing",), ("bus_timing", "--view", "tlm"), ("two_slaves", "--checks", "off"), ("rsu_spi_limits",), ("rsu_uart_460k8",))
 
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""A run that is saved at any tick and restored in another process, and folder, is the unbroken one from there on: log, wave, trace and capture
-from that tick, the result as a whole. And a run that is saved is the one that is not.
+"""A run that is saved at any tick and restored in another process and folder equals the unbroken one from there on: log, wave, trace and capture
+from that tick, the whole result. And saving does not change a run.
 
 usage: continued_test.py DSDPV1_SIM [--firmware ELF] [--ticks N] [--seed N] [--record]
 
 Without --ticks a few scenarios, in each engine and view of the model; with it all of them, at N random ticks
-in sum or a few more, so that each has the same number; --record makes that a row of docs/trust.md."""
+in total or a few more, so that each has the same number; --record makes that a row of docs/trust.md."""
 import argparse
 import filecmp
 import os
@@ -42,7 +42,7 @@ def has_board(scenario):
 
 
 def random_time(chance, end):
-    """A tick and how it is written: any of 1/12 ns, or an edge of a cycle."""
+    """A tick and its notation: any tick of 1/12 ns, or an edge of a cycle."""
     tick = chance.randrange(end)
     if chance.random() < 0.5:
         cycle = tick // TICKS_PER_CYCLE
@@ -51,7 +51,7 @@ def random_time(chance, end):
 
 
 class Scenario:
-    """Its unbroken run, saved at some ticks, beside one that is not saved."""
+    """The unbroken run, saved at some ticks, and one that is not saved."""
 
     def __init__(self, program, name, options, folder, times):
         self.program, self.name, self.folder, self.times = program, name, folder, times
@@ -118,7 +118,7 @@ def check(program, name, options, count, seed):
 
 
 def campaign(program, names, ticks, seed):
-    """Failures in all scenarios, at so many ticks each."""
+    """Failures in all scenarios, with `ticks` ticks each."""
     failures = []
     for name in names:
         failures += check(program, name, (), ticks, seed)

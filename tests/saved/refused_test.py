@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Refusals of --save-at and --restore: one line, exit 2, and no file. And what a saved run does not need any more.
+"""Refusals of --save-at and --restore: one line, exit 2, and no file. And the files that a saved run no longer needs.
 
 usage: refused_test.py DSDPV1_SIM [--firmware ELF]"""
 import argparse
@@ -59,7 +59,7 @@ class Refusals:
         path.write_bytes(before)
 
     def another_run(self):
-        """The file is whole, but what it says is not what the program does."""
+        """The file is intact, but its contents do not match the program's run."""
         digest = self.saved.index(b"digest")
         object_at = self.saved.index(b"\n") + 1
         content = bytearray(self.saved[object_at:])
@@ -82,7 +82,7 @@ class Refusals:
                 self.failures.append(f"{name} is there, though it could not be written")
 
     def what_is_not_needed(self):
-        """The scenario and its files are in the saved run; a second generation is as good as the first."""
+        """The saved run contains the scenario and its files; a run saved from a restored one is equivalent."""
         for name in ("s.yaml", "a.gsd"):
             (self.folder / name).unlink()
         self.run("--restore", "a.run", "--save-at", "2ms", "e.run", status=0)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""gdb goes back on the ARM board: reverse-stepi, reverse-continue to the last breakpoint and watchpoint before now, to the beginning; what was
-changed after the place is undone, and a run that went back and forth has the log of one that did not. A session with changes is saved and restored without gdb.
+"""gdb runs backwards on the ARM board: reverse-stepi, reverse-continue to the previous breakpoint and watchpoint, to the beginning; later changes
+are undone, and a run that went back and forth has the log of one that did not. A session with changes is saved and restored without gdb.
 
 usage: reverse_test.py DSDPV1_SIM --firmware ELF"""
 import argparse
@@ -16,7 +16,7 @@ PATIENCE_S = 300
 
 
 class Session:
-    """A run under gdb, with the commands given."""
+    """A run under gdb with these commands."""
 
     def __init__(self, program, firmware, folder, run_words, commands):
         run = subprocess.Popen([program, "run", *map(str, run_words), "--gdb", "0", "--no-progress"], cwd=folder, text=True, stdout=subprocess.PIPE,
@@ -33,7 +33,7 @@ class Session:
 
 
 def places(program, firmware, folder):
-    """Registers and time at places that are come to forwards, and once more backwards."""
+    """Registers and time at places reached forwards, and again backwards."""
     look = ["print/x $pc", "print/x $sp", "print/x $r0", "monitor time"]
     commands = ["break dsdpv1_initialise", "continue", *look, "stepi", *look, "stepi", *look, "reverse-stepi", *look, "reverse-stepi", *look, "stepi", *look, "kill"]
     session = Session(program, firmware, folder, [SCENARIO], commands)
@@ -57,7 +57,7 @@ def stops(program, firmware, folder):
 
 
 def watches(program, firmware, folder):
-    """Back to the instruction that wrote: it is still to be executed, and what it writes is not there yet."""
+    """Back to the instruction that wrote: it has not been executed yet, and its value is not in memory yet."""
     commands = ["break dsdpv1_service", "continue", "continue", "delete", "watch *(unsigned*)($sp-4)", "continue", "print/x $pc", "monitor time",
                 "reverse-continue", "stepi", "monitor time", "kill"]
     session = Session(program, firmware, folder, [SCENARIO], commands)
@@ -80,7 +80,7 @@ def undone(program, firmware, folder):
 
 
 def saved(program, firmware, folder):
-    """gdb writes the station's address, so that the run is another one; restored, it is written without gdb."""
+    """gdb writes the station's address, which changes the run; when restored, the address is written without gdb."""
     commands = ["break dsdpv1_initialise", "continue", "set var config->address = 7", "delete", "detach"]
     words = [SCENARIO, "--log", folder / "whole.log", "--save-at", "4ms", folder / "session.run"]
     session = Session(program, firmware, folder, words, commands)

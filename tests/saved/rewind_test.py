@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""run --rewind-on: its wave is that of an unbroken run with the same window, early in a run and after many snapshots; exit codes, outputs and
-processes are what they are without.
+"""run --rewind-on: its wave equals that of an unbroken run with the same window, early in a run and after many snapshots; exit codes, outputs and
+processes are the same as without.
 
 usage: rewind_test.py DSDPV1_SIM [--firmware ELF]"""
 import argparse
@@ -14,7 +14,7 @@ import time
 
 import runs
 
-# A collision late in a run of some seconds of real time: there are snapshots by then.
+# A collision after some seconds of real time: snapshots exist by then.
 LATE = """name: A late collision
 baud: 12M
 end: 500ms
@@ -28,7 +28,7 @@ script:
 
 
 def processes(group):
-    """Those of a group that are there."""
+    """The existing processes of a group."""
     listed = subprocess.run(["ps", "-eo", "pgid=,stat=,pid="], capture_output=True, text=True, check=True).stdout
     return [line for line in listed.splitlines() if line.split()[0] == str(group) and "Z" not in line.split()[1]]
 
@@ -78,7 +78,7 @@ class Rewinds:
                 self.fail(f"{arguments}: exit {done.returncode}, {done.stderr}")
 
     def killed(self, late, with_signal, status):
-        """No copy of the process outlives it, however it ends."""
+        """No copy of the process outlives it, whatever its end."""
         run = subprocess.Popen([self.program, "run", late, "--no-progress", "--quiet", "--wave", self.folder / "k.vcd", "--rewind-on", "BUS_COLLISION", "100us"],
                                cwd=self.folder, start_new_session=True)
         while len(processes(run.pid)) < 2 and run.poll() is None:

@@ -1,4 +1,4 @@
-"""Runs of dsdpv1-sim and what they leave, for the tests of this folder."""
+"""Runs of dsdpv1-sim and their outputs, for the tests of this folder."""
 import json
 import pathlib
 import subprocess
@@ -8,13 +8,13 @@ TICKS_PER_NS = 12
 
 
 def call(program, *arguments, folder=PROJECT, limit=None):
-    """The finished run; `limit`: bytes that a file may have."""
+    """The finished run; `limit`: maximum size of a file in bytes."""
     shell = [] if limit is None else ["bash", "-c", f'ulimit -f {limit // 1024}; exec "$@"', "bash"]
     return subprocess.run([*shell, program, "run", *map(str, arguments), "--no-progress", "--quiet"], cwd=folder, capture_output=True, text=True, check=False)
 
 
 def time_of(tick):
-    """As a command line has it."""
+    """In the notation of a command line."""
     return f"{tick / TICKS_PER_NS:.4f}ns"
 
 
@@ -28,7 +28,7 @@ def log_from(path, tick):
 
 
 def result(path):
-    """Without what the wall clock says."""
+    """The values without those of the wall clock."""
     values = json.loads(path.read_text(encoding="utf-8"))
     for key in ("wall_s", "real_time_factor"):
         values.pop(key)

@@ -1,7 +1,7 @@
 """Scheduling delay of a process: a thread sleeps 1 ms at a time, a loop reads the clock all the time, and the greatest overshoot is kept.
 
 A thread that waits for Python's lock is also late, so its overshoot includes a loop that holds the lock. But a loop that polls a port releases
-~the lock each time. The scheduler may then suspend the loop for a second while the thread runs without delay.
+the lock each time. The scheduler may then suspend the loop for a second while the thread runs without delay.
 """
 import os
 import threading

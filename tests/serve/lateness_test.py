@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""~The condition for repeating cases with pyprofibus: a late process is detected, and no other failure is forgiven.
+"""The condition for repeating cases with pyprofibus: a late process is detected, and no other failure is forgiven.
 
     lateness_test.py DSDPV1_SIM CASE      CASE: one of the functions below
 """

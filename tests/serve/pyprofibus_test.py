@@ -4,8 +4,8 @@
     pyprofibus_test.py DSDPV1_SIM CASE      CASE: one of the functions below, or `list`
 
 Exit code 77 (skipped) when pyprofibus is not in .venv: ./run test installs it. A case is repeated only in two situations: the machine was too
-~busy for real time, as measured by serve and the master (the repetition has a slower clock for pyprofibus), or the line shows that pyprofibus has
-~taken an answer for another slave's.
+busy for real time, as measured by serve and the master (the repetition has a slower clock for pyprofibus), or the line shows that pyprofibus has
+taken an answer for another slave's.
 """
 import os
 import re

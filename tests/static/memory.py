@@ -1,7 +1,7 @@
-"""~Valgrind's memcheck over one run of each kind: reads of uninitialised memory, accesses outside of allocated memory, and leaks.
+"""Valgrind's memcheck over one run of each kind: reads of uninitialised memory, accesses outside of allocated memory, and leaks.
 
 The view tlm is excluded: valgrind cannot follow the stack switches of SystemC's threads, and takes stack contents for uninitialised. The preset
-~debug checks that view with AddressSanitizer. The cases depend on their order: later ones read files of earlier ones, all in one folder.
+debug checks that view with AddressSanitizer. The cases depend on their order: later ones read files of earlier ones, all in one folder.
 """
 import dataclasses
 import pathlib

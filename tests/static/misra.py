@@ -1,4 +1,4 @@
-"""~The C driver under the required and mandatory rules of MISRA C:2012 that cppcheck's addon knows: misra_deviations.txt explains each report.
+"""The C driver under the required and mandatory rules of MISRA C:2012 that cppcheck's addon knows: misra_deviations.txt explains each report.
 
 The numbers of the rules and their categories are facts of the standard; its texts may not be copied, so none is here.
 """

@@ -1,6 +1,5 @@
-"""~Clang's ThreadSanitizer for everything with threads: lockstep campaigns, whose cases run in parallel in model and RTL, and the C API, where
-each
-~chip may have its own thread.
+"""Clang's ThreadSanitizer for everything with threads: lockstep campaigns, whose cases run in parallel in model and RTL, and the C API, where
+each chip may have its own thread.
 
 `serve`, `sweep` and `regress` have none: they wait for descriptors and start processes.
 """

@@ -56,7 +56,7 @@ class Sweep:
                                 stderr=subprocess.PIPE)
 
     def tasks(self):
-        """Process and number of the tasks that run. A run of theirs has their command line, too, from its fork to its exec; it would be tried again."""
+        """Process and number of the running tasks. Between fork and exec, a task's run has the same command line; it would be tried again."""
         found, parents = {}, {}
         for process in self.cluster.processes():
             try:
@@ -70,7 +70,7 @@ class Sweep:
         return [(process, task) for process, task in found.items() if parents[process] not in found]
 
     def kill_one(self):
-        """Kills a task that runs; its number, or None when none could be caught before it had finished."""
+        """Kills a running task; returns its number, or None when none could be caught before it had finished."""
         for process, task in self.tasks():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(process, signal.SIGSTOP)
@@ -99,7 +99,7 @@ def lose_tasks_and_owner(sweep):
 
 
 def go_on(sweep, lost):
-    """In one more array, or in two, when Slurm knows later of one task that it is gone."""
+    """In one more array, or in two if Slurm learns later that one task is gone."""
     owner = sweep.start()
     again = set()
 
@@ -117,7 +117,7 @@ def go_on(sweep, lost):
 
 
 def regress(sweep):
-    """Runs of a regression go the same way."""
+    """Runs of a regression behave the same."""
     words = ["regress", "s.yaml", "--set", "user_cpu.fsmc.datast=2..5", "--no-progress", "--out"]
     verdicts = []
     for more in (["regress_here"], ["regress_out", "--slurm"]):

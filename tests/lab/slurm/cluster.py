@@ -8,8 +8,8 @@ import sys
 import time
 
 REAPER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "reaper.py")
-DEADLINE = 300  # s, for what takes one
-CPUS = 40      # more than there are: most of a small task is waiting for Slurm
+DEADLINE = 300  # s, for one step
+CPUS = 40      # more than this computer has: a small task mostly waits for Slurm
 
 CONF = """ClusterName=test
 SlurmctldHost={host}(127.0.0.1)
@@ -41,7 +41,7 @@ PartitionName=test Nodes=ALL Default=YES State=UP
 
 
 def program(name):
-    """Daemons are in folders that a user's PATH may leave out."""
+    """Daemons are in folders that a user's PATH may omit."""
     for folder in (*os.environ["PATH"].split(":"), "/usr/sbin", "/sbin"):
         if os.access(os.path.join(folder, name), os.X_OK):
             return os.path.join(folder, name)
@@ -105,7 +105,7 @@ class Cluster:
                                                  stderr=out))
 
     def wait_for(self, condition):
-        """A daemon that has ended will not make it true."""
+        """Waits; gives up as soon as a daemon has ended."""
         try:
             wait_for(lambda: condition() or any(daemon.poll() is not None for daemon in self.daemons), "a daemon")
         except TimeoutError as error:
@@ -126,7 +126,7 @@ class Cluster:
         return text
 
     def processes(self):
-        """Tasks, and what Slurm starts for them: known by the cluster's configuration in their environment."""
+        """Tasks and their processes: recognised by the cluster's configuration in their environment."""
         mark = b"SLURM_CONF=" + self.environment["SLURM_CONF"].encode() + b"\0"
         for number in filter(str.isdigit, os.listdir("/proc")):
             try:

@@ -1,4 +1,4 @@
-"""Runs a daemon and collects what it has started and left to itself. Slurm considers a process running until its exit code is collected, which the
+"""Runs a daemon and collects its orphaned processes. Slurm considers a process running until its exit code is collected, which the
 first process of a container may not do.
 
     reaper.py COMMAND...

@@ -16,7 +16,7 @@ using app_test::call;
 using app_test::Called;
 using testing::HasSubstr;
 
-// Up to the initialisation, which already reads and writes everything that the bus timing may spoil.
+// Up to the initialisation, which already performs all accesses that a wrong bus timing can spoil.
 const char* const kScenario =
     "name: small\nbaud: 12M\nend: 600us\n"
     "slaves: [{name: demo, address: 5, init: {ident: 1, max_inputs: 1, max_outputs: 1, cfg: \"30\"}}]\n"
@@ -56,7 +56,7 @@ TEST_F(SweepCommand, SameCommandAgainRunsNothingAndGivesTheSameFiles) {
   EXPECT_EQ(file("out/results.csv"), before);
 }
 
-// The child may be met before or after it has its own handler: it ends with 130 in either case.
+// The child may receive the signal before or after it installs its handler: it ends with 130 in either case.
 TEST_F(SweepCommand, AChildThatIsInterruptedAloneGetsAnotherTry) {
   std::string longer = kScenario;
   longer.replace(longer.find("600us"), 5, "200ms");
@@ -80,7 +80,8 @@ TEST_F(SweepCommand, GoesOnWithTheMissingPoints) {
 }
 
 TEST_F(SweepCommand, InterruptedItKeepsFinishedPointsOnlyAndExits130) {
-  // The first point is short, the others would take hours; the signal comes when the bar has grown for the first.
+  // The first point is short, the others would take hours; the signal comes when the bar shows that the first is
+  // finished.
   write("interrupt.sh",
         "mkfifo bar\n"
         "'" DSDPV1_SIM

@@ -1,5 +1,5 @@
-// Sweeps with several runs at a time that are killed or not alone, and one that ignores a signal. Their final result
-// equals that of an undisturbed sweep. tests/faults does the other faults.
+// Sweeps with several runs at a time: one is killed, two share a folder, one ignores a signal. Their final result
+// equals that of an undisturbed sweep. tests/faults covers the other faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -24,11 +24,11 @@ const char* const kScenario =
     "          init: {ident: 1, max_inputs: 1, max_outputs: 1, cfg: \"30\"}}]\n"
     "expect: [{slave: demo, event: INITIALISED}]\n";
 
-// A first point that is short and one that takes hours: what is done after the first is done while the sweep runs.
+// The first point is short, the second takes hours: actions after the first happen while the sweep runs.
 const char* const kLong = "--param end=600us,3000s --jobs 1 --out out";
 const char* const kShort = "--param user_cpu.cycle=50us,60us,70us --param end=600us,20ms --out out";
 
-// start ARGUMENTS: a separate sweep, which has then finished its first point. child: waits until a run is there.
+// start ARGUMENTS: a separate sweep that has finished its first point. child: waits until a run exists.
 // finish: waits for the sweep's end.
 const char* const kWords =
     "start() {\n"
@@ -51,7 +51,7 @@ class SweepFault : public testing::Test {
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.file(name)) << text; }
   Called sweep(const std::string& arguments) const { return call("sweep s.yaml " + arguments, folder_.path()); }
   std::string file(const std::string& name) const { return app_test::read(folder_.file(name)); }
-  /// Runs a script of bash with the words above in the folder; its exit code.
+  /// Runs a bash script with the words above in the folder; returns its exit code.
   int bash(const std::string& script) const {
     write("script.sh", "SIM='" DSDPV1_SIM "'\n" + (kWords + script));
     const int status = std::system(("cd '" + folder_.path().string() + "' && bash script.sh").c_str());
@@ -78,7 +78,7 @@ class SweepFault : public testing::Test {
   app_test::Folder folder_;
 };
 
-// nohup: what the sweep ignores, its runs do, too. SIGHUP is the first bit.
+// nohup: the runs ignore the signals that the sweep ignores. SIGHUP is the first bit.
 TEST_F(SweepFault, RunsIgnoreAHangUpThatTheSweepIgnores) {
   EXPECT_EQ(bash(std::string("trap '' HUP; start ") + kLong +
                  "\nchild; until tr '\\0' ' ' <\"/proc/$child/cmdline\" | grep -q '^dsdpv1-sim run '; do\n"

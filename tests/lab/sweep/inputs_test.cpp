@@ -78,7 +78,7 @@ TEST_F(SweepInputs, ContentThatCameBackShowsInTheTimes) {
   EXPECT_NE(inputs.look(0), before);
 }
 
-// A scenario takes "link/../a.gsd" for "a.gsd", whatever "link" is; the system would follow it.
+// A scenario treats "link/../a.gsd" as "a.gsd", whatever "link" is; the system would follow the link.
 TEST_F(SweepInputs, PathIsTheOneThatARunOpens) {
   fs::create_directories(base_ / "d/e");
   write("d/a.gsd", "other");

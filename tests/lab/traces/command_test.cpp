@@ -65,7 +65,7 @@ class TracesCommand : public testing::Test {
     write(trace(), tb::traces::compress(content));
   }
   std::string trace_content() const { return tb::traces::decompress(read(trace()), tb::traces::kMostBytes).content; }
-  /// The golden as one whose INTR0 falls a cycle later the first time: its second entry moves by 250 ticks.
+  /// Changes the golden to one whose first fall of INTR0 is a cycle later: its second entry moves by 250 ticks.
   void shift_interrupt() const;
 
   app_test::Folder folder_;

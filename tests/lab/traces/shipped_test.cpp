@@ -1,4 +1,4 @@
-// The goldens that ship: one for each scenario, small, and each as its manifest says.
+// The shipped goldens: one for each scenario, small, and as described in its manifest.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kFolder = DSDPV1_SOURCE_DIR "/traces";
-constexpr std::uintmax_t kMostBytes = 1U << 20U;  // it lives in git, where every regeneration is a new copy
+constexpr std::uintmax_t kMostBytes = 1U << 20U;  // git keeps a new copy at every regeneration
 
 TEST(ShippedGoldens, AreThoseOfTheScenarios) {
   EXPECT_EQ(tb::traces::golden_names(kFolder), app_test::shipped_scenarios());

@@ -1,4 +1,4 @@
-// The format of a trace: what is written is read again, what is none is refused.
+// The format of a trace: a written trace can be read again, other files are refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ TEST_F(Traces, ThatAreCutOrForeignAreRefusedInOneLine) {
   }
 }
 
-/// Wrong bytes in the columns do not lead out of them.
+/// With wrong bytes in a column, a reader stops at its end.
 TEST_F(Traces, WithAnyByteDamagedAreReadToTheirEnd) {
   const std::string content = traces_test::trace_of(scenario_, changes_)->content();
   for (std::size_t i = content.find("data\n") + 5; i < content.size(); ++i) {
