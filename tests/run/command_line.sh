@@ -1,13 +1,8 @@
 #!/usr/bin/env bash
 # The command line of ./run: help, and one line with exit 2 for what it does not know.
-set -euo pipefail
+# shellcheck source=head.sh
+. "$(dirname "$0")/head.sh"
 run=$1
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # refuses WORDS ARGUMENTS...: exit 2, nothing on stdout, one line on stderr with these words.
 refuses() {
@@ -64,5 +59,4 @@ refuses "0 is no number of seconds" fuzz --seconds 0
 refuses "--reproduce needs one target" fuzz --reproduce "$run"
 refuses "--seconds and --runs, allowed is one of them" fuzz --seconds 1 --runs 1
 
-echo "$failures failures"
-[ "$failures" -eq 0 ]
+finish

@@ -1,16 +1,9 @@
 #!/usr/bin/env bash
 # What ./run installs for each command, and what it says: a clone on a bare system, whose apt-get only writes down what it is asked for.
-set -euo pipefail
+# shellcheck source=head.sh
+. "$(dirname "$0")/head.sh"
 run=$1
 packages=$2
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # Nothing is installed but what $folder/there names; the user is $folder/user, and there is no sudo.
 mkdir "$folder/tools"
@@ -123,5 +116,4 @@ calls demo
 expects 1 "run: 19 packages are missing, and there is no sudo; as root: apt-get install --no-install-recommends build-essential cmake" "without sudo"
 [ -z "$asked" ] && [ "$(wc -l <<<"$told")" -eq 1 ] || fail "without sudo: $asked, $told"
 
-echo "$failures failures"
-[ "$failures" -eq 0 ]
+finish

@@ -1,16 +1,9 @@
 #!/usr/bin/env bash
 # What ./run sim builds before it calls the program: a clone with a cmake that only writes down what it is asked for.
-set -euo pipefail
+# shellcheck source=head.sh
+. "$(dirname "$0")/head.sh"
 run=$1
 source=$2
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 mkdir -p "$folder"/{tools,build/default/apps,scenarios}
 cp "$run" "$folder/run"
@@ -21,6 +14,8 @@ printf '#!/bin/sh\necho "$@"\n' >"$folder/build/default/apps/dsdpv1-sim"
 cat >"$folder/tools/cmake" <<STUB
 #!/bin/sh
 echo "\$@" >>"$folder/asked"
+echo "cmake says much"
+[ ! -e "$folder/broken" ] || exit 1
 case "\$*" in --preset*) [ ! -e "$folder/compiler" ] || echo 'build dsdpv1_firmware: phony' >"$folder/build/default/build.ninja" ;; esac
 STUB
 chmod +x "$folder/tools/cmake" "$folder/build/default/apps/dsdpv1-sim"
@@ -32,7 +27,7 @@ builds() {
   : >"$folder/asked"
   told=$(cd "$folder" && PATH=$folder/tools:$PATH ./run sim "$@") || fail "sim $*: exit $?"
   [ "$told" = "$*" ] || fail "sim $*: the program was told $told"
-  grep -q -- "--target dsdpv1-sim$targets --" "$folder/asked" || fail "sim $*: not$targets but: $(cat "$folder/asked")"
+  grep -q -- "--target dsdpv1-sim$targets\$" "$folder/asked" || fail "sim $*: not$targets but: $(cat "$folder/asked")"
 }
 
 echo 'build all: phony' >"$folder/build/default/build.ninja"
@@ -95,5 +90,24 @@ rm "$folder/build/default/apps/dsdpv1-sim"
 message=$(cd "$folder" && PATH=$folder/tools:$PATH ./run sim run mine.yaml 2>&1) || true
 [[ $message == *"compiling dsdpv1-sim for the first time: about 4 minutes"* ]] || fail "the first time: $message"
 
-echo "$failures failures"
-[ "$failures" -eq 0 ]
+printf '#!/bin/sh\necho "$@"\n' >"$folder/build/default/apps/dsdpv1-sim"
+chmod +x "$folder/build/default/apps/dsdpv1-sim"
+
+# Of what CMake and ninja print one line is seen, and the end where they fail; all of it in CI, and with --verbose.
+speaks() {
+  message=$(cd "$folder" && env -u CI PATH="$folder/tools:$PATH" "$@" sim run mine.yaml 2>&1) || status=$?
+}
+rm -f "$folder/build/default/build.ninja"
+speaks ./run
+[ "$message" = "run mine.yaml" ] || fail "more is seen than the program prints: $message"
+speaks ./run --verbose
+[[ $message == *"cmake says much"* ]] || fail "--verbose: $message"
+speaks env CI=true ./run
+[[ $message == *"cmake says much"* ]] || fail "in CI: $message"
+touch "$folder/broken"
+status=0
+speaks ./run
+[ "$status" -eq 1 ] || fail "cmake fails: exit $status"
+[[ $message == *"cmake failed, the end of $folder/build/default.log:"*"cmake says much" ]] || fail "cmake fails: $message"
+
+finish
