@@ -96,7 +96,11 @@ class Debian:
 
 
 def foreign(program, root):
-    return {file for file in program.files | program.libraries if not file.startswith(f"{root}/")}
+    return outside(program.files | program.libraries, root)
+
+
+def outside(files, root):
+    return {file for file in files if not file.startswith(f"{root}/")}
 
 
 def faults_of_program(name, found, rows, source):
@@ -198,16 +202,17 @@ def check(root, build):
     rows = rows_of((root / PAGE).read_text(encoding="utf-8"))
     programs, listed = ninja_build.programs(build), listed_packages(root)
     reuse = Reuse((root / "REUSE.toml").read_text(encoding="utf-8"))
-    debian = Debian({file for each in programs.values() for file in foreign(each, root)}, {package for row in rows for package in row.packages})
+    debian = Debian({file for each in programs.values() for file in foreign(each, root) | outside(each.precompiled, root)}, {package for row in rows for package in row.packages})
     strict = {debian.source(package) for row in rows if row.licence == STRICT for package in row.packages}
-    found = {}
+    found, possible = {}, {}
     for name, program in programs.items():
         sources = {debian.source_of_file(file) for file in foreign(program, root)} - {None}
         found.setdefault(label_of(name), set()).update(sources)
+        possible.setdefault(label_of(name), set()).update(sources, map(debian.source_of_file, outside(program.precompiled, root)))
         yield from faults_of_program(name, sources, rows, debian.source)
         if sources & strict:
             yield from faults_of_own(name, own_files(program, root, build), reuse)
-    yield from stale_rows(found, rows, debian.source)
+    yield from stale_rows(possible, rows, debian.source)
     yield from faults_of_lists(listed, set().union(*found.values()), rows, debian.source)
     yield from faults_of_texts(root, reuse)
     yield from faults_of_heads(root, reuse)

@@ -145,7 +145,7 @@ class Heads(unittest.TestCase):
 
 NINJA = """rule CXX_EXECUTABLE_LINKER__sim_Release
 build obj/a.o: CXX_COMPILER__sim_Release /src/a.cpp || order
-build obj/b.o: CXX_COMPILER__low_Release /src/b$ c.cpp
+build obj/b.o: CXX_COMPILER__low_Release /src/b$ c.cpp | all.hxx all.hxx.gch || order.gch
 build low.a: CXX_STATIC_LIBRARY_LINKER__low_Release obj/b.o
 build high.a: CXX_STATIC_LIBRARY_LINKER__high_Release obj/h.o || low.a
 build apps/sim: CXX_EXECUTABLE_LINKER__sim_Release obj/a.o | low.a /usr/lib/libx.so || low.a
@@ -180,6 +180,9 @@ class Ninja(unittest.TestCase):
         notes = ninja_build.notes_of(NOTES)
         self.assertEqual(notes, {"obj/a.o": ["/src/a.cpp", "../src/a.hpp"], "obj/b.o": ["/src/b c.cpp"]})
         self.assertEqual(ninja_build.absolute("/src/build", notes["obj/a.o"]), {"/src/a.cpp", "/src/src/a.hpp"})
+
+    def test_an_object_may_have_what_a_precompiled_header_has(self):
+        self.assertEqual(ninja_build.precompiled_of(self.edges, {"obj/a.o", "obj/b.o", "obj/c.o"}), {"all.hxx.gch"})
 
     def test_the_linker_says_what_a_program_needs(self):
         self.assertTrue(any("/libc.so" in path for path in ninja_build.needed("/bin/sh")))

@@ -15,12 +15,14 @@ class Edge:
     rule: str
     inputs: list  # explicit ones
     libraries: list = dataclasses.field(default_factory=list)  # words of LINK_LIBRARIES
+    precompiled: list = dataclasses.field(default_factory=list)  # headers: of what is in them the object's notes say nothing
 
 
 @dataclasses.dataclass
 class Program:
     libraries: set  # paths of system libraries on the link line, and of their dependencies
     files: set  # sources and headers, absolute
+    precompiled: set  # those of precompiled headers (preset edit): a part of them is in it, and nothing says which
 
 
 def words_of(text):
@@ -33,7 +35,8 @@ def edges_of(text):
     for line in text.splitlines():
         match = EDGE.match(line)
         if match:
-            last = Edge(match["rule"], words_of(match["inputs"].split("|")[0]))
+            explicit, *implicit = match["inputs"].split("|")
+            last = Edge(match["rule"], words_of(explicit), precompiled=[word for word in words_of(" ".join(implicit[:1])) if word.endswith((".gch", ".pch"))])
             edges[words_of(match["outputs"].split("|")[0])[0]] = last
         elif line.startswith("  LINK_LIBRARIES =") and last:
             last.libraries = words_of(line.split("=", 1)[1])
@@ -56,6 +59,10 @@ def objects_of(edges, name):
         found.update(word for word in edges[here].inputs if word.endswith(".o"))
         open_names += [word for word in edges[here].inputs + edges[here].libraries if word.endswith(".a")]
     return found
+
+
+def precompiled_of(edges, objects):
+    return {header for name in objects if name in edges for header in edges[name].precompiled}
 
 
 def system_libraries(edges, name):
@@ -98,7 +105,8 @@ def programs(folder):
     made = {}
     for name in linked(edges):
         if (folder / name).exists():
-            files = set().union(*(notes.get(each, []) for each in objects_of(edges, name)))
+            objects = objects_of(edges, name)
+            files, precompiled = (set().union(*(notes.get(each, []) for each in some)) for some in (objects, precompiled_of(edges, objects)))
             libraries = system_libraries(edges, name) | needed(folder / name)
-            made[name] = Program(set(map(os.path.realpath, libraries)), absolute(folder, files))
+            made[name] = Program(set(map(os.path.realpath, libraries)), absolute(folder, files), absolute(folder, precompiled))
     return made
