@@ -28,12 +28,12 @@ struct Entry {
 };
 
 /// In the order of --help.
-constexpr Entry kCommands[] = {{kRun, make_run},        {kRun, make_serve},      {kRun, make_sweep},
-                               {kRun, make_regress},    {kLook, make_decode},    {kLook, make_compare},
-                               {kLook, make_replay},    {kLook, make_calibrate}, {kLook, make_recover},
-                               {kLook, make_gsd},       {kLook, make_reasons},   {kRtl, make_cosim},
-                               {kRtl, make_rtl_random}, {kRtl, make_rtl_faults}, {kRtl, make_traces},
-                               {kBeside, make_schema},  {kBeside, make_manual},  {kBeside, make_completion}};
+constexpr Entry kCommands[] = {
+    {kRun, make_demo},       {kRun, make_run},        {kRun, make_serve},        {kRun, make_sweep},
+    {kRun, make_regress},    {kLook, make_decode},    {kLook, make_compare},     {kLook, make_replay},
+    {kLook, make_calibrate}, {kLook, make_recover},   {kLook, make_gsd},         {kLook, make_reasons},
+    {kRtl, make_cosim},      {kRtl, make_rtl_random}, {kRtl, make_rtl_faults},   {kRtl, make_traces},
+    {kBeside, make_schema},  {kBeside, make_manual},  {kBeside, make_completion}};
 
 std::vector<CLI::App*> subcommands(CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
@@ -61,7 +61,8 @@ void add_color_option(CLI::App& app, std::string& word) {
 void describe_program(CLI::App& app) {
   app.set_version_flag("--version", "dsdpv1-sim " DSDPV1_VERSION);
   app.require_subcommand(1);
-  app.footer(std::string("\nExamples:\n  dsdpv1-sim run scenarios/power_on_12m.yaml --wave out.fst\n  dsdpv1-sim gsd "
+  app.footer(std::string("\nExamples:\n  dsdpv1-sim demo\n  dsdpv1-sim run scenarios/power_on_12m.yaml --wave "
+                         "out.fst\n  dsdpv1-sim gsd "
                          "scenarios/dsdpv1.gsd\n"
                          "  dsdpv1-sim decode capture.txt\n  dsdpv1-sim run --help\n") +
              kExitCodes);

@@ -45,6 +45,7 @@ std::unique_ptr<Command> make_compare();
 std::unique_ptr<Command> make_completion();
 std::unique_ptr<Command> make_cosim();
 std::unique_ptr<Command> make_decode();
+std::unique_ptr<Command> make_demo();
 std::unique_ptr<Command> make_gsd();
 std::unique_ptr<Command> make_manual();
 std::unique_ptr<Command> make_reasons();

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
 """Generates the parts of the package dsdpv1 that come from C, into FOLDER: _c.py, the C API for ctypes, from the headers of include/dsdpv1/;
-registers.py from registers/dsdpv1_regs.h.
+registers.py from registers/dsdpv1_regs.h. And demo/, the scenario of the demo.
 
     generate.py FOLDER
 
@@ -11,6 +11,7 @@ functions. Anything else is an error, so that nothing is skipped silently. Pytho
 """
 import pathlib
 import re
+import shutil
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -192,7 +193,15 @@ def registers():
     return REGISTERS + lines
 
 
+def demo(folder):
+    """The scenario of `python -m dsdpv1 demo`, with what it names."""
+    folder.mkdir()
+    for name in ("power_on_12m.yaml", "dsdpv1.gsd"):
+        shutil.copyfile(ROOT / "scenarios" / name, folder / name)
+
+
 def main(folder):
+    demo(pathlib.Path(folder) / "demo")
     for name, text in (("_c.py", declarations()), ("registers.py", registers())):
         (pathlib.Path(folder) / name).write_text(text, encoding="utf-8")
 

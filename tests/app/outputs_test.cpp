@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -30,12 +31,37 @@ class Outputs : public testing::Test {
 };
 
 TEST_F(Outputs, EveryCommandHasHelpWithExamples) {
-  for (const char* command : {"", "run", "schema", "gsd", "decode", "rtl-faults", "recover"}) {
+  for (const char* command : {"", "demo", "run", "schema", "gsd", "decode", "rtl-faults", "recover"}) {
     const app_test::Called called = call(std::string(command) + " --help", folder_.path());
     EXPECT_EQ(called.status, 0) << command;
     EXPECT_NE(called.out.find("Examples:"), std::string::npos) << command;
   }
   EXPECT_EQ(call("--version", folder_.path()).out.substr(0, 11), "dsdpv1-sim ");
+}
+
+TEST_F(Outputs, DemoLeavesItsFilesInAFolderAndSaysWhere) {
+  for (const char* time : {"first", "again, over its own files"}) {
+    const app_test::Called called = call("demo", folder_.path());
+    ASSERT_EQ(called.status, 0) << time << called.err;
+    EXPECT_NE(called.out.find("\nPASSED\n\nWaves   " + folder_.file("out/power_on_12m")), std::string::npos)
+        << called.out;
+    const auto result = nlohmann::json::parse(read(folder_.file("out/power_on_12m.json")));
+    EXPECT_TRUE(result.at("passed").get<bool>()) << time;
+    EXPECT_GT(std::filesystem::file_size(folder_.file("out/power_on_12m.log")), 10000U) << time;
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.file("out")), {}), 3) << time;
+  }
+}
+
+TEST_F(Outputs, DemoRefusesWhatIsNoFolderInOneLine) {
+  write("out", "a file");
+  for (const char* arguments :
+       {"demo", "demo --out out/below", "demo --out /proc/nowhere", "demo --out ''", "demo now"}) {
+    const app_test::Called called = call(arguments, folder_.path());
+    EXPECT_EQ(called.status, 2) << arguments;
+    EXPECT_EQ(called.out, "") << arguments;
+    EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+  }
+  EXPECT_EQ(read(folder_.file("out")), "a file");
 }
 
 TEST_F(Outputs, JunitHasTheRunItsViolationsAndEachExpectation) {

@@ -592,6 +592,46 @@ class RunTest(unittest.TestCase):
         self.assertEqual(set(rows[0]), {"start_us", "end_us", "tsdr_bits", "station", "error", "service", "line", "bytes"})
 
 
+class DemoTest(unittest.TestCase):
+    """python -m dsdpv1, where NumPy cannot be imported."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        (pathlib.Path(self.folder.name) / "numpy.py").write_text("raise ImportError('not here')\n", encoding="utf-8")
+
+    def call(self, *words):
+        path = os.pathsep.join((self.folder.name, os.environ.get("PYTHONPATH", "")))
+        return subprocess.run([sys.executable, "-m", "dsdpv1", *words], cwd=self.folder.name, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, check=False)
+
+    def test_it_prints_the_table_and_says_where_its_files_are(self):
+        for _ in ("first", "again"):
+            done = self.call("demo")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("\nPASSED\n", done.stdout)
+            for ending in ("vcd", "log", "json"):
+                file = pathlib.Path(self.folder.name, "out", f"power_on_12m.{ending}")
+                self.assertIn(str(file), done.stdout)
+                self.assertGreater(file.stat().st_size, 10000)
+
+    def test_alone_it_prints_its_help(self):
+        done = self.call()
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("demo", done.stderr)
+
+    def test_what_is_wrong_is_one_line(self):
+        (pathlib.Path(self.folder.name) / "file").touch()
+        (pathlib.Path(self.folder.name) / "full/power_on_12m.vcd").mkdir(parents=True)
+        for words in (["dmeo"], ["demo", "now"], ["demo", "--out", "file"], ["demo", "--out", "/proc/nowhere"], ["demo", "--out", "full"]):
+            done = self.call(*words)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+
+    def test_what_needs_numpy_says_so(self):
+        path = os.pathsep.join((self.folder.name, os.environ.get("PYTHONPATH", "")))
+        done = subprocess.run([sys.executable, "-c", "import dsdpv1; dsdpv1.CHANGE"], env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, check=False)
+        self.assertIn("ImportError: not here", done.stderr)
+
+
 if __name__ == "__main__":
     os.chdir(ROOT)
     unittest.main(verbosity=1)

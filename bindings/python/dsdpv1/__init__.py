@@ -13,11 +13,14 @@ Times are whole ticks of 1/12 ns. A refused call raises an Error that says what 
 it, is used by one thread at a time; different objects are independent, and long calls let other threads run. An exception in a callback propagates
 from the call that triggered it. See docs/python.md.
 """
+import typing as _typing
+
 from . import registers
 from ._library import lib as _lib
 from ._library import text as _text
 from .bus import Bus, BusStatistics, Station, TsdrStatistics
-from .changes import CHANGE, of_pin
+from .changes import change_type as _change_type
+from .changes import of_pin
 from .checks import Checker, CheckResult, Rule, Violation, rules
 from .chip import AccessTiming, Chip, ChipEvent, ChipStatus, Difference, DpState, Scoreboard, Severity
 from .errors import ArgumentError, Error, InputError, InternalError, NotFoundError, StateError, TimeError, UnsupportedError
@@ -30,6 +33,19 @@ from .telegram import BROADCAST, Decoded, Heard, Telegram, decode, explain, tabl
 from .telegram import Kind as TelegramKind
 from .units import BAUDS, CYCLE, LINE, MS, NEVER, NS, US, S, X, Z, bit_ticks
 from .user import Initialisation, Refuse, Request, User, UserError
+
+if _typing.TYPE_CHECKING:
+    import numpy as _numpy
+
+    CHANGE: _numpy.dtype[_numpy.void]
+
+
+def __getattr__(name: str) -> _typing.Any:
+    """CHANGE, which needs NumPy, when somebody wants it."""
+    if name == "CHANGE":
+        return _change_type()
+    raise AttributeError(f"module {__name__} has no attribute {name}")
+
 
 __version__ = _text(_lib.dpsim_version())
 __all__ = [

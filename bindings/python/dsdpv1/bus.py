@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
 """A PROFIBUS segment: chips, masters, external stations, and a monitor that receives all telegrams."""
+from __future__ import annotations
+
 import ctypes
 import dataclasses
 import os
 import typing
-
-import numpy as np
 
 from . import _c
 from ._library import Handle, encoded, filled, lib, number, sized, text
@@ -17,6 +17,9 @@ from .events import Event, event_of
 from .master import PERSONALITIES, Master, Master1, Master2
 from .telegram import Heard, heard_of
 from .units import Z, baud_index
+
+if typing.TYPE_CHECKING:
+    import numpy as np
 
 
 @dataclasses.dataclass(frozen=True)

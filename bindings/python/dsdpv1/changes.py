@@ -1,16 +1,25 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Changes of pins as numpy arrays."""
-import ctypes
-import typing
+"""Changes of pins as numpy arrays. NumPy is imported when the first is asked for: a run whose changes nobody keeps does without it."""
+from __future__ import annotations
 
-import numpy as np
+import ctypes
+import functools
+import typing
 
 from ._library import Handle
 
-#: One change: tick (1/12 ns), station (of a bus the station, of a run the slave, LINE; else 0), pin (its number), level (also Z, X).
-CHANGE = np.dtype({"names": ["tick", "station", "pin", "level"], "formats": ["u8", "u2", "u2", "i2"], "offsets": [0, 8, 10, 12], "itemsize": 16})
+if typing.TYPE_CHECKING:
+    import numpy as np
+
 _PIECE = 1 << 16  # changes, 1 MB
+
+
+@functools.lru_cache(maxsize=None)
+def change_type() -> np.dtype[np.void]:
+    """CHANGE: tick (1/12 ns), station (of a bus the station, of a run the slave, LINE; else 0), pin (its number), level (also Z, X)."""
+    import numpy  # pylint: disable=import-outside-toplevel
+    return numpy.dtype({"names": ["tick", "station", "pin", "level"], "formats": ["u8", "u2", "u2", "i2"], "offsets": [0, 8, 10, 12], "itemsize": 16})
 
 
 def address(changes: np.ndarray) -> int:
@@ -20,17 +29,19 @@ def address(changes: np.ndarray) -> int:
 
 def as_changes(changes: typing.Any) -> np.ndarray:
     """Converts an array or a list of (tick, station, pin, level) to an array of CHANGE."""
-    return np.ascontiguousarray(changes, dtype=CHANGE)
+    import numpy  # pylint: disable=import-outside-toplevel
+    return numpy.ascontiguousarray(changes, dtype=change_type())
 
 
 def taken(read: typing.Callable[..., typing.Any], source: Handle) -> np.ndarray:
     """All kept changes, by one of the functions ..._read_changes."""
+    import numpy  # pylint: disable=import-outside-toplevel
     pieces, count = [], ctypes.c_size_t(_PIECE)
     while count.value == _PIECE:
-        piece = np.empty(_PIECE, CHANGE)
+        piece = numpy.empty(_PIECE, change_type())
         read(source, address(piece), _PIECE, ctypes.byref(count))
         pieces.append(piece[:count.value])
-    return pieces[0].copy() if len(pieces) == 1 else np.concatenate(pieces)
+    return pieces[0].copy() if len(pieces) == 1 else numpy.concatenate(pieces)
 
 
 def of_pin(changes: np.ndarray, pin: int, station: typing.Optional[int] = None) -> np.ndarray:
@@ -38,4 +49,4 @@ def of_pin(changes: np.ndarray, pin: int, station: typing.Optional[int] = None) 
     chosen = changes["pin"] == pin
     if station is not None:
         chosen &= changes["station"] == station
-    return typing.cast(np.ndarray, changes[chosen])
+    return typing.cast("np.ndarray", changes[chosen])

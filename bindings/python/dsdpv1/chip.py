@@ -1,18 +1,21 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
 """One chip, driven pin by pin, and its events; the model compared with a DUT."""
+from __future__ import annotations
+
 import ctypes
 import dataclasses
 import enum
 import typing
-
-import numpy as np
 
 from . import _c
 from ._library import Handle, encoded, filled, lib, number, sized, text
 from .changes import address, as_changes, taken
 from .kinds import Kind, PinName, kind_of
 from .units import NEVER, baud_name
+
+if typing.TYPE_CHECKING:
+    import numpy as np
 
 ENGINES = ("skip", "step")
 

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
 """Load a scenario (docs/scenarios.md), run it and read its results."""
+from __future__ import annotations
+
 import ctypes
 import functools
 import json
 import os
 import typing
-
-import numpy as np
 
 from . import _c
 from ._library import Handle, encoded, filled, lib, number, sized, text
@@ -16,6 +16,9 @@ from .chip import ENGINES, ChipEvent, event_maker
 from .kinds import Kind, PinName, kind_of
 from .telegram import Heard, heard_of, table
 from .units import LINE
+
+if typing.TYPE_CHECKING:
+    import numpy as np
 
 CHECKS = ("fail", "off", "report")  # 1, 2, 3 of the C API
 Path = typing.Union[str, "os.PathLike[str]"]
