@@ -116,8 +116,7 @@ void SpiPort::frame_ends(Cycle now) {
   frame_ = Frame::kNone;
 }
 
-// --- ownership
-// --------------------------------------------------------------------------------------------------------
+// --- ownership ------------------------------------------------------------------------------------------------------
 
 void SpiPort::set_claimed(Cycle now, bool claimed) {
   if (claimed == claimed_) return;

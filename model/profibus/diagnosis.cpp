@@ -42,8 +42,7 @@ const std::uint8_t* Diagnosis::bytes(const DiagnosisView& view) {
   return answer_.data();
 }
 
-// --- Slave_Diag, and the user's block
-// ----------------------------------------------------------------------------------
+// --- Slave_Diag, and the user's block -------------------------------------------------------------------------------
 
 Reply DpSlave::slave_diag(const Request& request) {
   DiagnosisView view;

@@ -87,8 +87,7 @@ bool UartRx::eval(Cycle now) {
   }
 }
 
-// --- runs: the effect of the same edges
-// ---------------------------------------------------------------------------------
+// --- runs: the effect of the same edges -----------------------------------------------------------------------------
 
 bool UartRx::set_run(const CharacterRun& run, bool at_once) {
   if (state_ != State::kIdle || count_ > 0 || in_run() || run.bit != bit_ || run.size > kLongestRun) return false;

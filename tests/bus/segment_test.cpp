@@ -129,8 +129,7 @@ TEST(Segment, AListenerThatDrivesAtOnceKeepsTheOrderForTheOthers) {
   EXPECT_TRUE(after.changes.empty());
 }
 
-// --- listeners that receive late
-// --------------------------------------------------------------------------------------
+// --- listeners that receive late ------------------------------------------------------------------------------------
 
 TEST_F(SegmentTest, TheDeafHearAllWhenTheyAskEachChangeWithItsTick) {
   segment.set_deafness(b, {10, 30});

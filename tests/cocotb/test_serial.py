@@ -9,7 +9,7 @@ from dsdpv1 import CYCLE, NS, US
 
 READ_READY = bytes.fromhex("01000401D8C2")  # B004
 REPLY = bytes.fromhex("8100C5BBE1")
-SPI, UART, BIT = 1, 2, 26 * CYCLE  # MODE; 1.8432 MBd, UBR 7
+SPI, UART, BIT = 1, 2, 26 * CYCLE  # MODE; 1.8432 Mbit/s, UBR 7
 BEGIN = 2200 * CYCLE + 7  # of the frame: the start-up access takes 2065 cycles, and then B004 is C5
 SCK = 120 * NS
 

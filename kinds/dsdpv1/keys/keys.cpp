@@ -222,8 +222,7 @@ dsdpv1::Config config_of(const ChipRequest& request) {
   return config;
 }
 
-// --- what does not fit together
-// ---------------------------------------------------------------------------------------
+// --- what does not fit together -------------------------------------------------------------------------------------
 
 std::optional<Switch> parse_switch(const std::string& text) {
   const std::size_t equals = text.find('=');

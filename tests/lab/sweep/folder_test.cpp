@@ -70,8 +70,7 @@ TEST_F(SweepFolder, FinishedPointIsThereWhenTheSameSweepComesAgain) {
 TEST_F(SweepFolder, RefusedPointIsKeptWithItsReason) {
   EXPECT_TRUE(open().finish(1, plan_, 2, "the \xFF reason"));
   EXPECT_EQ(open().finished(1, plan_)->exit, 2);
-  EXPECT_EQ(open().finished(1, plan_)->error,
-            "the \xEF\xBF\xBD reason");  // replaced, as UTF-8 requires, the first time too
+  EXPECT_EQ(open().finished(1, plan_)->error, "the \xEF\xBF\xBD reason");  // valid UTF-8, the first time too
   EXPECT_EQ(open().finish(1, plan_, 2, "the \xFF reason")->error, "the \xEF\xBF\xBD reason");
 }
 
