@@ -21,7 +21,7 @@ class JoinedWave {
 
   /// The file for the model's side.
   const std::string& model() const { return model_; }
-  /// What the RTL of the chip in the model's scope `chip` records, in scope `chip`.rtl.
+  /// The trace of the RTL of the chip in the model's scope `chip`, in scope `chip`.rtl.
   RtlTrace trace(const std::string& chip, Tick from = 0, Tick to = bus::kNever);
   /// Writes the wave once all sides are complete and the RTL is destroyed. A difference is shown in its scope
   /// `lockstep`. Throws tb::InputError.

@@ -88,7 +88,7 @@ class MemoryWatch {
   /// The tick of the end of an access, once, after the change that ended it: the memories may be compared as they are
   /// then.
   virtual std::optional<Tick> take_end() = 0;
-  /// Whether that access can have changed it, or enough accesses have passed without comparison.
+  /// True if that access can have changed it, or enough accesses have passed without comparison.
   virtual bool worth_a_look(Tick end) = 0;
   /// The memories were compared.
   virtual void compared(Tick end) = 0;

@@ -37,7 +37,7 @@ struct CapturedTelegram {
 
 using TakeTelegram = std::function<void(const CapturedTelegram&)>;
 
-/// What is wrong with a capture and what is allowed, without its name.
+/// An error of a capture and the allowed values, without the capture's name.
 class CaptureError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -7,7 +7,7 @@
 
 namespace dsdpv1::bus::capture {
 
-/// Whether a file with this beginning (at least 4 bytes) is a pcapng or a pcap file.
+/// True if a file with this beginning (at least 4 bytes) is a pcapng or a pcap file.
 bool begins_as_pcapng(std::string_view beginning);
 bool begins_as_pcap(std::string_view beginning);
 

@@ -128,7 +128,7 @@ class Connection {
   void set_behaviour(Behaviour behaviour) { behaviour_ = behaviour; }
 
   // --- Calls of the master station.
-  // Whether a telegram is due at `now`.
+  // True if a telegram is due at `now`.
   bool due(Tick now);
   Telegram next_request(Tick now);
   /// The result of that telegram. FdlOutcome::kAborted: it is sent again.

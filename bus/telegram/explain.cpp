@@ -105,7 +105,7 @@ DataWords data_words(const Telegram& t, std::optional<bool> dpv1 = {}) {
   return t.is_request() ? request_words(t, *sap) : response_words(t, *sap, dpv1);
 }
 
-/// Whether the summary of the data adds to the name of the service.
+/// True if the summary of the data adds to the name of the service.
 bool has_essentials(const Telegram& t) {
   if (!t.data.empty()) return true;
   if (!slave_sap(t)) return is_data_transfer(t);

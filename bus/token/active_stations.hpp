@@ -28,7 +28,7 @@ class ActiveStations {
   std::bitset<kBroadcast + 1> stations_;
 };
 
-/// Whether a token from `sa` to `da` skips `address`. A token to itself skips all others.
+/// True if a token from `sa` to `da` skips `address`. A token to itself skips all others.
 bool token_skips(std::uint8_t sa, std::uint8_t da, std::uint8_t address);
 
 /// Learns the LAS: it is valid after two equal rotations of the token in succession. A rotation ends with the token

@@ -24,7 +24,7 @@ const scenario::Slave* find_slave(const Scenario& scenario, const std::string& n
   return nullptr;
 }
 
-/// Whether a class 1 master lists the slave.
+/// True if a class 1 master lists the slave.
 bool is_listed(const Scenario& scenario, const std::string& slave) {
   for (const scenario::Master& master : scenario.masters)
     for (const scenario::MasterSlave& each : master.slaves)

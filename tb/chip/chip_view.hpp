@@ -96,7 +96,7 @@ class ChipView {
   /// The interface for a user CPU of this kind; null: the bench cannot connect one.
   virtual user_cpu::UserSide* user_side() { return nullptr; }
 
-  /// Whether it reports ChipListener::follows.
+  /// True if it reports ChipListener::follows.
   virtual bool tells_runs() const { return false; }
 
   /// Another agent acts before the next edge of the present access.

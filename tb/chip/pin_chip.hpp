@@ -66,7 +66,7 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   virtual void catch_up_host(Tick /*at*/) {}
   /// One of BoardPins::told has changed.
   virtual void host_pin_changed(Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
-  /// Whether changes of the user's pins are reported.
+  /// True if changes of the user's pins are reported.
   bool reports_host() const { return reports_host_; }
   /// Reports the inputs from `first` to `last` that have changed since their last report, in the order of their
   /// numbers; all except `rxd`, if they are wanted.

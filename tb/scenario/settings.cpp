@@ -36,7 +36,7 @@ std::vector<std::string> names_of(const Object& object) {
   return names;
 }
 
-/// Whether a path with this first step applies to every slave.
+/// True if a path with this first step applies to every slave.
 bool of_every_slave(const std::string& first, const ChipKind& kind) {
   return description(kind).find(first) == nullptr && slave_keys(kind).find(first) != nullptr;
 }

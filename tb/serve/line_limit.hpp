@@ -12,7 +12,7 @@ class LineLimit {
   static constexpr std::uint64_t kMost = 40;
   static constexpr std::chrono::seconds kSpan{1};
 
-  /// Whether a line may be printed now. Call left_out() first.
+  /// True if a line may be printed now. Call left_out() first.
   bool allows(WallTime now);
   /// The number of lines suppressed in a past second, or in total if nothing comes `after`; returned once.
   std::uint64_t left_out(WallTime now, bool after = true);

@@ -136,7 +136,7 @@ def collision(folder):
 
 
 def link_types(folder):
-    """The dissector accepts 257 and all USER types, except those that it is told to ignore."""
+    """The dissector accepts 257 and all USER types, except those that its settings ignore."""
     scenario = ROOT / "scenarios/read_services.yaml"
     for link in ("profibus", "user0", "user15"):
         packets, log = capture(folder, scenario, link=link)

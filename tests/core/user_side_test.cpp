@@ -1,4 +1,4 @@
-// A station with another user's side than the DSDPV1's: the mail with its cycles, and the effect of its own capacities.
+// A station with another user's side than the DSDPV1's: the mail with its cycles, and the effect of other capacities.
 #include "model/profibus/user_side.hpp"
 
 #include <gtest/gtest.h>

@@ -104,7 +104,7 @@ class Serve:
         try:
             self.ready = self.lines.next(time.monotonic() + DEADLINE)
             check(self.ready is not None, "serve did not start: " + self.said())
-        except BaseException:  # an interrupt, too: otherwise nobody would end it
+        except BaseException:  # an interrupt, too: otherwise serve would continue
             self.kill()
             raise
         self.port = os.path.join(folder, "dp")

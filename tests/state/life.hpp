@@ -9,7 +9,7 @@
 
 namespace dsdpv1::state_test {
 
-/// The way to evaluate and observe a chip: it dozes when nobody observes L_REQ and L_STA.
+/// The way to evaluate and observe a chip: it dozes if L_REQ and L_STA have no observer.
 enum class Way : std::uint8_t { kSkip, kDoze, kStep };
 const char* words(Way way);
 

@@ -80,7 +80,7 @@ struct World : sc_core::sc_module {
     transport(true, false, 0x130, 0);
     too_early = transport(false, false, 0x130, 0);
   }
-  /// Another process may look at the chip at the end of the access; one tick later it is no conflict.
+  /// Another process may look at the chip at the end of the access; one tick later there is no conflict.
   void meet_another() {
     other.notify(to_time(kRead));
     at_another = transport(true, false, 0x130, 0);

@@ -35,7 +35,7 @@ struct Ear : tlm::tlm_analysis_if<BusCharacter> {
   }
 };
 
-/// A chip whose pins nobody observes, so that characters pass as runs: to it, and from it.
+/// A chip whose pins have no observer, so that characters pass as runs: to it, and from it.
 struct Unheard : sc_core::sc_module, Ear {
   dsdpv1::systemc::TlmModule chip;
   tlm_utils::simple_initiator_socket<Unheard> cpu{"cpu"};  // required, idle

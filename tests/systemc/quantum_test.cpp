@@ -87,7 +87,7 @@ struct World : sc_core::sc_module {
     return {payload.get_response_status(), dsdpv1::systemc::current_tick() - begin, to_tick(annotated), data};
   }
 
-  /// Misuse by a CPU whose chip is in reset; nobody has bound its RESET.
+  /// Misuse by a CPU whose chip is in reset; its RESET is unbound.
   void misuse(DriverCpu& itself) {
     try {
       itself.set_reset(true);

@@ -41,7 +41,7 @@ if _typing.TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> _typing.Any:
-    """CHANGE, which needs NumPy, when somebody wants it."""
+    """CHANGE, which needs NumPy, on its first use."""
     if name == "CHANGE":
         return _change_type()
     raise AttributeError(f"module {__name__} has no attribute {name}")

@@ -13,7 +13,7 @@ _SCENARIO = pathlib.Path(__file__).parent / "demo" / "power_on_12m.yaml"
 
 
 class _Parser(argparse.ArgumentParser):
-    """What is wrong in one line."""
+    """The error in one line."""
 
     def error(self, message: str) -> typing.NoReturn:
         self.exit(2, f"{self.prog}: {message}\n")

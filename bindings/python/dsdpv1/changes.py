@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Changes of pins as numpy arrays. NumPy is imported when the first is asked for: a run whose changes nobody keeps does without it."""
+"""Changes of pins as numpy arrays. NumPy is imported at the first request: a run without recorded changes does not need it."""
 from __future__ import annotations
 
 import ctypes

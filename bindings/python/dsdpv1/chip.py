@@ -30,7 +30,7 @@ class DpState(enum.IntEnum):
 
 
 class Severity(enum.IntEnum):
-    """Of a chip's event: a state or service, a refusal, a rule broken by the user's side."""
+    """Severity of a chip's event: a state or service, a refusal, a rule broken by the user's side."""
 
     INFO = _c.DPSIM_SEVERITY_INFO
     REFUSAL = _c.DPSIM_SEVERITY_REFUSAL

@@ -18,7 +18,7 @@ class MailboxLink {
   MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& options);
 
   void post(const user_cpu::DriverCommand& command) { commands_.push_back(command); }
-  /// Whether look() would have an effect.
+  /// True if look() would have an effect.
   bool has_news() const {
     return (!commands_.empty() && is_done()) || outputs_received_ != box_.report.outputs_received ||
            errors_seen_ != box_.report.error_count || !done_is_right();

@@ -266,7 +266,7 @@ void CellRules::note_fetched(std::uint8_t now, const std::optional<std::uint8_t>
   }
 }
 
-/// Whether the block's flag is set. If it was set before and not read in this hold, it still is, because only the user
+/// True if the block's flag is set. If it was set before and not read in this hold, it still is, because only the user
 /// clears it. Otherwise a newer block may have come; but a user who has cleared nothing since the last verdict has
 /// fetched nothing.
 std::optional<bool> CellRules::stands_unfetched(std::size_t verdict) const {

@@ -46,7 +46,7 @@ struct Scene : Conversation {
 
   /// Whether the user's request pins, as far as they are visible, are low from `from` to `to`.
   bool user_lets(Tick from, Tick to) const;
-  /// Whether the capture has both of them.
+  /// True if the capture has both of them.
   bool sees_user() const { return record.sees({wire::kRReq, wire::kRSta}); }
   /// The shortest accesses of the chip may lie between two samples.
   bool may_miss_accesses() const { return time.doubt() >= kEmptyAccess; }

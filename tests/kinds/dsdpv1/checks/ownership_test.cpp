@@ -1,4 +1,4 @@
-// Who holds the chip off and who may access (5.1, H1, H2), pin by pin: cases not covered by the limits of
+// The DPRAM's ownership and access rights (5.1, H1, H2), pin by pin: cases not covered by the limits of
 // values_test.cpp.
 #include <gtest/gtest.h>
 
