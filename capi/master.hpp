@@ -1,5 +1,5 @@
 #pragma once
-// A master of either class as the object of the header's handle, and its events.
+// The object for the header's handle of a master, of either class, and its events.
 #include <cstdint>
 #include <memory>
 
@@ -48,7 +48,7 @@ bus::Master2& class_2_of(dpsim_master* master);
 const bus::Master2& class_2_of(const dpsim_master* master);
 /// Throws if the master has no such slave.
 void need_slave(const bus::Master1& master, std::uint8_t address);
-/// ... no such connection.
+/// Throws if the master has no such connection.
 void need_connection(const bus::Master2& master, std::uint32_t connection);
 
 void connect(dpsim_master& master, bus::Master1& own);

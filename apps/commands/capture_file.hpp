@@ -63,14 +63,14 @@ struct Sampling {
   double unit = 0;                         ///< without a rate: ticks to which times were rounded
 };
 
-/// Its format is detected by its beginning.
+/// A capture, whose format is detected by its first bytes.
 class CaptureFile {
  public:
   /// `path`: empty or "-" is standard input. Throws tb::InputError.
   explicit CaptureFile(const std::string& path);
 
   CaptureForm form() const { return form_; }
-  /// Its telegrams stand in packets, each with its time.
+  /// True if the file has packets, each a telegram with its time.
   bool packets() const { return form_ == CaptureForm::kPcapng || form_ == CaptureForm::kPcap; }
   /// Empty: standard input.
   std::string path() const { return standard_input_ ? "" : path_; }

@@ -48,7 +48,7 @@ void print_table(std::string& text, const std::string& head, const std::vector<t
                         each.severity, each.text, each.advice);
 }
 
-/// Those of the monitor stand beside those of the kind of chip; those of the checks have a page of their own.
+/// The codes of the kind of chip and of the monitor; the checks have a separate page.
 std::vector<tb::CodeTable> tables_of(const tb::ChipKind& kind) {
   std::vector<tb::CodeTable> tables = kind.codes();
   tables.push_back({"The bus", "What the bus monitor saw on the line.", tb::scenario::flag_codes()});

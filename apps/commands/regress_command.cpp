@@ -236,7 +236,7 @@ class Regress : public Command {
   }
 
  private:
-  /// Those that say what is run.
+  /// Adds the options that select what is run.
   std::vector<CLI::Option*> add_plan_options(CLI::App& app) {
     CLI::Option* scenarios = app.add_option("SCENARIO", request_.scenarios,
                                             "Scenarios, and folders of them (.yaml, .yml; default: ./scenarios)");

@@ -66,7 +66,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   const auto say = [](const std::string& line) { std::cerr << line << '\n'; };
   if (arguments.gdb)
     options.gdb = tb::GdbRequest{arguments.gdb, say, interrupted, std::make_shared<user_cpu::DebugHistory>(),
-                                 arguments.view == "pins"};  // SystemC simulates once a process
+                                 arguments.view == "pins"};  // a process can simulate with SystemC only once
   if (!arguments.quiet) {
     options.on_text = [](const std::string& station, const std::string& line) {
       std::cout << station << "| " << bus::printable(line) << '\n' << std::flush;
@@ -81,7 +81,7 @@ namespace {
 /// The additional results of a run in lockstep.
 struct LockstepSteps {
   std::function<void(tb::RunResult&)> judge;  ///< before the result is written
-  std::function<bool()> report;               ///< while the bench still stands; false: they differ
+  std::function<bool()> report;               ///< while the bench still exists; false: the two differ
 };
 
 /// `of_golden`: what the comparison with a golden trace says; empty when there was none.
@@ -102,7 +102,7 @@ bool goes_back(const RunRequest& request) {
 /// The files written at the end of a run, each complete or absent.
 class ResultFiles {
  public:
-  /// The report asks in `options` for what it shows.
+  /// The report adds its observer to `options`.
   ResultFiles(const RunArguments& arguments, const tb::scenario::Scenario& scenario, tb::RunOptions& options)
       : result_(arguments.result), junit_(arguments.junit) {
     if (!arguments.report.empty()) report_.emplace(arguments.report, scenario, options);
@@ -241,7 +241,7 @@ RunRequest request_of(const RunArguments& arguments) {
   return arguments.restore.empty() ? scenario_request(arguments) : restored_request(arguments);
 }
 
-/// As often as a debugger goes back. Output of user CPUs is shown once.
+/// Repeats the run each time that a debugger goes back. Output of user CPUs is shown once.
 int forth_and_back(RunRequest& request, const std::function<int()>& carry_out) {
   const auto show = request.options.on_text;
   std::size_t shown = 0, line = 0;

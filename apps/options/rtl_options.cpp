@@ -11,7 +11,7 @@
 namespace dsdpv1::app {
 namespace {
 
-/// Those that rtl-random is for.
+/// The kinds of chips that rtl-random can test.
 std::vector<const tb::ChipKind*> random_kinds() {
   std::vector<const tb::ChipKind*> kinds = tb::chip_kinds();
   kinds.erase(std::remove_if(kinds.begin(), kinds.end(), [](const auto* each) { return each->random() == nullptr; }),

@@ -60,7 +60,7 @@ tb::SavedRun described_run(const RunArguments& arguments, const std::string& tex
 void provide_files(const tb::SavedRun& run, const std::string& path) {
   for (const tb::SavedFile& file : run.files) {
     tb::provide_file(file.path, file.content);
-    if (!tb::input_identity(file.path)) continue;  // absent, or a pipe of then
+    if (!tb::input_identity(file.path)) continue;  // absent, or a pipe that is gone
     if (tb::try_read_file(file.path, tb::kSavedRunFile.most_mb).text == file.content) continue;
     throw tb::InputError(
         file.path, 0,

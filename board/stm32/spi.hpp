@@ -41,7 +41,7 @@ class Spi {
   bool selects() const { return drives() && (words_[kCr1] & kSsm) == 0 && (words_[kCr2] & kSsoe) != 0; }
   /// Asks for its interrupt.
   bool asks() const;
-  /// Bytes that came while the one before had not been fetched.
+  /// Bytes that came while the previous one had not been fetched.
   std::uint64_t lost() const { return lost_; }
 
  private:

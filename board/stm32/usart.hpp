@@ -49,7 +49,7 @@ class Usart {
   bool rx() const { return rx_; }
   /// Asks for its interrupt.
   bool asks() const;
-  /// Characters that came while the one before had not been fetched.
+  /// Characters that came while the previous one had not been fetched.
   std::uint64_t lost() const { return lost_; }
 
  private:

@@ -44,8 +44,8 @@ struct BusParameters {
   std::optional<int> set_bits = {};     ///< T_SET
   std::optional<int> quiet_bits = {};   ///< T_QUI
   std::optional<int> max_retries = {};  ///< repetitions of an unanswered request; default 1, at 3/6/12 Mbit/s 2/3/4
-  /// One FDL status poll for the live list every so many cycles; 0 = none. In a ring G: the GAP is polled, one address
-  /// per token, and again G x T_TR after the end of that.
+  /// Cycles from one FDL status poll for the live list to the next; 0: none. In a ring it is G: the GAP is polled, one
+  /// address per token, and again G x T_TR after the end of that.
   int gap_factor = 10;
   std::uint8_t highest_address = 126;  ///< HSA: last address of the live list
   /// Minimum time between the starts of two cycles; unset: the greatest of the master's slaves.

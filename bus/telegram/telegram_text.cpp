@@ -90,7 +90,7 @@ std::optional<LogLine> text_log_line(const std::string& content) {
   return line;
 }
 
-/// A JSON line; its fault in `error`.
+/// Reads a JSON line; `error` says what is wrong with it.
 std::optional<LogLine> json_log_line(const std::string& content, std::string& error) {
   const auto json = nlohmann::json::parse(content, nullptr, false);
   const auto text = [&json](const char* key) {
@@ -124,7 +124,7 @@ std::string add_line(const std::string& content, int line, TelegramText& text) {
   return add_words(content.substr(0, content.find_first_of("#;")), line, text);
 }
 
-/// As std::getline, but ends a too long line one character after the limit.
+/// Like std::getline, but stops one character after the limit.
 bool get_line(std::istream& in, std::string& line) {
   line.clear();
   for (char c = 0; in.get(c);) {

@@ -43,8 +43,8 @@ typedef struct dpsim_master_options {
   int32_t set_bits;              /**< T_SET */
   int32_t quiet_bits;            /**< T_QUI */
   int32_t target_rotation_bits;  /**< T_TR, of a ring; 0: 50 000 */
-  int32_t max_retries;           /**< for an unanswered request; 0: 1, at 3/6/12 Mbit/s 2/3/4; -1: none */
-  int32_t gap_factor;            /**< one FDL status every so many cycles (in a ring G); 0: 10; -1: none */
+  int32_t max_retries;           /**< of an unanswered request; 0: 2/3/4 at 3/6/12 Mbit/s, else 1; -1: none */
+  int32_t gap_factor;            /**< cycles from one FDL status to the next (G of a ring); 0: 10; -1: none */
   int32_t min_slave_interval_us; /**< minimum cycle time; 0: the greatest of the slaves'; -1: none */
   int32_t clock_ppm;             /**< error of its clock in millionths, positive: slow */
 } dpsim_master_options;
@@ -79,7 +79,7 @@ typedef struct dpsim_ring_status {
   uint32_t size;
   dpsim_ring_state state;
   uint8_t stations[16]; /**< LAS, the list of active stations: bit a % 8 of byte a / 8 for address a */
-  uint64_t rotations;   /**< T_RR, from one receipt of the token to the next: number of measurements */
+  uint64_t rotations;   /**< number of measurements of T_RR, from one receipt of the token to the next */
   uint64_t rotation_min, rotation_max, rotation_mean; /**< ... in ticks, 0 without measurement */
   uint64_t token_retries;                             /**< tokens repeated because no station was heard */
   uint64_t stations_dropped;                          /**< taken out of the LAS because they did not take the token */
@@ -103,12 +103,12 @@ typedef struct dpsim_scenario_options {
 
 /** Adds all masters of a scenario with their slaves, connections and the scenario's baud rate: those of class 1
  * first, each class in the order of the file. They start automatically at their times, counted from tick 0 of the
- * bus, and execute the script's actions for masters; the end of each of its requests is reported with `id` 0.
+ * bus, and execute the script's actions for masters; the end of each of the script's requests is reported with `id` 0.
  * `masters` has room for `capacity`; `count` receives the number of masters.
  *
- * The slaves are elsewhere, on this bus or outside. The scenario's parts about them (slaves, chip, user_cpu; script
- * actions on user CPUs, a plug or the line; checks, expect, allow, end) are ignored; `left_out`, if not NULL, lists
- * these parts in one line that is valid as long as the bus. A `when` of a master's action may use what a master
+ * The slaves are not added: they are on this bus or outside. The scenario's parts about them (slaves, chip, user_cpu;
+ * script actions on user CPUs, a plug or the line; checks, expect, allow, end) are ignored; `left_out`, if not NULL,
+ * lists these parts in one line that is valid as long as the bus. A `when` of a master's action may use what a master
  * knows: dp_state data_exch, data_exchanges, inputs of its slaves, connection_state, reply_of.
  *
  * DPSIM_ERR_INPUT, "file:line: ...": the scenario is wrong, it has no masters, or a `when` uses something else.
@@ -151,7 +151,7 @@ typedef struct dpsim_slave_status {
   uint32_t size;
   dpsim_slave_state state;
   const char* reason;    /**< why the last bring-up failed or data exchange ended; else empty */
-  const uint8_t* inputs; /**< of the last data exchange; valid until the bus runs, as are the other pointers */
+  const uint8_t* inputs; /**< of the last data exchange; valid until the bus runs again, as are the other pointers */
   const uint8_t* outputs;
   const uint8_t* diagnosis; /**< data of the last Slave_Diag answer */
   uint32_t input_count, output_count, diagnosis_count;
@@ -169,7 +169,7 @@ typedef struct dpsim_master_status {
   uint8_t running, clear;
   uint16_t reserved;
   uint64_t cycles;     /**< complete ones */
-  uint64_t cycle_time; /**< ticks from start to start of the last one, 0 before */
+  uint64_t cycle_time; /**< duration of the last one in ticks, start to start; 0: none yet */
 } dpsim_master_status;
 DPSIM_API dpsim_status dpsim_master_get_status(const dpsim_master* master, dpsim_master_status* status);
 
@@ -189,7 +189,7 @@ enum {
 typedef int32_t dpsim_service;
 enum {
   DPSIM_SERVICE_FDL_STATUS = 0,
-  DPSIM_SERVICE_READ_INPUTS = 56, /**< this one and the next by their SAP */
+  DPSIM_SERVICE_READ_INPUTS = 56, /**< from here on the number is the SAP */
   DPSIM_SERVICE_READ_OUTPUTS = 57,
   DPSIM_SERVICE_GET_CFG = 59,
   DPSIM_SERVICE_SLAVE_DIAG = 60
@@ -210,7 +210,7 @@ DPSIM_API dpsim_status dpsim_master_global_control(dpsim_master* master, uint8_t
 /** Set_Slave_Add; `lock`: forbids later changes. */
 DPSIM_API dpsim_status dpsim_master_set_slave_address(dpsim_master* master, uint8_t address, uint8_t new_address,
                                                       uint16_t ident, int32_t lock, uint32_t* id);
-/** Any request; FC holds bit 6 and the function, FCB and FCV are added. `sa` is ignored: the master uses its own
+/** Any request; `fc` has bit 6 and the function; the master adds FCB and FCV. `sa` is ignored: the master uses its own
  * address; for another one see dpsim_master_send_raw. DPSIM_ERR_ARGUMENT: it cannot be encoded. */
 DPSIM_API dpsim_status dpsim_master_request(dpsim_master* master, const dpsim_telegram* telegram, uint32_t* id);
 
@@ -235,8 +235,8 @@ enum {
   DPSIM_FAULT_TRUNCATE = 8,
   DPSIM_FAULT_GLITCH = 16
 };
-/** Sends any bytes once, without repetition; `faults` may be NULL. `wants_answer` not 0: waits for one as after a
- * request. */
+/** Sends any bytes once, without repetition; `faults` may be NULL. `wants_answer` not 0: waits for an answer
+ * as after a request. */
 DPSIM_API dpsim_status dpsim_master_send_raw(dpsim_master* master, const uint8_t* bytes, size_t count,
                                              const dpsim_wire_faults* faults, int32_t wants_answer, uint32_t* id);
 
@@ -245,7 +245,7 @@ DPSIM_API dpsim_status dpsim_master_send_raw(dpsim_master* master, const uint8_t
 typedef int32_t dpsim_acyclic_outcome;
 enum {
   DPSIM_ACYCLIC_POSITIVE = 0,     /**< data: what was read or transported */
-  DPSIM_ACYCLIC_NEGATIVE = 1,     /**< codes */
+  DPSIM_ACYCLIC_NEGATIVE = 1,     /**< codes: the slave's */
   DPSIM_ACYCLIC_TIMEOUT = 2,      /**< acknowledged, but no answer within the response time */
   DPSIM_ACYCLIC_REFUSED = 3,      /**< by the data link layer: UE, RR, RS; codes: its function code */
   DPSIM_ACYCLIC_NO_ANSWER = 4,    /**< the station does not answer at all */
@@ -289,7 +289,7 @@ DPSIM_API dpsim_status dpsim_master_add_connection(dpsim_master* master, const d
                                                    uint32_t* connection);
 /** Initiate; does nothing unless the connection is closed. DPSIM_ERR_NOT_FOUND: no such connection, here and below. */
 DPSIM_API dpsim_status dpsim_master_connect(dpsim_master* master, uint32_t connection);
-/** Aborts the connection with `reason`, 0 to 15, of instance user; 0: an ordinary end. */
+/** Aborts the connection: instance user, `reason` 0 to 15; 0: an ordinary end. */
 DPSIM_API dpsim_status dpsim_master_abort(dpsim_master* master, uint32_t connection, uint8_t reason);
 
 typedef int32_t dpsim_connection_state;

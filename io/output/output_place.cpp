@@ -51,7 +51,7 @@ void look_at_target(OutputPlace& place) {
     return;  // a new file
   }
   if (S_ISDIR(status.st_mode)) refuse_output(place.wanted, EISDIR);
-  // Renaming over a file needs no permission to write it, so that is asked for here.
+  // Renaming over a file needs no permission to write it, so the permission is checked here.
   if (::faccessat(AT_FDCWD, place.target.c_str(), W_OK, AT_EACCESS) != 0) refuse_output(place.wanted, errno);
   place.direct = !S_ISREG(status.st_mode);
   place.replaced = status;

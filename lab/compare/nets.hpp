@@ -20,7 +20,7 @@ struct Net {
 
 class Nets {
  public:
-  /// Those in the scope `prefix` and below it; empty: all. `file` is for messages. Throws InputError for an unknown
+  /// The nets in the scope `prefix` and below it; empty: all. `file` is for messages. Throws InputError for an unknown
   /// scope.
   Nets(const WaveDeclarations& declarations, const std::string& prefix, std::string file);
 

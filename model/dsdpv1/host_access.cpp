@@ -74,7 +74,7 @@ void HostAccess::aim(std::uint16_t address, std::uint8_t value) {
 
 Tick HostAccess::sample() const { return edges_[edge_of(Pin::kDOut, 0)].at; }
 
-/// Its index among the edges; the number of edges if there is none.
+/// The index of this edge; the number of edges if there is no such edge.
 std::size_t HostAccess::edge_of(Pin pin, Level level) const {
   const auto searched = [pin, level](const Edge& edge) { return edge.pin == pin && edge.level == level; };
   return static_cast<std::size_t>(std::find_if(begin(), end(), searched) - begin());

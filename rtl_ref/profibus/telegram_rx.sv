@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // Assembles telegrams (section 7; S3, S10) from characters and signals when one is decided.
 //
-// Fields are kept until the next telegram begins. The bytes after the SAPs are handed on as they arrive; the first eight are
+// Fields are kept until the next telegram begins. The bytes after the SAPs are passed on as they arrive; the first eight are
 // also kept.
 `include "profibus_types.svh"
 

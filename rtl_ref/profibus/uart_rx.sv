@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // Receiver of characters (section 6; S2, S10): 11 bits, sampled at mid-bit from the synchronised falling edge.
 //
-// A character that is complete at edge C is handed on registered, that is, telegram_rx uses it at edge C+1; nothing can be decided
+// A character that is complete at edge C is passed on registered, that is, telegram_rx uses it at edge C+1; nothing can be decided
 // before C+7. Three counters are here because they start from C: the idle time, the deadline of the telegram and the clock of the answer.
 `include "profibus_types.svh"
 

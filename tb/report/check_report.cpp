@@ -41,7 +41,7 @@ Row row_of(const RunResult& result, const checks::Rule* rule) {
   return row;
 }
 
-/// Those that were evaluated.
+/// A row for each check that was evaluated.
 std::vector<Row> rows_of(const RunResult& result) {
   std::vector<Row> rows;
   for (const CheckResult& first : result.checks) {
@@ -76,7 +76,7 @@ std::string headline(const RunResult& result, const std::vector<Row>& rows) {
 
 std::string time_or_dash(std::optional<Tick> time, std::string (*text)(Tick)) { return time ? text(*time) : "-"; }
 
-/// Who was the worst is said where there are several.
+/// With several slaves a column names the one with the worst value.
 std::string table_of(const RunResult& result, const std::vector<Row>& rows) {
   if (rows.empty()) return "";
   const bool several = result.slaves.size() > 1;

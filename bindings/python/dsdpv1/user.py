@@ -36,7 +36,7 @@ class Level(typing.NamedTuple):
 
 
 class Wait(typing.NamedTuple):
-    """Waits so many ticks."""
+    """Waits for this number of ticks."""
 
     ticks: int
 

@@ -105,7 +105,7 @@ class TsdrJudge {
     else
       accept(request);
   }
-  /// It stays unknown whether it was accepted.
+  /// Whether the value asked for was accepted stays unknown, so both remain possible.
   void give_up_asked() {
     if (asked_ && !now_.empty()) now_.push_back(asked_->bits);
     asked_.reset();
@@ -144,13 +144,13 @@ class TsdrJudge {
       now_.clear(), before_.clear();
       return learns(cycles, request);
     }
-    // Without BR a new initialisation can only be excluded before evidence of DATA_EXCH.
+    // Without BR only evidence of DATA_EXCH excludes a new initialisation.
     const bool restarted = !scene_.record.sees(wire::kBr) && (!exchange.exchanged() || exchange.repeats) &&
                            fits(cycles, request, bus::kMinTsdrBits);
     if (restarted) restart();
     return restarted;
   }
-  /// For a capture that begins in operation.
+  /// Every value that fits is possible: the capture begins in operation, or a Set_Prm was not read.
   bool learns(const Span& cycles, const LineTelegram& request) {
     for (int bits = bus::kMinTsdrBits; bits <= bus::baud(request.baud).max_tsdr_bits; ++bits)
       if (fits(cycles, request, bits)) now_.push_back(bits);
@@ -178,10 +178,10 @@ class TsdrJudge {
   Found& found_;
   Tick looked_ = 0;
   std::vector<int> now_;        ///< possible values of min_TSDR; empty: not shown yet
-  std::optional<Asked> asked_;  ///< by a Set_Prm that may have been, or may be, accepted
+  std::optional<Asked> asked_;  ///< value of a Set_Prm that perhaps was, or will be, accepted
   std::vector<int> before_;     ///< value before the last Set_Prm
   bool changed_ = false;        ///< by a Set_Prm, and no answer has shown it yet
-  bool open_ = false;           ///< by a Set_Prm that was not read, perhaps: the first answer that shows it counts
+  bool open_ = false;           ///< a Set_Prm may not have been read: the first answer that shows min_TSDR counts
 };
 
 }  // namespace

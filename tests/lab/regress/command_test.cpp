@@ -76,8 +76,7 @@ TEST_F(RegressCommand, RunsAllScenariosOfTheFolderAndSaysWhatEachHasComeTo) {
   const nlohmann::json all = runs("", 1);
   EXPECT_EQ(verdicts(all),
             (std::map<std::string, std::string>{{"bad", "failed"}, {"good", "passed"}, {"wrong", "refused"}}));
-  EXPECT_THAT(all[0]["reason"],
-              HasSubstr("not met: demo: event BUS_TELEGRAM_ERROR at least once at the end; seen: 0"));
+  EXPECT_THAT(all[0]["reason"], HasSubstr("not met: demo: event BUS_TELEGRAM_ERROR at least once at the end; seen: 0"));
   EXPECT_THAT(all[2]["reason"], HasSubstr("scenarios/wrong.yaml:2: baud is \"13M\""));
 }
 

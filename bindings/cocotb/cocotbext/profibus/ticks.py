@@ -44,7 +44,7 @@ async def until(tick: int) -> None:
 
 
 async def wait(ticks: int) -> None:
-    """Waits so many ticks."""
+    """Waits for this number of ticks."""
     await until(now() + ticks)
 
 
