@@ -3,6 +3,8 @@ import os
 import pathlib
 import re
 
+from docutils import nodes
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ["DSDPV1_DOCS"])
 
@@ -32,6 +34,11 @@ html_copy_source = False
 nitpick_ignore_regex = [("c:identifier", r"u?int\d+_t|size_t|bool|dsdpv1_link"), ("py:class", r"(enum|os|numpy|typing|pathlib)\..*|dsdpv1\.(_library\.Handle|user\.T|telegram\.Kind)")]
 
 
+CODE = re.compile(r"\b[A-Z]{1,2}\d+\b")
+RULINGS = {code: page for page in ("docs/chip", "docs/chip_rsu")
+           for code in re.findall(r"^- \*\*([A-Z]{1,2}\d+)\*\*", (ROOT / f"{page}.md").read_text(encoding="utf-8"), re.M)}
+
+
 def mark_examples(_app, _what, _name, _object, _options, lines):
     """Indented lines of a docstring are an example."""
     for at in range(len(lines) - 1, 1, -1):
@@ -39,5 +46,36 @@ def mark_examples(_app, _what, _name, _object, _options, lines):
             lines[at:at] = ["::", ""]
 
 
+def links_in(text):
+    """Rulings in brackets, as (H2) or (table 15, P5), and pages that are named: from, to, page, anchor."""
+    for bracket in re.finditer(r"\([^()]*\)", text):
+        for code in CODE.finditer(bracket.group()):
+            if code.group() in RULINGS:
+                yield bracket.start() + code.start(), bracket.start() + code.end(), RULINGS[code.group()], "#" + code.group().lower()
+    for page in re.finditer(r"(?<![\w/])(docs/[\w/]+)\.md", text):
+        if (ROOT / page.group()).exists():
+            yield *page.span(), page.group(1), ""
+
+
+def with_links(text, address):
+    end = 0
+    for begin, after, page, anchor in sorted(links_in(text)):
+        yield nodes.Text(text[end:begin])
+        yield nodes.reference("", text[begin:after], internal=True, refuri=address(page) + anchor)
+        end = after
+    yield nodes.Text(text[end:])
+
+
+def link_words(app, doctree, docname):
+    """Rulings and pages that are only named lead to where they stand."""
+    for text in list(doctree.findall(nodes.Text)):
+        if isinstance(text.parent, (nodes.paragraph, nodes.emphasis)) and any(links_in(text)):
+            text.parent.replace(text, list(with_links(text.astext(), lambda page: app.builder.get_relative_uri(docname, page))))
+    for strong in doctree.findall(nodes.strong):
+        if RULINGS.get(strong.astext()) == docname and isinstance(strong.parent.parent, nodes.list_item):
+            strong.parent.parent["ids"].append(strong.astext().lower())
+
+
 def setup(app):
+    app.connect("doctree-resolved", link_words)
     app.connect("autodoc-process-docstring", mark_examples)
