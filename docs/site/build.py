@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """The documents as a site with search: FOLDER/html. Warnings of Doxygen and Sphinx are errors.
 
-    build.py FOLDER DSDPV1_SIM LIBDSDPV1 PYTHON_PACKAGES
+    build.py FOLDER DSDPV1_SIM LIBDSDPV1 PYTHON_PACKAGES      with a python3 that has requirements-docs.lock
 
 Its pages are those of docs/README.md, in that order, as they stand, with the files of the project that they link to; and a reference made from sources: the
-help of all commands, the headers of include/ and driver/ by Doxygen, the module dsdpv1 as it is imported. Python's standard library only; sphinx-build does the rest.
+help of all commands, the headers of include/ and driver/ by Doxygen, the module dsdpv1 as it is imported. Sphinx does the rest.
 """
 import os
 import pathlib
@@ -124,7 +124,7 @@ def main(folder, program, library, packages):
     headers(source, folder)
     python_module(source, pathlib.Path(packages), folder / "python")
     environment = {**os.environ, "DSDPV1_LIBRARY": str(pathlib.Path(library).resolve()), "PYTHONPATH": str(folder / "python"), "DSDPV1_DOCS": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
-    status = subprocess.run(["sphinx-build", "-q", "-W", "-n", "--keep-going", "-j", "2", "-b", "html", "-c", SITE, "-d", folder / "doctrees", source, folder / "html"],
+    status = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "-n", "--keep-going", "-j", "2", "-b", "html", "-c", SITE, "-d", folder / "doctrees", source, folder / "html"],
                             env=environment, check=False).returncode
     if status == 0:
         shutil.copy(folder / "html/README.html", folder / "html/index.html")

@@ -1,9 +1,7 @@
-// The error table of the header, and the copy of it in docs/programmers_guide.md.
+// The error table of the header.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -38,23 +36,6 @@ TEST(Errors, EachHasItsOwnValueAndText) {
 }
 
 TEST(Errors, UnknownValueHasAText) { EXPECT_STREQ(dsdpv1_error_text(static_cast<dsdpv1_error>(9)), "unknown error"); }
-
-TEST(Errors, GuideHasTheSameTable) {
-  std::ifstream file(GUIDE);
-  ASSERT_TRUE(file) << GUIDE;
-  std::stringstream guide;
-  guide << file.rdbuf();
-  std::size_t rows_in_guide = 0;
-  for (std::string line; std::getline(guide, line);) {
-    rows_in_guide +=
-        line.find("| `DSDPV1_ERR_") != std::string::npos || line.find("| `DSDPV1_OK`") != std::string::npos;
-  }
-  EXPECT_EQ(rows_in_guide, table().size());
-  for (const Row& row : table()) {
-    const std::string expected = "| " + std::to_string(row.error) + " | `" + row.name + "` | " + row.text + " |";
-    EXPECT_NE(guide.str().find(expected), std::string::npos) << "missing in the guide: " << expected;
-  }
-}
 
 }  // namespace
 }  // namespace dsdpv1

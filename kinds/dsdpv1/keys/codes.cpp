@@ -103,7 +103,7 @@ std::vector<CodeText> chip_codes() {
 
 std::vector<CodeText> driver_codes() {
   return {
-#define X(name, value, text) {#name, (name) == DSDPV1_OK ? "info" : "refusal", text, advice_of(name)},
+#define X(name, value, text) {#name, (name) == DSDPV1_OK ? "info" : "refusal", #value ": " text, advice_of(name)},
       DSDPV1_ERROR_TABLE(X)
 #undef X
   };
@@ -119,7 +119,7 @@ std::vector<CodeText> board_codes() {
 const std::vector<CodeTable>& dsdpv1_codes() {
   static const std::vector<CodeTable> tables = {
       {"The chip", "`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal, `{a:ns}` a time.", chip_codes()},
-      {"The driver", "What a call of the C driver returned to the user program.", driver_codes()},
+      {"The driver", "What a call of the C driver returned to the user program, with its value.", driver_codes()},
       {"The ARM board", "See [arm_board.md](arm_board.md).", board_codes()}};
   return tables;
 }
