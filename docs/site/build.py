@@ -74,7 +74,10 @@ def output(*command, **options):
 def help_of_commands(source, program):
     whole = output(program, "--help")
     text = f"# Command line of dsdpv1-sim\n\nWhat each command is for, with examples: [the command line](../docs/command_line.md).\n\n```text\n{whole}```\n"
-    for name in re.findall(r"^  ([a-z][a-z-]+) {2,}[A-Z]", whole, re.M):
+    names = re.findall(r"^  ([a-z][a-z-]+) {2,}[A-Z]", whole, re.M)
+    if "run" not in names:
+        sys.exit(f"{program} --help lists no commands as this program expects them")
+    for name in names:
         text += f"\n## {name}\n\n```text\n{output(program, name, '--help')}```\n"
     write(source / "reference/cli.md", text)
     write(source / "reference/run.md", f"# Commands of ./run\n\n```text\n{output(ROOT / 'run', '--help')}```\n")
