@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
                        "step and skip");
 }
 
-/// The folder rtl/ of this program's build, beside one of the folders above the program; or of the installation.
+/// The file in rtl/ of this program's build, in a folder above the program, or in the installation.
 fs::path find(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   for (fs::path folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path())

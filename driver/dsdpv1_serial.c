@@ -30,7 +30,7 @@ uint8_t* dsdpv1_copy_spans(uint8_t* to, dsdpv1_span head, dsdpv1_span data) {
 }
 
 static uint16_t put_together(const dsdpv1_wire* wire, const dsdpv1_order* order) {
-  uint8_t* bytes = wire->serial->bytes; /* NOLINT(clang-analyzer-core.NullDereference): no wire is without a port */
+  uint8_t* bytes = wire->serial->bytes; /* NOLINT(clang-analyzer-core.NullDereference): every wire has a port */
   uint8_t* to = bytes;
   *to++ = (uint8_t)(order->start | wire->address);
   if (order->start != kStartBoth) { /* SPI's read and write has neither address nor length */

@@ -18,10 +18,10 @@ namespace {
 
 using std::chrono::steady_clock;
 
-// A snapshot costs some milliseconds of real time: what the copies and this process change from then on is copied page
-// by page.
+// A snapshot costs some milliseconds of real time. From then on the system copies each page that the snapshot or this
+// process changes.
 constexpr std::chrono::milliseconds kBetween(500);
-// An event may be reported later, and a wave needs so much lead before it is correct.
+// An event may be reported so much later than it happens; a wave needs so much lead until it is correct.
 constexpr tb::Tick kLate = 2 * bus::kTicksPerMs;
 
 }  // namespace

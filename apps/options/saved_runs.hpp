@@ -20,32 +20,32 @@ namespace dsdpv1::app {
 tb::SavedRun described_run(const RunArguments& arguments, const std::string& text,
                            const tb::scenario::Scenario& scenario);
 
-/// Its files are what they were, or absent and given to whoever reads them; throws tb::InputError.
+/// Provides the saved run's files to all that read them, if absent. Throws tb::InputError for a file that has changed.
 void provide_files(const tb::SavedRun& run, const std::string& path);
-/// The arguments with what a saved run says.
+/// The arguments, with those of a saved run in their place.
 RunArguments arguments_of(RunArguments arguments, const tb::SavedRun& run);
 
-/// A debugger's actions in it are repeated, and a debugger of this run acts after them.
+/// Repeats the debugger's actions of the saved run; a debugger of this run acts after them.
 void replay_debugger(tb::RunOptions& options, const tb::SavedRun& run);
 
 /// The actions of --save-at and --restore during a run.
 class SavedRuns {
  public:
-  /// Opens the files of --save-at; throws tb::InputError, also for times that the run has not. `restored` may be null;
+  /// Opens the files of --save-at; throws tb::InputError, also for times after the run's end. `restored` may be null;
   /// `run` and `restored` must outlive it.
   SavedRuns(const RunArguments& arguments, const tb::SavedRun& run, const tb::SavedRun* restored, tb::Tick end);
 
-  /// The bench's tasks for them.
+  /// Adds to `options` what the bench has to do at these times.
   void ask(tb::RunOptions& options);
   /// At the end of a run: throws tb::InputError when a file could not be written or the restored run is another one.
-  /// Says which files were not written as the run was over before.
+  /// Reports files that were not written because the run ended before their time.
   void check(bool interrupted);
 
  private:
   struct Save {
     Save(tb::Tick tick, std::string text, const std::string& path) : at(tick), time(std::move(text)), file(path) {}
     tb::Tick at;
-    std::string time;  ///< as it was given; empty: it is written
+    std::string time;  ///< as given; empty: the file has been written
     tb::OutputFile file;
   };
   bool marked(tb::Tick now, std::uint64_t digest);

@@ -76,7 +76,7 @@ void Collector::finish() {
   open_.reset();
 }
 
-/// Takes the flags up to the telegram's end; later ones belong to the present telegram.
+/// Takes the flags up to the end of the open telegram; later ones belong to the next.
 void Collector::take_flags() {
   const auto later = std::stable_partition(
       flags_.begin(), flags_.end(), [this](const Flag& flag) { return flag.at <= open_->end; });

@@ -11,11 +11,11 @@
 enum { kUnknown = -1 };
 
 static volatile int16_t configured_length = kUnknown; /* of the inputs; the INTR0 handler writes it */
-static uint8_t outputs[DSDPV1_MAX_IO], output_length; /* of the process */
+static uint8_t outputs[DSDPV1_MAX_IO], output_length; /* as the process has them */
 static uint8_t commanded[DSDPV1_MAX_IO], commanded_length;
 static bool is_commanded;
 static uint8_t exchanges; /* modulo 256: the value for DSDPV1_INPUTS_COUNT */
-static uint8_t longest;   /* accepted by the chip since its initialisation */
+static uint8_t longest;   /* input length that the chip accepts */
 static bool wrong_length; /* of the next inputs */
 
 void cyclic_configured(uint8_t input_length) { configured_length = input_length; }

@@ -18,11 +18,11 @@ module dpram_move (
   input  logic [10:0] addr_i,         // of a block's next byte
   input  logic [10:0] crc_addr_i,     // of the CRC's next byte
   input  logic [15:0] crc_i,
-  input  logic [7:0]  length_i,       // of the configuration: of the inputs, and its own
-  input  logic [7:0]  left_i,
+  input  logic [7:0]  length_i,       // length of the inputs in the configuration
+  input  logic [7:0]  left_i,         // length of the configuration
   input  logic [7:0]  mail_data_i,    // the mail's next byte
   input  logic [7:0]  errors_i,       // B00B as it was read
-  input  logic [7:0]  clear_i,        // bits of it
+  input  logic [7:0]  clear_i,        // bits of B00B to clear
   input  logic [7:0]  set_i,
   output logic [7:0]  u_without_o,    // the copies after the commit or flag of this item
   output logic [7:0]  w_without_o,

@@ -84,7 +84,7 @@ PinMask Bench::watched_pins() const {
   return all ? all_of(kind_.pins()) : checks_.pins() | hosts_.pins();
 }
 
-/// True if only the wave, at most, needs each change of each pin or each cycle.
+/// True if nothing, except perhaps the wave, needs each change of each pin or each cycle.
 bool Bench::takes_runs() const { return !options_.wave.inside && options_.trace.empty() && options_.observers.empty(); }
 
 void Bench::add_slave(const scenario::Slave& slave) {
@@ -103,7 +103,7 @@ void Bench::add_slave(const scenario::Slave& slave) {
   made.chip().listen(observers_, slaves.size() - 1, wanted);
 }
 
-/// Runs, internal signals (if shown) and actions are only needed by the wave, reads only by checks.
+/// The wave needs runs, actions and (if shown) internal signals; checks and observers need reads.
 ChipNews Bench::wanted_news(const ChipView& chip) const {
   const bool wave = waves_.has_value();
   return {wave && takes_runs() && chip.tells_runs(), checks_.on() || !options_.observers.empty(),
@@ -253,7 +253,7 @@ void Bench::leave_nothing() {
   periodic_poll_.stop();
 }
 
-/// For a wave that begins late.
+/// When a wave that begins late has to be awake; kNever: at no known time.
 Tick Bench::sleeps_until() const {
   const Tick from = options_.wave.selection.from;
   return from == bus::kNever ? bus::kNever : std::max<Tick>(from - kAwakeBefore, 0);
@@ -279,9 +279,9 @@ void Bench::keep_only_wave() {
   if (capture_) capture_->mute();
 }
 
-/// Only chips of the TLM view have acted at `now`. All others are summed as they are, and the line with its level just
-/// before, instead of the pins at it, because runs do not move them. Then each chip has its turn at `now`, which is the
-/// next one anyway.
+/// At `now` only chips of the TLM view have acted; all other agents are added as they are. The line counts by its level
+/// just before `now`; the chips' pins at the line do not count, because runs do not move them. `sync` gives each chip
+/// its turn at `now`, which is the next one anyway.
 std::uint64_t Bench::digest(Tick now) {
   Hash hash;
   hash.add(digest_.before(now));
@@ -361,7 +361,7 @@ bool Bench::keep_outputs(Tick at) {
          !(capture_ && capture_->failed());
 }
 
-/// A run that an output error has ended early leaves none of them.
+/// Completes the outputs. check() throws if one failed; then none is left.
 void Bench::finish_outputs() {
   RunLog* log = only_wave_ ? nullptr : journal_.run_log();
   if (waves_ && waves_->asleep()) waves_.reset();

@@ -15,8 +15,7 @@ const std::vector<WordFor<Judgement>>& judgement_words() {
 ObjectOf<InitData> describe_init(const ChipKind& kind) {
   using I = InitData;
   ObjectOf<I> o("init",
-                "What the user CPU tells the chip at the initialisation (table 2). With a GSD, what is left "
-                "out comes from there.");
+                "What the user CPU tells the chip at the initialisation (table 2). A GSD gives missing values.");
   o.integer("ident", &I::ident, {0, 0xFFFF}, "", "Ident number.");
   o.integer("max_inputs", &I::max_inputs, {0, 255}, "bytes",
             "Most input bytes, slave to master; above 244 the chip refuses.");
@@ -61,9 +60,10 @@ void add_own_keys(ObjectOf<UserCpu>& o, const ChipKind& kind) {
 
 ObjectOf<UserCpu> describe_user_cpu(const ChipKind& kind) {
   using U = UserCpu;
-  ObjectOf<U> o("user_cpu",
-                "The user CPU: its program, what it runs on, and how that reaches the chip. What says how the program "
-                "behaves reaches firmware of your own only through a mailbox (docs/arm_board.md).");
+  ObjectOf<U> o(
+      "user_cpu",
+      "The user CPU: its program, what it runs on, and how that reaches the chip. Firmware of your own gets the "
+      "program's settings only through a mailbox (docs/arm_board.md).");
   o.word("behaviour", &U::behaviour,
          std::vector<WordFor<Behaviour>>{
              {Behaviour::kLoopBack, "loop_back", "inputs are the last outputs, cut or filled with 0"},

@@ -184,8 +184,8 @@ std::string keys_besides(const Object& usual, const Object& own, const char* kin
     if (!has(usual, field.name)) fields.push_back(&field);
   if (fields.empty()) return {};
   return fmt::format(
-      "\n## {} of {}\n\nThe keys that it has besides.\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n{}",
-      own.name, kind, rows(fields));
+      "\n## {} of {}\n\nIts additional keys.\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n{}", own.name,
+      kind, rows(fields));
 }
 
 std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
@@ -199,7 +199,7 @@ std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
   std::vector<const Field*> fields;
   for (const Field& field : action_keys(kind).fields)
     if (!has(action_keys(usual), field.name)) fields.push_back(&field);
-  return fmt::format("\n## actions of {}\n\nThe actions and their keys that it has besides.\n{}", kind.name(),
+  return fmt::format("\n## actions of {}\n\nIts additional actions and their keys.\n{}", kind.name(),
                      choice_table("do", choices)) +
          (fields.empty() ? "" : "\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows(fields));
 }

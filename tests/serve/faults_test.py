@@ -210,7 +210,7 @@ def half_telegram(serve):
         ask(after.fileno())
 
 
-@fault("sends a telegram of 255 bytes in such small pieces that it would take 10 s", "see what has come of it on the line after 1 s at most; simulated time, "
+@fault("sends a telegram of 255 bytes in such small pieces that it would take 10 s", "see the bytes so far on the line after 1 s at most; simulated time, "
        "which stood still, catches up", [CONNECTED], may=[HUNG_UP], status=1)
 def trickle(serve):
     with host(serve) as slow:
@@ -224,7 +224,7 @@ def trickle(serve):
             read_some(slow.fileno(), 1, 0.04)
 
 
-@fault("connects and hangs up 1000 times", "are served afterwards. 40 lines a second are said, the others counted", [CONNECTED, MORE],
+@fault("connects and hangs up 1000 times", "are served afterwards. 40 lines a second are printed, the others counted", [CONNECTED, MORE],
        may=[HUNG_UP, WAITS, TURN, LEFT, REFUSED])
 def reconnect_storm(serve):
     begin = time.monotonic()
