@@ -76,7 +76,7 @@ void and_align_sp(Engine& e, const Instruction& i) {
   O::align_sp(e);
 }
 
-/// With `aligns`: SP is written.
+/// `aligns`: the operation writes SP.
 template <Operation operation>
 constexpr Operation aligned(bool aligns) {
   return aligns ? &and_align_sp<operation> : operation;
@@ -147,11 +147,11 @@ Operation branch_if_of(unsigned condition) {
 
 // --- instructions
 
-/// The same inside of an IT block.
+/// The same operation inside and outside of an IT block.
 Instruction always(Operation run) { return {run, run}; }
 Instruction undefined() { return always(&O::refused<Trap::kUndefined>); }
 
-/// Of a halfword: it sets flags, but not inside of an IT block.
+/// A halfword sets the flags, but not inside of an IT block.
 Instruction alu16(Alu what, Second second, U8 rd, U8 rn, U8 rm, U32 value) {
   Instruction made = {alu_of(what, second, true, rd), alu_of(what, second, !has_result(what), rd), value, rd, rn, rm};
   made.kind = has_result(what) ? Kind::kData : Kind::kCompare;
@@ -171,7 +171,7 @@ Instruction with_registers(Operation run, U8 rd, U8 rn, U8 rm, U32 value = 0) {
   return made;
 }
 
-/// With a result in rd.
+/// An instruction with a result in rd.
 Instruction data(Operation run, U8 rd, U8 rn, U8 rm, U32 value = 0) {
   Instruction made = with_registers(run, rd, rn, rm, value);
   made.kind = Kind::kData;
@@ -336,7 +336,7 @@ Instruction load_store_register16(U32 h) {
   return load_or_store(what > 2, kAccess[what], low(h, 0), {Index::kRegister, low(h, 3), low(h, 6)});
 }
 
-/// A5.2.5 but CBZ, PUSH, POP.
+/// A5.2.5 except CBZ, PUSH, POP.
 Instruction miscellaneous16(U32 h) {
   const U8 rd = low(h, 0), rm = low(h, 3);
   const U32 words = bits(h, 0, 7) * 4;
@@ -407,7 +407,7 @@ Instruction decode16(U32 address, U32 h) {
 
 // --- two halfwords
 
-/// What op 0 to 14 of A5.3.1 and A5.3.11 means; nothing that a Cortex-M3 has: kMov with `known` false.
+/// What op 0 to 14 of A5.3.1 and A5.3.11 means; if a Cortex-M3 has no such operation, kMov, and `known` is false.
 Alu what_of(U32 op, bool discards, bool from_pc, bool& known) {
   known = true;
   switch (op) {
@@ -587,7 +587,7 @@ Instruction dual_or_exclusive(U32 pc, U32 h, U32 h2) {
   return made;
 }
 
-/// False: nothing that there is.
+/// Returns false if there is no such instruction.
 bool find_place(U32 pc, U32 h, U32 h2, Place& place) {
   const U32 imm12 = bits(h2, 0, 12), imm8 = bits(h2, 0, 8);
   const bool before = bit(h2, 10), writes_back = bit(h2, 8);

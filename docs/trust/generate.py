@@ -34,7 +34,7 @@ FUZZING = """
 ## Fuzzing
 
 `./run fuzz` runs each target on inputs from clang's libFuzzer, under AddressSanitizer (with leaks) and UndefinedBehaviorSanitizer. Findings are a crash,
-a report, a leak, more than 10 s for one input, more than 2 GB in total or 256 MB at once. A broken promise is also one: an error that is not one line, a file that
+a report, a leak, more than 10 s for one input, more than 2 GB in total or 256 MB at once. A broken promise is also a finding: an error that is not one line, a file that
 differs after writing and reading it again, a chip whose pins differ between step, skip and dozing. A target is one file of `tests/fuzz/targets/`.
 
 `tests/fuzz/corpus/` holds a few small inputs that reach the same code as all others, and each former finding (`found_...`). `./run test` runs
@@ -43,7 +43,7 @@ and does not fit the quarter of an hour of `./run test`.
 
 """
 FUZZ_GOAL = """
-The goal is ten million inputs for telegrams and one million for each other target. Counted are inputs of runs that found nothing, with
+The goal is ten million inputs for telegrams and one million for each other target. Only inputs of runs that found nothing count, with
 the target's latest code. Seconds are wall time on a machine with other work.
 
 """
@@ -95,7 +95,7 @@ STACK = """
 ### Stack of the driver
 
 The table gives bytes on a Cortex-M3 on the deepest path of each public function, by port, at {levels}. The path adds GCC's figures for each function ({compiler}, measured {date}) along
-the call graph. Not counted are interrupts and the C library's `memcpy`, `memset`, `memmove` and `strlen`. Functions of the application are not counted either; the last column names them
+the call graph. Interrupts, the C library's `memcpy`, `memset`, `memmove` and `strlen`, and the application's functions are not counted; the last column names the latter
 (`port`: those of its port; the others take DPV1 services, parameters and configurations).
 
 """
@@ -130,7 +130,7 @@ SOAK = """
 ## Hours of `serve`
 
 `tests/serve/soak.py DSDPV1_SIM --hours N` lets hosts misbehave at 1.5 Mbit/s, one after the other, in an order given by the seed. They babble, flood,
-read nothing, trickle, break off, connect and hang up by the hundred, and come in crowds. They leave as a program that ends or as one that is killed. After each
+read nothing, trickle, break off, connect and hang up by the hundred, and come in crowds. They leave by ending or by being killed. After each
 of them a well-behaved master, which waited meanwhile, must get its turn, bring the slave up and exchange data. Every byte is compared. Memory may not
 grow by more than 4 MB, and `serve` may listen only at 127.0.0.1. `serve` keeps real time, so its hours are hours of the clock.
 
@@ -197,8 +197,8 @@ RANDOM = """
 ## Random lockstep
 
 `./run rtl-random --campaign` plays random cases to model and reference RTL, for the DSDPV1 and each host port of the DSDPV1-RSU. It compares every change of every pin and the DPRAM
-([cosim.md](cosim.md)). It counts the situations reached: transitions of the DP state, the answers of each service in each state, and events by the cases of their ruling. Also Sync and
-Freeze, transfers of the DPRAM, and the host's actions in each part of an access of the chip. `./run nightly` continues until a thousand million cycles are compared.
+([cosim.md](cosim.md)). It counts the situations reached: transitions of the DP state, the answers of each service in each state, and events by the cases of their ruling. Further Sync and
+Freeze, transfers of the DPRAM, and host actions in each part of a chip's access. `./run nightly` continues until a thousand million cycles are compared.
 
 """
 RANDOM_GOAL = 1_000_000_000  # cycles

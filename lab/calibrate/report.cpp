@@ -21,7 +21,7 @@ std::string line(const std::string& heading, const std::string& what) {
   return fmt::format("{:<14} {}\n", heading, what);
 }
 
-/// A complete bus as one word, after the others.
+/// A complete bus becomes one word, after the single wires.
 std::string wires_text(const WireTable& table, std::vector<std::string> wires) {
   std::map<std::string, std::set<std::string>> buses;
   for (const WireInfo& wire : table)
@@ -40,7 +40,7 @@ std::string ppm_text(const Estimate& clock) {
   return fmt::format("{:+.1f} to {:+.1f} ppm against the capture's", ppm(clock.span.lo), ppm(clock.span.hi));
 }
 
-/// Time and error of the worst instance, or nothing.
+/// Error and time of the worst instance, or a dash.
 std::string worst_text(const std::vector<Outlier>& outliers) {
   if (outliers.empty()) return "-";
   return fmt::format("{:+.2f} at {}", outliers.front().by, time_text(outliers.front().at));

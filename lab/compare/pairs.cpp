@@ -63,7 +63,7 @@ class Matcher {
     used_b_.insert(b->name());
     found_.pairs.push_back(std::move(pair));
   }
-  /// A signal of B that is driven only at times.
+  /// True if B lacks `driven` or `released` of an optional signal.
   bool lacks_a_side(const NamedPair& names) const {
     const auto lacks = [this](const std::string& name) { return !name.empty() && !b_.knows(name); };
     return !names.required && (lacks(names.driven) || lacks(names.released));

@@ -41,12 +41,12 @@ class Sequencer {
   void catch_up(Cycle until);
   Cycle next() const;
 
-  /// Between two accesses, with no work for the next ones until the user or the station acts.
+  /// True between two accesses, if the next ones have no work until the user or the station acts.
   bool may_doze() const;
-  /// Neither the station's mail nor a status byte waits for an access.
+  /// True if neither mail of the station nor a status byte waits for an access.
   bool nothing_due() const { return due_items(profibus::kNever) == 0; }
-  /// No access is an event until wake(). Only if may_doze(). The caller ensures that owns() is not read and that
-  /// catch_up() precedes every act of the user or the station.
+  /// Until wake() no access is an event. Call it only if may_doze(). The caller ensures that owns() is not read and
+  /// that catch_up() precedes every act of the user or the station.
   void doze() { dozing_ = true; }
   bool dozing() const { return dozing_; }
   /// Simulates everything up to and including `now`; accesses are events again.
@@ -70,7 +70,9 @@ class Sequencer {
   Cycle told_user() const { return told_user_; }
   std::uint64_t accesses() const { return accesses_; }
   Cycle longest_wait() const { return longest_wait_; }
-  std::uint64_t outputs_overwritten() const { return outputs_overwritten_; }  ///< in the DPRAM, B00E.0 still set
+  std::uint64_t outputs_overwritten() const {
+    return outputs_overwritten_;
+  }  ///< in the DPRAM, while B00E.0 was still set
   /// Notes each byte move from now on for inside().
   void note_moves() { notes_moves_ = true; }
   /// State at the edge of `now`, the last one evaluated. Valid only if every edge is evaluated.
@@ -96,8 +98,8 @@ class Sequencer {
     archive(accesses, outputs_overwritten, moved, crc_right);
     archive.lengths(longest_wait);
   }
-  /// Whether a restored state is possible after the edge of `now`: the item in progress ends before its bytes, and
-  /// soon.
+  /// Whether a restored state is possible after the edge of `now`: the item in progress is within its bytes, and has
+  /// begun lately.
   bool is_possible(Cycle now) const;
 
  private:

@@ -78,7 +78,7 @@ struct Chip::Impl {
   void set_reset(Tick at, bool high);
   void advance(Tick to);
   Tick next_event() const { return std::min(next_edge(), drive_at()); }
-  // D of the parallel port, or MISO.
+  // When D of the parallel port, or MISO, changes.
   Tick drive_at() const { return live ? serial.drive_at() : host.drive_at(); }
   void drive(Tick at);
   Tick next_seen() const;
@@ -118,7 +118,7 @@ struct Chip::Impl {
   // Inline: it runs at the begin and the end of each access, and with two kinds of ports the compiler would make it a
   // call.
   [[gnu::always_inline]] inline Cycle last_quiet(Tick to) const;
-  // The first edge after `to` or not before the host's next drive.
+  // The first edge after `to`, or from the host's next drive on, whichever is earlier.
   Cycle unheard_until(Tick to) const { return first_edge_after(std::min(to, drive_at() - 1)); }
   void quiet_access();
   void access_edge(Cycle cycle);
@@ -358,7 +358,7 @@ bool Chip::Impl::only_sends(Cycle cycle) const {
   return engine == Engine::kSkip && cycle < std::min(other_plans, station.only_sends_until());
 }
 
-// Evaluates them in sequence, as long as nothing else is due.
+// Evaluates such edges in sequence, as long as nothing else is due.
 void Chip::Impl::send_bits(Cycle cycle, Tick to) {
   const Cycle act = std::min({other_plans, station.only_sends_until(), unheard_until(to)});
   do {
@@ -494,7 +494,8 @@ void Chip::Impl::catch_up() {
   if (sequencer.dozing()) update_access_pins();
 }
 
-// Only these pins: in the middle of an edge, when an event's listener reads pins, the others are not reported yet.
+// Updates only these pins: in the middle of an edge, when an event's listener reads pins, the others are not reported
+// yet.
 void Chip::Impl::update_access_pins() { outputs = (outputs & ~kAccessPins) | access_pins(); }
 
 // --- outputs ---------------------------------------------------------------------------------------------------------
@@ -584,7 +585,7 @@ bool Chip::Impl::is_possible() const {
          right(plans.interrupt, interrupt.next()) && sequencer.is_possible(over);
 }
 
-// Observers stay attached; what they watch, or step shows, is not dozed through.
+// Observers stay attached; with step, or if they watch accesses, the chip wakes.
 void Chip::Impl::take_over(const Impl& observed) {
   log = observed.log;
   sink = observed.sink;

@@ -11,7 +11,7 @@ namespace dsdpv1::tb {
 
 namespace {
 
-/// Rejects conditions on checks that are not made: they would never hold, or always.
+/// Rejects conditions on checks that are switched off: they would always be false, or always true.
 void refuse_unmade(const scenario::Scenario& scenario, ChecksMode mode, const scenario::Condition& condition) {
   const checks::RuleTable& rules = scenario.kind->rules();
   const auto rule = std::find_if(rules.begin(), rules.end(),

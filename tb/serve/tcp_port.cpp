@@ -92,7 +92,7 @@ class TcpPort : public HostConnection {
     }
   }
 
-  /// It has been silent since the host waiting longest arrived, and may be dead or abandoned.
+  /// True if the host has been silent for `turn_` while another waited: it may be dead or abandoned.
   bool its_turn_is_over() const {
     return turn_.count() != 0 && !waiting_.empty() &&
            Clock::now() - std::max(silent_since(), waiting_.front().came) >= turn_;
