@@ -41,7 +41,7 @@ std::string said_pause(const OfChip& order) {
   return fmt::format("{} telegrams pause for {}", order.times, time_text(order.duration));
 }
 std::string said_talk_over(const OfChip& order) { return fmt::format("talks over {} replies", order.times); }
-std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_REQ and L_STA"; }
+std::string said_early_r_sta(const OfChip&) { return "R_STA without checking L_REQ and L_STA"; }
 
 class Dsdpv1Kind : public ChipKind {
  public:
@@ -160,8 +160,8 @@ std::vector<Order> parallel_orders() {
         {"times"}},
        said_wrong_crc},
       {{user_cpu::kEarlyRSta,
-        "The user CPU raises R_STA one cycle after R_REQ without a look at L_REQ and L_STA (against H2), and holds for "
-        "1 us, so often.",
+        "The user CPU raises R_STA one cycle after R_REQ without checking L_REQ and L_STA (against H2), and holds for "
+        "1 us.",
         {"slave"},
         {"times"}},
        said_early_r_sta,
@@ -178,8 +178,8 @@ std::vector<Order> rsu_orders() {
         {"times"}},
        said_flip_bit});
   orders.push_back({{user_cpu::kCutTelegram,
-                     "The next telegrams of the user CPU end too early: XSS rises within the third byte, or two "
-                     "characters are all.",
+                     "The next telegrams of the user CPU end too early: XSS rises within the third byte, or only two "
+                     "characters are sent.",
                      {"slave"},
                      {"times"}},
                     said_cut});
@@ -188,13 +188,12 @@ std::vector<Order> rsu_orders() {
                      {"slave"},
                      {"times"}},
                     said_wrong_parity});
-  orders.push_back(
-      {{user_cpu::kHostTelegram,
-        "The user CPU sends these bytes and their CRC to the chip, whatever they are: SPI and UART. Before "
-        "start_delay is over, too.",
-        {"slave", "bytes"},
-        {"times", "listen"}},
-       said_host_telegram});
+  orders.push_back({{user_cpu::kHostTelegram,
+                     "The user CPU sends these bytes, right or wrong, and their CRC to the chip: SPI and UART. Also "
+                     "before start_delay is over.",
+                     {"slave", "bytes"},
+                     {"times", "listen"}},
+                    said_host_telegram});
   orders.push_back({{user_cpu::kSendBreak,
                      "The next telegrams of the user CPU end in a break: RXD is low for the time of the third "
                      "character. UART.",

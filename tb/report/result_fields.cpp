@@ -17,12 +17,12 @@ constexpr const char* kVersion = "1.2";               // "version": when it chan
 
 void pacing_fields(Fields& out, const Pacing& pacing) {
   const auto& [port, line, pace] = pacing;
-  out.field("port", port, "where the host was: the pseudo-terminal, TCP port or serial port");
+  out.field("port", port, "place of the host: the pseudo-terminal, TCP port or serial port");
   out.field("telegrams_from_host", line.telegrams, "telegrams that came from it");
   out.field("bytes_from_host", line.sent_bytes, "bytes that came from it");
   out.field("bytes_to_host", line.heard_bytes, "bytes that went to it");
   out.field("held_back", line.held_back, "its telegrams that came before T_SYN or the slot time had ended");
-  out.time("longest_held_back_ns", line.longest_held_back, "for how long at most");
+  out.time("longest_held_back_ns", line.longest_held_back, "the longest delay");
   out.field("error_mean_us", pace.error_mean_us(), "real minus simulated time, on average");
   out.field("error_max_us", pace.error_max_us, "real minus simulated time at most");
   out.field("times_too_slow", pace.losses, "how often the computer was too slow");
@@ -51,7 +51,7 @@ void master_fields(Fields& out, const MasterResult& master) {
   out.field("name", master.name, "of the scenario");
   out.field("address", master.address, "0 to 126");
   out.field("cycles", master.cycles, "data cycles");
-  out.field("min_slave_interval_us", master.min_slave_interval_us, "the time that a data cycle takes at least");
+  out.field("min_slave_interval_us", master.min_slave_interval_us, "least time of a data cycle");
   out.field("min_slave_interval_from", only_if(waits, master.interval_given ? "scenario" : "gsd"),
             R"("scenario", "gsd", or null when it is 0)");
 }
@@ -74,8 +74,8 @@ void channel_fields(Fields& out, const Channel& channel) {
   out.field("sap", channel.sap, "of the channel");
   out.field("master", only_if(entry.in_use, entry.master), "address of the master that has it");
   out.field("in_use", entry.in_use, "a master has it");
-  out.field("connected", entry.connected, "its connection stands");
-  out.field("exchanging", entry.exchanging, "a request of it is under way");
+  out.field("connected", entry.connected, "its connection is open");
+  out.field("exchanging", entry.exchanging, "it has a request in progress");
 }
 
 void tsdr_fields(Fields& out, const Tsdr& tsdr) {
@@ -87,11 +87,11 @@ void tsdr_fields(Fields& out, const Tsdr& tsdr) {
 void handshake_fields(Fields& out, const SlaveResult& slave) {
   const user_cpu::HoldCounters& user = slave.user.port;
   out.field("chip_accesses", slave.status.accesses, "of the chip to the DPRAM");
-  out.time("chip_longest_wait_ns", slave.status.longest_wait, "for the user to give it back");
+  out.time("chip_longest_wait_ns", slave.status.longest_wait, "for the user to release it");
   out.field("user_holds", user.holds, "how often the user had the DPRAM");
   out.field("user_given_up", user.given_up, "how often the user gave up waiting for it");
   out.time("user_longest_wait_ns", user.longest_wait, "for the chip to give it");
-  out.time("user_longest_hold_ns", user.longest_hold, "how long the user had it at most");
+  out.time("user_longest_hold_ns", user.longest_hold, "longest hold of the user");
 }
 
 void user_fields(Fields& out, const user_cpu::UserCounters& user) {
@@ -99,7 +99,7 @@ void user_fields(Fields& out, const user_cpu::UserCounters& user) {
     out.field(name, user.program ? std::optional((*user.program).*which) : std::nullopt, doc);
   };
   using Counters = user_cpu::ProgramCounters;
-  count("exchanges", &Counters::exchanges, "data exchanges that its program has seen; null: it does not tell");
+  count("exchanges", &Counters::exchanges, "data exchanges that its program has seen; null: unknown");
   count("outputs_received", &Counters::outputs_received, "outputs that it has fetched");
   count("inputs_written", &Counters::inputs_written, "inputs that it has written");
   count("judgements", &Counters::judgements, "parameters and configurations that it has judged");
@@ -111,8 +111,8 @@ void board_fields(Fields& out, const user_cpu::BoardReport& board) {
   out.field("instructions", board.instructions, "carried out");
   out.field("hclk_cycles", board.cycles, "of the processor's clock");
   out.field("hclk_hz", board.hclk_hz, "its rate at the end");
-  out.field("hclk_source", board.hclk_source, "where that comes from");
-  out.texts("notes", board.notes, "a line", "what was noticed of the firmware");
+  out.field("hclk_source", board.hclk_source, "source of that clock");
+  out.texts("notes", board.notes, "a line", "remarks on the firmware");
 }
 
 std::string hexadecimal(const bus::Bytes& bytes) { return bytes_text(bytes, bytes.size()); }
@@ -123,32 +123,30 @@ void slave_fields(Fields& out, const SlaveResult& slave) {
   out.field("address", status.address, "0 to 126");
   out.word("dp_state", name(status.dp_state), {"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"}, "at the end");
   out.field("baud", baud_text(status.baud), R"(the rate it has found: "12M" to "9.6k", or "searching")");
-  out.field("master", only_if(status.master != 255, status.master), "the one that has it, by address");
+  out.field("master", only_if(status.master != 255, status.master), "address of the master that holds it");
   out.field("data_exchanges", status.data_exchanges, "how many the chip has had");
-  out.field("outputs_overwritten", status.outputs_missed,
-            "outputs that newer ones replaced before the user had fetched them");
+  out.field("outputs_overwritten", status.outputs_missed, "outputs that were replaced before the user fetched them");
   out.list("rm_registry", channels_of(status.c2), channel_fields, "a channel", "the resource manager of MSAC_C2");
   out.field("telegrams_received", status.telegrams_received, "for this station");
   out.field("telegrams_answered", status.telegrams_answered, "by this station");
   out.object_or_null("tsdr", slave.tsdr.answers == 0 ? nullptr : &slave.tsdr, tsdr_fields,
                      "from the end of a request to the start of the answer; null without an answer");
-  out.object("handshake", slave, handshake_fields, "who has the DPRAM");
+  out.object("handshake", slave, handshake_fields, "use of the DPRAM");
   out.object("user_cpu", slave.user, user_fields, "the user CPU and its program");
   out.object_if("arm_board", slave.board, board_fields, "of a slave whose user_cpu has kind: arm");
-  out.field("master_state", slave.master_state, "what its master makes of it; empty without one");
-  out.field("master_reason", slave.master_reason, "and why");
-  out.field("waits_for", slave.waits_for,
-            "not in data exchange: what stands in the way, as its chip has said, and what to do; else empty");
+  out.field("master_state", slave.master_state, "its state at its master; empty without one");
+  out.field("master_reason", slave.master_reason, "the reason for that state");
+  out.field("waits_for", slave.waits_for, "if not in data exchange: the chip's reason, and what to do; else empty");
   out.field("inputs", hexadecimal(slave.inputs), "at the end, bytes in hexadecimal");
   out.field("outputs", only_if(slave.outputs.has_value(), hexadecimal(slave.outputs.value_or(bus::Bytes()))),
-            "at the end, bytes in hexadecimal; null: its program does not tell");
+            "at the end, bytes in hexadecimal; null: unknown");
 }
 
 void expectation_fields(Fields& out, const ExpectationResult& expectation) {
   out.field("text", expectation.text, "in words");
-  out.field("line", expectation.line, "where it stands in the scenario");
+  out.field("line", expectation.line, "its line in the scenario");
   out.field("passed", only_if(!expectation.left_out, expectation.passed),
-            "null: not judged, since firmware does not tell, or the script keeps the slave away");
+            "null: not judged, because firmware does not report it, or the script keeps the slave away");
   out.field("seen", expectation.seen, "what was seen");
   out.field("implied", expectation.implied, "by a master that has the slave: data exchange, to the end");
 }
@@ -182,7 +180,7 @@ void change_fields(Fields& out, const checks::PinChange& change) {
 
 void violation_fields(Fields& out, const checks::Violation& violation) {
   out.time("at_ns", violation.at, "when");
-  out.time("margin_ns", violation.margin, "negative: by how much the limit was missed");
+  out.time("margin_ns", violation.margin, "negative: distance beyond the limit");
   out.field("text", violation.text, "in words");
   out.list("history", violation.history, change_fields, "a change of a pin", "the pins before it");
 }
@@ -193,16 +191,16 @@ void check_fields(Fields& out, const CheckResult& check) {
   out.field("id", rule.id, "of docs/checks.md");
   out.field("slave", check.slave, "at which");
   out.field("rule", rule.rule, "in words");
-  out.field("clause", rule.clause, "where it comes from");
+  out.field("clause", rule.clause, "its source");
   out.time("limit_ns", only_if(limited, check.limit.value), "null: the rule has none");
-  out.field("count", check.record.count, "how often it was looked at");
-  out.field("violations", check.record.violations, "how often it did not hold");
+  out.field("count", check.record.count, "number of evaluations");
+  out.field("violations", check.record.violations, "number of violations");
   out.field("allowed", check.allowed, "violations that the scenario allows");
   out.time("worst_margin_ns", check.record.worst_margin, "negative: violated");
-  out.time("worst_value_ns", check.record.worst_value, "the time that was measured there");
-  out.time("at_ns", check.record.at, "when that was");
+  out.time("worst_value_ns", check.record.worst_value, "the time measured there");
+  out.time("at_ns", check.record.at, "time of the worst margin");
   out.list("histogram", bins_of(check.record.histogram), bin_fields, "a class of margins that is not empty",
-           "how the margins are spread");
+           "distribution of the margins");
   out.list("listed", check.listed, violation_fields, "a violation", "the first 20 violations");
 }
 
@@ -217,7 +215,7 @@ void refused_fields(Fields& out, const Repeated& refused) {
 
 void violated_fields(Fields& out, const Repeated& violated) {
   refused_fields(out, violated);
-  out.field("place", violated.place, "the cell that it is about; empty: none");
+  out.field("place", violated.place, "the cell concerned; empty: none");
   out.field("allowed", violated.allowed, "the scenario allows it");
 }
 
@@ -225,46 +223,45 @@ void event_fields(Fields& out, const Occurrence& event) {
   out.time("at_ns", event.at, "when");
   out.field("slave", event.station, "at which; \"bus\": the bus monitor");
   out.field("code", event.code, "of docs/reasons.md");
-  out.word("severity", name(event.severity), {"info", "refusal", "violation"}, "what it is");
+  out.word("severity", name(event.severity), {"info", "refusal", "violation"}, "kind of event");
   out.field("allowed", event.allowed, "a violation that the scenario allows");
   out.field("text", event.text, "in words");
 }
 
 void run_fields(Fields& out, const RunResult& result) {
   const auto chips = static_cast<Tick>(result.slaves.size());
-  out.constant("schema", kSchema, "what this file is");
-  out.constant("version", kVersion, "of what it holds");
+  out.constant("schema", kSchema, "kind of this file");
+  out.constant("version", kVersion, "version of its content");
   out.field("scenario", result.scenario, "its name");
-  out.field("file", result.file, "where it was read");
+  out.field("file", result.file, "path of its file");
   out.field("passed", verdict(result) == Verdict::kPassed, "`verdict` is passed");
   out.word("verdict", name(verdict(result)), {"passed", "failed", "nothing_judged", "interrupted"},
            "passed: all expectations were met, nothing was violated that is not allowed, no RTL differed; "
            "nothing_judged: no data exchange, and nothing was expected");
   out.field("verdict_text", words(result), "the last line of the table: the verdict, and what was not judged");
-  out.field("interrupted", result.interrupted, "it was ended by a signal before its time");
+  out.field("interrupted", result.interrupted, "a signal ended it early");
   out.field("engine", result.engine, "step, skip, rtl, lockstep");
   out.field("view", result.view, "pins, tlm");
   out.time("simulated_ns", result.simulated, "simulated time");
   out.field("chip_cycles", result.simulated / profibus::kTicksPerCycle * chips, "of all chips together");
-  out.field("wall_s", result.wall_s, "how long it took");
-  out.field("real_time_factor", result.real_time_factor(), "simulated time over that; 0: not measured");
+  out.field("wall_s", result.wall_s, "duration in real time");
+  out.field("real_time_factor", result.real_time_factor(), "simulated time divided by that; 0: not measured");
   out.field("telegrams", result.telegrams, "on the line");
-  out.field("wrong_telegrams", result.wrong_telegrams, "of them with an error");
+  out.field("wrong_telegrams", result.wrong_telegrams, "those with an error");
   out.field("violations", result.violations, "that the scenario does not allow; of checks in checks_mode fail only");
-  out.word("checks_mode", name(result.checks_mode), {"fail", "report", "off"},
-           "what comes of violations that checks find");
+  out.word("checks_mode", name(result.checks_mode), {"fail", "report", "off"}, "effect of violations that checks find");
   out.field("violations_not_judged", violations_not_judged(result), "of checks in checks_mode report");
-  out.object_if("pacing", result.pacing, pacing_fields, "serve only: how well real time was kept");
+  out.object_if("pacing", result.pacing, pacing_fields, "serve only: how well the run kept real time");
   out.object_if("lockstep", result.lockstep, lockstep_fields, "engine lockstep only: model and RTL side by side");
   out.list("masters", result.masters, master_fields, "a master of class 1", "of class 1");
   out.list("slaves", result.slaves, slave_fields, "a slave at the end of the run", "in the order of the scenario");
   out.list("expectations", result.expectations, expectation_fields, "an expectation",
            "in the order of the scenario, then the implied ones");
   out.list("checks", result.checks, check_fields, "a check on one slave", "empty in checks_mode off");
-  out.list("refused", result.refused, refused_fields, "what was refused for one reason", "by the first time");
-  out.list("violated", result.violated, violated_fields,
-           "what was violated in one way at one place, those of checks apart", "by the first time");
-  out.list("events", result.occurrences, event_fields, "something that happened", "the first 10 000, in order of time");
+  out.list("refused", result.refused, refused_fields, "refusals with one reason", "by the first time");
+  out.list("violated", result.violated, violated_fields, "violations of one kind at one place, without those of checks",
+           "by the first time");
+  out.list("events", result.occurrences, event_fields, "an event", "the first 10 000, in order of time");
   out.field("events_dropped", result.occurrences_dropped, "events beyond those");
 }
 
@@ -283,15 +280,13 @@ check-jsonschema --schemafile result.schema.json watchdog.json
 
 ## Version
 
-`schema` says what the file is, `version` which version of it; this page is about {version}. The schema is exact: it names all that a result of its version
-has, and a member that it does not name is wrong.
+`schema` names the kind of file, `version` its version; this page is about {version}. The schema is exact: it lists all members of a result of its version, and any other member is wrong.
 
 - A new member, or a new word where a member has one of several, changes the second number. Programs that look up members by name need not change.
-- A member that goes, gets another name, type, unit or meaning changes the first number.
+- Removing a member or changing its name, type, unit or meaning changes the first number.
 - Texts (`text`, `seen`, `rule`, `notes`) are for people and may change with every version of the program; `code` and `id` do not.
 
-Times that end in `_ns` are nanoseconds from the start of the run: whole numbers where they are whole. The results of a scenario with all engines
-and views are the same, but for `engine`, `view`, `wall_s` and `real_time_factor`.
+Times that end in `_ns` are nanoseconds from the start of the run: whole numbers where they are whole. The results of a scenario with all engines and views are the same except `engine`, `view`, `wall_s` and `real_time_factor`.
 
 ## Members
 

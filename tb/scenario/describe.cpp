@@ -19,7 +19,7 @@ std::vector<WordFor<std::optional<int>>> found_baud_words() {
   std::vector<WordFor<std::optional<int>>> words;
   words.reserve(bus::kBaudCount + 1);
   for (const WordFor<int>& each : baud_words()) words.push_back({each.value, each.text, each.doc});
-  words.push_back({std::nullopt, "searching", "the chip looks for the baud rate"});
+  words.push_back({std::nullopt, "searching", "the chip searches the baud rate"});
   return words;
 }
 
@@ -32,7 +32,7 @@ keys::Field kind_field() {
   for (const ChipKind* each : chip_kinds()) field.type.words.push_back({each->name(), ""});
   field.default_text = chip_kinds().front()->name();
   field.doc =
-      "Which chip it is. The other keys, some keys of `user_cpu`, the checks and some actions are those of this chip.";
+      "Kind of the chip. The other keys, some keys of `user_cpu`, the checks and some actions are those of this chip.";
   field.read = [self = field](void*, const YAML::Node& node, const keys::Source& source) {
     keys::read_word(self, node, source);  // `kind_of` has already read it
   };
@@ -54,7 +54,7 @@ keys::Field chip_field(const ChipKind& kind) {
   field.name = "chip";
   field.type.kind = keys::Kind::kObject;
   field.type.object = &chip_keys(kind);
-  field.doc = "Which chip the slaves are, and parameters other than its defaults.";
+  field.doc = "Kind of the slaves' chip, and parameters other than its defaults.";
   field.read = [&kind, keys = field.type.object](void* owner, const YAML::Node& node, const keys::Source& source) {
     std::unique_ptr<OwnSettings> settings = kind.make_chip_settings();
     keys::read_object(*keys, dynamic_cast<void*>(settings.get()), node, source);
@@ -70,7 +70,7 @@ keys::Field checks_field(const ChipKind& kind) {
   field.name = "checks";
   field.type.kind = keys::Kind::kObject;
   field.type.object = &check_keys(kind);
-  field.doc = "What comes of violations that the checks find, and limits other than their defaults.";
+  field.doc = "Effect of violations that the checks find, and limits other than their defaults.";
   field.read = [keys = field.type.object](void* owner, const YAML::Node& node, const keys::Source& source) {
     keys::read_object(*keys, &static_cast<Scenario*>(owner)->checks, node, source);
   };
@@ -84,7 +84,7 @@ const ObjectOf<Allow>& allow_keys() {
     ObjectOf<Allow> o("allow", "A violation that is part of the scenario and does not fail the run.");
     o.name_of("event", &Allow::event, "Code of the event, as in the log and in docs/reasons.md, or id of a check.")
         .required = true;
-    o.name_of("slave", &Allow::slave, "Only of this slave; left out: of any slave or of the bus.");
+    o.name_of("slave", &Allow::slave, "Only of this slave (default: of any slave or of the bus).");
     return o;
   }();
   return keys;
@@ -93,22 +93,21 @@ const ObjectOf<Allow>& allow_keys() {
 namespace {
 
 ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
-  ObjectOf<Scenario> o("scenario", "A bus with its masters and slaves, what happens on it, and what is expected.");
-  o.text("name", &Scenario::name, "What the scenario shows, one line.").required = true;
+  ObjectOf<Scenario> o("scenario", "A bus with its masters and slaves, the events on it, and the expectations.");
+  o.text("name", &Scenario::name, "Title of the scenario, one line.").required = true;
   o.word("baud", &Scenario::baud, baud_words(), "Baud rate of the masters; the chips find it themselves.").required =
       true;
-  o.time("end", &Scenario::end, {bus::kTicksPerUs, kLongestTime}, "When the run ends.").required = true;
+  o.time("end", &Scenario::end, {bus::kTicksPerUs, kLongestTime}, "End of the run.").required = true;
   o.fields.push_back(chip_field(kind));
   o.list("masters", &Scenario::masters, master_keys(), {0, 4},
          "The DP masters class 1. Several at a time, and those beside masters of class 2, need `bus: {ring: true}`.");
   o.list("masters2", &Scenario::masters2, master2_keys(), {0, 4}, "The DP masters class 2.");
   o.list("slaves", &Scenario::slaves, slave_keys(kind), {1, 125}, "The chips, each with its user CPU.").required = true;
-  o.list("script", &Scenario::script, action_keys(kind), kItems, "What happens during the run.");
+  o.list("script", &Scenario::script, action_keys(kind), kItems, "Actions during the run.");
   o.list_or("expect", &Scenario::expect, expectation_keys(), kItems, {"none", "not even data exchange"},
             &Scenario::expects_exchange,
-            "What must be true, else the run fails (exit 1). Besides, each slave that a master of class 1 has must "
-            "come to data "
-            "exchange and stay there (docs/verdicts.md).");
+            "Conditions that must be true, else the run fails (exit 1). In addition, each slave of a class 1 master "
+            "must reach data exchange and stay there (docs/verdicts.md).");
   o.list("allow", &Scenario::allow, allow_keys(), kItems,
          "Violations that are expected. Every other one fails the run.");
   o.fields.push_back(checks_field(kind));

@@ -15,7 +15,7 @@ struct CheckLimit {
 
 ObjectOf<CheckLimit> limit_keys(const char* name, const char* doc) {
   ObjectOf<CheckLimit> o(name, doc);
-  o.boolean("enabled", &CheckLimit::enabled, "Whether it is made at all.");
+  o.boolean("enabled", &CheckLimit::enabled, "false: the check is not made.");
   return o;
 }
 
@@ -25,7 +25,7 @@ const ObjectOf<CheckLimit>& least_keys() {
   static const ObjectOf<CheckLimit> keys = [] {
     ObjectOf<CheckLimit> o =
         limit_keys("check with a least value", "A check whose measured value must not be less than a limit.");
-    o.time("min", &CheckLimit::min, kLimits, "The limit; left out: the default of docs/checks.md.");
+    o.time("min", &CheckLimit::min, kLimits, "The limit (default: that of docs/checks.md).");
     return o;
   }();
   return keys;
@@ -35,7 +35,7 @@ const ObjectOf<CheckLimit>& greatest_keys() {
   static const ObjectOf<CheckLimit> keys = [] {
     ObjectOf<CheckLimit> o =
         limit_keys("check with a greatest value", "A check whose measured value must not exceed a limit.");
-    o.time("max", &CheckLimit::max, kLimits, "The limit; left out: the default of docs/checks.md.");
+    o.time("max", &CheckLimit::max, kLimits, "The limit (default: that of docs/checks.md).");
     return o;
   }();
   return keys;
@@ -76,15 +76,15 @@ keys::Field field_of(const checks::Rule& rule, checks::CheckId check) {
 
 ObjectOf<Checks> describe_checks(const ChipKind& kind) {
   ObjectOf<Checks> o("checks",
-                     "The checks on the user's side, see docs/checks.md: what comes of a violation, and a key a check "
-                     "for other limits.");
+                     "The checks on the user's side, see docs/checks.md: the effect of a violation, and a key for the "
+                     "limits of each check.");
   const checks::RuleTable& rules = kind.rules();
   o.word("mode", &Checks::mode,
          std::vector<WordFor<ChecksMode>>{
              {ChecksMode::kFail, "fail", "the run fails"},
              {ChecksMode::kReport, "report", "listed; the verdict says how many were not judged"},
              {ChecksMode::kOff, "off", "nothing is checked, and the verdict says so"}},
-         "What comes of a violation that `allow` does not list. The option `--checks` comes before it.");
+         "Effect of a violation that `allow` does not list. The option `--checks` overrides it.");
   for (std::size_t i = 0; i < rules.size(); ++i) o.fields.push_back(field_of(rules[i], checks::CheckId(i)));
   return o;
 }

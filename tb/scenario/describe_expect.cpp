@@ -18,21 +18,21 @@ void describe_condition(ObjectOf<T>& o) {
   o.word("baud", &C::baud, found_baud_words(), "Baud rate that the chip has found.");
   o.integer("station_address", &C::station_address, kAddresses, "", "The chip's present station address.");
   o.integer("data_exchanges", &C::data_exchanges, {0, 1'000'000'000}, "",
-            "At least so many data exchanges, repetitions not counted.");
+            "Least number of data exchanges, without repetitions.");
   o.integer("data_exchanges_at_most", &C::data_exchanges_at_most, {0, 1'000'000'000}, "",
-            "At most so many data exchanges.");
-  o.bytes("inputs", &C::inputs, {0, 244}, "The inputs that its master has received last.");
-  o.bytes("outputs", &C::outputs, {0, 244}, "The outputs that the user CPU has fetched last.");
+            "Greatest number of data exchanges.");
+  o.bytes("inputs", &C::inputs, {0, 244}, "The last inputs that its master has received.");
+  o.bytes("outputs", &C::outputs, {0, 244}, "The last outputs that the user CPU has fetched.");
   o.name_of("event", &C::event, "Code of an event of the chip (docs/reasons.md) that has happened.");
-  o.integer("count", &C::count, {0, 1'000'000'000}, "", "How often that event has happened at least.");
-  o.integer("count_at_most", &C::count_at_most, {0, 1'000'000'000}, "", "How often that event has happened at most.");
-  o.number("tsdr_min", &C::tsdr_min, {0, 100000}, "bit times", "No answer of the slave came sooner.");
-  o.number("tsdr_max", &C::tsdr_max, {0, 100000}, "bit times", "No answer of the slave came later.");
+  o.integer("count", &C::count, {0, 1'000'000'000}, "", "Least number of these events.");
+  o.integer("count_at_most", &C::count_at_most, {0, 1'000'000'000}, "", "Greatest number of these events.");
+  o.number("tsdr_min", &C::tsdr_min, {0, 100000}, "bit times", "No answer of the slave is earlier.");
+  o.number("tsdr_max", &C::tsdr_max, {0, 100000}, "bit times", "No answer of the slave is later.");
   o.time("longest_wait_at_most", &C::longest_wait_at_most, kAnyTime,
          "The chip never waited longer for the user CPU to give back the memory that they share.");
-  o.name_of("master", &C::master, "Name of the master whose answers `reply` is about; left out: the first one.");
+  o.name_of("master", &C::master, "Name of the master whose answers `reply` is about (default: the first one).");
   o.name_of("connection", &C::connection, "Name of the connection that `connection_state` or a C2 service is about.");
-  o.word("connection_state", &C::connection_state, connection_state_words(), "What the class 2 master makes of it.");
+  o.word("connection_state", &C::connection_state, connection_state_words(), "Its state at the class 2 master.");
   o.word("reply_of", &C::reply_of,
          std::vector<WordFor<ActionKind>>{{ActionKind::kReadInputs, "read_inputs", ""},
                                           {ActionKind::kReadOutputs, "read_outputs", ""},
@@ -54,10 +54,10 @@ void describe_condition(ObjectOf<T>& o) {
              {bus::AcyclicOutcome::kNegative, "negative", "an error answer (tables 27, 32)"},
              {bus::AcyclicOutcome::kTimeout, "timeout", "acknowledged, never answered"},
              {bus::AcyclicOutcome::kRefused, "refused", "RS, RR or UE"},
-             {bus::AcyclicOutcome::kNoAnswer, "no_answer", "nobody there"},
-             {bus::AcyclicOutcome::kWrongAnswer, "wrong_answer", "an answer to something else"},
+             {bus::AcyclicOutcome::kNoAnswer, "no_answer", "no station answers"},
+             {bus::AcyclicOutcome::kWrongAnswer, "wrong_answer", "an answer to another request"},
              {bus::AcyclicOutcome::kLost, "lost", "data exchange was left, or the connection ended"}},
-         "What came of the last acyclic service.");
+         "Result of the last acyclic service.");
   o.at_least_one = {{"dp_state", "baud", "station_address", "data_exchanges", "data_exchanges_at_most", "inputs",
                      "outputs", "event", "tsdr_min", "tsdr_max", "longest_wait_at_most", "reply", "outcome",
                      "connection_state"}};
@@ -69,7 +69,7 @@ const ObjectOf<When>& when_keys() {
   static const ObjectOf<When> keys = [] {
     ObjectOf<When> o("when", "A condition; all keys given must be true together.");
     describe_condition(o);
-    o.time("after", &When::after, kAnyTime, "How long after the condition has become true.");
+    o.time("after", &When::after, kAnyTime, "Delay after the condition has become true.");
     return o;
   }();
   return keys;
@@ -79,7 +79,7 @@ const ObjectOf<Expectation>& expectation_keys() {
   static const ObjectOf<Expectation> keys = [] {
     ObjectOf<Expectation> o(
         "expectation",
-        "What must be true: at a time, by a time, or (with neither) at the end; all keys given together.");
+        "A condition that must be true at a time, by a time, or (with neither) at the end; all keys given together.");
     describe_condition(o);
     o.time("at", &Expectation::at, kAnyTime, "True exactly then.");
     o.time("by", &Expectation::by, kAnyTime, "True at some time until then.");

@@ -8,25 +8,23 @@ const ObjectOf<BusParameters>& bus_keys() {
     using B = BusParameters;
     ObjectOf<B> o("bus", "Bus parameters of a master.");
     o.integer("slot_time", &B::slot_time, {37, 16383}, "bit times",
-              "T_SL; left out: what EN 50170 gives for the baud rate (100 ... 1000).");
-    o.integer("setup_time", &B::setup_time, {1, 255}, "bit times", "T_SET; left out: that of the baud rate.");
-    o.integer("quiet_time", &B::quiet_time, {0, 255}, "bit times", "T_QUI; left out: that of the baud rate.");
+              "T_SL (default: EN 50170's value for the baud rate, 100 ... 1000).");
+    o.integer("setup_time", &B::setup_time, {1, 255}, "bit times", "T_SET (default: that of the baud rate).");
+    o.integer("quiet_time", &B::quiet_time, {0, 255}, "bit times", "T_QUI (default: that of the baud rate).");
     o.integer("retries", &B::retries, {0, 8}, "",
-              "How often an unanswered request is repeated; left out: 1, at 3M, 6M and 12M 2, 3 and 4.");
+              "Repetitions of an unanswered request (default: 1; at 3, 6 and 12 Mbit/s 2, 3 and 4).");
     o.integer("gap_factor", &B::gap_factor, {0, 100}, "cycles",
               "Data cycles between two FDL status polls for the live list, 0 for none.");
     o.integer("highest_address", &B::highest_address, {1, 126}, "", "HSA, the last address of the live list.");
-    o.integer(
-        "min_slave_interval", &B::min_slave_interval, {0, 1000000}, "us",
-        "Least time from the start of one data cycle to the next; left out: the greatest Min_Slave_Intervall in the "
-        "GSD files of its slaves; 0: as fast as the bus allows.");
-    o.boolean("token", &B::token, "Whether the token is passed (to itself) after each cycle, as a single master does.");
-    o.boolean(
-        "ring", &B::ring,
-        "Whether the master shares the token with others: it learns the active stations, is let in by the GAP poll, "
-        "passes the token on. Masters of class 2 always do.");
+    o.integer("min_slave_interval", &B::min_slave_interval, {0, 1000000}, "us",
+              "Least time from the start of one data cycle to the next; 0: as fast as the bus allows (default: the "
+              "greatest Min_Slave_Intervall in the GSD files of its slaves).");
+    o.boolean("token", &B::token, "true: passes the token (to itself) after each cycle, as a single master does.");
+    o.boolean("ring", &B::ring,
+              "true: the master shares the token with others. It learns the active stations, enters by the GAP poll "
+              "and passes the token on. Masters of class 2 always do.");
     o.integer("target_rotation", &B::target_rotation, {256, 16777215}, "bit times",
-              "T_TR: in what time the token should come round, in a ring.");
+              "T_TR: target time of a token rotation, in a ring.");
     o.integer("clock_error", &B::clock_error, {-20000, 20000}, "ppm",
               "Error of the master's bit clock; positive is slow.");
     return o;
@@ -39,25 +37,25 @@ namespace {
 const ObjectOf<MasterSlave>& master_slave_keys() {
   static const ObjectOf<MasterSlave> keys = [] {
     using S = MasterSlave;
-    ObjectOf<S> o("master slave", "A slave as its master sees it: where it is, and what it is sent.");
+    ObjectOf<S> o("master slave", "A slave from its master's view: its address, and the data sent to it.");
     o.name_of("slave", &S::slave,
               "Name of the scenario's slave: its address, GSD and modules are taken unless given here.");
-    o.integer("address", &S::address, kAddresses, "", "Station address; needed where no slave is named.");
+    o.integer("address", &S::address, kAddresses, "", "Station address; needed if no slave is named.");
     o.file("gsd", &S::gsd, "GSD file for ident, Set_Prm and Chk_Cfg, relative to the scenario's folder.");
     o.names("modules", &S::modules, {0, 64}, "Names of the GSD's modules, in the order of the slots.");
     o.bytes("user_prm", &S::user_prm, {0, 237},
-            "User parameters (behind the seven standard bytes) instead of those of the GSD.");
+            "User parameters (after the seven standard bytes) instead of those of the GSD.");
     o.bytes("cfg", &S::cfg, {1, 244}, "Configuration bytes instead of those of the GSD's modules.");
     o.integer("ident", &S::ident, {0, 0xFFFF}, "", "Ident number instead of that of the GSD.");
     o.time("watchdog", &S::watchdog, {0, 650 * bus::kTicksPerSecond},
-           "Watchdog time of Set_Prm, rounded up to what WD_Fact_1 x WD_Fact_2 can be; 0ns: off.");
+           "Watchdog time of Set_Prm, rounded up to a possible WD_Fact_1 x WD_Fact_2; 0ns: off.");
     o.integer("min_tsdr", &S::min_tsdr, {0, 255}, "bit times", "min_TSDR of Set_Prm; 0 leaves the slave's unchanged.");
     o.bytes("groups", &S::groups, {0, 8}, "Group numbers 1 to 8 that the slave belongs to (Group_Ident).");
     o.boolean("sync", &S::sync, "Sync_Req of Set_Prm.");
     o.boolean("freeze", &S::freeze, "Freeze_Req of Set_Prm.");
     o.boolean("fail_safe", &S::fail_safe, "Fail_Safe of the first DPV1 byte of Set_Prm.");
     o.boolean("dpv1", &S::dpv1, "DPV1_Enable of the first DPV1 byte of Set_Prm.");
-    o.bytes("outputs", &S::outputs, {0, 244}, "First outputs, filled up with 0; left out: all 0.");
+    o.bytes("outputs", &S::outputs, {0, 244}, "First outputs, filled up with 0 (default: all 0).");
     o.at_least_one = {{"slave", "address"}};
     return o;
   }();
@@ -74,13 +72,13 @@ const ObjectOf<Master>& master_keys() {
     o.word("personality", &Master::personality,
            std::vector<WordFor<Personality>>{
                {Personality::kHighAlways, "high_always",
-                "SRD high for everything, SD3 where 8 bytes fit, min_TSDR 0 possible"},
+                "SRD high for everything, SD3 if 8 bytes fit, min_TSDR 0 possible"},
                {Personality::kClassic, "classic",
                 "SRD low for diagnosis, parameters and configuration, a Global_Control before Set_Prm"}},
-           "Which of the habits of real masters it has.");
-    o.time("start", &Master::start, kAnyTime, "When it enters the bus.");
+           "Its habits, after real masters.");
+    o.time("start", &Master::start, kAnyTime, "Time at which it enters the bus.");
     o.boolean("operate", &Master::operate,
-              "Whether it goes to Operate by itself; false: it stays in Clear until the script says `operate`.");
+              "true: goes to Operate automatically; false: stays in Clear until the script says `operate`.");
     o.object("bus", &Master::bus, bus_keys(), "Bus parameters other than those of the baud rate.");
     o.list("slaves", &Master::slaves, master_slave_keys(), {0, 125}, "The slaves that it brings up.");
     return o;

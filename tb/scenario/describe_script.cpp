@@ -9,15 +9,16 @@ namespace {
 const ObjectOf<Faults>& fault_keys() {
   static const ObjectOf<Faults> keys = [] {
     const Range byte = {0, 254};
-    ObjectOf<Faults> o("faults", "What is broken in a telegram. Bytes count from 0.");
+    ObjectOf<Faults> o("faults", "Faults in a telegram. Bytes count from 0.");
     o.integer("wrong_parity_at", &Faults::wrong_parity_at, byte, "", "This byte has the wrong parity bit.");
     o.integer("missing_stop_at", &Faults::missing_stop_at, byte, "", "This byte's stop bit is low.");
     o.integer("gap_before", &Faults::gap_before, byte, "", "Idle time before this byte.");
-    o.number("gap_bits", &Faults::gap_bits, {0, 1000}, "bit times", "How long that idle time is.");
+    o.number("gap_bits", &Faults::gap_bits, {0, 1000}, "bit times", "Length of that idle time.");
     o.integer("truncate_after", &Faults::truncate_after, {0, 255}, "bytes", "Only this many bytes are sent.");
     o.integer("glitch_at", &Faults::glitch_at, byte, "", "The line is inverted for a while in this byte.");
-    o.number("glitch_start_bits", &Faults::glitch_start_bits, {0, 11}, "bit times", "Where in the byte that begins.");
-    o.number("glitch_bits", &Faults::glitch_bits, {0, 11}, "bit times", "How long it lasts.");
+    o.number("glitch_start_bits", &Faults::glitch_start_bits, {0, 11}, "bit times",
+             "Begin of the inversion within the byte.");
+    o.number("glitch_bits", &Faults::glitch_bits, {0, 11}, "bit times", "Length of the inversion.");
     return o;
   }();
   return keys;
@@ -113,9 +114,9 @@ std::vector<Choice> master_choices() {
       {"clear", "The master goes to Clear.", {}, {"master"}},
       {"stop_master", "The master falls silent.", {}, {"master"}},
       {"start_master", "The master enters the bus again, from the beginning.", {}, {"master"}},
-      {"change_baud", "All masters go on with another baud rate.", {"baud"}, {}},
+      {"change_baud", "All masters continue with another baud rate.", {"baud"}, {}},
       {"telegram",
-       "The master sends these bytes between two of its own telegrams, right or broken.",
+       "The master sends these bytes, right or broken, between two of its telegrams.",
        {"bytes"},
        {"master", "faults"}},
   };
@@ -131,7 +132,7 @@ std::vector<Choice> class2_choices() {
        {"connection", "slot", "index", "bytes"},
        {}},
       {"c2_abort", "It ends the connection (Abort).", {"connection"}, {}},
-      {"c2_behaviour", "From now on it behaves on this connection like this.", {"connection", "behaviour"}, {}},
+      {"c2_behaviour", "Its behaviour on this connection from now on.", {"connection", "behaviour"}, {}},
       {"c2_raw",
        "It sends this PDU, right or wrong, to the connection's SAP or to another one.",
        {"connection", "bytes"},
@@ -153,10 +154,10 @@ void describe_values(ObjectOf<Action>& o, const ChipKind& kind) {
   using A = Action;
   using user_cpu::DiagnosisKind;
   o.name_of("slave", &A::slave, "Name of the slave.");
-  o.name_of("master", &A::master, "Name of the master; left out: the first one.");
+  o.name_of("master", &A::master, "Name of the master (default: the first one).");
   o.name_of("connection", &A::connection, "Name of a connection of a class 2 master.");
   o.bytes("bytes", &A::bytes, {0, 256},
-          "Data, or all bytes of a telegram; 256 of host_telegram only, of all others up to 255.");
+          "Data, or all bytes of a telegram; host_telegram up to 256, all others up to 255.");
   o.word("type", &A::diagnosis,
          std::vector<WordFor<DiagnosisKind>>{{DiagnosisKind::kExtended, "extended", "low priority"},
                                              {DiagnosisKind::kExternal, "external", "Ext_Diag"},
@@ -164,31 +165,30 @@ void describe_values(ObjectOf<Action>& o, const ChipKind& kind) {
                                              {DiagnosisKind::kStatic, "static", "Stat_Diag"},
                                              {DiagnosisKind::kStaticGone, "static_gone", "no more Stat_Diag"}},
          "Kind of the diagnosis.");
-  o.integer("address", &A::address, kAddresses, "",
-            "Station address, where it is not that of the slave in the scenario.");
+  o.integer("address", &A::address, kAddresses, "", "Station address, if it is not that of the slave in the scenario.");
   o.integer("new_address", &A::new_address, {0, 255}, "", "The new station address.");
-  o.integer("ident", &A::ident, {0, 0xFFFF}, "", "Ident number in the telegram; left out: the right one.");
+  o.integer("ident", &A::ident, {0, 0xFFFF}, "", "Ident number in the telegram (default: the right one).");
   o.boolean("lock", &A::lock, "No_Add_Chg: no further change of the address.");
   o.bytes("cfg", &A::cfg, {1, kind.most_cfg()}, "The new configuration.");
-  o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond}, "How long; of reset_chip left out: 10us.");
-  o.integer("times", &A::times, {1, 1000}, "", "How many.");
+  o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond}, "Duration (default for reset_chip: 10us).");
+  o.integer("times", &A::times, {1, 1000}, "", "Number of times.");
   o.word("of", &A::of,
          std::vector<WordFor<Verdict>>{{Verdict::kPrm, "prm", "parameters"}, {Verdict::kCfg, "cfg", "configuration"}},
-         "What is judged.");
+         "Subject of the verdict.");
   o.boolean("refuse", &A::refuse, "The verdict is: wrong.");
-  o.word("answering", &A::answering, answering_words(), "How acyclic requests are answered.");
+  o.word("answering", &A::answering, answering_words(), "Answers to acyclic requests.");
   o.integer("slot", &A::slot, {0, 255}, "", "Slot number.");
   o.integer("index", &A::index, {0, 255}, "", "Index.");
-  o.integer("length", &A::length, {0, 255}, "bytes", "How many bytes are asked for; above 240 the chip refuses.");
-  o.integer("sap", &A::sap, {0, 63}, "", "DSAP; left out: that of the connection, 49 while there is none.");
+  o.integer("length", &A::length, {0, 255}, "bytes", "Number of bytes asked for; above 240 the chip refuses.");
+  o.integer("sap", &A::sap, {0, 63}, "", "DSAP (default: that of the connection, 49 while none is open).");
   o.word("behaviour", &A::behaviour,
          std::vector<WordFor<bus::Behaviour>>{
              {bus::Behaviour::kNormal, "normal", ""},
              {bus::Behaviour::kSilent, "silent", "sends nothing: the slave's F or I timer ends"},
              {bus::Behaviour::kPollOnly, "poll_only", "polls, sends no request and no Idle: the slave's I timer ends"}},
-         "What a class 2 master does.");
+         "Behaviour of a class 2 master.");
   o.word("baud", &A::baud, baud_words(), "The new baud rate.");
-  o.object("faults", &A::faults, fault_keys(), "What is broken in the telegram.");
+  o.object("faults", &A::faults, fault_keys(), "Faults in the telegram.");
   o.boolean("level", &A::level, "true: the line is forced high, false: low.");
 }
 
@@ -205,7 +205,7 @@ void describe_global_control(ObjectOf<Action>& o) {
 void describe_action(ObjectOf<Action>& o, const ChipKind& kind) {
   std::vector<WordFor<ActionKind>> words = action_words();
   for (const Order& order : kind.orders()) words.push_back({ActionKind::kOfChip, order.choice.word.c_str(), ""});
-  keys::Field& field = o.word("do", &Action::what, words, "What happens.");
+  keys::Field& field = o.word("do", &Action::what, words, "The action.");
   field.read = [read = field.read](void* owner, const YAML::Node& node, const keys::Source& source) {
     read(owner, node, source);
     static_cast<Action*>(owner)->word = node.Scalar();
@@ -216,7 +216,7 @@ void describe_blocks(ObjectOf<Action>& o, const ChipKind& kind) {
   if (kind.blocks().empty()) return;
   std::vector<WordFor<std::string>> words;
   for (const keys::Word& each : kind.blocks()) words.push_back({each.text, each.text.c_str(), each.doc.c_str()});
-  o.word("area", &Action::block, words, "Which block.");
+  o.word("area", &Action::block, words, "The block.");
 }
 
 void describe_listen(ObjectOf<Action>& o, const ChipKind& kind) {
@@ -227,14 +227,13 @@ void describe_listen(ObjectOf<Action>& o, const ChipKind& kind) {
   if (!std::any_of(kind.orders().begin(), kind.orders().end(), takes)) return;
   o.integer(
       "listen", &Action::listen, {0, 512}, "bytes",
-      "How many bytes the user CPU takes after the telegram: over SPI so many are clocked, left out 8; over the "
-      "UART it listens until so many have come or none comes any more, left out the latter, and with 0 goes on at "
-      "once.");
+      "Number of bytes that the user CPU takes after the telegram. Over SPI it clocks this many (default: 8). Over the "
+      "UART it listens until this many have come or no more comes (default: the latter); with 0 it continues at once.");
 }
 
 ObjectOf<Action> describe_actions(const ChipKind& kind) {
-  ObjectOf<Action> o("action", "One thing that happens, at a time or when a condition has become true.");
-  o.time("at", &Action::at, kAnyTime, "When, from the start of the run.");
+  ObjectOf<Action> o("action", "An action, at a time or when a condition has become true.");
+  o.time("at", &Action::at, kAnyTime, "Time from the start of the run.");
   o.object("when", &Action::when, when_keys(), "Once, as soon as this is true.");
   describe_action(o, kind);
   describe_values(o, kind);

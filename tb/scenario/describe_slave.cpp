@@ -15,7 +15,7 @@ const std::vector<WordFor<Judgement>>& judgement_words() {
 ObjectOf<InitData> describe_init(const ChipKind& kind) {
   using I = InitData;
   ObjectOf<I> o("init",
-                "What the user CPU tells the chip at the initialisation (table 2). A GSD gives missing values.");
+                "The user CPU's initialisation data for the chip (table 2). With a GSD, missing keys come from there.");
   o.integer("ident", &I::ident, {0, 0xFFFF}, "", "Ident number.");
   o.integer("max_inputs", &I::max_inputs, {0, 255}, "bytes",
             "Most input bytes, slave to master; above 244 the chip refuses.");
@@ -28,16 +28,16 @@ ObjectOf<InitData> describe_init(const ChipKind& kind) {
   const int most_cfg = kind.most_cfg();
   o.integer("max_cfg", &I::max_cfg, {0, 255}, "bytes",
             ("Most configuration bytes; above " + std::to_string(most_cfg) + " the chip refuses.").c_str());
-  o.bytes("cfg", &I::cfg, {1, most_cfg}, "Initial configuration; left out: that of the modules.");
+  o.bytes("cfg", &I::cfg, {1, most_cfg}, "Initial configuration (default: that of the modules).");
   o.integer("prm_mode", &I::prm_mode, {0, 255}, "",
-            "Who judges parameters (table 13): 0 length at most max_prm, 1 length equal, 2 the user.");
+            "Judging mode of parameters (table 13): 0 length at most max_prm, 1 length equal, 2 the user.");
   o.integer("cfg_mode", &I::cfg_mode, {0, 255}, "",
-            "Who judges the configuration (table 14): 0 length, 1 equal to cfg, 2 the user.");
-  o.boolean("set_slave_address", &I::set_slave_address, "Whether a master may change the address.");
-  o.boolean("freeze", &I::freeze, "Whether Freeze is supported.");
-  o.boolean("sync", &I::sync, "Whether Sync is supported.");
-  o.boolean("fail_safe", &I::fail_safe, "Whether fail-safe is supported.");
-  o.boolean("dpv1", &I::dpv1, "Whether DPV1 is switched on.");
+            "Judging mode of the configuration (table 14): 0 length, 1 equal to cfg, 2 the user.");
+  o.boolean("set_slave_address", &I::set_slave_address, "true: a master may change the address.");
+  o.boolean("freeze", &I::freeze, "true: Freeze is supported.");
+  o.boolean("sync", &I::sync, "true: Sync is supported.");
+  o.boolean("fail_safe", &I::fail_safe, "true: fail-safe is supported.");
+  o.boolean("dpv1", &I::dpv1, "true: DPV1 is switched on.");
   for (keys::Field& field : o.fields)
     if (const std::string place = kind.place_of(field.name); !place.empty())
       field.doc += std::string(" ") + kind.title() + ": " + place + ".";
@@ -60,29 +60,26 @@ void add_own_keys(ObjectOf<UserCpu>& o, const ChipKind& kind) {
 
 ObjectOf<UserCpu> describe_user_cpu(const ChipKind& kind) {
   using U = UserCpu;
-  ObjectOf<U> o(
-      "user_cpu",
-      "The user CPU: its program, what it runs on, and how that reaches the chip. Firmware of your own gets the "
-      "program's settings only through a mailbox (docs/arm_board.md).");
+  ObjectOf<U> o("user_cpu",
+                "The user CPU: its program, its processor, and its bus to the chip. Keys for the program's behaviour "
+                "reach your firmware only through a mailbox (docs/arm_board.md).");
   o.word("behaviour", &U::behaviour,
          std::vector<WordFor<Behaviour>>{
              {Behaviour::kLoopBack, "loop_back", "inputs are the last outputs, cut or filled with 0"},
              {Behaviour::kCount, "count", "every input byte is the number of the cycle"},
              {Behaviour::kConstant, "constant", "inputs are `constant` until the script changes them"},
              {Behaviour::kIdle, "idle", "initialises and judges, exchanges nothing"}},
-         "What it does with the cyclic data.");
+         "Its use of the cyclic data.");
   o.bytes("constant", &U::constant, {0, 244}, "Inputs of the behaviour constant, filled up with 0.");
-  o.boolean(
-      "overwrite_inputs", &U::overwrite_inputs,
-      "Whether inputs that the chip has not taken yet are overwritten; false: they stay, the new ones are dropped.");
-  o.time("start_delay", &U::start_delay, kAnyTime, "From the release of RESET until it looks for the chip.");
+  o.boolean("overwrite_inputs", &U::overwrite_inputs,
+            "true: overwrites inputs that the chip has not taken yet; false: they stay, the new ones are dropped.");
+  o.time("start_delay", &U::start_delay, kAnyTime, "From the release of RESET until it first polls the chip.");
   o.time("cycle", &U::cycle, {bus::kTicksPerUs, 10 * bus::kTicksPerSecond},
          "From the start of one exchange of cyclic data to the next.");
-  o.time("judge_delay", &U::judge_delay, {0, 10 * bus::kTicksPerSecond},
-         "How long it thinks before it writes a verdict.");
+  o.time("judge_delay", &U::judge_delay, {0, 10 * bus::kTicksPerSecond}, "Time before it writes a verdict.");
   o.boolean(
       "judge_in_handler", &U::judge_in_handler,
-      "Whether the handler of the chip's interrupt judges; false: it notes the interrupt and the main loop judges.");
+      "true: the handler of the chip's interrupt judges; false: it notes the interrupt and the main loop judges.");
   o.time("retry_delay", &U::retry_delay, {bus::kTicksPerUs, 10 * bus::kTicksPerSecond},
          "Pause before a failed initialisation is tried again.");
   o.word("judge_prm", &U::judge_prm, judgement_words(), "Its verdict on parameters in judging mode 2.");
@@ -103,8 +100,8 @@ ObjectOf<Slave> describe_slave(const ChipKind& kind) {
   o.object("init", &Slave::init, per_kind<InitData>(kind, describe_init),
            "Initialisation data other than those of the GSD.");
   o.object("user_cpu", &Slave::user_cpu, per_kind<UserCpu>(kind, describe_user_cpu),
-           "What the user CPU does, and how fast.");
-  o.time("release_reset", &Slave::release_reset, kAnyTime, "When RESET rises.");
+           "The user CPU's behaviour and speed.");
+  o.time("release_reset", &Slave::release_reset, kAnyTime, "Time at which RESET rises.");
   return o;
 }
 

@@ -15,7 +15,7 @@ const Claim kTrail = {"P2", "PBRTS falls the same time after each answer", {wire
 const Claim kDriven = {"P2", "PBTXD is low only while PBRTS is high", {wire::kPbtxd, wire::kPbrts}};
 const Claim kBits = {"S2", "every edge of an answer is a whole number of bit times from its start", {wire::kPbtxd}};
 const Claim kAnswered = {"S3", "a right request to the station is answered", {wire::kPbrxd, wire::kPbtxd}};
-const Claim kAsked = {"S3", "nothing is sent that nobody asked for", {wire::kPbrxd, wire::kPbtxd}};
+const Claim kAsked = {"S3", "nothing is sent without a request", {wire::kPbrxd, wire::kPbtxd}};
 const Claim kSyn = {
     "S3", "a request after less than 33 bit times of idle is not answered", {wire::kPbrxd, wire::kPbtxd}};
 

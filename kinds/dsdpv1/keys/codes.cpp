@@ -23,13 +23,11 @@ const char* advice_of(dsdpv1_error error) {  // NOLINT(readability-function-size
       return "Wait 86 us or more after RESET rises (4096 cycles); check the read timing with B000..B003 = 01 0D 07 01.";
     case DSDPV1_ERR_NO_REPLY:
       return "Check the straps MODE, ADR and UBR against the port, its wiring, and that the chip is out of reset.";
-    case DSDPV1_ERR_REPLY:
-      return "Check clock or baud rate, edges and wiring: replies arrive, and not as they were sent.";
+    case DSDPV1_ERR_REPLY: return "Check clock or baud rate, edges and wiring: replies arrive changed.";
     case DSDPV1_ERR_TELEGRAM:
-      return "Look at the port's serial.error_code and the chip's TELEGRAM_ reasons in the log; repeated CRC errors "
-             "are "
-             "the wiring's.";
-    case DSDPV1_ERR_NOT_INITIALISED: return "Call dsdpv1_initialise first and look at what it returns.";
+      return "Check the port's serial.error_code and the chip's TELEGRAM_ reasons in the log; repeated CRC errors come "
+             "from the wiring.";
+    case DSDPV1_ERR_NOT_INITIALISED: return "Call dsdpv1_initialise first and check its return value.";
     case DSDPV1_ERR_CONFIG_ADDRESS: return "Give a station address from 0 to 126.";
     case DSDPV1_ERR_CONFIG_INPUT:
     case DSDPV1_ERR_CONFIG_OUTPUT: return "Give a largest length from 0 to 244.";
@@ -43,13 +41,13 @@ const char* advice_of(dsdpv1_error error) {  // NOLINT(readability-function-size
       return "Check that R_REQ and R_STA fall after each hold and that the chip runs; then allow more polls.";
     case DSDPV1_ERR_INIT_CRC:
       return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
-    case DSDPV1_ERR_INIT_LIMIT: return "Look at the chip's INIT_ reason in the log; it names the byte.";
+    case DSDPV1_ERR_INIT_LIMIT: return "See the chip's INIT_ reason in the log; it names the byte.";
     case DSDPV1_ERR_INIT_REFUSED: return "Check the read timing of B00A, B00B and B013.";
     case DSDPV1_ERR_INPUT_LENGTH: return "Pass no more input bytes than max_input.";
     case DSDPV1_ERR_INPUT_CRC:
       return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
     case DSDPV1_ERR_OUTPUT_LENGTH: return "Make the buffer as large as max_output; if it is, check the read timing.";
-    case DSDPV1_ERR_OUTPUT_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
+    case DSDPV1_ERR_OUTPUT_CRC: return "Check the read timing, and that the DPRAM is read only by its owner.";
     case DSDPV1_ERR_DIAG_TYPE: return "Use one of the five types of table 22.";
     case DSDPV1_ERR_DIAG_LENGTH: return "Shorten the diagnosis or initialise with a larger max_diag.";
     case DSDPV1_ERR_DIAG_TIMEOUT: return "Check that R_REQ and R_STA fall after each hold; then allow more polls.";
@@ -58,7 +56,7 @@ const char* advice_of(dsdpv1_error error) {  // NOLINT(readability-function-size
     case DSDPV1_ERR_PRM_LENGTH:
     case DSDPV1_ERR_PRM_CRC:
     case DSDPV1_ERR_CFG_LENGTH:
-    case DSDPV1_ERR_CFG_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
+    case DSDPV1_ERR_CFG_CRC: return "Check the read timing, and that the DPRAM is read only by its owner.";
     case DSDPV1_ERR_NO_VERDICT_DUE: return "Send a verdict once for each block, and only in judging mode 2.";
     case DSDPV1_ERR_VERDICT_STALE: return "Call dsdpv1_service: it hands over the newer block.";
     case DSDPV1_ERR_TABLE:
@@ -68,7 +66,7 @@ const char* advice_of(dsdpv1_error error) {  // NOLINT(readability-function-size
     case DSDPV1_ERR_C1_LENGTH:
     case DSDPV1_ERR_C1_CRC:
     case DSDPV1_ERR_C2_LENGTH:
-    case DSDPV1_ERR_C2_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
+    case DSDPV1_ERR_C2_CRC: return "Check the read timing, and that the DPRAM is read only by its owner.";
     case DSDPV1_ERR_ANSWER_LENGTH: return "Answer with 0 to 240 bytes.";
     case DSDPV1_ERR_NO_REQUEST_OPEN: return "Answer each deferred request once.";
     case DSDPV1_ERR_ANSWER_STALE: return "Forget the request: its master no longer waits for the answer.";
@@ -111,7 +109,7 @@ std::vector<CodeText> driver_codes() {
 
 std::vector<CodeText> board_codes() {
   return {{scenario::kFirmwareFault, "violation", "the firmware of an ARM board has met a fault; the run ends",
-           "Look at the source line and the registers below the table, or run it again with --gdb."}};
+           "See the source line and the registers below the table, or run it again with --gdb."}};
 }
 
 }  // namespace
@@ -119,7 +117,7 @@ std::vector<CodeText> board_codes() {
 const std::vector<CodeTable>& dsdpv1_codes() {
   static const std::vector<CodeTable> tables = {
       {"The chip", "`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal, `{a:ns}` a time.", chip_codes()},
-      {"The driver", "What a call of the C driver returned to the user program, with its value.", driver_codes()},
+      {"The driver", "Results of the C driver's calls, with their values.", driver_codes()},
       {"The ARM board", "See [arm_board.md](arm_board.md).", board_codes()}};
   return tables;
 }

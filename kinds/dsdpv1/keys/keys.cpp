@@ -19,10 +19,10 @@ const ObjectOf<AccessTimes>& access_keys() {
   static const ObjectOf<AccessTimes> keys = [] {
     using A = AccessTimes;
     const Range any = {-100 * bus::kTicksPerUs, 100 * bus::kTicksPerUs}, positive = {0, 100 * bus::kTicksPerUs};
-    ObjectOf<A> o(
-        "access",
-        "When the user CPU moves its bus pins. The chip's limits are in table 15; times beyond them are reported as "
-        "violations. The defaults are those of an STM32F103 at 72 MHz.");
+    ObjectOf<A> o("access",
+                  "Times at which the user CPU moves its bus pins. The chip's limits are in table 15; times beyond "
+                  "them are reported as "
+                  "violations. The defaults are those of an STM32F103 at 72 MHz.");
     o.time("address_setup", &A::address_setup, any, "A valid before RD or WR falls (Tc >= 0ns); negative: after it.");
     o.time("cs_lead", &A::cs_lead, positive, "CSR falls before RD or WR.");
     o.time("rd_low", &A::rd_low, {1, 100 * bus::kTicksPerUs}, "RD low.");
@@ -43,16 +43,14 @@ const ObjectOf<Fsmc>& fsmc_keys() {
     using user_cpu::FsmcMode;
     ObjectOf<Fsmc> o(
         "fsmc",
-        "Bus timing as the FSMC of an STM32F103 makes it from its registers (bank 1, SRAM, 8 bits). Left "
-        "out: what the firmware of an ARM board writes there; a native CPU has addset 1, datast 5, busturn 0, "
-        "mode 1, hclk 72.");
+        "Bus timing of an STM32F103's FSMC from its registers (bank 1, SRAM, 8 bits). Default: the values that the "
+        "firmware of an ARM board writes; for a native CPU addset 1, datast 5, busturn 0, mode 1, hclk 72.");
     o.integer("addset", &Fsmc::addset, {0, 15}, "HCLK", "ADDSET: WR (and in mode A RD) falls one HCLK more after CSR.");
     o.integer("datast", &Fsmc::datast, {0, 255}, "HCLK",
-              "DATAST: WR is low so long; D is sampled one HCLK more after the address phase. 0 is reserved in the "
-              "manual: no low time of WR, against Ts.");
-    o.integer("busturn", &Fsmc::busturn, {0, 15}, "HCLK", "BUSTURN: CSR stays high so much longer between accesses.");
-    o.integer("hclk", &Fsmc::hclk_mhz, {1, 72}, "MHz",
-              "Frequency of HCLK; left out: on an ARM board what RCC says, else 72.");
+              "DATAST: low time of WR; D is sampled one HCLK more after the address phase. The manual reserves 0: no "
+              "low time of WR, against Ts.");
+    o.integer("busturn", &Fsmc::busturn, {0, 15}, "HCLK", "BUSTURN: additional high time of CSR between accesses.");
+    o.integer("hclk", &Fsmc::hclk_mhz, {1, 72}, "MHz", "Frequency of HCLK (default: RCC's on an ARM board, else 72).");
     o.word("mode", &Fsmc::mode,
            std::vector<WordFor<FsmcMode>>{{FsmcMode::k1, "1", "RD falls with CSR"},
                                           {FsmcMode::kA, "A", "RD falls addset + 1 HCLK after CSR"}},
@@ -66,11 +64,11 @@ const ObjectOf<CpuTimes>& timing_keys() {
   static const ObjectOf<CpuTimes> keys = [] {
     using T = CpuTimes;
     const Range range = {0, bus::kTicksPerMs}, slow = {0, bus::kTicksPerSecond};
-    ObjectOf<T> o("timing", "How fast the user CPU is. The defaults are those of a Cortex-M3 at 72 MHz.");
+    ObjectOf<T> o("timing", "Speed of the user CPU. The defaults are those of a Cortex-M3 at 72 MHz.");
     o.time("overhead", &T::overhead, range, "Instructions between two accesses.");
     o.time("pin_sample", &T::pin_sample, range, "Reading one handshake pin.");
     o.time("pin_write", &T::pin_write, range, "Setting one handshake pin.");
-    o.time("r_req_to_sample", &T::r_req_to_sample, range, "From the rise of R_REQ to the first look at L_REQ (H2).");
+    o.time("r_req_to_sample", &T::r_req_to_sample, range, "From the rise of R_REQ to the first sample of L_REQ (H2).");
     o.time("r_req_to_r_sta", &T::r_req_to_r_sta, range, "Least time from the rise of R_REQ to that of R_STA (H2).");
     o.time("interrupt_latency", &T::interrupt_latency, slow,
            "From the fall of INTR0 to the first instruction of its handler.");
@@ -113,9 +111,10 @@ const std::vector<WordFor<int>>& rate_words() {
 }
 
 void add_straps(ChipKeys& o) {
-  o.word("mode", &C::mode, mode_words(), "The host port that is live: the strap MODE (R11).");
-  o.integer("address", &C::address, {0, 3}, "",
-            "The card's own address in telegrams of SPI and UART: the strap ADR. With 0 and 3 none is for it (R11).");
+  o.word("mode", &C::mode, mode_words(), "The live host port: the strap MODE (R11).");
+  o.integer(
+      "address", &C::address, {0, 3}, "",
+      "The card's address in telegrams of SPI and UART: the strap ADR. With 0 and 3 no telegram is for it (R11).");
   o.word("uart_rate", &C::uart_rate, rate_words(), "Baud rate of the UART: the strap UBR (UA1).");
   o.integer("interval", &C::interval, {0, 7}, "",
             "Longest silence within a telegram of the UART, an index of `uart_gaps`: the strap UIV (UA3).");
@@ -176,29 +175,28 @@ ObjectOf<Dsdpv1User> plain_user_keys() {
          std::vector<WordFor<CpuKind>>{
              {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
              {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
-         "Who runs it.");
-  o.file(
-      "elf", &U::elf,
-      "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to where you are.");
+         "The processor.");
+  o.file("elf", &U::elf,
+         "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to the current "
+         "folder.");
   o.word("without_mailbox", &U::without_mailbox,
          std::vector<WordFor<WithoutMailbox>>{
-             {WithoutMailbox::kRefuse, "refuse", "the first of them is reported in one line, and nothing is run"},
+             {WithoutMailbox::kRefuse, "refuse",
+              "the first of them is reported in one line, and the scenario does not run"},
              {WithoutMailbox::kLeaveOut, "leave_out",
               "actions are not carried out, expectations not judged, and each is listed at the end"}},
-         "For firmware without a mailbox: what becomes of actions for the user CPU, of expectations of outputs or of "
-         "errors of the driver, and of "
-         "settings for its program that stand beside `elf` (docs/arm_board.md).");
+         "For firmware without a mailbox: the treatment of actions for the user CPU, of expectations of outputs or of "
+         "errors of the driver, and of settings for its program beside `elf` (docs/arm_board.md).");
   o.names("switches", &U::switches, {0, 112},
-          "Switches that hold input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 but for those that "
-          "the board wires to the "
-          "chip. Pins without one have their pull-up or pull-down only.");
+          "Switches on input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 except those that the board "
+          "wires to the chip. Pins without a switch have only their pull-up or pull-down.");
   o.number(
       "cpi", &U::cpi, {1, 10}, "HCLK",
-      "Cycles that every instruction of the ARM board takes; left out: each what it lasts, flash wait states with it.");
-  o.object("timing", &U::timing, timing_keys(), "How fast it is.");
+      "Cycles of every instruction of the ARM board (default: each instruction's own time, with flash wait states).");
+  o.object("timing", &U::timing, timing_keys(), "Its speed.");
   o.object("access", &U::access, access_keys(),
-           "When it moves the pins of its bus; on an ARM board in place of the FSMC.");
-  o.object("fsmc", &U::fsmc, fsmc_keys(), "When it moves them, as registers of an FSMC.");
+           "Times at which it moves the pins of its bus; on an ARM board instead of the FSMC.");
+  o.object("fsmc", &U::fsmc, fsmc_keys(), "The same times, as registers of an FSMC.");
   o.at_most_one.push_back({"access", "fsmc"});
   return o;
 }

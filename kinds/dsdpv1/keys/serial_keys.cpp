@@ -24,16 +24,16 @@ const ObjectOf<SpiKeys>& spi_keys() {
                   "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's is its firmware's). "
                   "Times beyond the chip's limits (SP2) are "
                   "reported as violations.");
-    o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "SCK, high and low as long as each other.");
+    o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "Frequency of SCK, with equal high and low times.");
     o.time("lead", &S::lead, range, "XSS falls before SCK's first rise.");
     o.time("lag", &S::lag, range, "XSS rises after SCK's last fall.");
-    o.time("gap", &S::gap, range, "XSS is high at least so long between two frames.");
-    o.time("byte_gap", &S::byte_gap, range, "SCK stays low so much longer between two bytes.");
+    o.time("gap", &S::gap, range, "Least high time of XSS between two frames.");
+    o.time("byte_gap", &S::byte_gap, range, "Additional low time of SCK between two bytes.");
     o.time("mosi_delay", &S::mosi_delay, range,
-           "MOSI changes so long after SCK's fall, the first bit after XSS's; at most half of SCK's period, when it "
-           "changes with the rise.");
+           "Time from SCK's fall, for the first bit XSS's fall, to the change of MOSI; at most half of SCK's period, "
+           "when it changes with the rise.");
     o.integer("spare", &S::spare, {0, static_cast<int>(DSDPV1_SPI_SPARE)}, "bytes",
-              "By how much a reply may come later than right after the request (SP6).");
+              "Greatest delay of a reply after the request (SP6).");
     return o;
   }();
   return keys;
@@ -43,7 +43,7 @@ const ObjectOf<UartKeys>& uart_keys() {
   static const ObjectOf<UartKeys> keys = [] {
     using U = UartKeys;
     ObjectOf<U> o("uart", "The native user CPU's UART, on a chip with mode: uart (an ARM board's is its firmware's).");
-    o.integer("rate", &U::rate, {9600, 1'843'200}, "bit/s", "Its baud rate; left out: that of the chip's uart_rate.");
+    o.integer("rate", &U::rate, {9600, 1'843'200}, "bit/s", "Its baud rate (default: the chip's uart_rate).");
     o.time("gap", &U::gap, {0, bus::kTicksPerSecond}, "Idle time between two characters of a telegram.");
     return o;
   }();
