@@ -35,27 +35,34 @@ constexpr Entry kCommands[] = {
     {kRtl, make_cosim},      {kRtl, make_rtl_random}, {kRtl, make_rtl_faults},   {kRtl, make_traces},
     {kBeside, make_schema},  {kBeside, make_manual},  {kBeside, make_completion}};
 
-std::vector<CLI::App*> subcommands(CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
+using Commands = std::vector<std::unique_ptr<Command>>;
 
-std::vector<std::unique_ptr<Command>> add_commands(CLI::App& app) {
-  std::vector<std::unique_ptr<Command>> commands;
-  for (const Entry& entry : kCommands) {
-    commands.push_back(entry.make());
-    Command& command = *commands.back();
-    command.options(*app.add_subcommand(command.name(), command.line())->group(entry.group));
-  }
+Commands make_commands() {
+  Commands commands;
+  for (const Entry& entry : kCommands) commands.push_back(entry.make());
   return commands;
 }
 
 /// Before the command and after it.
 void add_color_option(CLI::App& app, std::string& word) {
-  std::vector<CLI::App*> all = subcommands(app);
-  all.push_back(&app);
-  for (CLI::App* each : all)
-    each->add_option("--color", word, "Verdicts in colour: auto (on a terminal, unless NO_COLOR is set), always, never")
-        ->capture_default_str();
+  app.add_option("--color", word, "Verdicts in colour: auto (on a terminal, unless NO_COLOR is set), always, never")
+      ->capture_default_str();
+}
+
+/// Only those that may be called have their options: it takes longer to say them all than to start many a run.
+void add_commands(CLI::App& app, const Commands& commands, const std::vector<std::string>& words, std::string& color) {
+  const auto is_named = [&words](const Command& command) {
+    return std::find(words.begin(), words.end(), command.name()) != words.end();
+  };
+  const bool all = std::any_of(commands.begin(), commands.end(),
+                               [&](const auto& each) { return each->shows_all() && is_named(*each); });
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    Command& command = *commands[i];
+    CLI::App& added = *app.add_subcommand(command.name(), command.line())->group(kCommands[i].group);
+    if (!all && !is_named(command)) continue;
+    command.options(added);
+    add_color_option(added, color);
+  }
 }
 
 void describe_program(CLI::App& app) {
@@ -155,8 +162,10 @@ int command_line(int argc, char** argv, PrintableOutput& output) {
   help->label("SUBCOMMAND", "COMMAND");
   app.formatter(help);
   describe_program(app);
-  const std::vector<std::unique_ptr<Command>> commands = add_commands(app);
+  const Commands commands = make_commands();
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   std::string color = "auto";
+  add_commands(app, commands, words, color);
   add_color_option(app, color);
   if (const std::optional<int> status = parse(app, argc, argv)) return *status;
   check_word("dsdpv1-sim --color", color, {"auto", "always", "never"});
@@ -164,7 +173,7 @@ int command_line(int argc, char** argv, PrintableOutput& output) {
   const tb::TableWidth as_wide_as_the_terminal(terminal_columns());
   const auto called = std::find_if(commands.begin(), commands.end(),
                                    [&app](const auto& each) { return app.got_subcommand(each->name()); });
-  (*called)->words.assign(argv + 1, argv + argc);
+  (*called)->words = words;
   return (*called)->carry_out();
 }
 

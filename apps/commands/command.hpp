@@ -28,6 +28,8 @@ class Command {
   const char* name() const { return name_; }
   const char* line() const { return line_; }
 
+  /// It is about the options of all commands; else they are said for those that the command line names.
+  virtual bool shows_all() const { return false; }
   /// Says its options, examples and exit codes to its part of the command line. carry_out checks words and times:
   /// CLI11 would do it before it handles --help.
   virtual void options(CLI::App& app) = 0;

@@ -101,6 +101,8 @@ class Completion : public Command {
  public:
   Completion() : Command("completion", "Print the completion of this program's command line for a shell") {}
 
+  bool shows_all() const override { return true; }
+
   void options(CLI::App& app) override {
     program_ = app.get_parent();
     shell_ = app.add_option("SHELL", "bash or zsh")->required();

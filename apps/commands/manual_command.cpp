@@ -79,6 +79,8 @@ class Manual : public Command {
  public:
   Manual() : Command("manual", "Print the manual page of this program, in roff") {}
 
+  bool shows_all() const override { return true; }
+
   void options(CLI::App& app) override {
     program_ = app.get_parent();
     app.footer("\nExample:\n  dsdpv1-sim manual | man -l -\n");

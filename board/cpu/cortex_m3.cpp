@@ -33,7 +33,8 @@ CortexM3::CortexM3(System& system, const MemoryMap& map, const Timing& timing)
     : system_(system),
       map_(map),
       timing_(timing),
-      memory_(map.flash_size + map.ram_size + kHostPage),
+      // Not set to 0 here: map_memory() says what is in it.
+      memory_(new std::uint8_t[std::size_t{map.flash_size} + map.ram_size + kHostPage]),
       engine_(*this, timing.millicycles_per_instruction) {
   map_memory();
 }
@@ -41,11 +42,12 @@ CortexM3::CortexM3(System& system, const MemoryMap& map, const Timing& timing)
 CortexM3::~CortexM3() = default;
 
 void CortexM3::map_memory() {
-  void* first_page = memory_.data();
-  std::size_t room = memory_.size();
+  void* first_page = memory_.get();
+  std::size_t room = std::size_t{map_.flash_size} + map_.ram_size + kHostPage;
   flash_ = static_cast<std::uint8_t*>(std::align(kHostPage, map_.flash_size + map_.ram_size, first_page, room));
   ram_ = flash_ + map_.flash_size;
   std::fill_n(flash_, map_.flash_size, std::uint8_t{0xFF});  // erased
+  std::fill_n(ram_, map_.ram_size, std::uint8_t{0});
   engine_.map(map_.flash_base, map_.flash_size, flash_, false);
   engine_.map(0, map_.flash_size, flash_, false);
   engine_.map(map_.ram_base, map_.ram_size, ram_, true);
@@ -78,7 +80,7 @@ void CortexM3::load(std::uint32_t address, const std::uint8_t* bytes, std::size_
   const auto last = static_cast<std::uint32_t>(address + count - 1);
   if (first == nullptr || last < address || host(last) != first + (count - 1))
     throw std::out_of_range("CortexM3::load: outside of flash and RAM");
-  std::memcpy(memory_.data() + (first - memory_.data()), bytes, count);
+  std::memcpy(memory_.get() + (first - memory_.get()), bytes, count);
   engine_.forget_code();
 }
 

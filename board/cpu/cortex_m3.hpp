@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -193,7 +194,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   System& system_;
   MemoryMap map_;
   Timing timing_;
-  std::vector<std::uint8_t> memory_;  // flash and RAM, each on a page of the host
+  std::unique_ptr<std::uint8_t[]> memory_;  // flash and RAM, each on a page of the host
   std::uint8_t* flash_ = nullptr;
   std::uint8_t* ram_ = nullptr;
   Engine engine_;

@@ -114,7 +114,7 @@ void Engine::leave_memory(std::uint32_t pc) {
 }
 
 void Engine::make_page(Memory& memory, std::unique_ptr<CodePage>& page, std::uint32_t address) {
-  page = std::make_unique<CodePage>();
+  page.reset(new CodePage);  // not set to 0: all of it follows
   page->start = address & ~(kPageBytes - 1);
   page->in_flash = !memory.writable;
   page->instructions.fill(kNotDecoded);

@@ -79,8 +79,8 @@ class Checker {
   }
 
   void check_code(const Name& code) const {
+    if (code.empty() || is_code(*scenario_.kind, code.text)) return;
     const std::vector<std::string>& codes = all_codes(*scenario_.kind);
-    if (code.empty() || std::find(codes.begin(), codes.end(), code.text) != codes.end()) return;
     fail(code.line, fmt::format("event {} does not exist{}, allowed are the codes of docs/reasons.md", code.text,
                                 did_you_mean(code.text, codes)));
   }

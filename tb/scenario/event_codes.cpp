@@ -1,5 +1,6 @@
 #include "tb/scenario/event_codes.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <iterator>
 #include <map>
@@ -71,6 +72,14 @@ const std::vector<std::string>& all_codes(const ChipKind& kind) {
     list.push_back(flag_code(static_cast<bus::FlagKind>(flag)));
   for (const checks::Rule& rule : kind.rules()) list.emplace_back(rule.id);
   return list;
+}
+
+bool is_code(const ChipKind& kind, const std::string& code) {
+  const auto& reasons = kind.reasons();
+  const auto has_code = [&code](profibus::Reason each) { return code == profibus::code(each); };
+  if (std::any_of(reasons.begin(), reasons.end(), has_code)) return true;
+  const std::vector<std::string>& all = all_codes(kind);
+  return std::find(all.begin(), all.end(), code) != all.end();
 }
 
 }  // namespace dsdpv1::tb::scenario

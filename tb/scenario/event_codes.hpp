@@ -16,5 +16,7 @@ std::vector<CodeText> flag_codes();
 constexpr const char* kFirmwareFault = "ARM_FAULT";
 /// All codes of the kind of chip and of the monitor, and the ids of the checks.
 const std::vector<std::string>& all_codes(const ChipKind& kind);
+/// True if `code` is one of them; for a code of the chip the list and its texts are not made.
+bool is_code(const ChipKind& kind, const std::string& code);
 
 }  // namespace dsdpv1::tb::scenario
