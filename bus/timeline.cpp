@@ -53,10 +53,12 @@ void Timeline::hear_news(const Agent* except) {
       continue;
     }
     entry.has_news = false;
-    if (entry.agent != nullptr) plans_.set(place, entry.agent->next());
+    if (entry.agent == nullptr) continue;
+    const Tick plan = entry.agent->next();
+    if (plan != plans_.at(place) && place != asked_by_) asked_by_ = PlanQueue::kNone;
+    plans_.set(place, plan);
   }
   news_.resize(kept);
-  asked_by_ = PlanQueue::kNone;
 }
 
 Tick Timeline::next() {

@@ -96,7 +96,8 @@ struct Chip::Impl {
   void plan_edge(Cycle cycle) { planned_edge = edge_of(cycle); }
   void plan();
   bool apply(Tick at, Pin pin, Level value);
-  bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
+  bool carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report);
+  Level read_unheld(Tick begin, const HostAccess& access);
   bool is_private(Tick begin, const HostAccess& access);
   bool hear(Tick at, bool level);
   void set_handshake(Tick at, bool req, bool sta);
@@ -200,16 +201,32 @@ bool Chip::Impl::set_serial(Tick at, Pin pin, Level value) {
   return true;
 }
 
-bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
+bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report) {
   if (engine != Engine::kSkip || (watched & mask(Pin::kDOut)) != 0) return false;
   advance(begin);
   const Tick last = begin + access.last();
-  if (plans.but_the_hosts() <= last / kTicksPerCycle || sequencer.owns() || !sequencer.started_up()) return false;
+  if (plans.but_the_hosts() <= last / kTicksPerCycle || !sequencer.started_up()) return false;
+  if (may_report && plans.host == kNever && host.is_plain_unheld(begin, access)) {
+    sampled = read_unheld(begin, access);
+    return true;
+  }
+  if (sequencer.owns()) return false;
   if (!host.carry_out(begin, access, sampled)) return false;
   plans.host = host.next();
   plan();
   advance(last);
   return true;
+}
+
+// Meanwhile the dozing chip may have accesses, and D is unreadable during one.
+Level Chip::Impl::read_unheld(Tick begin, const HostAccess& access) {
+  const Tick fall = begin + std::max(access.times().select, access.times().strobe);
+  advance(fall);
+  host.tell_unheld(fall, access);
+  sequencer.catch_up(first_edge_after(fall) - 1);
+  const Level sampled = host.read_unheld(begin, access, sequencer.owns());
+  advance(begin + access.last());
+  return sampled;
 }
 
 // The chip starts no access while the user holds the DPRAM, whatever the station does.
@@ -606,8 +623,8 @@ Level Chip::sample(Tick at) {
   impl_->advance(at);
   return impl_->host.user_samples(at);
 }
-bool Chip::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
-  return impl_->carry_out(begin, access, sampled);
+bool Chip::carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report) {
+  return impl_->carry_out(begin, access, sampled, may_report);
 }
 bool Chip::is_private(Tick begin, const HostAccess& access) { return impl_->is_private(begin, access); }
 Tick Chip::next_event() const { return impl_->next_event(); }

@@ -77,8 +77,8 @@ class Chip {
   /// Executes a whole access of the host with its first edge at tick `begin`, replacing set() and sample() for each
   /// edge; a read returns `sampled`. The chip is then at the last edge. Returns false if the access must be made edge
   /// by edge, because something else happens before its last edge, it would report something, or D is watched; the chip
-  /// may then have advanced to `begin`.
-  bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
+  /// may then have advanced to `begin`. With `may_report` a read may report that the host does not hold the DPRAM.
+  bool carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report = false);
   /// True if only the host can observe the access, whatever happens on the line meanwhile: it keeps all limits, the
   /// host holds the DPRAM, and D is not watched. Its edges may then be set later than other events, but in their order
   /// and before `advance` goes beyond them. The chip has advanced to `begin`.

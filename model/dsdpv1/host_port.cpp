@@ -186,8 +186,8 @@ bool HostPort::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
   return true;
 }
 
-bool HostPort::is_plain(Tick begin, const HostAccess& access) const {
-  const bool at_rest = enabled_ && r_req_ && r_sta_ && csr_ && rd_ && wr_ && d_in_ == kLevelZ;
+bool HostPort::is_plain_but_for_hold(Tick begin, const HostAccess& access) const {
+  const bool at_rest = enabled_ && csr_ && rd_ && wr_ && d_in_ == kLevelZ;
   if (!at_rest || !access.is_right()) return false;
   const HostAccess::Times& times = access.times();
   const Tick change = begin + (access.is_write() ? std::min(times.address, times.data) : times.address);
@@ -213,6 +213,18 @@ void HostPort::read_at_once(Tick begin, const HostAccess& access) {
   read_spoilt_ = tw_reported_ = false;
   sampled_ = ram_.read(access.address());
   lines_changed_ = begin + times.address_end;
+}
+
+void HostPort::tell_unheld(Tick fall, const HostAccess& access) {
+  a_ = access.address();
+  check_owner(fall);
+}
+
+Level HostPort::read_unheld(Tick begin, const HostAccess& access, bool unreadable) {
+  read_at_once(begin, access);
+  if (unreadable) sampled_ = kLevelX;
+  a_ = static_cast<regs::Address>(HostAccess::kIdleAddress);
+  return sampled_;
 }
 
 // --- the rising edge -------------------------------------------------------------------------------------------------

@@ -28,17 +28,24 @@ class HostPort {
   Level level(Pin pin) const;
   /// An access with its first edge at `begin` is certain to report nothing and is not affected by an earlier one, as
   /// long as the user keeps R_REQ and R_STA.
-  bool is_plain(Tick begin, const HostAccess& access) const;
+  bool is_plain(Tick begin, const HostAccess& access) const { return holds() && is_plain_but_for_hold(begin, access); }
   /// Executes a whole plain access, replacing its edges; a read returns `sampled`. Returns false, without any effect,
   /// if the access is not plain.
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
+  /// True for a read that would be plain with a hold. Its edges are replaced by tell_unheld() at the fall of CSR and RD
+  /// and read_unheld() with the level that it samples; `unreadable` as in eval().
+  bool is_plain_unheld(Tick begin, const HostAccess& access) const {
+    return !holds() && !access.is_write() && is_plain_but_for_hold(begin, access);
+  }
+  void tell_unheld(Tick fall, const HostAccess& access);
+  Level read_unheld(Tick begin, const HostAccess& access, bool unreadable);
 
   /// The rising edge of `now`: writes that settle, the address of a read. `unreadable`, as before the edge: L_STA is
   /// high, or the start-up has not begun (P12, H6).
   void eval(Cycle now, bool unreadable);
   Cycle next() const;
   /// As next(), without writes that settle while the user owns the DPRAM.
-  Cycle next_seen() const { return r_req_ && r_sta_ ? sample_at_ : next(); }
+  Cycle next_seen() const { return holds() ? sample_at_ : next(); }
   /// The falling edge at which D is driven.
   Tick drive_at() const { return drive_at_; }
   void drive();
@@ -78,6 +85,8 @@ class HostPort {
       archive(cell, byte, right);
     }
   };
+  bool holds() const { return r_req_ && r_sta_; }
+  bool is_plain_but_for_hold(Tick begin, const HostAccess& access) const;
   void chip_select(Tick at, bool level);
   void read_strobe(Tick at, bool level);
   void write_strobe(Tick at, bool level);

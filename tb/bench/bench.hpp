@@ -103,6 +103,7 @@ class Bench : private Observer {
   void add_observers();
   const GdbRequest* gdb_of(const scenario::Slave& slave) const;
   ChipNews wanted_news(const ChipView& chip) const;
+  bool hears_pins() const override { return false; }
   void interrupt(std::size_t slave, Tick at, bool level) override {
     stations_.slaves[slave]->interrupt_changed(at, level);
   }

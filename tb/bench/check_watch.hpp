@@ -25,8 +25,9 @@ class CheckWatch : public Observer {
 
   /// Slaves are numbered in the order in which they are added. Does nothing when off.
   void add(const std::string& slave, ChipView& chip);
+  bool hears_pins() const override { return on(); }
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
-    if (on()) slaves_[slave]->checks->pin(at, pin, level);
+    slaves_[slave]->checks->pin(at, pin, level);
   }
   void read(std::size_t slave, Tick sample) override {
     if (on()) slaves_[slave]->checks->read(sample);

@@ -118,6 +118,7 @@ void ExchangeWatch::add(const scenario::Master& master, const scenario::MasterSl
 }
 
 void ExchangeWatch::event(std::size_t slave, const profibus::Event& event) {
+  if (profibus::severity(event.reason) == profibus::Severity::kViolation) return;  // neither step nor end is one
   const char* const code = profibus::code(event.reason);
   if (is_end(code)) ends_[slave] = event;
   const std::optional<std::size_t> step = step_of(code);

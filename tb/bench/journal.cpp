@@ -19,33 +19,53 @@ void Journal::log(LogEntry entry) {
 
 std::string Journal::in_log(const bus::Bytes& bytes) const { return bytes_text(bytes, form_.most_bytes()); }
 
-void Journal::count_one(Tick at, const std::string& station, const std::string& code, bool violation) {
-  const std::uint64_t count = ++counts_[station][code];
-  observers_.tell(&Observer::counted, at, station, code, violation, count);
+Journal::Tally Journal::tally(const std::string& station, const std::string& code, profibus::Severity severity,
+                              const std::string& place) {
+  Occurrence sample{0, station, code, severity, {}, place};
+  const bool violation = severity == profibus::Severity::kViolation;
+  sample.allowed = violation && scenario::allows(scenario_, code, station);
+  Repeated* const repeated = violation                                  ? &violated_.entry(sample)
+                             : severity == profibus::Severity::kRefusal ? &refusals_.entry(sample)
+                                                                        : nullptr;
+  return {std::move(sample), &counts_[station][code], repeated};
 }
 
-void Journal::happened(Occurrence occurrence, const profibus::Event* event) {
-  const auto text = [&] { return event != nullptr ? scenario_.kind->describe(*event) : occurrence.text; };
-  const bool violation = occurrence.severity == profibus::Severity::kViolation;
-  count_one(occurrence.at, occurrence.station, occurrence.code, violation);
-  occurrence.allowed = violation && scenario::allows(scenario_, occurrence.code, occurrence.station);
-  if (violation) {
-    ++(occurrence.allowed ? allowed_ : violations_);
-    violated_.count(occurrence, text);
-  }
-  if (occurrence.severity == profibus::Severity::kRefusal) refusals_.count(occurrence, text);
-  if (log_)
-    log({occurrence.at, occurrence.station, occurrence.allowed ? "allowed" : name(occurrence.severity), text(),
-         occurrence.code});
-  if (kept_.size() < RunResult::kKept)
-    kept_.push_back({std::move(occurrence), event != nullptr ? std::optional(*event) : std::nullopt});
-  else
+bool Journal::EventTally::is_of(std::size_t other, const profibus::Event& another) const {
+  const profibus::Event& own = event;
+  return slave == other && own.reason == another.reason && own.a == another.a && own.b == another.b &&
+         own.c == another.c;
+}
+
+const Journal::Tally& Journal::tally(std::size_t slave, const profibus::Event& event) {
+  const std::size_t row = std::hash<const void*>()(&event.reason.row()) / sizeof(profibus::ReasonRow);
+  std::optional<EventTally>& kept = tallies_.at((row + event.a + slave) % tallies_.size());
+  if (!kept || !kept->is_of(slave, event))
+    kept = EventTally{slave, event,
+                      tally(name_of(slave), profibus::code(event.reason), profibus::severity(event.reason),
+                            scenario_.kind->cell_of(event))};
+  return kept->tally;
+}
+
+void Journal::happened(const Tally& tally, Tick at, const std::string& words, const profibus::Event* event) {
+  const auto text = [&] { return event != nullptr ? scenario_.kind->describe(*event) : words; };
+  const Occurrence& sample = tally.sample;
+  const bool violation = sample.severity == profibus::Severity::kViolation;
+  observers_.tell(&Observer::counted, at, sample.station, sample.code, violation, ++*tally.count);
+  if (violation) ++(sample.allowed ? allowed_ : violations_);
+  if (tally.repeated != nullptr) tally.repeated->add(at, text);
+  if (log_) log({at, sample.station, sample.allowed ? "allowed" : name(sample.severity), text(), sample.code});
+  if (kept_.size() == RunResult::kKept) {
     ++occurrences_dropped_;
+    return;
+  }
+  kept_.push_back({sample, event != nullptr ? std::optional(*event) : std::nullopt});
+  kept_.back().occurrence.at = at;
+  kept_.back().occurrence.text = words;
 }
 
 void Journal::violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
   const std::string id = scenario_.kind->rules()[violation.check.index].id;
-  count_one(violation.found, slave, id, true);
+  observers_.tell(&Observer::counted, violation.found, slave, id, true, ++counts_[slave][id]);
   if (!log_) return;
   log_->finding(
       {std::max(violation.found, observers_.now()), slave, kind,
@@ -54,13 +74,7 @@ void Journal::violated(const std::string& slave, const checks::Violation& violat
 }
 
 void Journal::event(std::size_t slave, const profibus::Event& event) {
-  happened({event.at,
-            name_of(slave),
-            profibus::code(event.reason),
-            profibus::severity(event.reason),
-            {},
-            scenario_.kind->cell_of(event)},
-           &event);
+  happened(tally(slave, event), event.at, {}, &event);
 }
 
 void Journal::telegram(const HeardTelegram& telegram) {
@@ -70,12 +84,13 @@ void Journal::telegram(const HeardTelegram& telegram) {
 // Masters use unanswered requests to find out that a station is absent.
 void Journal::flag(const bus::Flag& flag) {
   const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
-  happened({flag.at, "bus", scenario::flag_code(flag.kind),
-            wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo, flag.text});
+  happened(
+      tally("bus", scenario::flag_code(flag.kind), wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo),
+      flag.at, flag.text);
 }
 
 void Journal::error(std::size_t slave, const user_cpu::ProgramError& error) {
-  happened({error.at, name_of(slave), error.code, profibus::Severity::kRefusal, error.text});
+  happened(tally(name_of(slave), error.code, profibus::Severity::kRefusal), error.at, error.text);
 }
 
 void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, bool changed) {
@@ -83,7 +98,7 @@ void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, boo
 }
 
 void Journal::user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& /*registers*/) {
-  happened({at, name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation, why});
+  happened(tally(name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation), at, why);
 }
 
 void Journal::host_telegram(std::size_t slave, const HostTelegram& telegram) {

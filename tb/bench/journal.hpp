@@ -1,5 +1,6 @@
 #pragma once
 // The events of a run: counted, kept for the report, written into the log.
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,10 +27,9 @@ class Journal : public Observer {
   void log(LogEntry entry);
   /// Bytes as shown inside a text of the log.
   std::string in_log(const bus::Bytes& bytes) const;
-  /// An error of the program, a flag of the monitor; `event`: an event of the chip, whose text is made on demand.
-  void happened(Occurrence occurrence, const profibus::Event* event = nullptr);
 
   // Observer
+  bool hears_pins() const override { return false; }
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& telegram) override;
   void violated(const std::string& slave, const checks::Violation& violation, const char* kind) override;
@@ -51,7 +51,25 @@ class Journal : public Observer {
 
  private:
   const std::string& name_of(std::size_t slave) const { return scenario_.slaves[slave].name.text; }
-  void count_one(Tick at, const std::string& station, const std::string& code, bool violation);
+
+  /// Repetitions at one station, with one code, at one place: found once, then only counted.
+  struct Tally {
+    Occurrence sample;               ///< without time and words
+    std::uint64_t* count = nullptr;  ///< in counts_
+    Repeated* repeated = nullptr;    ///< of a refusal or a violation
+  };
+  /// That of an event of a chip; `slave`, reason and numbers say which one it is.
+  struct EventTally {
+    std::size_t slave;
+    profibus::Event event;
+    Tally tally;
+    bool is_of(std::size_t other, const profibus::Event& another) const;
+  };
+  Tally tally(const std::string& station, const std::string& code, profibus::Severity severity,
+              const std::string& place = {});
+  const Tally& tally(std::size_t slave, const profibus::Event& event);
+  /// An error of the program, a flag of the monitor; or `event`, one of the chip, whose text is made on demand.
+  void happened(const Tally& tally, Tick at, const std::string& text, const profibus::Event* event = nullptr);
 
   const scenario::Scenario& scenario_;
   const Observers& observers_;
@@ -65,6 +83,7 @@ class Journal : public Observer {
   std::uint64_t occurrences_dropped_ = 0, violations_ = 0, allowed_ = 0;
   Repetitions refusals_, violated_;
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
+  std::array<std::optional<EventTally>, 64> tallies_;                   ///< of the last events
 };
 
 }  // namespace dsdpv1::tb

@@ -34,6 +34,9 @@ class HeardTelegram {
 /// scenario.
 class Observer : public ChipListener {
  public:
+  /// True if it overrides pin(); read once, when it is added.
+  virtual bool hears_pins() const { return true; }
+  bool acts_on_events() const override { return false; }
   /// The run begins, `chip` has its power-on levels.
   virtual void begins(std::size_t /*slave*/, const ChipView& /*chip*/) {}
   virtual void telegram(const HeardTelegram& /*telegram*/) {}
@@ -77,7 +80,10 @@ class Observers : public ChipListener {
   /// `timeline` must outlive it.
   explicit Observers(const bus::Timeline& timeline) : timeline_(timeline) {}
   /// It must outlive the calls of `tell`.
-  void add(Observer& observer) { all_.push_back(&observer); }
+  void add(Observer& observer) {
+    all_.push_back(&observer);
+    if (observer.hears_pins()) of_pins_.push_back(&observer);
+  }
 
   /// tell(&Observer::pin, slave, at, pin, level)
   template <class Listener, class... Parameters, class... Arguments>
@@ -90,12 +96,16 @@ class Observers : public ChipListener {
   Tick now() const { return timeline_.now(); }
 
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
-    tell(&Observer::pin, slave, at, pin, level);
+    for (Observer* each : of_pins_) each->pin(slave, at, pin, level);
   }
   void interrupt(std::size_t slave, Tick at, bool level) override { tell(&Observer::interrupt, slave, at, level); }
   void event(std::size_t slave, const profibus::Event& event) override {
     tell(&Observer::event, slave, event);
     changed(event.at);
+  }
+  bool acts_on_events() const override {
+    return std::any_of(
+        all_.begin(), all_.end(), [](const Observer* each) { return each->acts_on_events(); });
   }
   void follows(std::size_t slave, PinNumber pin) override { tell(&Observer::follows, slave, pin); }
   void read(std::size_t slave, Tick sample) override { tell(&Observer::read, slave, sample); }
@@ -108,7 +118,7 @@ class Observers : public ChipListener {
 
  private:
   const bus::Timeline& timeline_;
-  std::vector<Observer*> all_;
+  std::vector<Observer*> all_, of_pins_;
 };
 
 }  // namespace dsdpv1::tb

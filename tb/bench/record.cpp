@@ -34,12 +34,10 @@ const char* name(ChecksMode mode) {
   return "";
 }
 
-void Repetitions::count(const Occurrence& occurrence, const std::function<std::string()>& text) {
-  Repeated& entry = entries_[{occurrence.station, occurrence.code, occurrence.place}];
-  if (entry.count++ == 0)
-    entry = {occurrence.station, occurrence.code, occurrence.place, text(), occurrence.at, occurrence.at, 1,
-             occurrence.allowed};
-  entry.last = std::max(entry.last, occurrence.at);
+Repeated& Repetitions::entry(const Occurrence& like) {
+  Repeated& entry = entries_[{like.station, like.code, like.place}];
+  if (entry.count == 0) entry = {like.station, like.code, like.place, {}, 0, 0, 0, like.allowed};
+  return entry;
 }
 
 std::vector<Repeated> Repetitions::list() const {

@@ -1,7 +1,7 @@
 #pragma once
 // The result of a run as plain values: for expectations, the result file and the table.
+#include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,12 +41,22 @@ struct Repeated {
   Tick first = 0, last = 0;
   std::uint64_t count = 0;
   bool allowed = false;
+
+  /// `words` writes the text of the first time.
+  template <class Words>
+  void add(Tick at, const Words& words) {
+    if (count++ == 0) {
+      text = words();
+      first = last = at;
+    }
+    last = std::max(last, at);
+  }
 };
 
 class Repetitions {
  public:
-  /// `text` makes the text of a first occurrence.
-  void count(const Occurrence& occurrence, const std::function<std::string()>& text);
+  /// Where those like it are counted, from the first one on; stays where it is.
+  Repeated& entry(const Occurrence& like);
   /// By the first time.
   std::vector<Repeated> list() const;
 

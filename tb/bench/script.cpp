@@ -60,6 +60,7 @@ void Script::run(Tick now) {
     agenda_.pop_back();
     carry_out(due, now);
   }
+  waits_ = waits();
 }
 
 void Script::carry_out(const Due& due, Tick now) {
@@ -102,6 +103,13 @@ void Script::look(Tick now) {
   const auto& expect = scenario_.expect;
   for (std::size_t i = 0; i < expect.size(); ++i)
     if (expect[i].by && !judged_[i]) judge(i, now, false);
+}
+
+bool Script::waits() const {
+  const auto& expect = scenario_.expect;
+  for (std::size_t i = 0; i < expect.size(); ++i)
+    if (expect[i].by && !judged_[i]) return true;
+  return !waiting_.empty();
 }
 
 void Script::look_at_actions(Tick now) {

@@ -24,9 +24,12 @@ class Script : public bus::Agent, public Observer {
 
   /// Conditions are evaluated again at `at`.
   void changed(Tick at) override {
+    if (!waits_) return;
     changed_at_ = at;
     announce();
   }
+  bool acts_on_events() const override { return waits_; }
+  bool hears_pins() const override { return false; }
   Tick next() const override;
   void run(Tick now) override;
   /// Judges the expectations for the end; an expectation whose time did not come has failed, as have those for the end
@@ -52,6 +55,7 @@ class Script : public bus::Agent, public Observer {
   void plan(Tick at, Kind kind, std::size_t index);
   void carry_out(const Due& due, Tick now);
   void look(Tick now);
+  bool waits() const;
   void look_at_actions(Tick now);
   void judge(std::size_t index, Tick now, bool last_chance);
 
@@ -79,6 +83,7 @@ class Script : public bus::Agent, public Observer {
   std::vector<std::size_t> waiting_;  ///< actions whose condition does not hold yet
   std::vector<ExpectationResult> expectations_;
   std::vector<bool> judged_;
+  bool waits_ = true;  ///< for a condition to come true, else no change means anything
   Tick changed_at_ = bus::kNever;
 };
 

@@ -56,6 +56,8 @@ class ChipListener {
   /// The pin that interrupts the user CPU, reported before pin().
   virtual void interrupt(std::size_t /*slave*/, Tick /*at*/, bool /*level*/) {}
   virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
+  /// True if an agent may act at the tick of an event, which then interrupts an access under way.
+  virtual bool acts_on_events() const { return true; }
   // The following are only reported on request: ChipNews.
   // The pin follows the run that begins on the line now, until its end or until it is cut: changes up to then may be
   // reported or not, even one to the present level.

@@ -27,7 +27,7 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, con
   begin_watch(watched);
   device_->on_event({[](void* self, const profibus::Event& event) {
                        auto& chip = *static_cast<PinChip*>(self);
-                       chip.pause_access();
+                       if (chip.acts_on_events()) chip.pause_access();
                        if (chip.listener_ != nullptr) chip.listener_->event(chip.number_, event);
                      },
                      this});

@@ -46,6 +46,7 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   void run(Tick now) override;
 
  protected:
+  bool acts_on_events() const { return listener_ == nullptr || listener_->acts_on_events(); }
   /// Access for all calls that advance the chip: first passes pending changes of the line to the device.
   PinDevice& device() {
     announce();

@@ -58,12 +58,13 @@ TEST(Summary, ListsWhatWasRefused) {
 
 TEST(Summary, HasEqualViolationsInOneRow) {
   tb::Repetitions repetitions;
+  const auto of_cell = [&repetitions](const char* cell) -> tb::Repeated& {
+    return repetitions.entry({0, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "", cell});
+  };
   for (tb::Tick at = 1; at <= 6000; ++at)
-    repetitions.count(
-        {at * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "", "B31A"},
-        [] { return "B31A is accessed"; });
-  repetitions.count({7 * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "", "B31B"},
-                    [] { return "B31B is accessed"; });
+    of_cell("B31A").add(
+        at * bus::kTicksPerUs, [] { return "B31A is accessed"; });
+  of_cell("B31B").add(7 * bus::kTicksPerUs, [] { return "B31B is accessed"; });
   tb::RunResult result;
   result.violated = repetitions.list();
   const std::string text = tb::summary(result);

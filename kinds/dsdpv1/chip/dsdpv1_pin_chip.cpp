@@ -117,7 +117,7 @@ void Dsdpv1PinChip::catch_up_host(Tick at) {
 void Dsdpv1PinChip::run_edges(Tick until) {
   hear_line();
   pauses_ = put_off_ = false;
-  const bool whole = !reports_host() && until >= pins_->last_edge() && pins_->run_whole();
+  const bool whole = !reports_host() && until >= pins_->last_edge() && pins_->run_whole(!acts_on_events());
   if (!whole) run_edges_singly(until);
   plan_again();
 }

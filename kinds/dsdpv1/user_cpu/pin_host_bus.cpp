@@ -40,9 +40,9 @@ void PinHostBus::run_edges(Tick until) {
   }
 }
 
-bool PinHostBus::run_whole() {
+bool PinHostBus::run_whole(bool may_report) {
   Level sampled = 0;
-  if (edge_ > 0 || core_ == nullptr || !core_->carry_out(begin_, *access_, sampled)) return false;
+  if (edge_ > 0 || core_ == nullptr || !core_->carry_out(begin_, *access_, sampled, may_report)) return false;
   edge_ = access_->size();
   if (!access_->is_write()) take(sampled);
   return true;

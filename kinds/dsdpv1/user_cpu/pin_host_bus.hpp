@@ -27,8 +27,9 @@ class PinHostBus : public HostBus {
   Tick next_edge() const override { return edge_ < access_->size() ? begin_ + (*access_)[edge_].at : bus::kNever; }
   bool put_off() override { return edge_ == 0 && core_ != nullptr && core_->is_private(begin_, *access_); }
   void run_edges(Tick until) override;
-  /// Executes the running access at once, if the result is the same and it has not begun.
-  bool run_whole();
+  /// Executes the running access at once, if the result is the same and it has not begun. `may_report`: as for
+  /// Chip::carry_out.
+  bool run_whole(bool may_report);
   Tick last_edge() const { return begin_ + access_->last(); }
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }
