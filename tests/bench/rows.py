@@ -187,7 +187,7 @@ ROWS = (
     on_board("arm_busy", 2, "Firmware that counts in RAM without a pause.", "loop_ram"),
     on_board("arm_gpio", 5, "Firmware that raises R_REQ and then polls L_REQ by GPIO without a pause.", "loop_gpio"),
     on_board("arm_dpram", 5, "Firmware that reads a cell of the DPRAM without a pause, and without holding it: each access is a violation.", "loop_dpram",
-             limit="Each access is executed edge by edge, as the owner's are, and reported."),
+             limit="An access is one step of the chip, but each is reported, and takes the processor from its stack to the bench's and back."),
     of_sim("arm_interrupts", None, "The example firmware with power_on_9k6: asleep until INTR0 or its cycle of a millisecond. Checks off.",
            real_time("power_on_9k6", *OFF, "--set", "user_cpu.kind=arm", "--set", f"user_cpu.elf={programs.FIRMWARE / 'device_interrupts.elf'}"), targets=("dsdpv1_firmware",)),
     of_sim("arm_spi", None, "The scenario arm_spi, checks off.", real_time("arm_spi", *OFF), targets=("dsdpv1_firmware",)),
