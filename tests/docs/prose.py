@@ -18,7 +18,7 @@ import sys
 import tokenize
 
 AVERAGE, LONGEST, PAGES_AND_HELP, COMMENTS = "words a sentence, on average", "words of a sentence", "phrases in pages and help", "phrases in comments"
-LIMITS = {AVERAGE: 16, LONGEST: 40, PAGES_AND_HELP: 60, COMMENTS: 215}  # the goal: 16, 40, 150, 300
+LIMITS = {AVERAGE: 16, LONGEST: 40, PAGES_AND_HELP: 50, COMMENTS: 200}
 
 # The better words, and those that they replace. The first row is about the beginning of a sentence.
 FIRST_WORDS = ("a noun as the subject", r"(What|Who|Whoever|Whatever|Whether|Of|As of)\b(?! to do:)(?!.*\?$)")
