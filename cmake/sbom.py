@@ -76,10 +76,14 @@ def relations_of(row, here, files):
     return [relation(identifier("Built", file.name), KINDS[row.use], here) for file in files if licence_table.label_of(file.name) in row.into]
 
 
+def seconds_of_commit():
+    """The commit time of the sources; 0 without Git."""
+    return int(subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%ct"], capture_output=True, text=True, check=False).stdout.strip() or 0)
+
+
 def created():
     """The commit time of the built sources, or SOURCE_DATE_EPOCH (https://reproducible-builds.org/specs/source-date-epoch/)."""
-    told = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%ct"], capture_output=True, text=True, check=False).stdout.strip()
-    seconds = int(os.environ.get("SOURCE_DATE_EPOCH") or told or 0)
+    seconds = int(os.environ.get("SOURCE_DATE_EPOCH") or seconds_of_commit())
     return datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
@@ -107,9 +111,12 @@ def document(version, files):
             "documentNamespace": f"https://dsdpv1.invalid/spdx/{name}-{unique}", "creationInfo": {"created": created(), "creators": ["Tool: dsdpv1-sbom"]}, **content}
 
 
-def main():
-    output, version, files = pathlib.Path(sys.argv[1]), sys.argv[2], [pathlib.Path(word) for word in sys.argv[3:] if pathlib.Path(word).is_file()]
+def write(output, version, files):
     output.write_text(json.dumps(document(version, files), indent=1) + "\n", encoding="utf-8")
+
+
+def main():
+    write(pathlib.Path(sys.argv[1]), sys.argv[2], [pathlib.Path(word) for word in sys.argv[3:] if pathlib.Path(word).is_file()])
 
 
 if __name__ == "__main__":

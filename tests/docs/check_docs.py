@@ -7,7 +7,9 @@
     check_docs.py table            the tables of docs/README.md name every document of docs/
     check_docs.py trust            the figures of README.md are those of docs/
     check_docs.py snippets         code after a comment "from FILE" is in that file
-    check_docs.py packages         the tables of docs/install.md are those of packages.txt and ./run deps --commands, and so is README.md's number
+    check_docs.py bare             the times in README.md are those of docs/trust/bare.tsv, and its commands those that were measured
+    check_docs.py update_bare      writes these times again
+    check_docs.py packages         the tables of docs/install.md are those of packages.txt and ./run deps --commands
     check_docs.py house            docs/img/house.svg is drawn from the table of arrows in docs/architecture.md
     check_docs.py picture SIM      docs/img/power_on_12m.svg and handshake.svg are drawn from what dsdpv1-sim writes
     check_docs.py update SIM       writes the figures of README.md, the pictures and the tables again
@@ -303,6 +305,42 @@ def tables_of_packages(root):
             "\n| group | packages | what they are |\n|---|---|---|\n" + "".join(f"| {name} | {' '.join(names.split())} | {what} |\n" for what, name, names in groups))
 
 
+# ---------------------------------------------------------------------------------------------------------------- bare
+BARE = re.compile(r"(<!-- bare: [^\n]*-->\n)(.*?)(?=<!-- /bare -->)", re.S)
+MEASURED = ["apt-get install ./dsdpv1_*.deb", "dsdpv1-sim demo", "pip install ./dsdpv1-*.whl", "python -m dsdpv1 demo", "./run demo"]
+
+
+def about(seconds):
+    return f"{seconds} s" if seconds < 120 else f"{(seconds + 30) // 60} min"
+
+
+def bare(root):
+    """The times of README.md, as ./run release --record has measured them."""
+    lines = (root / "docs/trust/bare.tsv").read_text(encoding="utf-8").splitlines()[1:]
+    rows = {row[2]: row for row in (line.split("\t") for line in lines)}
+    deb, wheel = (about(int(rows[way][5]) + int(rows[way][6])) for way in ("deb", "wheel"))
+    source, when = rows["source"], rows["deb"]
+    return f"""From a bare Debian 12 to the end of the table, downloads included: package {deb}, wheel {wheel}. The first `./run demo` installs {packages_of_demo(root)} packages ({source[3]} with dependencies,
+{source[4]} MB, {about(int(source[5]))}) and compiles for {source[7]} s of processor time, half of that on two idle cores. Later ones begin at once. Measured on {when[0]} with {when[8]} processors and a load of {when[9]}.
+"""
+
+
+def check_bare(root):
+    text = (root / "README.md").read_text(encoding="utf-8")
+    block = BARE.search(text)
+    if block.group(2) != bare(root):
+        yield fault(root, root / "README.md", text, block.start(), "docs/trust/bare.tsv has other times: ./run generate")
+    for command in MEASURED:
+        if command not in text:
+            yield f"README.md:1: ./run release --record measures {command}, which is not here"
+
+
+def update_bare(root):
+    path = root / "README.md"
+    path.write_text(BARE.sub(lambda block: block.group(1) + bare(root), path.read_text(encoding="utf-8")), encoding="utf-8")
+    return []
+
+
 def packages_of_demo(root):
     """How many packages.txt names for it."""
     groups = re.search(r"^demo\t(.*)$", commands_of_run(root), re.M).group(1).split()
@@ -315,9 +353,6 @@ def check_packages(root):
     block = PACKAGES.search(text)
     if block.group(2) != tables_of_packages(root):
         yield fault(root, root / INSTALL, text, block.start(), "packages.txt and ./run deps --commands say otherwise: ./run generate")
-    number = packages_of_demo(root)
-    if f"installs {number} packages" not in (root / "README.md").read_text(encoding="utf-8"):
-        yield f"README.md:1: ./run demo installs {number} packages"
 
 
 def update_packages(root):
@@ -332,6 +367,7 @@ def update(root, sim):
     update_sweep(root, sim)
     update_regress(root, sim)
     update_packages(root)
+    update_bare(root)
     return []
 
 
@@ -339,12 +375,12 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "mentions", "table", "trust", "snippets", "packages", "house", "picture", "sweep", "regress", "update"])
+    parser.add_argument("what", choices=["links", "files", "mentions", "table", "trust", "snippets", "bare", "update_bare", "packages", "house", "picture", "sweep", "regress", "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
     with_sim = {"picture": check_picture, "sweep": check_sweep, "regress": check_regress, "update": update}
     without = {"links": check_links, "files": check_files, "mentions": check_mentions, "table": check_table, "trust": check_trust,
-               "snippets": check_snippets, "packages": check_packages, "house": check_house}
+               "snippets": check_snippets, "bare": check_bare, "update_bare": update_bare, "packages": check_packages, "house": check_house}
     if arguments.what in with_sim:
         if arguments.sim is None:
             parser.error(f"{arguments.what} needs the path of dsdpv1-sim")

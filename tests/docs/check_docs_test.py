@@ -9,7 +9,8 @@ RIGHT = {
                  "See [the chip](docs/chip.md#its-rulings), `model/core.cpp`, `core.cpp` and [far](https://a.org).\n"
                  "```\n[no](link.md) in code\n```\n"
                  "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
-                 "It installs 2 packages.\n<!-- trust: x -->\n<!-- /trust -->\n",
+                 "`apt-get install ./dsdpv1_*.deb && dsdpv1-sim demo`, `pip install ./dsdpv1-*.whl && python -m dsdpv1 demo`, `./run demo`\n"
+                 "<!-- trust: x -->\n<!-- /trust -->\n<!-- bare: x -->\n<!-- /bare -->\n",
     "docs/README.md": "# Documents\n| [chip.md](chip.md) | the chip |\n| [install.md](install.md) | packages |\n| [tutorials/one.md](tutorials/one.md) | first |\n"
                       "".join(f"| [{name}.md]({name}.md) | figures |\n" for name in ("conformance", "trust", "performance", "calibrate")),
     "docs/tutorials/one.md": "# One\n",
@@ -19,6 +20,8 @@ RIGHT = {
     "docs/performance.md": "| `demo` | 4.93 | at least 3 x |\n| `core_vs_rtl` | 769 | at least 200 |\n22 of 28 goals are met.\n",
     "docs/install.md": "# Install\n<!-- packages: x -->\n| `./run` | groups |\n|---|---|\n| `demo`, `sim` | tools |\n"
                        "\n| group | packages | what they are |\n|---|---|---|\n| tools | cmake g++ | to build |\n<!-- /packages -->\n",
+    "docs/trust/bare.tsv": "# head\n2026-01-02\tc\tdeb\t31\t18.3\t28\t1\t0\t2\t0.1\n2026-01-02\tc\twheel\t30\t14.1\t35\t36\t6\t2\t0.2\n"
+                           "2026-01-02\tc\tsource\t173\t137.0\t60\t210\t400\t2\t0.3\n",
     "packages.txt": "# all\n\n# to build\n[tools]\ncmake\ng++\n",
     "run": "#!/bin/sh\nprintf 'demo\\ttools\\nsim\\ttools\\n'\n",
     "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
@@ -34,11 +37,12 @@ class Project(small_project.SmallProject):
         super().setUp()
         (self.root / "run").chmod(0o755)
         check_docs.update_trust(self.root)
+        check_docs.update_bare(self.root)
 
     def faults(self):
         found = []
         for check in (check_docs.check_links, check_docs.check_files, check_docs.check_mentions, check_docs.check_table, check_docs.check_trust, check_docs.check_snippets,
-                      check_docs.check_packages):
+                      check_docs.check_bare, check_docs.check_packages):
             found += check(self.root)
         return found
 
@@ -107,9 +111,18 @@ class Project(small_project.SmallProject):
         with self.assertRaisesRegex(SystemExit, "docs/performance.md:1: .* is there 0 times"):
             self.faults()
 
-    def test_another_number_of_packages(self):
-        self.change("README.md", "installs 2", "installs 3")
-        self.expect("README.md:1: ./run demo installs 2 packages")
+    def test_times_that_are_not_the_recorded_ones(self):
+        self.assertIn("package 29 s, wheel 71 s. The first `./run demo` installs 2 packages (173 with dependencies,\n137.0 MB, 60 s) and compiles for 400 s of processor time",
+                      (self.root / "README.md").read_text(encoding="utf-8"))
+        for old, new in (("installs 2", "installs 3"), ("wheel 71", "wheel 17"), ("load of 0.1", "load of 0.0")):
+            with self.subTest(new):
+                self.change("README.md", old, new)
+                self.expect("README.md:19: docs/trust/bare.tsv has other times")
+                self.change("README.md", new, old)
+
+    def test_a_command_that_is_not_the_measured_one(self):
+        self.change("README.md", "install ./dsdpv1_*.deb", "install dsdpv1")
+        self.expect("README.md:1: ./run release --record measures apt-get install ./dsdpv1_*.deb")
 
 
 if __name__ == "__main__":

@@ -212,7 +212,8 @@ def check(root, build):
         yield from faults_of_program(name, sources, rows, debian.source)
         if sources & strict:
             yield from faults_of_own(name, own_files(program, root, build), reuse)
-    yield from stale_rows(possible, rows, debian.source)
+    unknown = {label_of(name) for name in ninja_build.not_built(build)}
+    yield from stale_rows({label: sources for label, sources in possible.items() if label not in unknown}, rows, debian.source)
     yield from faults_of_lists(listed, set().union(*found.values()), rows, debian.source)
     yield from faults_of_texts(root, reuse)
     yield from faults_of_heads(root, reuse)

@@ -181,6 +181,13 @@ class Ninja(unittest.TestCase):
         self.assertEqual(notes, {"obj/a.o": ["/src/a.cpp", "../src/a.hpp"], "obj/b.o": ["/src/b c.cpp"]})
         self.assertEqual(ninja_build.absolute("/src/build", notes["obj/a.o"]), {"/src/a.cpp", "/src/src/a.hpp"})
 
+    def test_programs_that_are_not_built_are_known(self):
+        with tempfile.TemporaryDirectory() as folder:
+            build = pathlib.Path(folder)
+            (build / "build.ninja").write_text(NINJA, encoding="utf-8")
+            (build / "libd.so").touch()
+            self.assertEqual(ninja_build.not_built(build), ["apps/sim"])
+
     def test_an_object_may_have_what_a_precompiled_header_has(self):
         self.assertEqual(ninja_build.precompiled_of(self.edges, {"obj/a.o", "obj/b.o", "obj/c.o"}), {"all.hxx.gch"})
 

@@ -98,6 +98,11 @@ def absolute(folder, files):
     return {os.path.normpath(os.path.join(folder, file)) for file in files}
 
 
+def not_built(folder):
+    """The paths of programs and shared libraries that the build knows and that are not there, as in preset edit."""
+    return [name for name in linked(edges_of((folder / "build.ninja").read_text(encoding="utf-8"))) if not (folder / name).exists()]
+
+
 def programs(folder):
     """Maps the path of each built program and shared library, relative to `folder`, to its contents."""
     edges = edges_of((folder / "build.ninja").read_text(encoding="utf-8"))
