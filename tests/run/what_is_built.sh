@@ -104,6 +104,11 @@ speaks ./run --verbose
 [[ $message == *"cmake says much"* ]] || fail "--verbose: $message"
 speaks env CI=true ./run
 [[ $message == *"cmake says much"* ]] || fail "in CI: $message"
+# on a terminal the last line, as wide as it is
+if command -v script >/dev/null; then
+  shown=$(cd "$folder" && env -u CI PATH="$folder/tools:$PATH" script -qec "stty cols 12; ./run sim run mine.yaml" /dev/null </dev/null)
+  [[ $shown == *$'\r\033[Kcmake says \r'* ]] || fail "on a terminal: $shown"
+fi
 touch "$folder/broken"
 status=0
 speaks ./run
