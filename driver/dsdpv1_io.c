@@ -15,7 +15,7 @@ static void write_inputs(dsdpv1_device* device, const dsdpv1_block* inputs, uint
 }
 
 /*
- * Inside a hold. Sets result->inputs_written; `fetched` if the port got new outputs with the same telegram. Returns
+ * Inside a hold. Sets result->inputs_written, and `fetched` if the same telegram also brought new outputs. Returns
  * the chip's verdict on the previous inputs (B00B.2).
  */
 static dsdpv1_error give_inputs(dsdpv1_device* device, dsdpv1_input_policy policy, const dsdpv1_block* inputs,

@@ -88,7 +88,7 @@ class Cosim : public Command {
     check_outputs(kCosim, inputs, outputs);
   }
 
-  /// In lockstep with the user's RTL; with a wave, its inside goes beside the model's.
+  /// In lockstep with the user's RTL; a wave shows its internal signals beside the model's.
   int run_own_rtl(RunRequest request, const OwnRtl& own) const {
     cosim::LockstepOptions lockstep;
     lockstep.tolerances = own.map.tolerances;

@@ -70,7 +70,7 @@ const char* state_name(int32_t state) {
 
 }  // namespace
 
-/// Destroys a bus if the object that is being built on it fails.
+/// Destroys the bus if the construction of its master fails.
 struct BusGuard {
   dpsim_bus*& bus;
   bool keep = false;
@@ -164,7 +164,7 @@ void Master::note_answer(const dpsim_event& event) {
   answer.data.assign(telegram.data, telegram.data + telegram.data_size);
 }
 
-/// The rotation of the token is not reported.
+/// The master enters or leaves the ring; the rotation of the token is not reported.
 bool enters_or_leaves(const dpsim_event& event) {
   const auto outside = [](int32_t state) { return state <= DPSIM_RING_CLAIM_TOKEN || state == DPSIM_RING_OUT; };
   return outside(event.from) != outside(event.to);

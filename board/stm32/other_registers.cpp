@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kBlock = 0x400;
 
-/// What the debug port does: every start-up sets it, and it means nothing here.
+/// Settings of the debug port: every start-up writes them; they mean nothing here.
 constexpr std::uint32_t kDbgmcu = 0xE004'2000;
 
 struct Named {

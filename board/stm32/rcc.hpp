@@ -26,7 +26,7 @@ class Rcc {
   /// Peripherals of APB2 and APB1 that are held in reset.
   std::uint32_t apb2_resets() const { return words_[0x0C]; }
   std::uint32_t apb1_resets() const { return words_[0x10]; }
-  /// Cycles of HCLK that one of PCLK1, PCLK2 lasts: 1, 2, 4, 8, 16.
+  /// Cycles of HCLK in a cycle of PCLK1, PCLK2: 1, 2, 4, 8, 16.
   unsigned apb1_divider() const;
   unsigned apb2_divider() const;
 

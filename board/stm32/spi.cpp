@@ -77,7 +77,7 @@ void Spi::write_control(std::uint32_t value, std::uint64_t now) {
   load_soon(now);
 }
 
-/// What follows from the control registers and NSS: whether it is a master, and how SCK idles.
+/// Applies the control registers and NSS: whether it is a master, and how SCK idles.
 void Spi::check_mode() {
   if ((words_[kCr1] & kMstr) != 0 && nss_is_low()) {
     words_[kCr1] &= ~(kMstr | kSpe);
@@ -90,7 +90,7 @@ void Spi::check_mode() {
   if (!transfers()) sck_ = (words_[kCr1] & kCpol) != 0;
 }
 
-/// SSI in its place (SSM), nothing when NSS is an output (SSOE).
+/// With SSM the level is SSI; with SSOE NSS is an output and does not count.
 bool Spi::nss_is_low() const {
   if ((words_[kCr1] & kSsm) != 0) return (words_[kCr1] & kSsi) == 0;
   return (words_[kCr1] & kSpe) != 0 && (words_[kCr2] & kSsoe) == 0 && !nss_;

@@ -1,7 +1,7 @@
 #pragma once
 // SPI1 or SPI2 of the STM32F103 as a full-duplex master (RM0008, chapter SPI): a buffer and a shift register in each
-// direction, so that who fetches a byte too late loses the next one. Times are cycles of HCLK. What the manual leaves
-// open (p): a byte in the buffer goes to the idle shift register with the next cycle of PCLK, its first bit is out
+// direction; the next byte is lost when a byte is fetched too late. Times are cycles of HCLK. Assumed, as the manual
+// is silent (p): a byte in the buffer goes to the idle shift register with the next cycle of PCLK, its first bit is out
 // then, and SCK's first edge follows half a bit later.
 #include <cstdint>
 #include <limits>
@@ -16,21 +16,21 @@ class Spi {
   static constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSr = 0x08, kDr = 0x0C;
   static const RegisterTable kRegisters;
 
-  /// Cycles of HCLK that PCLK's cycle lasts: 1, 2, 4, 8 or 16. From the next edge on.
+  /// Cycles of HCLK in a cycle of PCLK: 1, 2, 4, 8 or 16; in force from the next edge on.
   void set_divider(unsigned hclk_cycles) { divider_ = hclk_cycles; }
 
-  /// A read of DR or SR has its effects (RXNE, OVR, MODF); a debugger peeks.
+  /// read() of DR or SR has side effects (RXNE, OVR, MODF), peek() has none.
   std::uint32_t peek(std::uint32_t offset) const;
   std::uint32_t read(std::uint32_t offset);
   void write(std::uint32_t offset, std::uint32_t value, std::uint64_t now);
-  /// As after a reset, but for the clock and lost().
+  /// As after a reset, except the clock and lost().
   void reset();
 
   /// The cycle of its next action, kNever when there is none.
   std::uint64_t next() const { return at_; }
-  /// Acts at cycle next(). `miso`: the pin as it is strictly before.
+  /// Acts at cycle next(). `miso`: the pin's level just before it.
   void run(bool miso);
-  /// NSS as an input; low is a fault of the mode of a master that heeds it (MODF).
+  /// NSS as an input; low is a mode fault (MODF) of a master with SSM and SSOE 0.
   void set_nss(bool level);
 
   /// It drives SCK and MOSI: enabled as a master.
@@ -66,13 +66,13 @@ class Spi {
 
   unsigned divider_ = 1;
   RegisterWords<kRegisters, 9> words_;
-  std::uint16_t tx_ = 0;                       ///< the buffer behind DR, to be sent
+  std::uint16_t tx_ = 0;                       ///< the transmit buffer of DR
   std::uint16_t out_ = 0, in_ = 0;             ///< the shift register
-  unsigned edge_ = 0, bit_ = 0, sampled_ = 0;  ///< the next of SCK's edges, 0: no transfer; bits out and in
+  unsigned edge_ = 0, bit_ = 0, sampled_ = 0;  ///< SCK's next edge, 0: no transfer; bits sent; bits sampled
   std::uint64_t at_ = kNever;
   bool sck_ = false, mosi_ = false, nss_ = true;
-  bool ovr_read_ = false;   ///< DR has been read since OVR: a read of SR takes it away
-  bool modf_read_ = false;  ///< SR has been read since MODF: a write of CR1 takes it away
+  bool ovr_read_ = false;   ///< DR has been read since OVR: a read of SR clears OVR
+  bool modf_read_ = false;  ///< SR has been read since MODF: a write of CR1 clears MODF
   std::uint64_t lost_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// USART2 of the STM32F103 (RM0008, chapter USART), asynchronous: TDR and RDR before its shift registers, so that who
-// fetches a character too late loses the next one. Times are cycles of HCLK. What the manual leaves open (p): a
+// USART2 of the STM32F103 (RM0008, chapter USART), asynchronous: TDR and RDR before its shift registers; the next
+// character is lost when one is fetched too late. Times are cycles of HCLK. Assumed, as the manual is silent (p): a
 // character in TDR begins with the next cycle of PCLK, the receiver sees a fall of RX with the next cycle of PCLK.
 #include <cstdint>
 #include <deque>
@@ -22,14 +22,14 @@ class Usart {
   static constexpr std::uint32_t kSr = 0x00, kDr = 0x04, kBrr = 0x08, kCr1 = 0x0C, kCr2 = 0x10, kCr3 = 0x14;
   static const RegisterTable kRegisters;
 
-  /// Cycles of HCLK that PCLK's cycle lasts: 1, 2, 4, 8 or 16.
+  /// Cycles of HCLK in a cycle of PCLK: 1, 2, 4, 8 or 16.
   void set_divider(unsigned hclk_cycles) { divider_ = hclk_cycles; }
 
-  /// A read of DR after one of SR takes errors and IDLE away; a debugger peeks.
+  /// read() of DR after read() of SR clears errors and IDLE; peek() clears nothing.
   std::uint32_t peek(std::uint32_t offset) const { return words_.read(offset); }
   std::uint32_t read(std::uint32_t offset);
   void write(std::uint32_t offset, std::uint32_t value, std::uint64_t now);
-  /// As after a reset, but for the clock, the line and lost().
+  /// As after a reset, except the clock, the line and lost().
   void reset();
 
   /// The cycle of its next action, kNever when there is none.
@@ -42,10 +42,10 @@ class Usart {
   /// It drives TX: the transmitter is on, or still sends.
   bool drives() const { return (words_[kCr1] & kUe) != 0 && ((words_[kCr1] & kTe) != 0 || sends()); }
   bool tx() const { return tx_; }
-  /// RTS (RTSE), low while a character can be taken; `drives_rts` false: the pin is somebody else's.
+  /// RTS (RTSE), low while a character can be taken; `drives_rts` false: it does not drive the pin.
   bool drives_rts() const { return (words_[kCr1] & kUe) != 0 && (words_[kCr3] & kRtse) != 0; }
   bool rts() const { return (words_[kSr] & kRxne) != 0; }
-  /// RX as it was told last.
+  /// The last level given to rx_changed().
   bool rx() const { return rx_; }
   /// Asks for its interrupt.
   bool asks() const;

@@ -52,7 +52,7 @@ class TextDecoder {
     return end;
   }
 
-  /// Where to continue after an invalid telegram. Its inside may hold any byte, so only a telegram with a right FCS or
+  /// Where to continue after an invalid telegram. It may contain any byte, so only a telegram with a right FCS or
   /// one at the beginning of a line is accepted there; between telegrams also a token or SC.
   std::size_t end_of_wrong(std::size_t at, const Decoded& decoded) const {
     const bool whole = decoded.readable || decoded.error == DecodeError::kMissingSap;

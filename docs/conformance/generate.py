@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/conformance.md, docs/test_plan.md and the table of clauses in docs/architecture.md from the YAML files of this folder, and checks these.
 
-    generate.py                             write them; exit 1 and a line a fault when the data are not true or not complete
+    generate.py                             write them; exit 1 and a line per fault when the data are not true or not complete
     generate.py --check                     write nothing; exit 1 also when one of them is stale
     generate.py --report PAGE --run TESTS   write the conformance page with the results of a run, TESTS being ctest's JUnit report; exit 1
                                             when a test of a clause failed or was not run

@@ -131,7 +131,7 @@ typedef struct {
 #define FSMC_BANK1_NE1 0x60000000u
 #define FSMC_BCR_MBKEN (1u << 0)
 #define FSMC_BCR_RESERVED_7 (1u << 7) /* always 1 */
-#define FSMC_BCR_WREN (1u << 12)      /* memory type SRAM and width 8 are zeros */
+#define FSMC_BCR_WREN (1u << 12)      /* bits 0 for SRAM, width 8 */
 #define FSMC_BTR_ADDSET_SHIFT 0u
 #define FSMC_BTR_DATAST_SHIFT 8u
 #define FSMC_BTR_BUSTURN_SHIFT 16u
@@ -157,7 +157,7 @@ typedef struct {
 #define USART_CR1_TXEIE (1u << 7)
 #define USART_CR1_PS (1u << 9) /* odd */
 #define USART_CR1_PCE (1u << 10)
-#define USART_CR1_M (1u << 12) /* 9 bits, the parity among them */
+#define USART_CR1_M (1u << 12) /* 9 bits, including the parity */
 #define USART_CR1_UE (1u << 13)
 
 typedef struct {

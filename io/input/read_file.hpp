@@ -14,8 +14,8 @@ struct FileKind {
 constexpr FileKind kScenarioFile{"a scenario in YAML", 4};              // the shipped ones have some 5 KB
 constexpr FileKind kGsdFile{"a GSD file", 16};                          // great modular stations have some 2 MB
 constexpr FileKind kPinMapFile{"a map of pins in YAML", 1};             // some 20 pins
-constexpr FileKind kFaultListFile{"the list of faults of the RTL", 1};  // a line a fault, 255 faults
-constexpr FileKind kStimulusFile{"a stimulus file", 16};                // a line an action; cases have some 100 KB
+constexpr FileKind kFaultListFile{"the list of faults of the RTL", 1};  // a line per fault, 255 faults
+constexpr FileKind kStimulusFile{"a stimulus file", 16};                // a line per action; cases have some 100 KB
 constexpr FileKind kFirmwareFile{// 512 KB of flash with any amount of debug information
                                  "an executable for ARM (32 bit, little endian) such as arm-none-eabi-gcc links", 64};
 

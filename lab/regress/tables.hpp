@@ -16,13 +16,13 @@ struct Report {
   bool passed() const;
 };
 
-/// A line a run with a heading, its fields separated by tabs. Control characters in them are shown as escapes.
+/// One line per run, with a heading, its fields separated by tabs. Control characters in them are shown as escapes.
 std::string tsv(const Report& report);
 /// The same for people, fitted to a terminal (tb/report/text_table.hpp).
 std::string table(const Report& report);
 /// One JSON object with counts and runs.
 std::string json(const Report& report);
-/// JUnit's XML: a suite a scenario.
+/// JUnit's XML: one suite per scenario.
 std::string junit(const Report& report);
 /// "57 of 60 runs passed, 2 failed, 1 crashed; 20 combinations that cannot be are left out".
 std::string summary(const Report& report);

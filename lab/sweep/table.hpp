@@ -11,8 +11,8 @@ namespace dsdpv1::tb::sweep {
 /// The ids of the checks of all points, in order of first appearance.
 std::vector<std::string> check_ids(const std::vector<Point>& points);
 
-/// results.csv: a row a point with its parameters, verdict, violations, the worst margin of all and of each check, and
-/// the first violation. Times in ns. Fields with commas, quotes or line ends are quoted (RFC 4180).
+/// results.csv: a row per point with its parameters, verdict, violations, the worst margin of all and of each check,
+/// and the first violation. Times in ns. Fields with commas, quotes or line ends are quoted (RFC 4180).
 std::string csv(const Plan& plan, const std::vector<Point>& points);
 
 /// For the terminal: a row for each combination of all parameters but the first, with the values of the first at which

@@ -49,7 +49,7 @@ struct Chip::Impl {
   // without an event does nothing: Engine::kSkip calls only those that are due, and Engine::kStep, which trusts no
   // plan, calls all.
   struct Plan {
-    Cycle release = kNever;  // cycle R; host: the live port
+    Cycle release = kNever;  // at cycle R; `host` is the live port's
     Cycle host = kNever, handshake = kNever, sequencer = kNever, station = kNever, interrupt = kNever;
 
     Cycle but_the_stations() const { return std::min({release, host, handshake, sequencer, interrupt}); }
@@ -119,7 +119,7 @@ struct Chip::Impl {
   // Inline: it runs at the begin and the end of each access, and with two kinds of ports the compiler would make it a
   // call.
   [[gnu::always_inline]] inline Cycle last_quiet(Tick to) const;
-  // The first edge after `to`, or from the host's next drive on, whichever is earlier.
+  // The first edge after `to`, or the first at or after the host's next drive, whichever is earlier.
   Cycle unheard_until(Tick to) const { return first_edge_after(std::min(to, drive_at() - 1)); }
   void quiet_access();
   void access_edge(Cycle cycle);
@@ -159,7 +159,7 @@ struct Chip::Impl {
   Tick now = 0;
   Tick planned_edge = kNever;
   Plan plans;
-  Cycle other_plans = kNever;  // without the station's, as plan() found them
+  Cycle other_plans = kNever;  // the earliest but the station's, when plan() ran
   bool reset_pin = false, running = false, r_req = false, r_sta = false, rxd = true;
   std::uint32_t outputs = kResetLevels;
   bool live = false;  // the live host port is serial
@@ -289,8 +289,8 @@ void Chip::Impl::plan() {
   plan_edge(std::min(other_plans, plans.station));
 }
 
-// The settling of writes by the DPRAM's owner is not observable: the owner reads them or releases the DPRAM, and both
-// are calls.
+// The settling of writes by the DPRAM's owner is not observable: to see them it reads or releases the DPRAM, and both
+// are calls of the chip.
 Tick Chip::Impl::next_seen() const {
   if (engine == Engine::kStep || sequencer.owns() || live || host.next_seen() == plans.host) return next_event();
   return std::min(edge_of(std::min(plans.but_the_hosts(), host.next_seen())), host.drive_at());
@@ -428,7 +428,7 @@ void Chip::Impl::quiet_access() {
   publish_edge_outputs(now, outputs & ~kAccessPins);
 }
 
-// Neither the DPRAM nor any work in it is requested.
+// The user requests no DPRAM, and no work waits for an access.
 bool Chip::Impl::unasked() const { return !r_req && !r_sta && handshake.next() == kNever && sequencer.may_doze(); }
 
 void Chip::Impl::access_edge(Cycle cycle) {
@@ -482,8 +482,8 @@ void Chip::Impl::catch_up_line(Cycle upto) {
   }
 }
 
-// The sequencer acts before the station: accesses that it dozes through up to this edge are independent of the
-// station's actions now.
+// The sequencer acts before the station, so accesses that it dozes through up to this edge do not depend on the
+// station's actions at this edge.
 void Chip::Impl::eval_station(Cycle cycle) {
   const bool changes_mail = station.may_act(cycle);
   if (sequencer.dozing() && changes_mail) sequencer.catch_up(cycle);
@@ -592,7 +592,7 @@ void Chip::Impl::store(Archive& archive) {
   archive.check(is_possible());
 }
 
-// All plans lie in the future and not too far.
+// All plans lie in the future, none after its block's next event.
 bool Chip::Impl::is_possible() const {
   const Cycle over = done();
   const auto right = [over](Cycle plan, Cycle next) { return plan > over && plan <= next; };

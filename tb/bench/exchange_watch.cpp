@@ -24,7 +24,7 @@ bool is_away(const Expectation& expectation) {
          (expectation.baud && !*expectation.baud) || expectation.data_exchanges_at_most == 0;
 }
 
-/// Expects that the slave is not in data exchange at the end, or never.
+/// Expects that the slave is not in data exchange at the end, or never enters it.
 bool is_away_at_the_end(const Expectation& expectation) {
   return is_away(expectation) && !expectation.at && !expectation.by;
 }
@@ -62,7 +62,7 @@ Effect effect_of(const Action& action) {
   }
 }
 
-/// Whether a master's action applies to an entry in its list; without a name it is for the first master.
+/// Whether an action applies to an entry in a master's list; an action without a name is the first master's.
 bool concerns(const Action& action, const std::string& first_master, const std::string& master,
               const std::string& slave) {
   if (!action.slave.empty()) return action.slave.text == slave;
@@ -71,7 +71,7 @@ bool concerns(const Action& action, const std::string& first_master, const std::
   return everybody || master == (action.master.empty() ? first_master : action.master.text);
 }
 
-/// The step to data exchange for events of this code; absent: none.
+/// The step to data exchange that events of this code are about; absent: no step.
 std::optional<std::size_t> step_of(std::string_view code) {
   static constexpr std::array<std::string_view, 4> kSteps = {"INIT", "BAUD_", "PRM_", "CFG_"};
   for (std::size_t i = 0; i < kSteps.size(); ++i)
@@ -101,7 +101,7 @@ ExchangeWatch::ExchangeWatch(const scenario::Scenario& scenario, const Stations&
     for (const scenario::MasterSlave& listed : master.slaves) add(master, listed);
 }
 
-/// A slave listed only by its address is the scenario's slave with that address; for another address there is none.
+/// A slave listed only by its address is the scenario's slave with that address, if any; without one nothing is added.
 void ExchangeWatch::add(const scenario::Master& master, const scenario::MasterSlave& listed) {
   const auto slave = std::find_if(scenario_.slaves.begin(), scenario_.slaves.end(), [&listed](const auto& each) {
     return listed.slave.empty() ? listed.address == each.address : listed.slave.text == each.name.text;

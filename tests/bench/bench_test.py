@@ -186,7 +186,7 @@ class Measuring(unittest.TestCase):
             file.write_text("before", encoding="utf-8")
             with mock.patch("os.replace", side_effect=OSError(28, "No space left on device", str(file))):
                 status, _, errors = self.bench("--json", str(file), measured=[row(measure=lambda turn: 11)])
-            self.assertEqual((status, errors.count("\n")), (2, 6))  # a line a round, and the error
+            self.assertEqual((status, errors.count("\n")), (2, 6))  # a line per round, and the error
             self.assertTrue(errors.endswith("table.json: No space left on device\n"))
             self.assertEqual([each.read_text(encoding="utf-8") for each in pathlib.Path(folder).iterdir()], ["before"])
 

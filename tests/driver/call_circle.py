@@ -4,7 +4,7 @@
     call_circle.py NM OBJECT...
 
 A file that needs a name calls the file that defines it; names that none of them defines (the C library's) do not count. Prints one
-circle, a line a call, exit 1. Python's standard library only.
+circle, a line per call, exit 1. Python's standard library only.
 """
 import pathlib
 import subprocess

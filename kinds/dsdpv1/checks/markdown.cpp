@@ -25,8 +25,8 @@ RTL (`dsdpv1-sim cosim`) in the same way, and find the same to the tick.
   many were not judged ([verdicts.md](verdicts.md)).
 - **off**: nothing is checked, at no cost; the verdict says so.
 
-The terminal has a line with the tightest margin when all checks are kept, else a row for each that was violated; with `--checks-table` (`run`, `serve`) a row
-for each check. The result file and the report always have all.
+The terminal shows the tightest margin if all checks are kept, else a row for each violated one; with `--checks-table` (`run`, `serve`) a row for each check. The
+result file and the report always have all.
 
 A scenario may use the id of a check like the code of an event, so `expect: [{slave: demo, event: TIMING_TS}]` asks for a violation
 (refused with `off`). Limits and single checks are set for all slaves of a scenario:
@@ -64,14 +64,15 @@ with the last four changes of each pin involved; all are in the log.
 The core itself reports violations (`HOST_...`, `HANDSHAKE_BOTH_OWN` of [reasons.md](reasons.md)): such an event fails a run whatever `--checks`
 says. The checks are written separately, from the same rulings. If both judge the same, they find the same number
 (`ChecksAndCore`). These pairs are equal. Handshake: OWNERSHIP_BOTH_OWN and `HANDSHAKE_BOTH_OWN`, OWNERSHIP_NOT_OWNER and `HOST_NOT_OWNER`. Timing: TIMING_TS and `HOST_TS`, TIMING_TD and
-`HOST_TD_SETUP` or `HOST_D_FLOATING`, the two holds and `HOST_TD_HOLD` (which reports the first of A and D), TIMING_CSR and `HOST_CSR_EARLY`, TIMING_TC and
+`HOST_TD_SETUP` or `HOST_D_FLOATING`, the two holds and `HOST_TD_HOLD` (for A or D, whichever changes first), TIMING_CSR and `HOST_CSR_EARLY`, TIMING_TC and
 `HOST_TC`, TIMING_TW and `HOST_TW`, TIMING_READ_BACK and `HOST_READ_IN_FLIGHT`. Content: CELL_OF_CHIP and `HOST_READ_ONLY`, CRC_WRITTEN and the refusals
-`..._CRC`. `HANDSHAKE_HELD_THROUGH_RESET` has no check: the user is not judged in reset, and a hold through it counts from its end. The checks add the margin without a violation, and the rules that no chip can see.
+`..._CRC`. `HANDSHAKE_HELD_THROUGH_RESET` has no check: the user is not judged in reset, and a hold through it counts from its end. The checks add margins where
+nothing is violated, and rules that no chip can see.
 
 ## Which apply
 
-A report has the checks of the port that the user has. With a DSDPV1, a DSDPV1-R, or a DSDPV1-RSU strapped to its parallel port they are those on R_REQ, R_STA, CSR, RD and WR.
-With one strapped to SPI they are `TIMING_SCK_HIGH` to `B014_HOLD_INTERVAL`, with one strapped to its UART `RXD_CHARACTER_GAP` to `TXD_REPLY_TIME`. Rulings SP and UA are
+A report has the checks of the port in use. With a DSDPV1, a DSDPV1-R, or a DSDPV1-RSU strapped to its parallel port these concern R_REQ, R_STA, CSR, RD and WR. With a DSDPV1-RSU
+strapped to SPI they are `TIMING_SCK_HIGH` to `B014_HOLD_INTERVAL`, strapped to its UART `RXD_CHARACTER_GAP` to `TXD_REPLY_TIME`. Rulings SP and UA are
 those of [chip_rsu.md](chip_rsu.md).
 
 | asked of the host port | over SPI | over the UART |
@@ -84,7 +85,7 @@ those of [chip_rsu.md](chip_rsu.md).
 | hold, and hold compared with the telegrams of the bus | `B014_HELD`, `B014_HOLD_INTERVAL` | none: no ownership (UA6) |
 | reply: earliest, latest | `MISO_REPLY` (which byte), `TIMING_MISO_DELAY` (its bits) | `TXD_REPLY_EARLY`, `TXD_REPLY_TIME` |
 
-`TIMING_SCK_HIGH` to `TIMING_MOSI_HOLD` judge what the chip reports as `SPI_SCK_HIGH` to `SPI_MOSI_HOLD`, with the margin without a violation; SCK's times, lead and lag
+`TIMING_SCK_HIGH` to `TIMING_MOSI_HOLD` judge what the chip reports as `SPI_SCK_HIGH` to `SPI_MOSI_HOLD`, also with margins; SCK's times, lead and lag
 are compared with the chip's reports (`ChecksAndCore`). The chip has no report for `TIMING_SCK_PERIOD`: SP2 reads 9 MHz as 50 ns high and low.
 `TIMING_WRITE_GAP`, `MISO_REPLY`, `B014_HELD` and `B014_HOLD_INTERVAL` follow the telegrams on MOSI and MISO: the first judges what the chip reports as `SPI_WRITE_GAP`. A claim that the reply refuses does not count. The end of a hold by U_Timer (SP17)
 is seen when the host reads B014.
@@ -101,10 +102,10 @@ valid first byte the end is unknown. Violations show the margin in bit times too
   takes the end of the read, RD's or CSR's rise, as the latest moment. The value read is taken to be the last D that the chip drove.
 - A cell that the chip may have written since the user's last read. It counts as unknown until the user reads it in the hold. Rules that depend on
   it are not judged (a CRC over it, a flag written blindly).
-- The replacement of a judged block. VERDICT_UNFETCHED uses the B00E that the user left. A verdict in a hold without a
+- The replacement of a judged block. VERDICT_UNFETCHED uses B00E as the user left it. A verdict in a hold without a
   read of B00E is judged by its last known value; if the flag was cleared since the last verdict, it is not judged.
 - The service of INTR0, from B00E alone. INTR0_SERVICE ends with the begin of the first read in B410 to B5CC, or the first that finds
-  B00E.1 or B00E.2 set. A read of B00E that finds neither ends it uncounted, because an earlier service has taken the block along. An INTR0 that is
+  B00E.1 or B00E.2 set. A read of B00E that finds neither ends the check uncounted, because an earlier service has taken the block along. An INTR0 that is
   not served is judged at the end of the run.
 - The station's address. HOLD_INTERVAL learns it from the answers that are on the line while PBRTS is high, so it begins after the first one.
   Its intervals run from the execution of one Data_Exchange, a bit time after the telegram's end, to that of the next. Only the part of a hold
@@ -113,7 +114,7 @@ valid first byte the end is unknown. Violations show the margin in bit times too
   defaults.
 - The number of lost outputs. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one
   replaced before the user fetched them (cleared B00E.0). The chip may have been held off, or the user was slower than the master. The
-  core counts them since the last reset; if an RTL replaces it, a core beside the RTL counts on the same pins.
+  core counts them since the last reset; if RTL replaces the core, a core beside it counts on the same pins.
 
 ## The checks
 

@@ -52,7 +52,7 @@ class RunRecorder : public Observer {
     telegrams_.add(scenario_.slaves[slave].name.text, telegram);
   }
   void violated(const std::string& slave, const checks::Violation& violation, const char* kind) override;
-  /// The run is over: what waited for more of it is taken as it is.
+  /// The run is over: diagrams and pictures that wait for more are taken as they are.
   void finish();
 
   const scenario::Scenario& scenario() const { return scenario_; }
