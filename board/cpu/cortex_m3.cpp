@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kHostPage = 4096;
 constexpr std::uint32_t kThumb = 1U << 24;
 
-// What the System is asked for; code and SRAM regions hold only the memories and answer nothing else (ARMv7-M, B3.1).
+// The System answers in these ranges. Code and SRAM regions hold only the memories (ARMv7-M, B3.1).
 struct Region {
   std::uint32_t start;
   std::uint32_t size;
@@ -101,6 +101,7 @@ void CortexM3::reset_processor() {
   scb_.reset();
   event_ = reset_requested_ = moved_ = false;
   broken_off_ = {};
+  rest_ = {};
   for (const Register mask : {Register::kPrimask, Register::kBasepri, Register::kFaultmask}) engine_.write(mask, 0);
   engine_.set_mode(kThumb, 0, word_at(scb_.vector_table()) & ~3U, 0);
   engine_.write(Register::kLr, 0xFFFFFFFF);  // B1.5.5
@@ -134,25 +135,44 @@ void CortexM3::handle_trap(Trap trap) {
 }
 
 void CortexM3::between_instructions() {
+  const Engine::Rest rest = std::exchange(rest_, {});
   if (std::exchange(moved_, false)) return;
   if (reset_requested_) {
     system_.reset();
     reset_processor();
   } else if (!stopped_) {
-    take_exception(pc());
+    take_exception(pc(), rest);
   }
 }
 
-bool CortexM3::before_instruction(bool in_it) {
-  arrived_ = engine_.attend_at() != 0 ? engine_.attend_at() : engine_.now();
+bool CortexM3::before_instruction() {
   const bool looked = std::exchange(stays_, false) && !is_due();
-  looked ? catch_up_systick() : catch_up();
+  if (!gives_way()) looked ? catch_up_systick() : catch_up();
   if (debugger_ != nullptr && !stopped_) attend_debugger();
-  if (stopped_ || reset_requested_ || moved_ || (!in_it && preempting() != kNoException)) return false;
-  schedule(in_it);
-  if (timing_.leaves_out_polls && !in_it && debugger_ == nullptr)
+  if (stopped_ || reset_requested_ || moved_ || preempting() != kNoException) return false;
+  schedule();
+  if (timing_.leaves_out_polls && debugger_ == nullptr)
     looked ? polling_.looked(engine_.attend_at()) : polling_.pass_by();
   return true;
+}
+
+/// The world comes up to the last instruction step by step while that lets an exception in, which the instruction
+/// itself may have caused. True: there is one, which begins now.
+bool CortexM3::gives_way() {
+  const std::uint64_t end = engine_.now();
+  bool meets = std::exchange(has_met_, false);
+  for (std::uint64_t at = engine_.gives_way_at(); at < end; at = std::max(at + kMillis, due())) {
+    if (std::exchange(meets, false) || at >= due()) {
+      engine_.turn_to(at);
+      catch_up();
+      engine_.turn_to(end);
+    }
+    if (preempting() == kNoException) continue;
+    rest_ = engine_.rest(at);
+    engine_.set_now(at);
+    return true;
+  }
+  return false;
 }
 
 void CortexM3::attend_debugger() {
@@ -176,19 +196,17 @@ void CortexM3::stays(std::uint64_t until) {
   if (is_due()) polling_.restart();
   keep_up_at_ = millis(until);
   stays_ = true;
+  has_met_ = false;
 }
 
-// An exception that waits for the end of an IT block is looked for again at once.
-void CortexM3::schedule(bool in_it) {
-  const bool at_once = in_it || (debugger_ != nullptr && debugger_->wanted());
-  const std::uint64_t due = std::min(keep_up_at_, millis(systick_.next()));
-  engine_.attend_at(at_once ? 0 : debugger_ != nullptr ? std::min(due, poll_at_) : due);
+void CortexM3::schedule() {
+  const bool at_once = debugger_ != nullptr && debugger_->wanted();
+  engine_.attend_at(at_once ? 0 : debugger_ != nullptr ? std::min(due(), poll_at_) : due());
 }
 
-// Entry, return and tail-chain. The world comes up to their end: an exception that arrives meanwhile may go first
-// (B1.5.4).
-void CortexM3::spend_until(std::uint64_t end) {
-  engine_.set_now(end);
+/// Entry, return and tail-chain: a step towards `end`, and the world comes up to it.
+void CortexM3::step_towards(std::uint64_t end) {
+  engine_.set_now(std::min(end, std::max(due(), engine_.now() + kMillis)));
   catch_up();
 }
 
@@ -232,8 +250,13 @@ void CortexM3::set_interrupt_level(unsigned irq, bool high) {
 
 void CortexM3::bus_error() { engine_.bus_error(); }
 
-std::uint32_t CortexM3::on_load(std::uint32_t address, unsigned bytes) {
+void CortexM3::attend_to_world() {
+  has_met_ = true;
   attend_soon();
+}
+
+std::uint32_t CortexM3::on_load(std::uint32_t address, unsigned bytes) {
+  attend_to_world();
   stays_ = false;
   const std::uint32_t value = load_outside(address, bytes);
   if (!stays_) polling_.end();
@@ -241,7 +264,7 @@ std::uint32_t CortexM3::on_load(std::uint32_t address, unsigned bytes) {
 }
 
 void CortexM3::on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
-  attend_soon();
+  attend_to_world();
   polling_.end();
   store_outside(address, bytes, value);
 }

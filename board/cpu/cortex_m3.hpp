@@ -1,8 +1,10 @@
 #pragma once
 // A Cortex-M3 (ARMv7-M) in simulated time: Engine executes the instructions; exceptions and the system control space
 // stand here. Instructions last what the technical reference manual says, accesses to the System what the System says.
-// An exception breaks off LDM, STM and divisions (see take_exception). Not modelled: the MPU, unaligned-access and
-// division-by-zero traps (CCR), ICI. An unaligned access to the System comes in aligned parts.
+// An exception breaks off LDM, STM, divisions and long multiplications; registers and memory are as if they had been
+// executed, and the rest of their time follows the return. Not modelled: the MPU, unaligned-access and division-by-zero
+// traps (CCR), ICI. An unaligned access to the System comes in aligned parts.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,9 +24,9 @@
 
 namespace dsdpv1::arm {
 
-/// What the processor finds outside of itself: everything that is neither flash, RAM nor its own registers: 0x1FFFF000
-/// to 0x1FFFFFFF, 0x40000000 to 0xDFFFFFFF, and of 0xE0000000 to 0xE00FFFFF what the core does not have (DBGMCU, ITM).
-/// The functions may throw: the exception leaves CortexM3::run().
+/// Everything outside of the processor that is neither flash, RAM nor its own registers: 0x1FFFF000 to 0x1FFFFFFF,
+/// 0x40000000 to 0xDFFFFFFF, and the parts of 0xE0000000 to 0xE00FFFFF that the core lacks (DBGMCU, ITM). The functions
+/// may throw: the exception leaves CortexM3::run().
 class System {
  public:
   virtual ~System() = default;
@@ -86,7 +88,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
 
   /// Flash from now on; at first without wait states.
   void set_flash(unsigned wait_states, bool prefetches) { engine_.set_flash(wait_states, prefetches); }
-  /// System::keep_up is called behind each store to this part of RAM.
+  /// System::keep_up is called after each store to this part of RAM.
   void watch(std::uint32_t address, std::uint32_t size) { engine_.watch(address, size); }
   /// Cycles of HCLK since the first reset.
   std::uint64_t cycles() const { return engine_.now() / kMillis; }
@@ -94,7 +96,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void advance_to(std::uint64_t cycle);
   /// Instructions executed, those too whose condition failed.
   std::uint64_t instructions() const override { return engine_.instructions(); }
-  /// Of the instruction at work, or of the next one between two.
+  /// The address of the instruction at work; between two, of the next one.
   std::uint32_t pc() const { return engine_.read(Register::kPc); }
 
   /// External interrupt 0 to 67 becomes pending.
@@ -137,12 +139,14 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void handle_trap(Trap trap);
   void between_instructions();
   void attend_soon() { engine_.attend_at(0); }
+  void attend_to_world();
   void attend_debugger();
   void catch_up();
   void catch_up_systick();
-  void schedule(bool in_it);
-  void spend(std::uint32_t cycles) { spend_until(engine_.now() + cycles * kMillis); }
-  void spend_until(std::uint64_t end);
+  bool gives_way();
+  void schedule();
+  void step_towards(std::uint64_t end);
+  std::uint64_t due() const { return std::min(keep_up_at_, millis(systick_.next())); }
   bool is_due() const { return engine_.now() >= keep_up_at_; }
   void doze(bool for_event);
   const std::uint8_t* host(std::uint32_t address) const;
@@ -152,12 +156,12 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   bool in_ram(std::uint32_t address, std::uint32_t count) const;
 
   // EngineEvents
-  bool before_instruction(bool in_it) override;
+  bool before_instruction() override;
   std::uint32_t on_load(std::uint32_t address, unsigned bytes) override;
   void on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   void on_data(std::uint32_t address, unsigned bytes, bool write) override;
   void on_event() override { event_ = true; }
-  void on_watched_store() override { attend_soon(); }
+  void on_watched_store() override { attend_to_world(); }
 
   // private_bus.cpp: bit-band, system control space
   std::uint32_t load_outside(std::uint32_t address, unsigned bytes);
@@ -175,7 +179,9 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   unsigned preempting() const;
   Nvic::Masks masks() const;
   unsigned handler() const;
-  void take_exception(std::uint32_t return_address);
+  void take_exception(std::uint32_t return_address, const Engine::Rest& rest = {});
+  void enter(std::uint32_t cycles, std::uint32_t exc_return);
+  std::uint32_t chain_cycles() const;
   void activate(unsigned exception, std::uint32_t exc_return);
   std::uint32_t push_frame(std::uint32_t return_address);
   void write_frame(std::uint32_t sp, std::uint32_t return_address, std::uint32_t xpsr);
@@ -199,7 +205,8 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   std::uint8_t* ram_ = nullptr;
   Engine engine_;
   Polling polling_{engine_};
-  bool stays_ = false;  ///< what the load at work, or the last one, has found
+  bool stays_ = false;    ///< what the load at work, or the last one, has found
+  bool has_met_ = false;  ///< the instruction at work has met the world, which may have changed by that
 
   Nvic nvic_;
   SysTick systick_;
@@ -207,9 +214,9 @@ class CortexM3 : public DebugTarget, private EngineEvents {
 
   // Thousandths of a cycle.
   std::uint64_t keep_up_at_ = 0;
-  std::uint64_t arrived_ = 0;                                  // when what is pending now became so, at the earliest
-  std::array<std::uint64_t, Nvic::kExceptions> broken_off_{};  // of instructions, by the exceptions that were active
-  bool event_ = false;                                         // the event register of WFE and SEV (B1.5.18)
+  Engine::Rest rest_;                                         // of the instruction that the next exception breaks off
+  std::array<Engine::Rest, Nvic::kExceptions> broken_off_{};  // of others, by the exceptions that were active
+  bool event_ = false;                                        // the event register of WFE and SEV (B1.5.18)
   bool stopped_ = false, reset_requested_ = false;
   bool moved_ = false;   // a debugger wrote PC
   bool asleep_ = false;  // while a debugger is asked

@@ -11,7 +11,7 @@
 
 namespace dsdpv1::arm {
 
-/// What a debugger sees of a Cortex-M3 (ARMv7-M, B1.4), numbered as in the target description that gdb is given.
+/// The registers of a Cortex-M3 (ARMv7-M, B1.4), numbered as in gdb's target description.
 enum class Register : std::uint8_t {
   kR0 = 0,
   kR12 = 12,  ///< r1 to r11 stand between
@@ -36,13 +36,14 @@ struct MemoryRegion {
 };
 
 /// The processor as a debugger wants it. No call takes simulated time and none has an effect on the run that is not
-/// asked for: reading a peripheral clears no flag and moves no pin. What cannot be read so counts as not readable.
+/// asked for: reading a peripheral clears no flag and moves no pin. A register for which that is impossible counts as
+/// not readable.
 class DebugTarget {
  public:
   virtual ~DebugTarget() = default;
 
   virtual std::uint32_t read_register(Register which) const = 0;
-  /// Also of kPc (bit 0 is clear): the run goes on there.
+  /// Also of kPc (bit 0 is clear): the run continues there.
   virtual void write_register(Register which, std::uint32_t value) = 0;
 
   virtual std::vector<MemoryRegion> memory_map() const = 0;
@@ -74,9 +75,9 @@ class Debugger {
  public:
   virtual ~Debugger() = default;
 
-  /// Whether before_instruction() must be called for every instruction. Changes in calls of this class, and where what
-  /// was done before is done again with the time: look after each of poll() and before_instruction(), and now and then,
-  /// about every 250 ns of simulated time. While false, poll() now and then is enough and the processor may run as
+  /// True: before_instruction() must be called for every instruction. Changes in calls of this class, and with the time
+  /// while earlier changes by a debugger are repeated: look after each of poll() and before_instruction(), and about
+  /// every 250 ns of simulated time. While false, poll() now and then is enough and the processor may run as
   /// fast as it can; while true, before_instruction() does what poll() does.
   virtual bool wanted() const = 0;
   /// Before each instruction, those of handlers too; returns when it may be executed. Meanwhile registers (kPc!) and
@@ -91,7 +92,7 @@ class Debugger {
   /// instructions, about every 10 ms of real time, also while the processor sleeps (WFI); a system call. Returns at
   /// once unless gdb wants the processor halted; then like before_instruction().
   virtual void poll() = 0;
-  /// The processor cannot go on: a fault that nobody handles, in words. Halts so that the user can look, when gdb is
+  /// The processor cannot continue: a fault without a handler, in words. Halts so that the user can look, when gdb is
   /// attached; the run ends when it returns.
   virtual void fault(const std::string& what) = 0;
 };

@@ -564,12 +564,12 @@ Instruction dual(U32 pc, U32 h, U32 h2) {
 Instruction dual_or_exclusive(U32 pc, U32 h, U32 h2) {
   if (bit(h, 8) || bit(h, 5)) return dual(pc, h, h2);
   const bool loads = bit(h, 4);
-  Instruction made = lasting(kExclusive, with_registers(nullptr, reg(h2, 12), reg(h, 0), reg(h2, 0), 0));
-  made.ra = reg(h2, 0);
-  made.kind = loads ? Kind::kLoad : Kind::kStoreIndexed;  // STREX is one like LDR
+  const U8 rt = reg(h2, 12), result = bit(h, 7) ? reg(h2, 0) : reg(h2, 8);
+  Instruction made = lasting(kExclusive, with_registers(nullptr, loads ? rt : result, reg(h, 0), reg(h2, 0), 0));
+  made.ra = rt;
+  made.kind = Kind::kLoad;  // for its neighbours STREX is one like LDR, too
   if (!bit(h, 7)) {
     made.value = bits(h2, 0, 8) * 4;
-    made.ra = reg(h2, 8);
     made.run = loads ? &O::load_exclusive<std::uint32_t> : &O::store_exclusive<std::uint32_t>;
   } else if (bits(h2, 4, 4) == 4) {
     made.run = loads ? &O::load_exclusive<std::uint8_t> : &O::store_exclusive<std::uint8_t>;
@@ -579,7 +579,7 @@ Instruction dual_or_exclusive(U32 pc, U32 h, U32 h2) {
     made.run = bit(h2, 4) ? &O::table_branch<std::uint16_t> : &O::table_branch<std::uint8_t>;
     made.shift = made.rn == kPc ? 1 : 0;
     made.cost = kTable;
-    made.kind = Kind::kLoadIndexed;
+    made.kind = Kind::kTable;
   } else {
     return undefined();
   }
@@ -595,7 +595,7 @@ bool find_place(U32 pc, U32 h, U32 h2, Place& place) {
   if (place.rn == kPc) {
     place.index = Index::kAbsolute;
     place.value = bit(h, 7) ? (pc & ~3U) + imm12 : (pc & ~3U) - imm12;
-    return bit(h, 4);  // there are no stores
+    return bit(h, 4);  // stores do not exist
   }
   if (bit(h, 7)) {
     place.value = imm12;

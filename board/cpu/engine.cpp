@@ -60,20 +60,20 @@ Trap Engine::run() {
   return trap_;
 }
 
-/// Instructions whose condition fails take their time, and nobody is asked before them.
+/// An instruction whose condition fails takes its time, too.
 bool Engine::before_next() {
   for (;;) {
     if (at_end_of_page()) turn_page(pc());
-    if (it_ == 0 || passes(it_ >> 4U)) break;
+    if (now_ >= attend_at_ && !events_.before_instruction()) return false;
+    if (it_ == 0 || passes(it_ >> 4U)) return true;
     skip();
   }
-  return now_ < attend_at_ || events_.before_instruction(it_ != 0);
 }
 
 /// The instruction in an IT block whose condition fails.
 void Engine::skip() {
   if (at_->run == kNotDecoded.run) decode_here();
-  now_ += cost_ != 0 ? cost_ : kCycle;
+  executed_ = now_ += cost_ != 0 ? cost_ : kCycle;
   ++instructions_;
   pass(*at_);
   it_ = following(it_);
@@ -85,7 +85,7 @@ void Engine::step_in_block() {
   if (trap_ <= Trap::kInvalidState) it_ = following(state);
 }
 
-/// An IT block, as far as nobody is to be asked.
+/// The part of an IT block that needs no call of before_instruction().
 void Engine::run_block() {
   while (it_ != 0 && trap_ == Trap::kNone && now_ < attend_at_ && !at_end_of_page())
     passes(it_ >> 4U) ? step_in_block() : skip();
@@ -179,7 +179,7 @@ void Engine::exchange(std::uint32_t target, Refill refill) {
   if (!thumb_) trap(Trap::kInvalidState);
 }
 
-/// A halfword where no memory is counts as 0: nobody could say what a bus would give.
+/// A halfword outside of all memories counts as 0: the value that a bus would give is unknown.
 Instruction Engine::decode_at(std::uint32_t address) {
   std::uint16_t halfwords[2] = {};
   for (std::uint32_t i = 0; i < 2; ++i)
@@ -310,6 +310,7 @@ bool Engine::load_part(std::uint32_t address, unsigned bytes, std::uint32_t& val
   if (!is_window(address)) return false;
   access_failed_ = false;
   value = events_.on_load(address, bytes);
+  accessed_ = now_;
   return !access_failed_;
 }
 
@@ -325,6 +326,7 @@ bool Engine::store_part(std::uint32_t address, unsigned bytes, std::uint32_t val
   if (!is_window(address)) return false;
   access_failed_ = false;
   events_.on_store(address, bytes, value);
+  accessed_ = now_;
   return !access_failed_;
 }
 
@@ -411,8 +413,26 @@ EngineState Engine::state() const {
   return state;
 }
 
+std::uint64_t Engine::gives_way_at() const {
+  return breakable_until_ == executed_ && cycle_ != 0 ? std::max(breakable_since_, accessed_) : executed_;
+}
+
+/// The next instruction is fetched beside the return, unless the one broken off jumps itself. To resume takes a cycle
+/// more (p: the technical reference manual says 1 or 2, 3.3.2).
+Engine::Rest Engine::rest(std::uint64_t time) const {
+  if (time >= executed_) return {};
+  const std::uint64_t again = restarts_ ? executed_ - breakable_since_ : executed_ - time + kCycle;
+  return {again + (jumps_ ? now_ - executed_ : 0), restarts_};
+}
+
+void Engine::resume(const Rest& rest) {
+  const std::uint64_t since = now_;
+  set_now(now_ + rest.time);
+  if (rest.time != 0) breakable(since, rest.restarts);
+}
+
 void Engine::repeat(std::uint64_t times, std::uint64_t time, std::uint64_t instructions) {
-  now_ += times * time;
+  set_now(now_ + times * time);
   line_ready_ += times * time;
   instructions_ += times * instructions;
 }

@@ -12,13 +12,13 @@
 
 namespace dsdpv1::arm {
 
-/// What the engine calls while it runs. What these functions throw leaves Engine::run().
+/// Called by the engine while it runs. Their exceptions leave Engine::run().
 class EngineEvents {
  public:
   virtual ~EngineEvents() = default;
-  /// Before the first instruction that begins at or behind Engine::attend_at; `in_it`: inside of an IT block, where it
-  /// must be executed. False: it is not executed, run() returns.
-  virtual bool before_instruction(bool in_it) = 0;
+  /// Before the first instruction that begins at Engine::attend_at or later, also one whose condition fails. False: it
+  /// is not executed, run() returns.
+  virtual bool before_instruction() = 0;
   /// A load or store of 1, 2 or 4 bytes, aligned, in a range of map_events. Engine::bus_error() ends it.
   virtual std::uint32_t on_load(std::uint32_t address, unsigned bytes) = 0;
   virtual void on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) = 0;
@@ -30,7 +30,7 @@ class EngineEvents {
   virtual void on_watched_store() = 0;
 };
 
-/// All that decides what an Engine does next, but for memory.
+/// All that decides what an Engine does next, except memory.
 struct EngineState {
   std::uint32_t pc, xpsr, msp, psp, primask, basepri, faultmask, control;
   std::array<std::uint32_t, 15> r;
@@ -57,7 +57,7 @@ enum class Trap : std::uint8_t {
   kUnaligned,  ///< an address that has to be a multiple of the size
 };
 
-/// Cycles until the pipeline is full behind a branch whose target is known when it is decoded, when it is executed, or
+/// Cycles until the pipeline is full after a branch whose target is known when it is decoded, when it is executed, or
 /// when it has been loaded. The technical reference manual says 1 to 3, and that it depends on this (3.3.1, 15.3).
 enum Refill : unsigned { kDecoded = 1, kExecuted = 2, kLoaded = 3 };
 
@@ -75,11 +75,11 @@ class Engine {
   void map(std::uint32_t address, std::uint32_t size, std::uint8_t* memory, bool writable);
   /// Loads and stores there go to on_load and on_store; nothing can be executed.
   void map_events(std::uint32_t address, std::uint32_t size) { windows_.push_back({address, size}); }
-  /// Somebody else wrote into mapped memory, where code may be.
+  /// Mapped memory, where code may be, was written from outside.
   void forget_code();
-  /// Whether data accesses call on_data, too; slow.
+  /// With `on` data accesses call on_data, too; slow.
   void report_data(bool on);
-  /// Stores there call on_watched_store, but for those that report_data reports.
+  /// Stores there call on_watched_store, except those that report_data reports.
   void watch(std::uint32_t address, std::uint32_t size) { watched_ = {address, size}; }
   /// Cycles that a read of memory that cannot be written waits; with `prefetches` the line that follows is fetched
   /// while one is executed.
@@ -87,7 +87,7 @@ class Engine {
   /// As given; 0 where every instruction lasts the same.
   unsigned wait_states() const { return static_cast<unsigned>(flash_wait_ / 1000); }
 
-  /// Whatever mode the processor is in.
+  /// In any mode of the processor.
   std::uint32_t read(Register which) const;
   void write(Register which, std::uint32_t value);
   /// Mode, flags and stack pointers at once, as exceptions change them.
@@ -102,26 +102,38 @@ class Engine {
   void bus_error() { access_failed_ = true; }
   bool access_failed() const { return access_failed_; }
   std::uint32_t bad_address() const { return bad_address_; }
-  /// Of Trap::kExceptionReturn: where the instruction stands.
+  /// The address of the instruction that made Trap::kExceptionReturn.
   std::uint32_t returned_at() const { return returned_at_; }
 
-  /// Thousandths of a cycle. Of the beginning of the instruction at work, or of the next one.
+  /// Thousandths of a cycle: when the instruction at work began; between two, when the next one does.
   std::uint64_t now() const { return now_; }
-  void set_now(std::uint64_t time) { now_ = time; }
+  void set_now(std::uint64_t time) { executed_ = now_ = time; }
   /// When before_instruction() is called next.
   std::uint64_t attend_at() const { return attend_at_; }
   void attend_at(std::uint64_t time) {
     attend_at_ = time;
-    until_ = 0;  // looked at before the next instruction
+    until_ = 0;  // checked before the next instruction
   }
-  /// Since when the instruction executed last could have been broken off by an exception; now(): it could not.
-  std::uint64_t breakable_since() const { return breakable_until_ == now_ ? breakable_since_ : now_; }
+  /// Time that an exception has cut off an instruction, and that follows the return.
+  struct Rest {
+    std::uint64_t time = 0;  ///< thousandths of a cycle
+    bool restarts = false;   ///< all of it again if it is broken off once more
+  };
+  /// From when on the instruction executed last lets an exception in: it can be broken off, or nothing but the fetch of
+  /// the next one is left. now(): it does not. Only between two instructions.
+  std::uint64_t gives_way_at() const;
+  /// The rest of it after an exception that begins at `time`, from gives_way_at() to now().
+  Rest rest(std::uint64_t time) const;
+  /// To a time from gives_way_at() on; the instruction executed last stays the same.
+  void turn_to(std::uint64_t time) { now_ = time; }
+  /// The rest begins now.
+  void resume(const Rest& rest);
   EngineState state() const;
-  /// Whether stores to memory are looked at from now on.
+  /// With `on` has_stored() tells of stores to memory from now on.
   void look_at_stores(bool on);
   /// There was one since then.
   bool has_stored() const { return has_stored_; }
-  /// What took this long and so many instructions happens again as often.
+  /// A stretch of `time` and `instructions` happens again so many times.
   void repeat(std::uint64_t times, std::uint64_t time, std::uint64_t instructions);
   /// Instructions begun, those too whose condition failed.
   std::uint64_t instructions() const { return instructions_ + (running_ ? 1 : 0); }
@@ -133,7 +145,7 @@ class Engine {
   static constexpr unsigned kLineBits = 3, kWordBits = 2;  ///< flash gives 8 bytes at once with prefetch, 4 without
   static constexpr std::uint32_t kNotPrivileged = 1, kSpSel = 2;
 
-  /// Instructions of a page of memory by their halfwords, and two behind it, since a long one may begin in its last
+  /// Instructions of a page of memory by their halfwords, and two after it, since a long one may begin in its last
   /// halfword.
   struct CodePage {
     std::uint32_t start = 0;
@@ -162,7 +174,7 @@ class Engine {
   void skip();
   bool at_end_of_page() const { return at_ - page_->instructions.data() >= kPageBytes / 2; }
   void pay(const Instruction& of) {
-    now_ += of.cost;
+    executed_ = now_ += of.cost;
     ++instructions_;
   }
   void pass(const Instruction& what) {
@@ -172,6 +184,12 @@ class Engine {
   /// The instruction at work was executed.
   void done(const Instruction& what) {
     pay(what);
+    pass(what);
+  }
+  /// It began at `since`, and an exception could have broken it off: then it begins again, or resumes where it was.
+  void done(const Instruction& what, std::uint64_t since, bool restarts) {
+    pay(what);
+    breakable(since, restarts);
     pass(what);
   }
   /// It takes `cycles` more.
@@ -219,15 +237,16 @@ class Engine {
   bool load_part(std::uint32_t address, unsigned bytes, std::uint32_t& value);
   bool store_part(std::uint32_t address, unsigned bytes, std::uint32_t value);
   bool fail(std::uint32_t address);
-  /// False, and a trap: `address` is no multiple of `bytes`.
+  /// False, and a trap, unless `address` is a multiple of `bytes`.
   bool aligned(std::uint32_t address, unsigned bytes) {
     if (address % bytes != 0) refuse(Trap::kUnaligned);
     return address % bytes == 0;
   }
-  /// What began at `since` and has lasted until now could have been broken off.
-  void breakable(std::uint64_t since) {
-    breakable_since_ = cycle_ != 0 ? since : now_;
+  void breakable(std::uint64_t since, bool restarts, bool jumps = false) {
+    breakable_since_ = since;
     breakable_until_ = now_;
+    restarts_ = restarts;
+    jumps_ = jumps;
   }
   Memory* memory_at(std::uint32_t address);
   bool is_window(std::uint32_t address) const;
@@ -266,7 +285,10 @@ class Engine {
   CodePage* page_ = nullptr;
   Instruction* at_ = nullptr;  ///< at work, or next
   std::uint64_t now_ = 0, until_ = 0, attend_at_ = 0, instructions_ = 0;
-  std::uint64_t breakable_since_ = 0, breakable_until_ = 0;
+  // The end of the last instruction, without the fetch of the next one; the last instruction that could be broken off,
+  // whether it begins again, and whether that fetch is part of it; the end of the last access outside.
+  std::uint64_t executed_ = 0, breakable_since_ = 0, breakable_until_ = 0, accessed_ = 0;
+  bool restarts_ = false, jumps_ = false;
   Trap trap_ = Trap::kNone;
   bool running_ = false, access_failed_ = false;
   std::uint32_t bad_address_ = 0, returned_at_ = 0;

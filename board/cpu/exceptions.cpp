@@ -57,7 +57,7 @@ std::uint32_t CortexM3::push_frame(std::uint32_t return_address) {
 
 void CortexM3::write_frame(std::uint32_t sp, std::uint32_t return_address, std::uint32_t xpsr) {
   if (!in_ram(sp, kFrameBytes)) {
-    pend_fault(FaultKind::kStacking, pc(), sp);  // the frame is lost, the exception goes on (B1.5.11)
+    pend_fault(FaultKind::kStacking, pc(), sp);  // the frame is lost, the exception continues (B1.5.11)
     return;
   }
   std::array<std::uint32_t, kFrameBytes / 4> frame{};
@@ -68,12 +68,22 @@ void CortexM3::write_frame(std::uint32_t sp, std::uint32_t return_address, std::
   std::memcpy(ram_ + (sp - map_.ram_base), frame.data(), kFrameBytes);
 }
 
-void CortexM3::take_exception(std::uint32_t return_address) {
-  const std::uint64_t now = engine_.now(), begins = std::min(std::max(arrived_, engine_.breakable_since()), now);
-  broken_off_.at(nvic_.active_count()) = now - begins;
-  const std::uint32_t exc_return = push_frame(return_address);
-  spend_until(std::max(now, begins + timing_.exception_entry * kMillis));
-  activate(preempting(), exc_return);  // perhaps one that arrived late
+void CortexM3::take_exception(std::uint32_t return_address, const Engine::Rest& rest) {
+  broken_off_.at(nvic_.active_count()) = rest;
+  enter(timing_.exception_entry, push_frame(return_address));
+}
+
+/// Vector and first instruction, beside nothing else.
+std::uint32_t CortexM3::chain_cycles() const { return timing_.tail_chain + 2 * engine_.wait_states(); }
+
+/// One that arrives late and goes first has its own vector fetched (B1.5.4; p: which takes as long as to chain).
+void CortexM3::enter(std::uint32_t cycles, std::uint32_t exc_return) {
+  unsigned first = preempting();
+  for (std::uint64_t end = engine_.now() + cycles * kMillis; engine_.now() < end;) {
+    step_towards(end);
+    if (std::exchange(first, preempting()) != first) end = std::max(end, engine_.now() + chain_cycles() * kMillis);
+  }
+  activate(first, exc_return);
 }
 
 // The handler begins; what it interrupted is on the stack.
@@ -119,21 +129,16 @@ void CortexM3::return_from_exception() {
     return;
   }
   if ((exc_return & kReturnThreadBit) != 0 && scb_.sleep_on_exit()) doze(false);
-  if (preempting() != kNoException) {
-    spend(timing_.tail_chain + 2 * engine_.wait_states());  // vector and instruction, beside nothing else
-    activate(preempting(), exc_return);
-  } else {
-    unstack(exc_return);
-  }
+  preempting() != kNoException ? enter(chain_cycles(), exc_return) : unstack(exc_return);
 }
 
 // A fault of the return itself: its handler begins without new stacking, the old frame stays.
 void CortexM3::chain_fault(FaultKind kind, std::uint32_t address, std::uint32_t exc_return) {
   pend_fault(kind, engine_.returned_at(), address);
-  spend(timing_.tail_chain);
-  activate(preempting(), exc_return);
+  enter(timing_.tail_chain, exc_return);
 }
 
+/// Given up for an exception that arrives meanwhile: the frame stays.
 void CortexM3::unstack(std::uint32_t exc_return) {
   const bool to_thread = (exc_return & kReturnThreadBit) != 0, on_psp = (exc_return & kReturnPspBit) != 0;
   std::uint32_t msp = engine_.read(Register::kMsp), psp = engine_.read(Register::kPsp);
@@ -147,15 +152,18 @@ void CortexM3::unstack(std::uint32_t exc_return) {
     chain_fault(FaultKind::kExceptionReturn, xpsr, exc_return);
     return;
   }
+  for (const std::uint64_t end = engine_.now() + timing_.exception_return * kMillis; engine_.now() < end;) {
+    step_towards(end);
+    if (preempting() != kNoException) return enter(chain_cycles(), exc_return);
+  }
   sp += kFrameBytes + (scb_.stack_align() && (xpsr & kAlignedBit) != 0 ? 4 : 0);
   const std::uint32_t control =
       (engine_.read(Register::kControl) & kNotPrivileged) | (to_thread && on_psp ? kSpSel : 0);
   engine_.set_mode(xpsr & ~kAlignedBit, control, msp, psp);
   for (std::uint32_t word = 0; word < 6; ++word) engine_.write(kStacked[word], word_at(frame + 4 * word));
-  spend_until(engine_.now() + timing_.exception_return * kMillis +
-              std::exchange(broken_off_.at(nvic_.active_count()), 0));
   const std::uint32_t target = word_at(frame + 24) & ~1U;
   engine_.clear_exclusive();
+  engine_.resume(std::exchange(broken_off_.at(nvic_.active_count()), {}));
   continue_at(target | ((xpsr & kThumb) != 0 ? 1U : 0U));
 }
 
@@ -169,7 +177,7 @@ void CortexM3::supervisor_call() {
   take_exception(next);
 }
 
-// Of the instruction at PC.
+// The instruction at PC has caused it.
 void CortexM3::raise(FaultKind kind, std::uint32_t address) {
   pend_fault(kind, pc(), address);
   take_exception(pc());

@@ -26,13 +26,13 @@ enum class FaultKind {
   kExceptionReturn,  ///< EXC_RETURN or the stacked XPSR does not fit
   kBreakpoint,       ///< BKPT
   kSupervisorCall,   ///< SVC where SVCall cannot be taken
-  kUnaligned,        ///< LDM, STM, LDRD, STRD, LDREX, STREX at an address that is no multiple of their size
+  kUnaligned,        ///< LDM, STM, LDRD, STRD, LDREX, STREX at an address that is not a multiple of their size
 };
 
-/// What became of it.
+/// The consequence.
 enum class FaultOutcome {
   kHandled,    ///< the firmware's handler of exception `handler` begins
-  kNoHandler,  ///< the vector of `handler` is no code in flash or RAM: the run ends
+  kNoHandler,  ///< the vector of `handler` leads to no code in flash or RAM: the run ends
   kLockup,     ///< inside of HardFault or NMI, or with FAULTMASK set: the run ends
 };
 

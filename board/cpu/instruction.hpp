@@ -9,7 +9,7 @@ class Engine;
 /// Length of the instruction that begins with this halfword (ARMv7-M, A5.1).
 constexpr std::uint32_t thumb_bytes(std::uint16_t opcode) { return opcode >= 0xE800 ? 4 : 2; }
 
-/// What an instruction is to the time of its neighbours (timing.cpp).
+/// How an instruction affects the time of its neighbours (timing.cpp).
 enum class Kind : std::uint8_t {
   kOther,
   kData,          ///< rd is the result of data processing
@@ -20,15 +20,16 @@ enum class Kind : std::uint8_t {
   kStore,         ///< to rn + value
   kStoreIndexed,  ///< to rn + rm
   kMany,          ///< several words from rn on
+  kTable,         ///< a branch by what stands at rn + rm
   kIt,
 };
 
-/// Of a branch's target: whether the pipeline is filled a cycle later.
+/// A branch's target: kSplit fills the pipeline a cycle later.
 enum class Entry : std::uint8_t { kUnknown, kPlain, kSplit };
 
 /// Registers and numbers mean what the operation (operations.hpp) takes them for.
 struct Instruction {
-  /// Carries it out, pays for it and goes on to the next one; or leaves it undone with a trap.
+  /// Carries it out, pays for it and turns to the next one; or leaves it undone with a trap.
   using Operation = void (*)(Engine&, const Instruction&);
 
   Operation run = nullptr;
@@ -40,15 +41,15 @@ struct Instruction {
   Kind kind = Kind::kOther;
   std::uint16_t cost = 1;  ///< as decode() makes it, cycles; as the engine keeps it, thousandths of a cycle
   Entry entry = Entry::kUnknown;
-  bool ends_line = false;  ///< the one behind it needs the next line of flash
+  bool ends_line = false;  ///< the one after it needs the next line of flash
 };
 
-/// ARMv7-M, chapters A5 to A7: what `first`, and of a long one `second`, at `address` says. What a Cortex-M3 does not
-/// have is undefined, or a coprocessor's. Its cost is without neighbours and memory; `entry` and `ends_line` are for
-/// the caller.
+/// The instruction at `address` (ARMv7-M, chapters A5 to A7) in `first`, and a long one also in `second`. Those that a
+/// Cortex-M3 lacks are undefined, or a coprocessor's. Its cost is without neighbours and memory; `entry` and
+/// `ends_line` are for the caller.
 Instruction decode(std::uint32_t address, std::uint16_t first, std::uint16_t second);
 
-/// Cycles of `one` when `next` is executed behind it.
+/// Cycles of `one` when `next` is executed after it.
 unsigned cycles_before(const Instruction& one, const Instruction& next);
 
 }  // namespace dsdpv1::arm

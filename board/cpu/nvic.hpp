@@ -41,7 +41,7 @@ class Nvic {
   void reset();
 
   void set_pending(unsigned exception);
-  /// Of a level-sensitive source that is still high, it stays pending.
+  /// It stays pending while its source is level-sensitive and high.
   void clear_pending(unsigned exception);
   /// The level of an external interrupt's source: while high, the interrupt is pending again whenever it is not active
   /// (B3.4.1).

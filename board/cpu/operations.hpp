@@ -1,5 +1,5 @@
 #pragma once
-// What instructions do (ARMv7-M, A7.7). For decode() alone, which chooses among them.
+// The effects of instructions (ARMv7-M, A7.7). For decode() alone, which chooses among them.
 #include <cstring>
 #include <type_traits>
 
@@ -7,7 +7,7 @@
 
 namespace dsdpv1::arm {
 
-/// Of an access that is not aligned: it is two or three (Cortex-M3 technical reference manual, 3.3.2).
+/// An access that is not aligned is two or three (Cortex-M3 technical reference manual, 3.3.2).
 template <unsigned bytes>
 constexpr unsigned more_cycles(std::uint32_t address) {
   if (address % bytes == 0) return 0;
@@ -231,15 +231,20 @@ struct Operations {
     U64 result =
         is_signed ? static_cast<U64>(I64{as_signed(e.r_[i.rn])} * as_signed(e.r_[i.rm])) : U64{e.r_[i.rn]} * e.r_[i.rm];
     const unsigned wide = is_wide<is_signed>(e.r_[i.rn]) + is_wide<is_signed>(e.r_[i.rm]);
+    const U64 since = e.now_;
     e.spend(wide + (accumulates && wide == 2 ? 1 : 0));
     if constexpr (accumulates) result += U64{e.r_[i.rd]} << 32 | e.r_[i.ra];
     e.r_[i.rd] = static_cast<U32>(result >> 32);
     e.r_[i.ra] = static_cast<U32>(result);
-    e.done(i);
+    e.done(i, since, true);
   }
   static int zeros_before(U32 value) { return value == 0 ? 32 : __builtin_clz(value); }
-  /// More than 2 cycles for a quotient of `bits` at most, 0 or less to 32 (p): the manual says 2 to 12 in all.
-  static unsigned divide_cycles(int bits) { return bits <= 0 ? 0 : static_cast<unsigned>(bits * 10 + 31) / 32; }
+  /// More than 2 cycles, by what the operands' sizes differ: docs/arm_board.md says who has measured that.
+  static unsigned divide_cycles(U32 what, U32 by) {
+    if (what == 0 || by == 0) return 0;
+    const int longer = zeros_before(by) - zeros_before(what);
+    return longer < 0 ? 1 : 3 + static_cast<unsigned>(longer) / 4;
+  }
   template <bool is_signed>
   static U32 magnitude(U32 value) {
     return is_signed && sign(value) != 0 ? 0 - value : value;
@@ -249,11 +254,9 @@ struct Operations {
   static void divide(Engine& e, const Instruction& i) {
     const U32 by = e.r_[i.rm], what = e.r_[i.rn];
     const U64 since = e.now_;
-    if (by != 0)
-      e.spend(divide_cycles(zeros_before(magnitude<is_signed>(by)) - zeros_before(magnitude<is_signed>(what)) + 1));
+    e.spend(divide_cycles(magnitude<is_signed>(what), magnitude<is_signed>(by)));
     e.r_[i.rd] = by == 0 ? 0 : is_signed ? static_cast<U32>(I64{as_signed(what)} / as_signed(by)) : what / by;
-    e.done(i);
-    e.breakable(since);
+    e.done(i, since, true);
   }
 
   /// Of `amount` bits from bit `shift` on.
@@ -264,7 +267,7 @@ struct Operations {
     e.r_[i.rd] = is_signed ? static_cast<U32>(as_signed(top) >> (32 - i.amount)) : top >> (32 - i.amount);
     e.done(i);
   }
-  /// BFI; of BFC rn is not looked at.
+  /// BFI, and with `clears` BFC, which ignores rn.
   template <bool clears>
   static void insert(Engine& e, const Instruction& i) {
     const U32 bits = clears ? 0 : e.r_[i.rn];
@@ -284,7 +287,7 @@ struct Operations {
     e.done(i);
   }
 
-  /// Of rm, rotated right by `amount`.
+  /// Extends rm, rotated right by `amount`.
   template <class Narrow>
   static void extend(Engine& e, const Instruction& i) {
     e.r_[i.rd] = static_cast<U32>(I32{static_cast<Narrow>(ror(e.r_[i.rm], i.amount))});
@@ -373,7 +376,8 @@ struct Operations {
     e.done(i);
   }
 
-  /// LDM, POP of the registers in `value`, `amount` bytes; `shift` 1: the base is written back.
+  /// LDM, POP of the registers in `value`, `amount` bytes; `shift` 1: the base is written back. In an IT block it
+  /// begins again when it has been broken off (technical reference manual, 3.9.3).
   template <bool before>
   static void load_many(Engine& e, const Instruction& i) {
     const U32 base = e.r_[i.rn];
@@ -386,11 +390,9 @@ struct Operations {
       if (!e.load<4>(from, values[first_of(left)])) return;
     if (i.shift != 0) e.r_[i.rn] = after;
     for (U32 left = i.value & 0x7FFF; left != 0; left &= left - 1) e.r_[first_of(left)] = values[first_of(left)];
-    if ((i.value >> 15) == 0) {
-      e.done(i);
-      return e.breakable(since);
-    }
+    if ((i.value >> 15) == 0) return e.done(i, since, e.it_ != 0);
     e.pay(i);
+    e.breakable(since, e.it_ != 0, true);
     e.exchange(values[15], kLoaded);
   }
   template <bool before>
@@ -403,8 +405,7 @@ struct Operations {
     for (U32 left = i.value; left != 0; left &= left - 1, to += 4)
       if (!e.store<4>(to, e.r_[first_of(left)])) return;
     if (i.shift != 0) e.r_[i.rn] = after;
-    e.done(i);
-    e.breakable(since);
+    e.done(i, since, e.it_ != 0);
   }
 
   template <class Type>
@@ -416,12 +417,12 @@ struct Operations {
     e.r_[i.rd] = value;
     e.done(i);
   }
-  /// ra: 0 when it was stored.
+  /// Stores ra; rd: 0 when it was stored.
   template <class Type>
   static void store_exclusive(Engine& e, const Instruction& i) {
     const U32 to = e.r_[i.rn] + i.value;
-    if (!e.aligned(to, sizeof(Type)) || (e.exclusive_ && !e.store<sizeof(Type)>(to, e.r_[i.rd]))) return;
-    e.r_[i.ra] = e.exclusive_ ? 0 : 1;
+    if (!e.aligned(to, sizeof(Type)) || (e.exclusive_ && !e.store<sizeof(Type)>(to, e.r_[i.ra]))) return;
+    e.r_[i.rd] = e.exclusive_ ? 0 : 1;
     e.exclusive_ = false;
     e.done(i);
   }
@@ -452,7 +453,7 @@ struct Operations {
     e.r_[14] = (e.pc() + 4) | 1;
     branch(e, i);
   }
-  /// LR is looked at when the branch is decoded.
+  /// LR is read when the branch is decoded.
   static Refill by_register(const Instruction& i) { return i.rm == 14 ? kDecoded : kExecuted; }
   static void branch_exchange(Engine& e, const Instruction& i) {
     e.pay(i);
@@ -510,7 +511,7 @@ struct Operations {
     e.events_.on_event();
     e.done(i);
   }
-  /// `value`: bits 1 and 0 for PRIMASK and FAULTMASK; `shift` 1 sets them. What is pending may be unmasked.
+  /// `value`: bits 1 and 0 for PRIMASK and FAULTMASK; `shift` 1 sets them. A pending exception may be unmasked.
   static void change_masks(Engine& e, const Instruction& i) {
     if (e.privileged()) {
       if ((i.value & 2) != 0) e.primask_ = i.shift;

@@ -15,7 +15,7 @@ void Polling::looked(std::uint64_t until) {
   begin(true);
 }
 
-/// Stores are not looked at before two passes have left the registers alike: that makes them slow.
+/// Stores are not observed before two passes have left the registers alike: that makes them slow.
 void Polling::begin(bool looks_at_stores) {
   begun_ = true;
   looks_at_stores_ = looks_at_stores;

@@ -17,7 +17,7 @@ class Polling {
   void looked(std::uint64_t until);
   /// Something outside may have changed: the passes to come may be others.
   void restart() { begun_ = false; }
-  /// Something happened that need not happen again: a store, an exception, a look at what changes by itself.
+  /// Something happened that need not happen again: a store, an exception, a look at a value that changes with time.
   void end();
   /// Between two instructions without a look.
   void pass_by();
@@ -29,7 +29,7 @@ class Polling {
 
   Engine& engine_;
   bool begun_ = false, looks_at_stores_ = false;
-  EngineState first_{};  ///< behind the look with which the pass began
+  EngineState first_{};  ///< after the look with which the pass began
   std::uint64_t began_ = 0, instructions_ = 0;
   unsigned looks_ = 0;
 };

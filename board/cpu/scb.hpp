@@ -39,7 +39,7 @@ class Scb {
   bool return_to_thread_from_nested() const { return (ccr_ & kNonBaseThreadEnable) != 0; }
   bool sleep_on_exit() const { return (scr_ & kSleepOnExit) != 0; }
   bool event_on_pend() const { return (scr_ & kSevOnPend) != 0; }
-  /// Whether MemManage, BusFault or UsageFault has a handler of its own (SHCSR).
+  /// MemManage, BusFault or UsageFault has its own handler (SHCSR).
   bool handles(unsigned fault) const { return (shcsr_ >> (fault + kEnablesFrom - kMemManage) & 1U) != 0; }
 
   void record_fault(std::uint32_t cfsr_bits) { cfsr_ |= cfsr_bits; }

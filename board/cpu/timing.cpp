@@ -8,7 +8,8 @@ namespace {
 bool addresses_by(const Instruction& of, std::uint8_t reg) {
   switch (of.kind) {
     case Kind::kLoadIndexed:
-    case Kind::kStoreIndexed: return of.rn == reg || of.rm == reg;
+    case Kind::kStoreIndexed:
+    case Kind::kTable: return of.rn == reg || of.rm == reg;
     case Kind::kLoad:
     case Kind::kStore:
     case Kind::kMany: return of.rn == reg;
@@ -20,13 +21,11 @@ bool is_load(const Instruction& one) {
   return one.kind == Kind::kLoad || one.kind == Kind::kLoadLiteral || one.kind == Kind::kLoadIndexed;
 }
 
-bool goes_beside_it(const Instruction& one) {
-  return one.kind != Kind::kOther && one.kind != Kind::kMany && one.kind != Kind::kIt;
-}
+bool goes_beside_it(const Instruction& one) { return one.kind != Kind::kOther && one.kind < Kind::kMany; }
 
 }  // namespace
 
-/// A load overlaps with the load or store behind it, unless that waits for its address; a store at an offset has one
+/// A load overlaps with the load or store after it, unless that waits for its address; a store at an offset has one
 /// cycle in any case. An address that has just been computed comes a cycle late. IT is carried out beside a halfword.
 unsigned cycles_before(const Instruction& one, const Instruction& next) {
   const bool overlaps = is_load(next) || next.kind == Kind::kStoreIndexed;

@@ -85,8 +85,8 @@ TEST_F(Debugged, ItStateIsShownInXpsr) {
     states.push_back((xpsr >> 25 & 3U) | (xpsr >> 8 & 0xFCU));
   };
   run("arithmetic");
-  ASSERT_EQ(states.size(), 38U);  // the one whose condition fails is not announced
-  EXPECT_THAT(std::vector<std::uint32_t>(states.end() - 5, states.end()), ElementsAre(0U, 0x04U, 0x08U, 0U, 0U));
+  ASSERT_EQ(states.size(), 39U);  // also the one whose condition fails
+  EXPECT_THAT(std::vector<std::uint32_t>(states.end() - 6, states.end()), ElementsAre(0U, 0x12U, 0x04U, 0x08U, 0U, 0U));
 }
 
 TEST_F(Debugged, AccessesAreReportedOnceAskedFor) {
@@ -123,7 +123,7 @@ TEST_F(Debugged, AnInstructionIsNotAnnouncedAgainBecauseMemoryWasWritten) {
     target().write_memory(0x20000000, &byte, 1);
   };
   run("arithmetic");
-  EXPECT_EQ(addresses.size(), 38U);
+  EXPECT_EQ(addresses.size(), 39U);
   EXPECT_EQ(processor.instructions(), 39U);
 }
 

@@ -70,10 +70,10 @@ TEST_F(Exceptions, AHigherOneThatArrivesDuringEntryGoesFirst) {
   EXPECT_THAT(system.notes, ElementsAre(1U, 1U, 11U, 2U)) << "entry of interrupt 1 from 100 to 112";
 }
 
-TEST_F(Exceptions, AnItBlockIsFinishedFirst) {
+TEST_F(Exceptions, AnItBlockIsLeftAndGoesOnAfterTheReturn) {
   system.interrupts = {{10'000, 0}};
   run("it_blocks");
-  EXPECT_THAT(system.notes, ElementsAre(2U, 10U, 3U, 20U, 10U));
+  EXPECT_THAT(system.notes, ElementsAre(10U, 2U, 3U, 20U, 10U));
   EXPECT_EQ(r(4), 7U);
   EXPECT_EQ(r(5), 0U);
   EXPECT_EQ(r(6), 9U);
@@ -116,30 +116,117 @@ TEST(Interrupted, ProgramsLeaveTheSameInWhicheverCycleItIs) {
 }
 
 /// Cycles of the notes of a program whose interrupt 0 comes at `cycle`, if any.
-std::vector<std::uint64_t> notes_of_broken_off(std::optional<std::uint64_t> cycle) {
+std::vector<std::uint64_t> notes_of(const std::string& program, std::optional<std::uint64_t> cycle,
+                                    unsigned wait_states = 0) {
   NotingSystem system;
   CortexM3 processor(system, MemoryMap{}, Timing{});
   system.processor = &processor;
+  processor.set_flash(wait_states, true);
   if (cycle) system.interrupts = {{*cycle, 0}};
-  const std::vector<std::uint8_t> image = read_program("broken_off");
+  const std::vector<std::uint8_t> image = read_program(program);
   processor.load(MemoryMap{}.flash_base, image.data(), image.size());
   processor.run();
   return system.note_cycles;
 }
 
-TEST(Interrupted, LongInstructionsAreBrokenOffAndEndLater) {
-  const std::vector<std::uint64_t> alone = notes_of_broken_off(std::nullopt);
+/// Cycles beyond 12 from an interrupt to its handler, for each cycle between the two notes of programs/latency.s.
+std::vector<std::uint64_t> latencies_beyond_12(unsigned wait_states) {
+  const std::vector<std::uint64_t> alone = notes_of("latency", std::nullopt, wait_states);
+  std::vector<std::uint64_t> beyond;
+  for (std::uint64_t cycle = alone.at(0) + 1; cycle < alone.at(1); ++cycle)
+    beyond.push_back(notes_of("latency", cycle, wait_states).at(1) - cycle - 12);
+  return beyond;
+}
+
+TEST(Interrupted, TheHandlerBeginsWithinTwoCyclesOfTwelveWhateverIsAtWork) {
+  // What has begun to read data from flash ends first: LATENCY more.
+  for (unsigned wait_states = 0; wait_states < 3; ++wait_states)
+    EXPECT_THAT(latencies_beyond_12(wait_states), testing::Each(testing::Le(2U + wait_states)));
+}
+
+/// What an interrupt in each cycle of an instruction costs beside the 26 cycles of entry, STR, BX LR and return.
+struct BrokenOff {
+  unsigned cycles;
+  std::function<int(unsigned)> more;  ///< by the cycles that the instruction has had
+  unsigned later = 0;                 ///< most cycles that the handler begins later than 12
+};
+
+TEST(Interrupted, LongInstructionsAreBrokenOffAndBeginAgainOrGoOn) {
+  const auto nothing = [](unsigned) { return 0; };
+  const auto goes_on = [](unsigned had) { return had == 0 ? 0 : 1; };
+  const auto restarts = [](unsigned had) { return static_cast<int>(had); };
+  const auto pops = [](unsigned had) { return had == 0 ? 0 : had < 5 ? 1 : static_cast<int>(had) - 8; };
+  const std::vector<BrokenOff> all = {{10, goes_on},   // LDM of nine
+                                      {10, goes_on},   // STM
+                                      {12, restarts},  // UDIV
+                                      {5, restarts},   // UMULL
+                                      {1, nothing},    // CMP
+                                      {1, nothing},    // NOP
+                                      {1, nothing},    // IT
+                                      {4, restarts},   // LDM in an IT block
+                                      {1, nothing},    // ADD in it
+                                      {8, pops}};      // POP of four with PC: 5, and 3 for the pipeline
+  const std::vector<std::uint64_t> alone = notes_of("broken_off", std::nullopt);
   ASSERT_EQ(alone.size(), 2U);
-  EXPECT_EQ(alone[1] - alone[0], 1 + 2 + 10 + 10 + 12 + 5 + 3U);
-  unsigned latest = 0;
-  for (std::uint64_t cycle = alone[0] + 2; cycle < alone[1]; ++cycle) {
-    const std::vector<std::uint64_t> notes = notes_of_broken_off(cycle);
-    ASSERT_EQ(notes.size(), 3U);
-    EXPECT_GE(notes[1], cycle + 12) << cycle;
-    latest = std::max(latest, static_cast<unsigned>(notes[1] - cycle - 12));
-    EXPECT_EQ(notes[2] - alone[1], 12 + 1 + 1 + 12U) << "entry, STR, BX LR, return: " << cycle;
+  std::uint64_t cycle = alone[0] + 1;
+  for (const BrokenOff& each : all) {
+    for (unsigned had = 0; had < each.cycles; ++had, ++cycle) {
+      const std::vector<std::uint64_t> notes = notes_of("broken_off", cycle);
+      ASSERT_EQ(notes.size(), 3U);
+      EXPECT_EQ(notes[1], cycle + 12) << &each - all.data() << ", " << had;
+      EXPECT_EQ(static_cast<int>(notes[2] - alone[1]) - (12 + 1 + 1 + 12), each.more(had))
+          << &each - all.data() << ", " << had;
+    }
   }
-  EXPECT_EQ(latest, 4U) << "of the long multiplication, which is not broken off";
+  EXPECT_EQ(cycle, alone[1]);
+}
+
+TEST(Interrupted, AnInterruptDuringAReturnIsChainedAndOneDuringAnEntryHasItsOwnVectorFetched) {
+  const std::vector<std::uint64_t> alone = notes_of("broken_off", std::nullopt);
+  const auto notes_of_two = [&](std::uint64_t first, unsigned second_irq, std::uint64_t second) {
+    NotingSystem system;
+    CortexM3 processor(system, MemoryMap{}, Timing{});
+    system.processor = &processor;
+    system.interrupts = {{first, 1}, {second, second_irq}};
+    const std::vector<std::uint8_t> image = read_program("latency_of_two");
+    processor.load(MemoryMap{}.flash_base, image.data(), image.size());
+    processor.run();
+    return std::make_pair(system.notes, system.note_cycles);
+  };
+  for (std::uint64_t after = 1; after < 12; ++after) {
+    const auto [notes, cycles] = notes_of_two(100, 0, 100 + after);
+    EXPECT_EQ(notes[1], 10U) << "the better one first";
+    EXPECT_EQ(cycles[1], std::max<std::uint64_t>(112, 100 + after + 6)) << after;
+  }
+  // The handler of interrupt 1 begins at 112, its return at 114.
+  for (std::uint64_t after = 1; after < 12; ++after) {
+    const auto [notes, cycles] = notes_of_two(100, 0, 114 + after);
+    EXPECT_EQ(notes[2], 10U);
+    EXPECT_EQ(cycles[2], 114 + after + 6) << after;
+  }
+}
+
+/// Cycles of a program's notes in flash that waits; the world wants to be asked before every instruction, or only when
+/// something happens. The first note makes interrupt 0 come, too, which is told when the world is asked.
+std::vector<std::uint64_t> notes_asking(const std::string& program, bool always) {
+  NotingSystem system;
+  CortexM3 processor(system, MemoryMap{}, Timing{});
+  system.processor = &processor;
+  processor.set_flash(2, false);
+  system.next_keep_up = always ? 0 : kNever;
+  system.interrupts = {{300, 0}};
+  system.on_access = [&](const Access&) {
+    if (system.notes.size() == 1) system.interrupts.emplace(processor.cycles(), 0);
+  };
+  const std::vector<std::uint8_t> image = read_program(program);
+  processor.load(MemoryMap{}.flash_base, image.data(), image.size());
+  processor.run();
+  return system.note_cycles;
+}
+
+TEST(Interrupted, TheHandlerBeginsAtTheSameCycleHoweverOftenTheWorldIsAsked) {
+  for (const char* program : {"latency", "nesting", "priorities", "grouping", "it_blocks", "tasks", "tick"})
+    EXPECT_EQ(notes_asking(program, true), notes_asking(program, false)) << program;
 }
 
 TEST_F(Exceptions, SysTickComesToTheCycle) {

@@ -1,4 +1,4 @@
-@ An interrupt that becomes pending inside of an IT block waits for its end; SVC and its return keep what was left of one.
+@ What is left of an IT block is kept by an interrupt that becomes pending inside of it, and by SVC.
         .include "vectors.inc"
 function main
         control 0x100, 1

@@ -28,8 +28,14 @@ function main
         begin
         umlal   r8, r9, r6, r6
         end
-        begin                           @ division by 0, 1 by 1, the longest, -1 by 1: 2, 3, 12, 3
+        begin                           @ division by 0, of 0, 1 by 2, 1 by 1, the longest, -1 by 1, 5 bits by 1: 2, 2, 3, 5, 12, 5, 6
         udiv    r8, r6, r1
+        end
+        begin
+        udiv    r8, r1, r7
+        end
+        begin
+        udiv    r8, r7, r6
         end
         begin
         udiv    r8, r7, r7
@@ -39,6 +45,10 @@ function main
         end
         begin
         sdiv    r8, r6, r7
+        end
+        mov     r5, #-16
+        begin
+        sdiv    r8, r5, r7
         end
         begin                           @ one load, two, three: 2, 3, 4
         ldr     r8, [r0]
@@ -150,6 +160,28 @@ function main
 1:      .byte   (2f - 1b) / 2, 0
         .balign 4
 2:
+        end
+        begin                           @ also when the table looks like LDRB
+        tbb     [pc, r1]
+        .byte   2, 0x78
+        .balign 4
+        end
+        begin                           @ a load before it does not overlap: 2 + 6
+        ldr     r8, [r0]
+        tbb     [pc, r1]
+1:      .byte   (2f - 1b) / 2, 0
+        .balign 8
+2:
+        end
+        begin                           @ LDREX, STREX and LDR overlap: 4
+        ldrex   r8, [r0]
+        strex   r9, r8, [r0]
+        ldr     r8, [r0]
+        end
+        mov     r10, r0
+        begin                           @ r0 is no part of its address: 1 + 2
+        add     r0, r0, #0
+        strex   r8, r9, [r10]
         end
         begin                           @ IT beside a halfword, and in a line of its own: 1 + 0 + 1, 1 + 1 + 1
         cmp     r1, #1

@@ -43,7 +43,7 @@ class Ours : public Machine, private EngineEvents {
   std::uint32_t bad_address() const override { return engine_.bad_address(); }
 
  private:
-  bool before_instruction(bool /*in_it*/) override {
+  bool before_instruction() override {
     engine_.attend_at(end_);  // MSR and CPS make it 0
     return engine_.now() < end_;
   }
