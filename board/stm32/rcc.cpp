@@ -64,11 +64,13 @@ bool Rcc::is_on(unsigned source) const {
   return on && is_on((words_[kCfgr] & kPllSource) != 0 ? kHse : kHsi);
 }
 
-std::int64_t Rcc::hclk_hz() const {
+std::int64_t Rcc::sysclk_hz() const {
   const std::uint32_t cfgr = words_[kCfgr];
   const std::int64_t pll = kOscillator / (pll_input_is_halved(cfgr) ? 2 : 1) * pll_factor(cfgr);
-  return (source_ == kPll ? pll : kOscillator) / ahb_divider(cfgr);
+  return source_ == kPll ? pll : kOscillator;
 }
+
+std::int64_t Rcc::hclk_hz() const { return sysclk_hz() / ahb_divider(words_[kCfgr]); }
 
 unsigned Rcc::apb1_divider() const { return apb_divider(words_[kCfgr] >> 8U); }
 

@@ -17,6 +17,8 @@ class Rcc {
 
   /// Frequency of HCLK: 8 MHz, the HSI, after a reset. The board's crystal (HSE) has 8 MHz (p).
   std::int64_t hclk_hz() const;
+  /// The clock that the AHB divider makes it of, which flash works with.
+  std::int64_t sysclk_hz() const;
   /// Where it comes from: "HSI", "PLL, 9 x HSE".
   std::string hclk_source() const;
 

@@ -15,10 +15,12 @@ class Terminal {
 
   std::uint32_t read(std::uint32_t offset) const { return words_.read(offset); }
   void write(std::uint32_t offset, std::uint32_t value);
+  /// The registers; characters that were sent stay.
+  void reset() { words_ = {}; }
 
   /// A line without its end; longer ones than 200 characters are cut. Unprintable characters are dots.
   std::function<void(const std::string&)> on_line;
-  /// What has been sent behind the last line's end.
+  /// Characters sent after the last line's end.
   const std::string& unfinished() const { return line_; }
 
  private:

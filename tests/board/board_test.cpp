@@ -42,7 +42,9 @@ enum Program {
   kLacking,
   kRegisters,
   kClocksOff,
-  kBusy
+  kBusy,
+  kDivided,
+  kRestarted
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -297,7 +299,21 @@ TEST_F(BoardTest, HclkFollowsRccFrom8MhzOn) {
   EXPECT_EQ(board->board()->hclk_hz, 36'000'000);
   EXPECT_EQ(board->board()->hclk_source, "PLL, 9 x HSE, divided by 2");
   EXPECT_THAT(board->board()->notes,
-              Contains(HasSubstr("HCLK is 64 MHz with 0 wait states of flash (FLASH_ACR.LATENCY), which needs 2")));
+              Contains(HasSubstr("SYSCLK is 64 MHz with 0 wait states of flash (FLASH_ACR.LATENCY), which needs 2")));
+}
+
+TEST_F(BoardTest, FlashWaitsForSysclkWhateverTheAhbDividerMakesOfIt) {
+  start(kDivided, {});
+  run();
+  EXPECT_EQ(board->board()->hclk_hz, 36'000'000);
+  EXPECT_THAT(board->board()->notes,
+              Contains(HasSubstr("SYSCLK is 72 MHz with 1 wait states of flash (FLASH_ACR.LATENCY), which needs 2")));
+}
+
+TEST_F(BoardTest, AResetByTheFirmwareSwitchesTheTerminalOff) {
+  start(kRestarted, {});
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 0)));
 }
 
 /// Halts once, at the thirtieth instruction or at an address, and reads the state.

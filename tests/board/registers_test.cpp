@@ -172,7 +172,20 @@ TEST(Registers, OfFsmc) {
     expected[8 * bank + 4] = {kNames[bank][1], 0x0FFF'FFFF, 0x3FFF'FFFF, 0};
     expected[8 * bank + 0x104] = {kNames[bank][2], 0x0FFF'FFFF, 0x3FFF'FFFF, 0x0FF0'0000};
   }
+  const auto of_cards = [&expected](Offset at, std::array<const char*, 4> names) {
+    expected[at] = {names[0], 0x18, 0xF'FE7E, 0};
+    expected[at + 4] = {names[1], 0x40, 0x7F, 0x40};
+    expected[at + 8] = {names[2], 0xFCFC'FCFC, 0xFFFF'FFFF, 0};
+    expected[at + 12] = {names[3], 0xFCFC'FCFC, 0xFFFF'FFFF, 0};
+  };
+  of_cards(0x60, {"PCR2", "SR2", "PMEM2", "PATT2"});
+  of_cards(0x80, {"PCR3", "SR3", "PMEM3", "PATT3"});
+  of_cards(0xA0, {"PCR4", "SR4", "PMEM4", "PATT4"});
+  expected[0x74] = {"ECCR2", 0, 0, 0};
+  expected[0x94] = {"ECCR3", 0, 0, 0};
+  expected[0xB0] = {"PIO4", 0xFCFC'FCFC, 0xFFFF'FFFF, 0};
   expect_registers<Fsmc>(Fsmc::kRegisters, expected, read, &Fsmc::write, Fsmc({}));
+  const Fields card = {{{"PBKEN", 0x4}}}, interrupts = {{{"I[F:R]EN", 0x38}}};
   const Fields enable = {{{"MBKEN", 0x1}}}, mode = {{{"ACCMOD", 0x3000'0000}}};
   expect_tags(Fsmc::kRegisters, {{0x00,
                                   {{{"MUXEN", 0x2},
@@ -185,6 +198,12 @@ TEST(Registers, OfFsmc) {
                                  {0x08, enable},
                                  {0x10, enable},
                                  {0x18, enable},
+                                 {0x60, card},
+                                 {0x64, interrupts},
+                                 {0x80, card},
+                                 {0x84, interrupts},
+                                 {0xA0, card},
+                                 {0xA4, interrupts},
                                  {0x104, mode}});
   // NWAIT is only used in bursts.
   EXPECT_EQ(Fsmc::kRegisters.asked(0x00, 0xDFFF).size(), Fsmc::kRegisters.asked(0x00, 0xFFFF).size() - 1);

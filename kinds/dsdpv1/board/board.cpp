@@ -142,7 +142,7 @@ std::optional<user_cpu::BoardReport> Board::board() const {
                                options_.fsmc.hclk_mhz ? "fsmc.hclk of the scenario" : rcc_.hclk_source(), notes_};
   const auto place = [this](std::uint32_t pc) { return options_.firmware->lines.at(pc); };
   for (std::string& line : others_.notes(place)) report.notes.push_back(std::move(line));
-  for (std::string& line : serial_.notes()) report.notes.push_back(std::move(line));
+  for (std::string& line : serial_notes()) report.notes.push_back(std::move(line));
   if (!terminal_.unfinished().empty()) report.notes.push_back("USART1, a line without end: " + terminal_.unfinished());
   return report;
 }
@@ -258,6 +258,7 @@ void Board::reset() {
   rcc_ = {};
   flash_ = {};
   follow_flash();
+  terminal_.reset();
   serial_.reset();
   serial_.follow(rcc_);
   fsmc_ = Fsmc(options_.fsmc);

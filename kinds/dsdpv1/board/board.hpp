@@ -129,7 +129,8 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void on_bus(const std::function<void(Tick)>& action);
   void store_gpio(unsigned port, std::uint32_t offset, std::uint32_t value);
   void store_rcc(std::uint32_t offset, std::uint32_t value);
-  void store_serial(std::uint32_t address, std::uint32_t value);
+  void store_serial(SerialSide::Block block, std::uint32_t offset, std::uint32_t value);
+  std::vector<std::string> serial_notes() const;
   void follow_clock();
   void follow_flash();
   void check_clock();
@@ -141,9 +142,11 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void set_access_timing();
   bool may_access(std::uint32_t address, bool write);
   std::uint32_t load_word(std::uint32_t address);
-  std::uint32_t load_register(std::uint32_t address);
+  std::uint32_t load_register(const Peripheral& of, std::uint32_t offset);
+  std::uint32_t peek_register(const Peripheral& of, std::uint32_t offset) const;
   void store_word(std::uint32_t address, std::uint32_t value);
-  bool stays(std::uint32_t address) const;
+  void store_register(const Peripheral& of, std::uint32_t offset, std::uint32_t value);
+  bool stays(const Peripheral& of) const;
   std::uint32_t load_port(unsigned port, std::uint32_t offset);
   Levels outside(unsigned port);
   /// Inputs from the chip's outputs: L_REQ, L_STA; lamps as in user_cpu::HostBus; MISO.
@@ -154,7 +157,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Levels wired(unsigned port, const Outputs& chip) const;
   std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
   /// Notes uses of a register that a real one would not support or the board does not model.
-  void look_at(std::uint32_t address, std::optional<std::uint32_t> written);
+  void look_at(const Peripheral& of, std::uint32_t offset, std::optional<std::uint32_t> written);
   void look_at_clock(const Peripheral& of);
   /// True once for each; `what`: a bit of the register, or more.
   bool is_new(std::uint32_t address, unsigned what) { return noted_.emplace(address, what).second; }

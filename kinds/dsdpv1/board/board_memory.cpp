@@ -9,9 +9,13 @@
 namespace dsdpv1::arm {
 
 struct Peripheral {
+  enum Kind : std::uint8_t { kAfio, kExti, kGpio, kTerminal, kSerial, kRcc, kFlash, kFsmc };
+
+  Kind kind = kAfio;
   std::uint32_t base = 0;
   const char* name = nullptr;
   const RegisterTable* registers = nullptr;
+  unsigned number = 0;              ///< of a port; SerialSide::Block
   std::uint32_t clock_enables = 0;  ///< the register of RCC; 0: it always has its clock
   unsigned clock_bit = 0;
 };
@@ -20,8 +24,7 @@ namespace {
 
 // RM0008, memory map.
 constexpr std::uint32_t kBank1 = 0x6000'0000, kBank1End = 0x7000'0000, kRegionSize = 0x0400'0000;
-constexpr std::uint32_t kAfio = 0x4001'0000, kExti = 0x4001'0400, kGpioA = 0x4001'0800, kGpioEnd = 0x4001'2400;
-constexpr std::uint32_t kUsart1 = 0x4001'3800, kRcc = 0x4002'1000, kFlash = 0x4002'2000, kBlock = 0x400;
+constexpr std::uint32_t kGpioA = 0x4001'0800, kRcc = 0x4002'1000, kFlash = 0x4002'2000, kBlock = 0x400;
 constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000;
 constexpr std::uint32_t kChipMask = 0x7FF;  // A10..A0
 constexpr std::uint32_t kGpioIdr = 0x08;
@@ -32,27 +35,31 @@ constexpr unsigned kLReqPin = 8, kLStaPin = 9;
 constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
 
 constexpr std::uint64_t kApbCycles = 2;
-constexpr std::int64_t kGreatestHclk = 72'000'000, kHclkWithoutWait = 24'000'000;
+constexpr std::int64_t kGreatestHclk = 72'000'000, kSysclkWithoutWait = 24'000'000;
 
 enum : unsigned { kNoRegister = 32, kClockOff, kTooFast };  // is_new: beside the bits of a register
 
+constexpr Peripheral port(unsigned number, const char* name) {
+  return {Peripheral::kGpio, kGpioA + number * kBlock, name, &Gpio::kRegisters, number, Rcc::kApb2enr, 2 + number};
+}
+
 constexpr std::array<Peripheral, 16> kMap = {{
-    {kAfio, "AFIO", &Exti::kAfioRegisters, Rcc::kApb2enr, 0},
-    {kExti, "EXTI", &Exti::kRegisters},
-    {kGpioA, "GPIOA", &Gpio::kRegisters, Rcc::kApb2enr, 2},
-    {kGpioA + 1 * kBlock, "GPIOB", &Gpio::kRegisters, Rcc::kApb2enr, 3},
-    {kGpioA + 2 * kBlock, "GPIOC", &Gpio::kRegisters, Rcc::kApb2enr, 4},
-    {kGpioA + 3 * kBlock, "GPIOD", &Gpio::kRegisters, Rcc::kApb2enr, 5},
-    {kGpioA + 4 * kBlock, "GPIOE", &Gpio::kRegisters, Rcc::kApb2enr, 6},
-    {kGpioA + 5 * kBlock, "GPIOF", &Gpio::kRegisters, Rcc::kApb2enr, 7},
-    {kGpioA + 6 * kBlock, "GPIOG", &Gpio::kRegisters, Rcc::kApb2enr, 8},
-    {0x4001'3000, "SPI1", &Spi::kRegisters, Rcc::kApb2enr, 12},
-    {kUsart1, "USART1", &Terminal::kRegisters, Rcc::kApb2enr, 14},
-    {0x4000'3800, "SPI2", &Spi::kRegisters, Rcc::kApb1enr, 14},
-    {0x4000'4400, "USART2", &Usart::kRegisters, Rcc::kApb1enr, 17},
-    {kRcc, "RCC", &Rcc::kRegisters},
-    {kFlash, "FLASH", &FlashInterface::kRegisters},
-    {Fsmc::kBase, "FSMC", &Fsmc::kRegisters, Rcc::kAhbenr, 8},
+    {Peripheral::kAfio, 0x4001'0000, "AFIO", &Exti::kAfioRegisters, 0, Rcc::kApb2enr, 0},
+    {Peripheral::kExti, 0x4001'0400, "EXTI", &Exti::kRegisters},
+    port(0, "GPIOA"),
+    port(1, "GPIOB"),
+    port(2, "GPIOC"),
+    port(3, "GPIOD"),
+    port(4, "GPIOE"),
+    port(5, "GPIOF"),
+    port(6, "GPIOG"),
+    {Peripheral::kSerial, 0x4001'3000, "SPI1", &Spi::kRegisters, SerialSide::kSpi1, Rcc::kApb2enr, 12},
+    {Peripheral::kSerial, 0x4000'3800, "SPI2", &Spi::kRegisters, SerialSide::kSpi2, Rcc::kApb1enr, 14},
+    {Peripheral::kSerial, 0x4000'4400, "USART2", &Usart::kRegisters, SerialSide::kUsart2, Rcc::kApb1enr, 17},
+    {Peripheral::kTerminal, 0x4001'3800, "USART1", &Terminal::kRegisters, 0, Rcc::kApb2enr, 14},
+    {Peripheral::kRcc, kRcc, "RCC", &Rcc::kRegisters},
+    {Peripheral::kFlash, kFlash, "FLASH", &FlashInterface::kRegisters},
+    {Peripheral::kFsmc, Fsmc::kBase, "FSMC", &Fsmc::kRegisters, 0, Rcc::kAhbenr, 8},
 }};
 constexpr const Peripheral& kFsmc = kMap.back();
 
@@ -68,8 +75,6 @@ const Peripheral* peripheral_at(std::uint32_t address) {
   const unsigned place = block < kPlaces.size() ? kPlaces[block] : 0;
   return place != 0 ? &kMap[place - 1] : nullptr;
 }
-
-bool within(std::uint32_t address, std::uint32_t base) { return address - base < kBlock; }
 
 }  // namespace
 
@@ -128,40 +133,35 @@ bool Board::may_access(std::uint32_t address, bool write) {
 
 std::uint32_t Board::load_word(std::uint32_t address) {
   core_.advance_to(core_.cycles() + kApbCycles);
-  look_at(address, {});
-  const std::uint32_t value = load_register(address);
-  if (stays(address)) core_.stays(next_due());
+  const Peripheral* const here = peripheral_at(address);
+  if (here == nullptr) return others_.read(address, core_.pc());
+  look_at(*here, address - here->base, {});
+  const std::uint32_t value = load_register(*here, address - here->base);
+  if (stays(*here)) core_.stays(next_due());
   return value;
 }
 
-std::uint32_t Board::load_register(std::uint32_t address) {
-  if (address >= kGpioA && address < kGpioEnd) return load_port((address - kGpioA) / kBlock, address % kBlock);
-  if (within(address, kAfio)) return exti_.read_afio(address - kAfio);
-  if (within(address, kExti)) {
-    come_up();
-    return exti_.read(address - kExti);
+std::uint32_t Board::load_register(const Peripheral& of, std::uint32_t offset) {
+  switch (of.kind) {
+    case Peripheral::kGpio: return load_port(of.number, offset);
+    case Peripheral::kExti: come_up(); return exti_.read(offset);
+    case Peripheral::kSerial: {
+      meet_serial();
+      const std::uint32_t value = serial_.read(static_cast<SerialSide::Block>(of.number), offset);
+      update_interrupts();
+      return value;
+    }
+    default: return peek_register(of, offset);
   }
-  if (within(address, kUsart1)) return terminal_.read(address - kUsart1);
-  if (within(address, kRcc)) return rcc_.read(address - kRcc);
-  if (within(address, kFlash)) return flash_.read(address - kFlash);
-  if (SerialSide::block_of(address) != SerialSide::kNone) {
-    meet_serial();
-    const std::uint32_t value = serial_.read(address);
-    update_interrupts();
-    return value;
-  }
-  if (address - Fsmc::kBase < Fsmc::kSize) return fsmc_.read(address - Fsmc::kBase);
-  return others_.read(address, core_.pc());
 }
 
 /// True if reading the register has no effect and gives the same value until another agent has a turn. That is false
 /// for MISO and the lamps; for L_REQ and L_STA while an idle, unobserved chip simulates its accesses afterwards; and
 /// for missing registers, whose accesses are counted.
-bool Board::stays(std::uint32_t address) const {
-  if (address < kGpioA || address >= kGpioEnd) return peripheral_at(address) != nullptr;
-  const unsigned port = (address - kGpioA) / kBlock;
-  if (port == kC) return r_req_ || r_sta_;
-  return port != kG && !serial_.has_miso(port);
+bool Board::stays(const Peripheral& of) const {
+  if (of.kind != Peripheral::kGpio) return true;
+  if (of.number == kC) return r_req_ || r_sta_;
+  return of.number != kG && !serial_.has_miso(of.number);
 }
 
 std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {
@@ -214,16 +214,23 @@ std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
       word |= std::uint32_t{chip.peek(static_cast<std::uint16_t>((address + i) & kChipMask))} << i * 8;
     return word;
   }
-  if (address - Fsmc::kBase < Fsmc::kSize) return fsmc_.read(address - Fsmc::kBase);
+  if (const Peripheral* here = peripheral_at(address)) return peek_register(*here, address - here->base);
   if (address - kPeripherals >= kPeripheralsSize) return std::nullopt;
-  if (address >= kGpioA && address < kGpioEnd) return peek_port((address - kGpioA) / kBlock, address % kBlock);
-  if (within(address, kAfio)) return exti_.read_afio(address - kAfio);
-  if (within(address, kExti)) return exti_.read(address - kExti);
-  if (within(address, kUsart1)) return terminal_.read(address - kUsart1);
-  if (within(address, kRcc)) return rcc_.read(address - kRcc);
-  if (within(address, kFlash)) return flash_.read(address - kFlash);
-  if (SerialSide::block_of(address) != SerialSide::kNone) return serial_.peek(address);
   return others_.peek(address);
+}
+
+std::uint32_t Board::peek_register(const Peripheral& of, std::uint32_t offset) const {
+  switch (of.kind) {
+    case Peripheral::kAfio: return exti_.read_afio(offset);
+    case Peripheral::kExti: return exti_.read(offset);
+    case Peripheral::kGpio: return peek_port(of.number, offset);
+    case Peripheral::kTerminal: return terminal_.read(offset);
+    case Peripheral::kSerial: return serial_.peek(static_cast<SerialSide::Block>(of.number), offset);
+    case Peripheral::kRcc: return rcc_.read(offset);
+    case Peripheral::kFlash: return flash_.read(offset);
+    case Peripheral::kFsmc: return fsmc_.read(offset);
+  }
+  return 0;
 }
 
 std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
@@ -242,32 +249,37 @@ std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
 
 void Board::store_word(std::uint32_t address, std::uint32_t value) {
   core_.advance_to(core_.cycles() + kApbCycles);
-  look_at(address, value);
-  if (address >= kGpioA && address < kGpioEnd) {
-    store_gpio((address - kGpioA) / kBlock, address % kBlock, value);
-  } else if (within(address, kAfio)) {
-    exti_.write_afio(address - kAfio, value);
-    serial_.remap(exti_.read_afio(kAfioMapr));
-    update_serial_pins();
-  } else if (within(address, kExti)) {
-    come_up();
-    exti_.write(address - kExti, value);
-    update_interrupts();
-  } else if (within(address, kUsart1)) {
-    terminal_.write(address - kUsart1, value);
-  } else if (within(address, kRcc)) {
-    store_rcc(address - kRcc, value);
-  } else if (within(address, kFlash)) {
-    flash_.write(address - kFlash, value);
-    follow_flash();
-    check_clock();
-  } else if (SerialSide::block_of(address) != SerialSide::kNone) {
-    store_serial(address, value);
-  } else if (address - Fsmc::kBase < Fsmc::kSize) {
-    fsmc_.write(address - Fsmc::kBase, value);
-    set_access_timing();
-  } else {
-    others_.write(address, value, core_.pc());
+  const Peripheral* const here = peripheral_at(address);
+  if (here == nullptr) return others_.write(address, value, core_.pc());
+  look_at(*here, address - here->base, value);
+  store_register(*here, address - here->base, value);
+}
+
+void Board::store_register(const Peripheral& of, std::uint32_t offset, std::uint32_t value) {
+  switch (of.kind) {
+    case Peripheral::kGpio: store_gpio(of.number, offset, value); break;
+    case Peripheral::kAfio:
+      exti_.write_afio(offset, value);
+      serial_.remap(exti_.read_afio(kAfioMapr));
+      update_serial_pins();
+      break;
+    case Peripheral::kExti:
+      come_up();
+      exti_.write(offset, value);
+      update_interrupts();
+      break;
+    case Peripheral::kTerminal: terminal_.write(offset, value); break;
+    case Peripheral::kSerial: store_serial(static_cast<SerialSide::Block>(of.number), offset, value); break;
+    case Peripheral::kRcc: store_rcc(offset, value); break;
+    case Peripheral::kFlash:
+      flash_.write(offset, value);
+      follow_flash();
+      check_clock();
+      break;
+    case Peripheral::kFsmc:
+      fsmc_.write(offset, value);
+      set_access_timing();
+      break;
   }
 }
 
@@ -299,38 +311,36 @@ void Board::store_rcc(std::uint32_t offset, std::uint32_t value) {
 
 void Board::follow_flash() { core_.set_flash(flash_.wait_states(), flash_.prefetch()); }
 
-/// RM0008, FLASH_ACR: one wait state for each 24 MHz after the first.
+/// RM0008, FLASH_ACR: one wait state for each 24 MHz of SYSCLK after the first.
 void Board::check_clock() {
-  const std::int64_t hz = rcc_.hclk_hz(), mhz = hz / 1'000'000, wanted = (hz - 1) / kHclkWithoutWait;
+  const std::int64_t hz = rcc_.sysclk_hz(), mhz = hz / 1'000'000, wanted = (hz - 1) / kSysclkWithoutWait;
   if (hclk_hz() > kGreatestHclk && is_new(kRcc, kTooFast))
     note(fmt::format("HCLK is {} MHz, allowed is 72 MHz", hclk_hz() / 1'000'000));
   else if (wanted > flash_.wait_states() && is_new(kFlash, kTooFast))
-    note(fmt::format("HCLK is {} MHz with {} wait states of flash (FLASH_ACR.LATENCY), which needs {}", mhz,
+    note(fmt::format("SYSCLK is {} MHz with {} wait states of flash (FLASH_ACR.LATENCY), which needs {}", mhz,
                      flash_.wait_states(), wanted));
 }
 
-void Board::store_serial(std::uint32_t address, std::uint32_t value) {
+void Board::store_serial(SerialSide::Block block, std::uint32_t offset, std::uint32_t value) {
   meet_serial();
-  serial_.write(address, value, core_.cycles());
+  serial_.write(block, offset, value, core_.cycles());
   update_serial_pins();
   update_interrupts();
 }
 
 // ------------------------------------------------------------------------------------------------- notes
 
-void Board::look_at(std::uint32_t address, std::optional<std::uint32_t> written) {
-  const Peripheral* const here = peripheral_at(address);
-  if (here == nullptr) return;
-  look_at_clock(*here);
-  const std::uint32_t offset = address - here->base;
-  if (here->registers->is_plain(offset)) return;
-  const RegisterEntry* const to = here->registers->find(offset);
+void Board::look_at(const Peripheral& of, std::uint32_t offset, std::optional<std::uint32_t> written) {
+  look_at_clock(of);
+  if (of.registers->is_plain(offset)) return;
+  const RegisterEntry* const to = of.registers->find(offset);
+  const std::uint32_t address = of.base + offset;
   if (to == nullptr && is_new(address, kNoRegister))
-    note(fmt::format("{} has no register at 0x{:08X} on the board", here->name, address));
+    note(fmt::format("{} has no register at 0x{:08X} on the board", of.name, address));
   if (to == nullptr || !written) return;
-  for (const Tag* tag : here->registers->asked(offset, *written))
+  for (const Tag* tag : of.registers->asked(offset, *written))
     if (is_new(address, tag->bit))
-      note(fmt::format("{}_{}.{} is set to {}{:X}, which the board does not have", here->name, to->name, tag->name,
+      note(fmt::format("{}_{}.{} is set to {}{:X}, which the board does not have", of.name, to->name, tag->name,
                        tag->value_in(*written) > 9 ? "0x" : "", tag->value_in(*written)));
 }
 
@@ -338,6 +348,17 @@ void Board::look_at_clock(const Peripheral& of) {
   if (of.clock_enables == 0 || rcc_.is_clocked(of.clock_enables, of.clock_bit) || !is_new(of.base, kClockOff)) return;
   note(fmt::format("{} is used while its clock is off in RCC_{}, where a real one does not answer", of.name,
                    Rcc::kRegisters.find(of.clock_enables)->name));
+}
+
+std::vector<std::string> Board::serial_notes() const {
+  std::vector<std::string> lines;
+  for (const Peripheral& each : kMap) {
+    const auto block = static_cast<SerialSide::Block>(each.number);
+    if (each.kind == Peripheral::kSerial && serial_.lost(block) != 0)
+      lines.push_back(fmt::format("{}: {} bytes were lost, since those before them had not been fetched ({})",
+                                  each.name, serial_.lost(block), block == SerialSide::kUsart2 ? "ORE" : "OVR"));
+  }
+  return lines;
 }
 
 void Board::note(const std::string& text) {

@@ -1,17 +1,11 @@
 #include "kinds/dsdpv1/board/serial_side.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
 namespace dsdpv1::arm {
 namespace {
 
-// RM0008, memory map.
-constexpr std::array<std::uint32_t, 3> kBases = {0x4001'3000, 0x4000'3800, 0x4000'4400};
-constexpr std::array<const char*, 3> kNames = {"SPI1", "SPI2", "USART2"};
-constexpr std::uint32_t kBlock = 0x400;
 constexpr std::uint32_t kSpi1Remap = 1U << 0U, kUsart2Remap = 1U << 3U;
 
 constexpr unsigned kPortA = 0;
@@ -29,30 +23,21 @@ bool is_on(std::uint32_t word, unsigned bit) { return (word >> bit & 1U) != 0; }
 
 // ---------------------------------------------------------------------------------------------------------- registers
 
-SerialSide::Block SerialSide::block_of(std::uint32_t address) {
-  for (unsigned i = 0; i < kBases.size(); ++i)
-    if (address - kBases.at(i) < kBlock) return static_cast<Block>(i);
-  return kNone;
+std::uint32_t SerialSide::peek(Block block, std::uint32_t offset) const {
+  return block == kUsart2 ? usart_.peek(offset) : spi_.at(block).peek(offset);
 }
 
-std::uint32_t SerialSide::peek(std::uint32_t address) const {
-  const Block block = block_of(address);
-  return block == kUsart2 ? usart_.peek(address % kBlock) : spi_.at(block).peek(address % kBlock);
-}
-
-std::uint32_t SerialSide::read(std::uint32_t address) {
-  const Block block = block_of(address);
-  const std::uint32_t value = block == kUsart2 ? usart_.read(address % kBlock) : spi_.at(block).read(address % kBlock);
+std::uint32_t SerialSide::read(Block block, std::uint32_t offset) {
+  const std::uint32_t value = block == kUsart2 ? usart_.read(offset) : spi_.at(block).read(offset);
   plan();
   return value;
 }
 
-void SerialSide::write(std::uint32_t address, std::uint32_t value, std::uint64_t now) {
-  const Block block = block_of(address);
+void SerialSide::write(Block block, std::uint32_t offset, std::uint32_t value, std::uint64_t now) {
   if (block == kUsart2)
-    usart_.write(address % kBlock, value, now);
+    usart_.write(offset, value, now);
   else
-    spi_.at(block).write(address % kBlock, value, now);
+    spi_.at(block).write(offset, value, now);
   plan();
 }
 
@@ -179,19 +164,6 @@ SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {
   if (has_miso(port)) add(kFirstPin.at(port) + kMiso, miso);
   if (card_ != 0 && port == kPortA) add(kRxPin, usart_.rx());
   return seen;
-}
-
-// -------------------------------------------------------------------------------------------------------------- notes
-
-std::vector<std::string> SerialSide::notes() const {
-  std::vector<std::string> lines;
-  const std::array<std::uint64_t, 3> lost = {spi_[0].lost(), spi_[1].lost(), usart_.lost()};
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (lost.at(i) != 0)
-      lines.push_back(fmt::format("{}: {} bytes were lost, since those before them had not been fetched ({})",
-                                  kNames.at(i), lost.at(i), i == kUsart2 ? "ORE" : "OVR"));
-  }
-  return lines;
 }
 
 }  // namespace dsdpv1::arm

@@ -9,7 +9,6 @@
 // function, by the peripheral; remapped ones (AFIO_MAPR) are no longer on these pins.
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "board/stm32/gpio.hpp"
@@ -30,15 +29,15 @@ class SerialSide {
  public:
   using Ports = std::array<Gpio, 7>;
   static constexpr std::uint64_t kNever = Spi::kNever;
-  enum Block : unsigned { kSpi1, kSpi2, kUsart2, kNone };
+  enum Block : unsigned { kSpi1, kSpi2, kUsart2 };
 
   /// `card`: 1 or 2; 0: a chip without serial pins. `ports` outlive it.
   SerialSide(const Ports& ports, unsigned card) : ports_(ports), card_(card) {}
 
-  static Block block_of(std::uint32_t address);
-  std::uint32_t peek(std::uint32_t address) const;
-  std::uint32_t read(std::uint32_t address);
-  void write(std::uint32_t address, std::uint32_t value, std::uint64_t now);
+  /// A register at `offset` of a block.
+  std::uint32_t peek(Block block, std::uint32_t offset) const;
+  std::uint32_t read(Block block, std::uint32_t offset);
+  void write(Block block, std::uint32_t offset, std::uint32_t value, std::uint64_t now);
   /// Applies RCC: clocks, and peripherals in reset.
   void follow(const Rcc& rcc);
   /// AFIO_MAPR.
@@ -70,8 +69,8 @@ class SerialSide {
 
   /// Holds of the DPRAM, according to the frames on the pins.
   const user_cpu::HoldCounters& holds() const { return claims_.counters(); }
-  /// For the end of the run: bytes lost.
-  std::vector<std::string> notes() const;
+  /// Bytes that came before those before them had been fetched.
+  std::uint64_t lost(Block block) const { return block == kUsart2 ? usart_.lost() : spi_.at(block).lost(); }
 
  private:
   /// Levels of the chip's pins XSS, SCK, MOSI, RXD.

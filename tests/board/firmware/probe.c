@@ -177,6 +177,25 @@ static void clock_tree(void) {
   ten_accesses();
 }
 
+/* Flash waits for SYSCLK, which the AHB divider leaves at 72 MHz. */
+static void divided(void) {
+  REG(RCC_CR) |= 0x01010000;
+  REG(0x40022000) = 0x11; /* FLASH_ACR: one wait state */
+  REG(RCC_CFGR) = 7u << 18 | 1u << 16 | 8u << 4 | 2u;
+}
+
+/* After a reset by AIRCR, which RAM survives, the terminal is off. */
+static void restarted(void) {
+  volatile uint32_t* const been_here = (volatile uint32_t*)0x20008000u;
+  if (*been_here == 0x5AFE) {
+    CHIP(0) = (uint8_t)(REG(USART1_CR1) >> 8);
+    return;
+  }
+  *been_here = 0x5AFE;
+  REG(USART1_CR1) = 0x2008;
+  REG(0xE000ED0C) = 0x05FA0004;
+}
+
 static void serial_clocks(void) {
   REG(RCC_APB2ENR) = 0x51FD;
   REG(RCC_APB1ENR) = 1u << 14 | 1u << 17;
@@ -263,9 +282,10 @@ void EXTI9_5_handler(void) {
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {
-      handshake,         accesses, unset_accesses, interrupt, chip_reset, text,      strange,    undefined, bank_off,
-      masked_and_rising, inputs,   clock_tree,     nonsense,  lacking,    registers, clocks_off, busy};
+  static void (*const programs[])(void) = {handshake,  accesses,   unset_accesses, interrupt, chip_reset,
+                                           text,       strange,    undefined,      bank_off,  masked_and_rising,
+                                           inputs,     clock_tree, nonsense,       lacking,   registers,
+                                           clocks_off, busy,       divided,        restarted};
   edges = 0;
   clocks();
   programs[program]();
