@@ -22,7 +22,7 @@ namespace {
 
 std::string allowed_file() { return std::string("allowed is ") + tb::kFirmwareFile.what; }
 
-// What a file may make us compute and keep; linked firmware has some three segments.
+// Limits of time and memory that a file can cost; linked firmware has about three segments.
 constexpr unsigned kMostProgramHeaders = 256;
 constexpr std::size_t kLongestName = 4096;
 
@@ -167,7 +167,7 @@ class Reader {
   std::string flash_text() const { return text("flash", memory_.flash); }
   std::string ram_text() const { return text("RAM", memory_.ram); }
 
-  /// What will stand in memory after loading; nullopt where nothing is loaded.
+  /// The word in memory after loading; nullopt where nothing is loaded.
   std::optional<std::uint32_t> loaded_word(std::uint32_t address) const {
     for (const Segment& segment : image_.segments) {
       const MemoryRange range{segment.address, static_cast<std::uint32_t>(segment.bytes.size())};

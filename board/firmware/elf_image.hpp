@@ -12,7 +12,7 @@ struct MemoryRange {
   std::uint32_t start;
   std::uint32_t size;  ///< bytes
 
-  /// Whether all of `count` bytes from `address` are in it.
+  /// It contains all of `count` bytes from `address` on.
   bool holds(std::uint64_t address, std::uint64_t count) const {
     return address >= start && count <= size && address - start <= size - count;
   }

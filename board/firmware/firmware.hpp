@@ -17,7 +17,7 @@ struct Firmware {
   std::optional<std::uint32_t> mailbox;  ///< address of the mailbox, see mailbox.h
 };
 
-/// Throws tb::InputError, one line, for a file that is no firmware of the board or whose mailbox is another version's.
+/// Throws tb::InputError, one line, for a file that is not firmware of the board or whose mailbox has another version.
 std::shared_ptr<const Firmware> load_firmware(const std::string& path);
 
 }  // namespace dsdpv1::arm

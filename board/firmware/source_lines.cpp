@@ -87,7 +87,7 @@ SourceLines::Table SourceLines::read_table(std::vector<std::uint8_t> file) {
     if (is_new) table.files.push_back(number->first);
     table.lines.push_back({row.address, number->second, row.line});
   });
-  // Where one sequence ends another may begin: its line counts. Of several rows for an address the last counts, as in
+  // Another sequence may begin where one ends: its line counts. The last of several rows for an address counts, as in
   // gdb.
   std::stable_sort(table.lines.begin(), table.lines.end(), [](const Line& a, const Line& b) {
     return std::make_tuple(a.address, a.line != 0) < std::make_tuple(b.address, b.line != 0);
@@ -97,7 +97,7 @@ SourceLines::Table SourceLines::read_table(std::vector<std::uint8_t> file) {
 
 namespace {
 
-/// The last entry at or before `address`; null when all are behind it.
+/// The last entry at or before `address`; null when all come after it.
 template <typename Entry>
 const Entry* last_until(const std::vector<Entry>& entries, std::uint32_t address) {
   const auto after = std::upper_bound(entries.begin(), entries.end(), address,

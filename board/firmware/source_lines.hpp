@@ -22,14 +22,14 @@ class SourceLines {
   /// ignored.
   std::string at(std::uint32_t address) const;
 
-  /// Whether there is any line at all.
+  /// There is at least one line.
   bool has_lines() const { return !table().lines.empty(); }
 
  private:
   struct Line {
     std::uint32_t address;
     std::uint32_t file;  ///< index into Table::files
-    int line;            ///< 0: from here on there is no line
+    int line;            ///< 0: no line from here on
   };
   struct Function {
     std::uint32_t address, size;  ///< size 0: up to the next one

@@ -1,5 +1,5 @@
 #pragma once
-// What each packet of gdb does while the processor is halted ("Debugging with GDB", appendix E.2 to E.4).
+// The effect of each packet of gdb while the processor is halted ("Debugging with GDB", appendix E.2 to E.4).
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace dsdpv1::arm {
 
-/// How the run goes on after a packet.
+/// How the run continues after a packet.
 enum class Resumption {
   kNone,          ///< it does not: the processor stays halted
   kContinue,      ///< until something stops it
@@ -28,7 +28,7 @@ struct StepRange {
   bool holds(std::uint32_t pc) const { return start <= pc && pc < end; }
 };
 
-/// What stops the run.
+/// Breakpoints and watchpoints stop the run.
 struct Stops {
   Breakpoints breakpoints;
   Watchpoints watchpoints;
@@ -43,7 +43,7 @@ class GdbCommands {
     std::optional<std::string>
         reply;  ///< empty text: the packet is not known; nullopt: the reply comes when the run stops
     Resumption resumption = Resumption::kNone;
-    bool stop_acknowledging = false;  ///< behind the reply
+    bool stop_acknowledging = false;  ///< after the reply
   };
   Result execute(std::string_view packet);
 

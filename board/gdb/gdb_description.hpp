@@ -1,5 +1,5 @@
 #pragma once
-// What gdb is told about the target, in XML ("Debugging with GDB", appendices G and E.16).
+// The description of the target for gdb, in XML ("Debugging with GDB", appendices G and E.16).
 #include <string>
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace dsdpv1::arm {
 /// has 32 bits.
 std::string target_description();
 
-/// The regions as `ram` and `rom`: gdb sets hardware breakpoints in the latter by itself.
+/// The regions as `ram` and `rom`: gdb sets hardware breakpoints in the latter without being asked.
 std::string memory_map_description(const std::vector<MemoryRegion>& regions);
 
 }  // namespace dsdpv1::arm

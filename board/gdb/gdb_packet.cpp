@@ -42,7 +42,7 @@ std::optional<GdbInput> GdbReader::next_packet() {
   const std::size_t hash = bytes_.find('#');
   const bool complete = hash != std::string::npos && bytes_.size() >= hash + 3;
   if (!complete && bytes_.size() <= kGdbPacketSize + 4) return std::nullopt;
-  // Data have no bare '$': a second one is a packet begun anew.
+  // Data have no bare '$': a second one begins another packet.
   const std::size_t start = complete ? bytes_.rfind('$', hash) + 1 : 0;
   const bool right = complete && hash - start <= kGdbPacketSize &&
                      value_of(std::string_view(bytes_).substr(hash + 1, 2)) ==

@@ -71,14 +71,14 @@ bool GdbServer::halt_if_due(std::uint32_t pc, bool look) {
   return (waiting_ || look) && halt_if_gdb_wants();
 }
 
-/// Whether the run has just been let go at this very instruction, without its having been executed.
+/// True: the run was resumed at this instruction and has not executed it yet.
 bool GdbServer::resumed_here(std::uint32_t pc) {
   if (!resumed_at_) return false;
   due_ = stepping_;
   return *std::exchange(resumed_at_, std::nullopt) == pc;
 }
 
-/// The run was let go at an instruction that before_instruction() is yet to be called for: it is not to stop there
+/// The run was resumed at an instruction for which before_instruction() has not been called yet: it must not stop there
 /// again.
 void GdbServer::expect_call_again() {
   if (!wanted()) return;
@@ -122,7 +122,7 @@ void GdbServer::converse() {
   end();
 }
 
-/// Whether the processor goes on.
+/// Returns whether the processor continues.
 bool GdbServer::carry_out(const std::string& packet) {
   const GdbCommands::Result result = commands_.execute(packet);
   if (result.reply) link_->send(*result.reply);
@@ -180,7 +180,7 @@ void GdbServer::take_over() {
   attached_ = true;
 }
 
-/// Whether the processor goes on: at the very beginning it does not.
+/// Returns whether the processor continues: not at the very beginning.
 bool GdbServer::go_back(bool as_far_as_something_stops) {
   const std::uint64_t here = place(), begin = *options_.history->begin;
   if (here <= begin) {
@@ -197,7 +197,7 @@ bool GdbServer::go_back(bool as_far_as_something_stops) {
   return true;
 }
 
-/// This run ends; whoever has begun it begins it again.
+/// This run ends; its owner begins it again.
 void GdbServer::depart(user_cpu::Journey journey) {
   options_.history->connection = std::make_shared<Session>(Session{link_, commands_.stops()});
   options_.history->back = std::move(journey);
@@ -212,7 +212,7 @@ bool GdbServer::nears_end() const {
   return journey.searches || place() + 2 * kAhead >= journey.until;
 }
 
-/// `pc`: of the instruction that comes next; absent while the processor sleeps, or nobody wants to know.
+/// `pc`: address of the next instruction; absent while the processor sleeps, and in poll().
 void GdbServer::travel(std::optional<std::uint32_t> pc) {
   const user_cpu::Journey& journey = *options_.history->journey;
   if (place() >= journey.until) return end_journey();
@@ -226,7 +226,7 @@ void GdbServer::end_journey() {
     if (!found_) found_ = {begin, kAtBegin};
     return depart({journey.board, found_->place, journey.until, false, found_->reply});
   }
-  if (place() >= journey.limit && journey.until > begin) {  // instructions whose condition failed are no places
+  if (place() >= journey.limit && journey.until > begin) {  // the place before was passed without a call
     journey.until = std::max(journey.until - 2, begin);
     return depart(std::move(journey));
   }
@@ -236,7 +236,7 @@ void GdbServer::end_journey() {
   if (target_.read_register(Register::kPc) != pc) expect_call_again();
 }
 
-/// Whether the processor was halted, and has been let go.
+/// Returns whether the processor was halted, and has been resumed.
 bool GdbServer::halt_if_gdb_wants() {
   if (waiting_) {
     wait_for_gdb();

@@ -3,11 +3,11 @@
 // processor is halted the server keeps the processor's call, hence simulated time stands still.
 //
 // The run waits at the first instruction until a gdb has connected and lets it go. gdb may leave (`detach`, `quit`, a
-// broken connection): the run goes on, and the next gdb may connect; `kill` ends the run. Only real time is lost, so a
-// run with a debugger has the result of a run without, unless the user changes registers or memory.
+// broken connection): the run continues, and the next gdb may connect; `kill` ends the run. Only real time is lost, so
+// a run with a debugger has the result of a run without, unless the user changes registers or memory.
 //
-// gdb goes back (reverse-step, reverse-continue) by a journey: the run ends, and whoever has begun it does it again
-// with the same history. The server of that run has the connection, and lets everything pass up to the place that gdb
+// gdb goes back (reverse-step, reverse-continue) by a journey: the run ends, and its owner begins it again with the
+// same history. The server of that run has the connection, and lets everything pass up to the place that gdb
 // wants.
 #include <functional>
 #include <memory>
@@ -23,7 +23,7 @@ namespace dsdpv1::arm {
 
 struct GdbOptions {
   int port = 0;  ///< 0 to 65535, at 127.0.0.1; 0: any free one
-  /// Whether the run is to end (SIGINT): asked ten times a second while the processor is halted.
+  /// True: the run must end (SIGINT). Called ten times a second while the processor is halted.
   std::function<bool()> stopped = [] { return false; };
   /// One line for the user, for stderr.
   std::function<void(const std::string&)> say = [](const std::string&) {};
@@ -59,7 +59,7 @@ class GdbServer final : public Debugger {
   /// Instructions between two looks for Ctrl-C: about a millisecond of real time.
   static constexpr unsigned kInstructionsPerLook = 4096;
 
-  /// What goes from the server of one run to that of the next.
+  /// Passed from the server of one run to that of the next.
   struct Session {
     std::shared_ptr<GdbLink> link;
     Stops stops;

@@ -52,7 +52,7 @@ HistoryPlayer::HistoryPlayer(DebugTarget& target, user_cpu::DebugHistory& histor
   while (next_ < end_ && history_.inputs[next_].board < board_) ++next_;
 }
 
-/// The debugger that travels keeps its connection: nobody else can have the port.
+/// The debugger that travels keeps its connection: the port is taken.
 std::unique_ptr<Debugger> HistoryPlayer::debugger_of(const MakeDebugger& make) {
   const bool wanted = make && (!history_.journey || travels());
   return wanted ? make(noted_, board_) : nullptr;
@@ -91,7 +91,7 @@ void HistoryPlayer::pass_on(Call call) {
   end_ = next_;
 }
 
-/// Whether the debugger has a say.
+/// Returns whether the debugger may act.
 bool HistoryPlayer::play() {
   while (has_more() && is_due(history_.inputs[next_])) carry_out(history_.inputs[next_++]);
   const bool has_a_say = travels() || (!has_more() && target_.now() >= history_.live_from);

@@ -1,5 +1,5 @@
 #pragma once
-// What a debugger does to a processor is noted, and what one did before is done again.
+// Notes each change that a debugger makes to a processor, and repeats those of an earlier one.
 #include <functional>
 #include <memory>
 

@@ -17,8 +17,8 @@ class Fsmc {
   std::uint32_t read(std::uint32_t offset) const { return words_.read(offset); }
   void write(std::uint32_t offset, std::uint32_t value);
 
-  /// As the firmware's registers say, with the scenario's values on top. What the firmware never wrote is as FsmcBank's
-  /// defaults.
+  /// As the firmware's registers say, with the scenario's values on top. Registers that the firmware never wrote give
+  /// FsmcBank's defaults.
   user_cpu::FsmcBank bank(std::int64_t hclk_hz) const;
   /// The firmware has switched the bank off (MBKEN), or writing to it (WREN).
   bool refuses(bool write) const;

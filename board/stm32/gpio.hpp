@@ -11,7 +11,7 @@ class Gpio {
   static constexpr std::uint32_t kOdr = 0x0C;
   static const RegisterTable kRegisters;
 
-  /// `driven`: pins that somebody outside drives, `levels`: how.
+  /// `driven`: pins that are driven from outside, `levels`: how.
   std::uint32_t read(std::uint32_t offset, std::uint16_t driven, std::uint16_t levels) const;
   void write(std::uint32_t offset, std::uint32_t value);
 
@@ -28,7 +28,7 @@ class Gpio {
   void set_modes();
 
   RegisterWords<kRegisters, 7> words_;
-  // What CRL and CRH say, pin by pin: general purpose outputs, those of them that drive 1, too, alternate functions,
+  // CRL and CRH, pin by pin: general purpose outputs, those of them that drive 1, too, alternate functions,
   // inputs with a pull-up or -down, inputs whose Schmitt trigger is off.
   std::uint16_t outputs_ = 0, pushed_ = 0, alternate_ = 0, pulled_ = 0, analog_ = 0;
 };

@@ -53,7 +53,7 @@ class RegisterTable {
   std::uint32_t plain_ = 0;  ///< by word
 };
 
-/// What the registers of a table hold, `kWords` words from offset 0 on.
+/// Values of the registers of a table, `kWords` words from offset 0 on.
 template <const RegisterTable& kTable, std::size_t kWords>
 class RegisterWords {
  public:

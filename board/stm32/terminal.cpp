@@ -9,7 +9,7 @@ constexpr std::uint32_t kDr = 0x04, kCr1 = 0x0C, kCr2 = 0x10, kCr3 = 0x14;
 constexpr std::uint32_t kUsartAndTransmitterOn = 1U << 13U | 1U << 3U;
 constexpr std::size_t kLongestLine = 200;
 
-// Nothing is received, nobody is interrupted.
+// Nothing is received, and no interrupt is requested.
 constexpr TagList kTags = {
     {kCr1, 0, 1, "SBK"},    {kCr1, 2, 1, "RE"},    {kCr1, 4, 1, "IDLEIE"}, {kCr1, 5, 1, "RXNEIE"},
     {kCr1, 6, 1, "TCIE"},   {kCr1, 7, 1, "TXEIE"}, {kCr1, 8, 1, "PEIE"},   {kCr2, 11, 1, "CLKEN"},

@@ -217,7 +217,7 @@ void Usart::take_character() {
   hunt();
 }
 
-/// With the stop bit's last sample. What comes while RXNE stands is lost; what was there is kept (ORE).
+/// With the stop bit's last sample. A character that comes while RXNE is set is lost; DR keeps the one before (ORE).
 void Usart::receive(unsigned word, bool framing, bool noise) {
   if ((words_[kSr] & kRxne) != 0) {
     words_[kSr] |= kOre;
