@@ -33,7 +33,7 @@ def check_control(deb):
 
 def check_files(names):
     for name in ("bin/dsdpv1-sim", "libexec/dsdpv1/dsdpv1-board", "share/man/man1/dsdpv1-sim.1.gz", "share/doc/dsdpv1/copyright",
-                 "share/doc/dsdpv1/CHANGELOG.md", "share/dsdpv1/examples/core_only.cpp", "include/dsdpv1/dsdpv1.h", "lib/python3/dist-packages/dsdpv1/__init__.py",
+                 "share/doc/dsdpv1/CHANGELOG.md", "share/dsdpv1/examples/core_only.cpp", "include/dsdpv1/dsdpv1.h", "lib/python3/dist-packages/dsdpv1/__init__.py", "lib/python3/dist-packages/dsdpv1/demo/power_on_12m.yaml",
                  "share/dsdpv1/bindings/systemverilog/files.txt"):
         assert any(each.endswith("/" + name) for each in names), f"{name} is missing"
 
@@ -41,6 +41,7 @@ def check_files(names):
 def check_unpacked(root, cxx, here, folder):
     data = root / "share/dsdpv1"
     assert "PASSED" in output(root / "bin/dsdpv1-sim", "run", data / "scenarios/power_on_12m.yaml", cwd=folder)
+    assert "PASSED" in output(root / "bin/dsdpv1-sim", "demo", cwd=folder)
     assert (root / "lib/python3/dist-packages/dsdpv1/lib/libdsdpv1.so.0").resolve(strict=True).is_relative_to(root.resolve())
     environment = {**os.environ, "PKG_CONFIG_PATH": str(next(root.rglob("pkgconfig")))}
     flags = output("pkg-config", "--cflags", "--libs", "dsdpv1-core", env=environment).split()

@@ -41,7 +41,7 @@ def wheel_of(folder, build):
 def names_are_right(wheel):
     """One wheel for every Python 3; it contains its dependencies, but neither tests nor sources."""
     names = zipfile.ZipFile(wheel).namelist()
-    wanted = ("dsdpv1/__init__.py", "dsdpv1/py.typed", "dsdpv1/lib/libdsdpv1.so.0", "cocotbext/profibus/__init__.py")
+    wanted = ("dsdpv1/__init__.py", "dsdpv1/py.typed", "dsdpv1/lib/libdsdpv1.so.0", "dsdpv1/__main__.py", "dsdpv1/demo/power_on_12m.yaml", "dsdpv1/demo/dsdpv1.gsd", "cocotbext/profibus/__init__.py")
     missing = [name for name in wanted if name not in names]
     assert not missing, f"the wheel has no {', '.join(missing)}"
     assert not [name for name in names if name.startswith("cocotbext/__init__")], "cocotbext is a namespace, shared with others"

@@ -115,4 +115,28 @@ speaks ./run
 [ "$status" -eq 1 ] || fail "cmake fails: exit $status"
 [[ $message == *"cmake failed, the end of $folder/build/default.log:"*"cmake says much" ]] || fail "cmake fails: $message"
 
+# release: its files, then the bare system where that is asked for
+rm "$folder/broken"
+mkdir -p "$folder"/{cmake,.venv/bin,tests/release,tests/docs}
+for name in requirements.lock requirements-test.lock; do touch "$folder/$name" "$folder/.venv/$name"; done
+ln -s "$(command -v python3)" "$folder/.venv/bin/python"
+for program in cmake/release tests/release/bare_system tests/docs/check_docs; do
+  printf 'import os, sys\nprint("%s", *map(os.path.basename, sys.argv[1:]))\nsys.exit(os.path.exists("%s.fails"))\n' "$program" "$folder/$program" >"$folder/$program.py"
+done
+files="cmake/release default release"
+bare="tests/release/bare_system release bare"
+releases() {
+  local expected=$1 status=0 told
+  shift
+  told=$(cd "$folder" && PATH=$folder/tools:$PATH ./run release "$@" 2>/dev/null | paste -sd ';') || status=$?
+  [ "$told $status" = "$expected" ] || fail "release $*: $told $status, not $expected"
+}
+releases "$files 0"
+releases "$files;$bare 0" --check
+releases "$files;$bare --record;tests/docs/check_docs update_bare 0" --record
+touch "$folder/tests/release/bare_system.fails"
+releases "$files;$bare --record 1" --record
+touch "$folder/cmake/release.fails"
+releases "$files 1" --check
+
 finish
