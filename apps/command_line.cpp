@@ -109,7 +109,7 @@ std::string unexpected(const CLI::App& command, const std::vector<std::string>& 
 
 std::string without_command(const CLI::App& app, const std::string& first) {
   const std::vector<std::string> names = names_of(app);
-  const std::string allowed = ", allowed are " + tb::join(names);
+  const std::string allowed = ", expected " + tb::join(names);
   if (app.get_option_no_throw(first) != nullptr) return "dsdpv1-sim: a command is missing" + allowed;
   if (first[0] == '-') return "dsdpv1-sim: " + unexpected(app, {first}) + ", see --help for what is allowed";
   return "dsdpv1-sim: unknown command " + first + tb::did_you_mean(first, names) + allowed;

@@ -28,9 +28,9 @@ constexpr rlim_t kNeeded = 512 * 1024;
 /// Exceptions and stdio take 8 KB and more.
 void tell(rlim_t given) {
   std::array<char, 128> line{};
-  const int size = std::snprintf(
-      line.data(), line.size(), "dsdpv1-sim: the stack is limited to %llu KB, allowed are %llu KB and more\n",
-      static_cast<unsigned long long>(given / 1024), static_cast<unsigned long long>(kNeeded / 1024));
+  const int size =
+      std::snprintf(line.data(), line.size(), "dsdpv1-sim: the stack is limited to %llu KB, expected %llu KB or more\n",
+                    static_cast<unsigned long long>(given / 1024), static_cast<unsigned long long>(kNeeded / 1024));
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(size));
 }
 

@@ -13,8 +13,7 @@ void read_changes(Changes& from, dpsim_change* changes, std::size_t capacity, st
 
 void refuse_tick(std::uint64_t tick, Tick now) {
   if (tick > DPSIM_LAST_TICK)
-    fail(DPSIM_ERR_ARGUMENT,
-         "tick is " + std::to_string(tick) + ", allowed are 0 to " + std::to_string(DPSIM_LAST_TICK));
+    fail(DPSIM_ERR_ARGUMENT, "tick is " + std::to_string(tick) + ", expected 0 to " + std::to_string(DPSIM_LAST_TICK));
   fail(DPSIM_ERR_TIME, "tick is " + std::to_string(tick) + ", which is before the present tick " + std::to_string(now));
 }
 

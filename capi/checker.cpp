@@ -59,7 +59,7 @@ const checks::RuleTable& rules_of(const char* kind) { return capi::kind_of(kind)
 const checks::Rule& rule_at(const checks::RuleTable& rules, std::size_t number) {
   if (number >= rules.size())
     fail(DPSIM_ERR_NOT_FOUND,
-         "rule is " + std::to_string(number) + ", allowed are 0 to " + std::to_string(rules.size() - 1));
+         "rule is " + std::to_string(number) + ", expected 0 to " + std::to_string(rules.size() - 1));
   return rules[number];
 }
 
@@ -85,8 +85,7 @@ checks::Limits limits_of(const dpsim_checker_options& options, const checks::Rul
 void feed(dpsim_checker& checker, std::uint64_t tick, std::uint16_t pin, dpsim_level level) {
   const tb::PinTable& pins = checker.kind.chip.pins();
   if (pin >= pins.size())
-    fail(DPSIM_ERR_NOT_FOUND,
-         "pin is " + std::to_string(pin) + ", allowed are 0 to " + std::to_string(pins.size() - 1));
+    fail(DPSIM_ERR_NOT_FOUND, "pin is " + std::to_string(pin) + ", expected 0 to " + std::to_string(pins.size() - 1));
   capi::need_range(pins[pin].name, level, DPSIM_X, (1 << pins[pin].width) - 1);
   checker.checks->pin(checker.at(tick), static_cast<tb::PinNumber>(pin), level);
 }

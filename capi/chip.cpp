@@ -48,7 +48,7 @@ const tb::PinInfo& pin_of(const capi::Kind& kind, std::uint16_t number) {
   const tb::PinTable& pins = kind.chip.pins();
   if (number >= pins.size())
     fail(DPSIM_ERR_NOT_FOUND,
-         "pin is " + std::to_string(number) + ", allowed are 0 to " + std::to_string(pins.size() - 1));
+         "pin is " + std::to_string(number) + ", expected 0 to " + std::to_string(pins.size() - 1));
   return pins[number];
 }
 
@@ -74,7 +74,7 @@ void receive(dpsim_chip& chip, const bus::CharacterRun& run) {
 }
 
 [[noreturn]] void refuse_state(const std::string& what) {
-  fail(DPSIM_ERR_STATE, "the chip is on a bus, allowed is that one alone is " + what);
+  fail(DPSIM_ERR_STATE, "the chip is on a bus, expected one without a bus to be " + what);
 }
 
 void restore(dpsim_chip& chip, const std::uint8_t* bytes, std::size_t size) {
@@ -190,7 +190,7 @@ void dpsim_chip::refuse(std::uint16_t number, Level level) const {
   if (bus != nullptr && number == line_pin())
     fail(DPSIM_ERR_STATE, std::string(pin.name) + " of a chip on a bus is the line");
   fail(DPSIM_ERR_ARGUMENT, "the level of " + std::string(pin.name) + " is " + std::to_string(level) +
-                               ", allowed are 0 to " + std::to_string(highest_of(pin)) +
+                               ", expected 0 to " + std::to_string(highest_of(pin)) +
                                (may_float(pin) ? " and DPSIM_Z" : ""));
 }
 
@@ -352,8 +352,8 @@ dpsim_status dpsim_chip_event_text(const char* kind, const dpsim_chip_event* eve
         const capi::Kind& own = capi::kind_of(kind);
         const auto& reasons = own.chip.reasons();
         if (event->reason >= reasons.size())
-          fail(DPSIM_ERR_NOT_FOUND, "reason is " + std::to_string(event->reason) + ", allowed are 0 to " +
-                                        std::to_string(reasons.size() - 1));
+          fail(DPSIM_ERR_NOT_FOUND,
+               "reason is " + std::to_string(event->reason) + ", expected 0 to " + std::to_string(reasons.size() - 1));
         const std::string words =
             own.chip.describe({static_cast<Tick>(event->tick), reasons[event->reason], event->a, event->b, event->c});
         text[words.copy(text, capacity - 1)] = '\0';

@@ -67,7 +67,7 @@ void fail(dpsim_status status, const std::string& text) { throw Error(status, te
 
 void need_range(const char* name, long long value, long long low, long long high) {
   if (value >= low && value <= high) return;
-  fail(DPSIM_ERR_ARGUMENT, std::string(name) + " is " + std::to_string(value) + ", allowed are " + std::to_string(low) +
+  fail(DPSIM_ERR_ARGUMENT, std::string(name) + " is " + std::to_string(value) + ", expected " + std::to_string(low) +
                                " to " + std::to_string(high));
 }
 

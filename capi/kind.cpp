@@ -39,7 +39,7 @@ const Kind& kind_of(const char* name) {
   if (const Kind* kind = find_kind(name)) return *kind;
   std::string allowed;
   for (const Kind& kind : kinds()) allowed += (allowed.empty() ? "" : ", ") + std::string(kind.chip.name());
-  fail(DPSIM_ERR_NOT_FOUND, "kind is \"" + std::string(name) + "\", allowed are " + allowed);
+  fail(DPSIM_ERR_NOT_FOUND, "kind is \"" + std::string(name) + "\", expected " + allowed);
 }
 
 }  // namespace dsdpv1::capi

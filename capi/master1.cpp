@@ -114,7 +114,7 @@ void ask(bus::Master1& master, dpsim_service service, std::uint8_t address, cons
     case DPSIM_SERVICE_READ_OUTPUTS: return master.read_outputs(address, done);
     case DPSIM_SERVICE_GET_CFG: return master.get_cfg(address, done);
     case DPSIM_SERVICE_SLAVE_DIAG: return master.slave_diag(address, done);
-    default: fail(DPSIM_ERR_ARGUMENT, "service is " + std::to_string(service) + ", allowed are 0, 56, 57, 59, 60");
+    default: fail(DPSIM_ERR_ARGUMENT, "service is " + std::to_string(service) + ", expected 0, 56, 57, 59, 60");
   }
 }
 

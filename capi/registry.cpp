@@ -13,7 +13,7 @@ namespace {
 void need_number(const char* what, std::size_t number, std::size_t count) {
   if (number >= count)
     fail(DPSIM_ERR_NOT_FOUND,
-         std::string(what) + " is " + std::to_string(number) + ", allowed are 0 to " + std::to_string(count - 1));
+         std::string(what) + " is " + std::to_string(number) + ", expected 0 to " + std::to_string(count - 1));
 }
 
 const tb::PinTable& pins_of(const char* kind) { return kind_of(kind).chip.pins(); }

@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kFirstSize = sizeof(T);
 template <class T>
 void check_size(const T& given, const char* name) {
   if (given.size >= kFirstSize<T> && given.size <= sizeof(T)) return;
-  fail(DPSIM_ERR_SIZE, std::string("size of ") + name + " is " + std::to_string(given.size) + ", allowed is sizeof, " +
+  fail(DPSIM_ERR_SIZE, std::string("size of ") + name + " is " + std::to_string(given.size) + ", expected sizeof, " +
                            std::to_string(sizeof(T)) + " here");
 }
 

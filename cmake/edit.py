@@ -267,7 +267,7 @@ def files_of(given):
     for name in given:
         path = pathlib.Path(name).resolve()
         if not path.is_file() or not path.is_relative_to(ROOT):
-            print(f"edit: {name} is no file of the project, allowed is what stands below {ROOT}", file=sys.stderr)
+            print(f"edit: {name} is no file of the project, expected what stands below {ROOT}", file=sys.stderr)
             sys.exit(2)
         yield path.relative_to(ROOT).as_posix()
 

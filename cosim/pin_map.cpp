@@ -23,10 +23,10 @@ class Reader {
     const YAML::Node root = load(content);
     check_keys(root, {"clock", "pins", "tolerance", "parameters", "files", "include", "reference"});
     for (const char* key : {"pins", "tolerance", "parameters"})
-      if (root[key] && !root[key].IsMap()) fail(root[key], std::string(key) + " is no map, allowed is NAME: VALUE");
+      if (root[key] && !root[key].IsMap()) fail(root[key], std::string(key) + " is no map, expected NAME: VALUE");
     for (const char* key : {"files", "include"})
       if (root[key] && !root[key].IsSequence())
-        fail(root[key], std::string(key) + " is no list, allowed is [NAME, NAME]");
+        fail(root[key], std::string(key) + " is no list, expected [NAME, NAME]");
     if (root["clock"]) map_.clock = port(root["clock"]);
     for (const auto& each : root["pins"]) pin(each.first, each.second);
     for (const auto& each : root["tolerance"]) tolerance(each.first, each.second);
@@ -45,14 +45,14 @@ class Reader {
     try {
       YAML::Node root = YAML::Load(content);
       if (!root.IsMap() && !root.IsNull())
-        fail(root, "is no map, allowed are clock, pins, tolerance, parameters, files, include, reference");
+        fail(root, "is no map, expected clock, pins, tolerance, parameters, files, include, reference");
       return root;
     } catch (const YAML::ParserException& error) {
-      throw tb::InputError(path_, error.mark.line + 1, error.msg + ", allowed is YAML");
+      throw tb::InputError(path_, error.mark.line + 1, error.msg + ", expected YAML");
     }
   }
   std::string text(const YAML::Node& node) const {
-    if (!node.IsScalar() || node.Scalar().empty()) fail(node, "is no word, allowed is one name or number");
+    if (!node.IsScalar() || node.Scalar().empty()) fail(node, "is no word, expected one name or number");
     return node.Scalar();
   }
   void check_keys(const YAML::Node& node, const std::vector<std::string>& allowed) const {
@@ -61,11 +61,11 @@ class Reader {
   void check_name(const YAML::Node& node, const std::vector<std::string>& allowed) const {
     const std::string name = text(node);
     if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
-      fail(node, "unknown name " + name + tb::did_you_mean(name, allowed) + ", allowed are " + tb::join(allowed));
+      fail(node, "unknown name " + name + tb::did_you_mean(name, allowed) + ", expected " + tb::join(allowed));
   }
   Port port(const YAML::Node& node) const {
     if (node.IsScalar()) return {text(node), false};
-    if (!node.IsMap() || !node["port"]) fail(node, "is no port, allowed are NAME and {port: NAME, inverted: true}");
+    if (!node.IsMap() || !node["port"]) fail(node, "is no port, expected NAME and {port: NAME, inverted: true}");
     check_keys(node, {"port", "inverted"});
     Port port{text(node["port"]), false};
     if (node["inverted"]) port.inverted = truth(node["inverted"]);
@@ -73,7 +73,7 @@ class Reader {
   }
   bool truth(const YAML::Node& node) const {
     const std::string value = text(node);
-    if (value != "true" && value != "false") fail(node, "is " + value + ", allowed are true, false");
+    if (value != "true" && value != "false") fail(node, "is " + value + ", expected true, false");
     return value == "true";
   }
   std::vector<std::string> names() const {
@@ -96,7 +96,7 @@ class Reader {
   int cycles(const YAML::Node& node) const {
     int value = -1;
     if (!YAML::convert<int>::decode(node, value) || value < 0 || value > kLargestTolerance)
-      fail(node, "is " + text(node) + ", allowed are 0 to " + std::to_string(kLargestTolerance) + " cycles");
+      fail(node, "is " + text(node) + ", expected 0 to " + std::to_string(kLargestTolerance) + " cycles");
     return value;
   }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& what) {
   throw tb::InputError(what +
-                       ", allowed is a complete build: ./run build (Verilator 5.006 or later), without it the engines "
+                       ", expected a complete build: ./run build (Verilator 5.006 or later), without it the engines "
                        "step and skip");
 }
 

@@ -45,7 +45,7 @@ void call(const std::string& command, const std::string& log, const UserRtl& rtl
   std::string first;
   for (std::string line; first.empty() && std::getline(file, line);)
     if (line.find("rror:") != std::string::npos || line.find("%Error") != std::string::npos) first = line;
-  throw tb::InputError(fmt::format("{}: {}: {} (all of it in {}), allowed is RTL that Verilator 5.006 builds",
+  throw tb::InputError(fmt::format("{}: {}: {} (all of it in {}), expected RTL that Verilator 5.006 builds",
                                    rtl.command, rtl.top, first.empty() ? "failed" : first, log));
 }
 
@@ -58,7 +58,7 @@ std::vector<std::string> sources(const UserRtl& rtl, const PinMap& map) {
     if (ending == ".sv" || ending == ".v") files.push_back(fs::absolute(entry.path()).string());
   }
   std::sort(files.begin(), files.end());
-  if (files.empty()) throw tb::InputError(rtl.folder, 0, "holds no RTL, allowed are .sv and .v files");
+  if (files.empty()) throw tb::InputError(rtl.folder, 0, "holds no RTL, expected .sv and .v files");
   return files;
 }
 
@@ -189,7 +189,7 @@ namespace {
 std::vector<std::string> reference_folders(const UserRtl& rtl) {
   const fs::path root = fs::path(rtl.sources) / "rtl_ref";
   if (!fs::is_directory(root))
-    throw tb::InputError(fmt::format("{}: the map of pins has reference: true, but {} is not there, allowed is a {}",
+    throw tb::InputError(fmt::format("{}: the map of pins has reference: true, but {} is not there, expected a {}",
                                      rtl.command, root.string(), "program whose sources are where it was built"));
   std::vector<std::string> folders = {root.string(), (fs::path(rtl.sources) / "registers").string()};
   for (const auto& entry : fs::directory_iterator(root))
@@ -220,8 +220,8 @@ void check_ports(const UserRtl& rtl, const PinMap& map, const std::string& build
   const std::string header{std::istreambuf_iterator<char>(file), {}};
   const auto check = [&](const std::string& pin, const std::string& name) {
     if (header.find("(&" + name + ",") != std::string::npos) return;
-    throw tb::InputError(fmt::format("{}: {} has no port {} for {}, allowed are its ports, named in --pins",
-                                     rtl.command, rtl.top, name, pin));
+    throw tb::InputError(fmt::format("{}: {} has no port {} for {}, expected its ports, named in --pins", rtl.command,
+                                     rtl.top, name, pin));
   };
   check("CLK", map.clock.name);
   for (const auto& [pin, port] : map.pins) check(pin, port.name);
@@ -233,7 +233,7 @@ void check_top(const UserRtl& rtl) {
   const bool begins = !rtl.top.empty() && std::isdigit(static_cast<unsigned char>(rtl.top.front())) == 0;
   if (begins && std::all_of(rtl.top.begin(), rtl.top.end(), fits)) return;
   throw tb::InputError(
-      fmt::format("{}: --top is {}, allowed is the name of a module: letters, digits and _", rtl.command, rtl.top));
+      fmt::format("{}: --top is {}, expected the name of a module: letters, digits and _", rtl.command, rtl.top));
 }
 
 bool installed(const char* program) {
@@ -256,9 +256,9 @@ std::string make_command(const UserRtl& rtl, const std::string& build) {
 
 MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind) {
   check_top(rtl);
-  if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, allowed is one with RTL");
+  if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, expected one with RTL");
   if (!installed("verilator"))
-    throw tb::InputError(rtl.command + ": Verilator is missing, allowed is version 5.006 or later in PATH");
+    throw tb::InputError(rtl.command + ": Verilator is missing, expected version 5.006 or later in PATH");
   const std::string build = fs::absolute(rtl.traced ? fs::path(rtl.build) / "traced" : fs::path(rtl.build)).string();
   create_folder(build);
   const std::string adapter = build + "/adapter.cpp";

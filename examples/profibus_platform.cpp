@@ -165,7 +165,7 @@ void run_pins() {
 int sc_main(int argc, char* argv[]) {
   const std::string view = argc > 1 ? argv[1] : "";
   if (view != "tlm" && view != "pins") {
-    std::fprintf(stderr, "profibus_platform: the view is \"%s\", allowed are tlm and pins\n", view.c_str());
+    std::fprintf(stderr, "profibus_platform: the view is \"%s\", expected tlm and pins\n", view.c_str());
     return 2;
   }
   view == "tlm" ? run_tlm() : run_pins();

@@ -234,11 +234,11 @@ def verify(areas):
     expected = 0
     for cell in all_cells(areas):
         if cell.address != expected:
-            raise SystemExit(f"{SOURCE.name}: {cell.path} is at 0x{cell.address:03X}, allowed is 0x{expected:03X}: no gap")
+            raise SystemExit(f"{SOURCE.name}: {cell.path} is at 0x{cell.address:03X}, expected 0x{expected:03X}: no gap")
         expected = cell.last + 1
         for f in cell.fields:
             if f.set_by not in (None, "chip", "user"):
-                raise SystemExit(f'{SOURCE.name}: {cell.path}.{f.name}: set_by is "{f.set_by}", allowed are chip and user')
+                raise SystemExit(f'{SOURCE.name}: {cell.path}.{f.name}: set_by is "{f.set_by}", expected chip and user')
     seen = set()
     for _, constants in constant_groups(areas):
         for constant in constants:

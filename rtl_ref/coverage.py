@@ -30,7 +30,7 @@ def read_points(data, chip):
             continue
         match = re.fullmatch(r"C '(.*)' (\d+)", record)
         if not match:
-            sys.exit(f"{data}: not a record of coverage: {record[:60]!r}, allowed are those of Verilator 5")
+            sys.exit(f"{data}: not a record of coverage: {record[:60]!r}, expected those of Verilator 5")
         fields = dict(field.split("\2", 1) for field in match[1].split("\1") if field)
         kind = "toggle" if fields["page"].startswith("v_toggle") else "line"
         file = "/".join(pathlib.PurePath(fields["f"]).parts[-2:])
@@ -59,13 +59,13 @@ def read_reasons(path):
             continue
         fields = [field.strip() for field in text.split(" | ")]
         if len(fields) != 4 or fields[0] not in ("line", "toggle") or not all(fields):
-            sys.exit(f"{path}:{number}: not a reason, allowed is: line or toggle | file | pattern | why")
+            sys.exit(f"{path}:{number}: not a reason, expected: line or toggle | file | pattern | why")
         kind, file, pattern, why = fields
         bits = None
         if kind == "toggle" and "[" in pattern:
             match = BITS.fullmatch(pattern)
             if not match:
-                sys.exit(f"{path}:{number}: wrong bits in {pattern}, allowed is: a pattern, then [7:4, 2]")
+                sys.exit(f"{path}:{number}: wrong bits in {pattern}, expected: a pattern, then [7:4, 2]")
             pattern, bits = match[1], read_bits(match[2])
         reasons.append(Reason(kind, file, pattern, bits, why))
     return reasons

@@ -37,10 +37,10 @@ void take_signal(const std::string& text, calibrate::Names& names) {
                     signal = equals == std::string::npos ? "" : text.substr(equals + (inverted ? 2 : 1));
   if (signal.empty())
     throw tb::InputError("dsdpv1-sim calibrate: --signal is " + text +
-                         ", allowed is PIN=NAME, or PIN=!NAME for one that is inverted");
+                         ", expected PIN=NAME, or PIN=!NAME for one that is inverted");
   check_word("dsdpv1-sim calibrate: --signal, the pin", pin, pin_names());
   if (!names.given.emplace(pin, calibrate::Names::Given{signal, inverted}).second)
-    throw tb::InputError("dsdpv1-sim calibrate: --signal has " + pin + " twice, allowed is once");
+    throw tb::InputError("dsdpv1-sim calibrate: --signal has " + pin + " twice, expected once");
 }
 
 /// A map of pins says of what differs from the names of the reference RTL how it is called.
@@ -126,7 +126,7 @@ class Calibrate : public Command {
     const auto rate = bus::capture::sample_rate(rate_);
     if (rate) return static_cast<double>(*rate);
     throw tb::InputError("dsdpv1-sim calibrate: --rate is " + rate_ +
-                         ", allowed is a number with Hz, kHz, MHz or GHz, like 24MHz");
+                         ", expected a number with Hz, kHz, MHz or GHz, like 24MHz");
   }
 
   void take_sampling(const Sampling& file) {

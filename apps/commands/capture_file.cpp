@@ -38,8 +38,7 @@ class WaveClock {
   bus::Tick at(std::uint64_t time) const {
     constexpr std::uint64_t kTicks = bus::kTicksPerNs, kMost = std::numeric_limits<bus::Tick>::max() / 2 / kTicks;
     const std::uint64_t whole = time / per_ns_, part = time % per_ns_;
-    if (whole > kMost / ns_)
-      throw capture::CaptureError("lasts more than ten years, allowed is a recording of the line");
+    if (whole > kMost / ns_) throw capture::CaptureError("lasts more than ten years, expected a recording of the line");
     return static_cast<bus::Tick>(whole * ns_ * kTicks + (part * kTicks + per_ns_ / 2) / per_ns_);
   }
 
@@ -141,7 +140,7 @@ class WaveLevels {
 
 void check_is_file(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
-    throw capture::CaptureError("is a wave by a pipe or standard input, allowed for a wave is the name of a file");
+    throw capture::CaptureError("is a wave by a pipe or standard input, expected the name of a file");
 }
 
 bool begins_as_wave(std::string_view beginning) {
@@ -179,7 +178,7 @@ std::ifstream open_file(const std::string& path) {
   if (folder || !file)
     throw tb::InputError(path, 0,
                          tb::what_is_wrong(folder ? EISDIR : errno) +
-                             ", allowed is a file of telegrams: hexadecimal text, a log, a capture, a recording");
+                             ", expected a file of telegrams: hexadecimal text, a log, a capture, a recording");
   return file;
 }
 
@@ -198,7 +197,7 @@ std::string read_archive(std::istream& in) {
     bytes.append(piece.data(), static_cast<std::size_t>(in.gcount()));
     if (bytes.size() > kLongestArchive)
       throw capture::CaptureError(
-          fmt::format("is larger than {} MB, allowed is a session of sigrok", kLongestArchive >> 20U));
+          fmt::format("is larger than {} MB, expected a session of sigrok", kLongestArchive >> 20U));
   }
   return bytes;
 }
@@ -242,7 +241,7 @@ Sampling CaptureFile::read_levels(capture::LevelTaker& taker) {
     throw tb::InputError(name_, 0, error.what());
   }
   throw tb::InputError(name_, 0,
-                       "has no levels of pins, allowed are VCD, FST, a session of sigrok, CSV of a logic analyser");
+                       "has no levels of pins, expected VCD, FST, a session of sigrok, CSV of a logic analyser");
 }
 
 }  // namespace dsdpv1::app

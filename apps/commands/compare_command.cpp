@@ -30,7 +30,7 @@ std::optional<Femtoseconds> duration(const std::string& option, const std::strin
   if (text.empty()) return std::nullopt;
   const std::optional<Femtoseconds> value = tb::compare::parse_duration(text);
   if (value && (negative || *value >= 0)) return value;
-  throw tb::InputError(kCompare + option + " is " + text + ", allowed is " + tb::compare::kDurationForm);
+  throw tb::InputError(kCompare + option + " is " + text + ", expected " + tb::compare::kDurationForm);
 }
 
 class Compare : public Command {

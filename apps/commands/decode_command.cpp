@@ -210,7 +210,7 @@ class Decode : public Command {
     if (file.form() != CaptureForm::kText) return decode_capture(file);
     if (!table_.empty() || !json_.empty() || quiet_)
       throw tb::InputError(file.name(), 0,
-                           "is text, allowed with --table, --json and --quiet are captures and recordings of the line");
+                           "is text, --table, --json and --quiet need a capture or recording of the line");
     return decode_text(file.stream(), file.name());
   }
 

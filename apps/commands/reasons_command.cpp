@@ -97,7 +97,7 @@ tb::CodeText find_reason(const std::vector<tb::CodeText>& all, const std::string
   codes.reserve(all.size());
   for (const tb::CodeText& each : all) codes.push_back(each.code);
   throw tb::InputError(
-      fmt::format("dsdpv1-sim reasons: unknown code {}{}, allowed are those that `dsdpv1-sim reasons` prints", typed,
+      fmt::format("dsdpv1-sim reasons: unknown code {}{}, expected those that `dsdpv1-sim reasons` prints", typed,
                   tb::did_you_mean(code, codes)));
 }
 

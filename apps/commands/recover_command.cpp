@@ -30,7 +30,7 @@ void check_ending(tb::WaveFormat format, const std::string& part, const std::str
   const std::string ending = format == tb::WaveFormat::kFst ? ".fst" : ".vcd";
   tb::check_wave_name(output);
   if (output.substr(output.size() - ending.size()) != ending)
-    throw tb::InputError(output, 0, "has another ending than the wave in " + part + ", allowed is " + ending);
+    throw tb::InputError(output, 0, "has another ending than the wave in " + part + ", expected " + ending);
 }
 
 std::uint64_t recover_wave(tb::WaveFormat format, const std::string& part, const std::string& output) {

@@ -45,7 +45,7 @@ void check_words(const std::string& option, const std::vector<std::string>& give
   for (const std::string& word : given) {
     check_word("dsdpv1-sim regress: " + option, word, allowed);
     if (!seen.insert(word).second)
-      throw tb::InputError(fmt::format("dsdpv1-sim regress: {} has {} twice, allowed is once", option, word));
+      throw tb::InputError(fmt::format("dsdpv1-sim regress: {} has {} twice, expected once", option, word));
   }
 }
 

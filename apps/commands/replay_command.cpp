@@ -36,9 +36,8 @@ void read_log(CaptureFile& file, const bus::capture::TakeTelegram& take, std::op
   std::string error;
   if (!bus::read_telegram_text(file.stream(), file.name(), text, error)) throw tb::InputError(error);
   if (text.logged.empty())
-    throw tb::InputError(
-        file.name(), 0,
-        "is no capture with times, allowed are pcapng, pcap, VCD, FST, a session of sigrok, CSV, a log");
+    throw tb::InputError(file.name(), 0,
+                         "is no capture with times, expected pcapng, pcap, VCD, FST, a session of sigrok, CSV, a log");
   if (!baud) throw tb::InputError(file.name(), 0, "is a log, which does not say its baud rate, name it with --baud");
   std::size_t byte = 0;
   for (const auto& [line, logged] : text.logged) {
@@ -47,7 +46,7 @@ void read_log(CaptureFile& file, const bus::capture::TakeTelegram& take, std::op
     for (; byte < text.bytes.size() && text.lines[byte] == line; ++byte) telegram.bytes.push_back(text.bytes[byte]);
     if (telegram.bytes.size() < logged.whole_length)
       throw tb::InputError(file.name(), line,
-                           "has not all bytes, allowed is a log with all of them (--log-whole, .jsonl)");
+                           "has not all bytes, expected a log with all of them (--log-whole, .jsonl)");
     telegram.baud = baud;
     telegram.end = std::llround(std::stod(logged.at_ns) * static_cast<double>(bus::kTicksPerNs));
     telegram.start =
@@ -155,7 +154,7 @@ class Replay : public Command {
   void take_run_words(const tb::ChipKind& kind) {
     check_word(kReplay + ": --engine", run_.engine_name, {"step", "skip", "rtl"});
     if (wave_.inside && run_.engine_name == "rtl")
-      throw tb::InputError(kReplay + ": --wave-inside is about the model, allowed with it is --engine step or skip");
+      throw tb::InputError(kReplay + ": --wave-inside is about the model, it needs --engine step or skip");
     run_.engine = run_.engine_name == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
     run_.wave = wave_options(kReplay, wave_, kind);
     run_.checks = checks_mode(kReplay, checks_);

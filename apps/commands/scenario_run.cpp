@@ -31,12 +31,11 @@ namespace {
 
 void check_golden(const RunArguments& arguments) {
   if (arguments.fault != 0 && arguments.engine != "rtl" && arguments.engine != "lockstep")
-    throw tb::InputError("dsdpv1-sim run: --fault is one of the RTL, allowed with it is --engine rtl or lockstep");
+    throw tb::InputError("dsdpv1-sim run: --fault is one of the RTL, it needs --engine rtl or lockstep");
   if (arguments.golden.empty()) return;
-  if (arguments.view != "pins")
-    throw tb::InputError("dsdpv1-sim run: --golden is about pins, allowed with it is --view pins");
+  if (arguments.view != "pins") throw tb::InputError("dsdpv1-sim run: --golden is about pins, it needs --view pins");
   if (!arguments.set.empty())
-    throw tb::InputError("dsdpv1-sim run: --golden is about the scenario as it stands, allowed with it is no --set");
+    throw tb::InputError("dsdpv1-sim run: --golden is about the scenario as it stands, it excludes --set");
 }
 
 }  // namespace
@@ -45,15 +44,14 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   check_word("dsdpv1-sim run: --engine", arguments.engine, {"step", "skip", "rtl", "lockstep"});
   check_word("dsdpv1-sim run: --view", arguments.view, {"pins", "tlm"});
   if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
-    throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
-                         " is about pins, allowed with it is --view pins");
+    throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine + " is about pins, it needs --view pins");
   if (arguments.wave.inside && (arguments.view != "pins" || arguments.engine == "rtl"))
     throw tb::InputError(
-        "dsdpv1-sim run: --wave-inside is about the model, allowed with it are --view pins and --engine step, skip or "
+        "dsdpv1-sim run: --wave-inside is about the model, it needs --view pins and --engine step, skip or "
         "lockstep");
   check_golden(arguments);
   if (arguments.seed && (arguments.engine == "step" || arguments.engine == "skip"))
-    throw tb::InputError("dsdpv1-sim run: --seed is for RTL, allowed with it is --engine rtl, lockstep");
+    throw tb::InputError("dsdpv1-sim run: --seed is for RTL, it needs --engine rtl, lockstep");
   if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
   tb::RunOptions options;
   options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
@@ -193,7 +191,7 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
 void check_view(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
   if (arguments.view == "tlm" && scenario.kind->needs_pins(scenario))
     throw tb::InputError("dsdpv1-sim run: --view tlm has whole frames and telegrams at the chip's serial ports, and " +
-                         scenario.file + " an ARM board that moves their pins, allowed is --view pins");
+                         scenario.file + " an ARM board that moves their pins, expected --view pins");
 }
 
 void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {

@@ -137,7 +137,7 @@ void check_possible(const std::vector<Point>& points) {
 void check_map(const std::string& check, const std::vector<Point>& points) {
   const std::vector<std::string> ids = tb::sweep::check_ids(points);
   if (check.empty() || std::find(ids.begin(), ids.end(), check) != ids.end()) return;
-  throw tb::InputError("dsdpv1-sim sweep: --map is " + check + tb::did_you_mean(check, ids) + ", allowed are " +
+  throw tb::InputError("dsdpv1-sim sweep: --map is " + check + tb::did_you_mean(check, ids) + ", expected " +
                        (ids.empty() ? "no checks, the runs have none" : tb::join(ids)));
 }
 

@@ -83,7 +83,7 @@ int report_orphans(const std::string& folder) {
   for (const std::string& name : tb::traces::golden_names(folder)) {
     const fs::path file = fs::path(scenario_folder()) / (name + ".yaml");
     if (fs::exists(file)) continue;
-    std::cerr << fmt::format("{}: there is no scenario {}, allowed are goldens of scenarios: remove it and {}\n",
+    std::cerr << fmt::format("{}: there is no scenario {}, expected goldens of scenarios: remove it and {}\n",
                              tb::traces::manifest_path(folder, name), file.string(),
                              tb::traces::trace_path(folder, name));
     status = kWrongInput;
@@ -256,7 +256,7 @@ class Traces : public Command {
   int carry_out() override {
     leave_nothing_on_signals();
     if (action_ != nullptr) return action_(given_);
-    throw tb::InputError("dsdpv1-sim traces: an action is missing, allowed are check, regenerate, list, wave");
+    throw tb::InputError("dsdpv1-sim traces: an action is missing, expected check, regenerate, list, wave");
   }
 
  private:

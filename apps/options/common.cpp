@@ -65,8 +65,7 @@ void add_capture_options(CLI::App& app, CaptureArguments& arguments) {
 tb::CaptureRequest capture_request(const std::string& command, const CaptureArguments& arguments) {
   const std::optional<std::uint16_t> number = bus::capture::link_type(arguments.link);
   if (!number)
-    throw tb::InputError(command + ": --capture-link is " + arguments.link + ", allowed are " +
-                         bus::capture::kLinkWords);
+    throw tb::InputError(command + ": --capture-link is " + arguments.link + ", expected " + bus::capture::kLinkWords);
   return {arguments.file, *number, "dsdpv1-sim " DSDPV1_VERSION};
 }
 

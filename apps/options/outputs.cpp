@@ -42,7 +42,7 @@ void check_outputs(const std::string& command, const std::vector<NamedFile>& inp
     const auto [owner, free] = owners.emplace(*identity, output.what);
     if (free) continue;
     throw tb::InputError(command + ": " + output.what + " would replace " + owner->second + ", " + output.path +
-                         ", allowed is a separate file");
+                         ", expected a separate file");
   }
 }
 

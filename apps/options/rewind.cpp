@@ -33,7 +33,7 @@ Rewind::Rewind(const RunArguments& arguments, const tb::ChipKind& kind) {
   around_ = check_window("dsdpv1-sim run", "--rewind-on", code_, time_, kind);
   if (arguments.view != "pins" || (arguments.engine != "step" && arguments.engine != "skip"))
     throw tb::InputError(
-        "dsdpv1-sim run: --rewind-on is about the model, allowed with it are --view pins and --engine step or skip");
+        "dsdpv1-sim run: --rewind-on is about the model, it needs --view pins and --engine step or skip");
   tb::find_place(file_);
 }
 

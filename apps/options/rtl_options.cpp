@@ -44,7 +44,7 @@ const cosim::HostPort& RtlChip::port() const {
     for (const cosim::HostPort& port : each->random()->words().ports) {
       if (mode == port.word)
         throw tb::InputError(
-            fmt::format("--mode {0}: only the {1} has that port, allowed is --chip {1} with it", mode, each->name()));
+            fmt::format("--mode {0}: only the {1} has that port, expected --chip {1} with it", mode, each->name()));
       if (std::find(words.begin(), words.end(), port.word) == words.end()) words.emplace_back(port.word);
     }
   check_word("dsdpv1-sim --mode", mode, words);

@@ -27,7 +27,7 @@ std::string kept(const std::string& text) {
 tb::Tick time_in_run(const std::string& text, tb::Tick end) {
   const tb::Tick time = time_of("dsdpv1-sim run: --save-at", text);
   if (time > end)
-    throw tb::InputError(fmt::format("dsdpv1-sim run: --save-at is {}, allowed is a time up to the end of the run, {}",
+    throw tb::InputError(fmt::format("dsdpv1-sim run: --save-at is {}, expected a time up to the end of the run, {}",
                                      text, tb::time_text(end)));
   return time;
 }
@@ -63,8 +63,7 @@ void provide_files(const tb::SavedRun& run, const std::string& path) {
     if (!tb::input_identity(file.path)) continue;  // absent, or a pipe that is gone
     if (tb::try_read_file(file.path, tb::kSavedRunFile.most_mb).text == file.content) continue;
     throw tb::InputError(
-        file.path, 0,
-        fmt::format("has changed since {} was saved, allowed is what it was then, or no such file", path));
+        file.path, 0, fmt::format("has changed since {} was saved, expected what it was then, or no such file", path));
   }
 }
 
@@ -149,12 +148,11 @@ void SavedRuns::check(bool interrupted) {
 
 void SavedRuns::refuse() const {
   const bool same = restored_->program == this_program();
-  throw tb::InputError(
-      path_, 0,
-      fmt::format("the run up to {} is not the one that was saved: {}", tb::time_text(restored_->at),
-                  same ? "this same program does otherwise here, which is its fault"
-                       : fmt::format("{} saved it, this is {}, allowed is a program that does the same",
-                                     restored_->program, this_program())));
+  throw tb::InputError(path_, 0,
+                       fmt::format("the run up to {} is not the one that was saved: {}", tb::time_text(restored_->at),
+                                   same ? "this same program does otherwise here, which is its fault"
+                                        : fmt::format("{} saved it, this is {}, expected a program that does the same",
+                                                      restored_->program, this_program())));
 }
 
 }  // namespace dsdpv1::app

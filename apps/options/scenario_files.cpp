@@ -19,8 +19,7 @@ std::vector<std::string> shipped_scenarios() {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(scenario_folder(), error))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  if (error)
-    throw tb::InputError(scenario_folder(), 0, "is no folder of scenarios, allowed are scenarios by their paths");
+  if (error) throw tb::InputError(scenario_folder(), 0, "is no folder of scenarios, expected scenarios by their paths");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -42,11 +41,11 @@ std::string scenario_file(const std::string& command, const std::string& word) {
     std::string file = fs::path(scenario_folder()) / (word + ".yaml");
     if (fs::exists(file, error)) return file;
     throw tb::InputError(command + ": there is no scenario " + word + tb::did_you_mean(word, shipped_names()) +
-                         ", allowed are a path and the names that traces list shows");
+                         ", expected a path and the names that traces list shows");
   }
   const std::string name = tb::nearest_file(word).empty() ? tb::nearest(fs::path(word).stem(), shipped_names()) : "";
   if (name.empty()) return word;
-  throw tb::InputError(word, 0, "no such file (did you mean " + name + "?), allowed is a scenario in YAML");
+  throw tb::InputError(word, 0, "no such file (did you mean " + name + "?), expected a scenario in YAML");
 }
 
 }  // namespace dsdpv1::app

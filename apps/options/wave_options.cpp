@@ -29,8 +29,8 @@ void check_code(const std::string& command, const char* option, const std::strin
   std::vector<std::string> allowed = tb::scenario::all_codes(kind);
   allowed.insert(allowed.begin(), tb::kAnyViolation);
   if (std::find(allowed.begin(), allowed.end(), code) != allowed.end()) return;
-  throw tb::InputError(fmt::format("{}: {} is {}{}, allowed are {} and the codes of dsdpv1-sim reasons", command,
-                                   option, code, tb::did_you_mean(code, allowed), tb::kAnyViolation));
+  throw tb::InputError(fmt::format("{}: {} is {}{}, expected {} and the codes of dsdpv1-sim reasons", command, option,
+                                   code, tb::did_you_mean(code, allowed), tb::kAnyViolation));
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ std::vector<NamedFile> wave_files(const std::string& command, const std::string&
   std::vector<NamedFile> files = {{"--wave", wave}};
   if (!save) return files;
   if (tb::find_place(wave).direct)
-    throw tb::InputError(command + ": --wave-save reads the wave, allowed for --wave is a regular file, not " + wave);
+    throw tb::InputError(command + ": --wave-save reads the wave, --wave needs a regular file, not " + wave);
   const tb::SaveFiles beside = tb::save_files_of(wave);
   files.push_back({"the save file for GTKWave", beside.gtkwave});
   files.push_back({"the command file for Surfer", beside.surfer});
@@ -113,7 +113,7 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
   if (!arguments.from.empty()) options.selection.from = time_of(command + ": --wave-from", arguments.from);
   if (!arguments.to.empty()) options.selection.to = time_of(command + ": --wave-to", arguments.to);
   if (options.selection.to < options.selection.from)
-    throw tb::InputError(fmt::format("{}: --wave-to is {}, allowed is a time not before --wave-from, {}", command,
+    throw tb::InputError(fmt::format("{}: --wave-to is {}, expected a time not before --wave-from, {}", command,
                                      arguments.to, arguments.from));
   for (const std::string& code : arguments.on) check_code(command, "--wave-on", code, kind);
   return options;

@@ -13,7 +13,7 @@ namespace dsdpv1::app {
 
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed) {
   if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
-  throw tb::InputError(option + " is " + word + tb::did_you_mean(word, allowed) + ", allowed are " + tb::join(allowed));
+  throw tb::InputError(option + " is " + word + tb::did_you_mean(word, allowed) + ", expected " + tb::join(allowed));
 }
 
 int baud_index(const std::string& option, const std::string& word) {
@@ -26,7 +26,7 @@ int baud_index(const std::string& option, const std::string& word) {
 
 bus::Tick time_of(const std::string& option, const std::string& text, bus::Tick least) {
   const std::optional<bus::Tick> time = tb::parse_time(text);
-  if (!time || *time < least) throw tb::InputError(option + " is " + text + ", allowed is " + tb::kTimeForm);
+  if (!time || *time < least) throw tb::InputError(option + " is " + text + ", expected " + tb::kTimeForm);
   return *time;
 }
 

@@ -10,7 +10,7 @@ namespace dsdpv1::simulator {
 
 std::vector<uint8_t> bytes_of(const uint32_t* vector, int32_t count) {
   if (count < 0 || count > DSDPV1_BYTES)
-    throw Error(DPSIM_ERR_ARGUMENT, "number of bytes is " + std::to_string(count) + ", allowed are 0 to 256");
+    throw Error(DPSIM_ERR_ARGUMENT, "number of bytes is " + std::to_string(count) + ", expected 0 to 256");
   std::vector<uint8_t> bytes(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = byte_at(vector, i);
   return bytes;

@@ -56,7 +56,7 @@ MasterOptions read_options(const char* text) {
   for (const Option& each : options_of(text))
     if (!set_member(options, each))
       throw Error(DPSIM_ERR_NOT_FOUND, "option " + each.name +
-                                           " of a master is unknown, allowed are baud, verbose and the "
+                                           " of a master is unknown, expected baud, verbose and the "
                                            "members of dpsim_master_options");
   return options;
 }

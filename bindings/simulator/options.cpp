@@ -26,7 +26,7 @@ std::vector<Option> options_of(const char* text) {
   for (const std::string& word : words_of(text, " ,\t\n")) {
     const std::size_t sign = word.find('=');
     if (sign == std::string::npos || sign == 0)
-      throw Error(DPSIM_ERR_ARGUMENT, "option " + word + " is none, allowed is NAME=VALUE");
+      throw Error(DPSIM_ERR_ARGUMENT, "option " + word + " is none, expected NAME=VALUE");
     options.push_back({word.substr(0, sign), word.substr(sign + 1)});
   }
   return options;
@@ -47,7 +47,7 @@ int64_t number_of(const Option& option, int64_t minimum, int64_t maximum) {
   errno = 0;
   const int64_t value = std::strtoll(option.value.c_str(), &end, 0);
   if (option.value.empty() || *end != 0 || errno != 0 || value < minimum || value > maximum)
-    throw Error(DPSIM_ERR_ARGUMENT, "option " + option.name + " is " + option.value + ", allowed are " +
+    throw Error(DPSIM_ERR_ARGUMENT, "option " + option.name + " is " + option.value + ", expected " +
                                         std::to_string(minimum) + " to " + std::to_string(maximum));
   return value;
 }

@@ -39,7 +39,7 @@ void set_slave_members(dpsim_slave& slave, const char* text) {
       slave.min_slave_interval_us = static_cast<int32_t>(value(1'000'000));
     else
       throw Error(DPSIM_ERR_NOT_FOUND,
-                  "option " + option.name + " of a slave is unknown, allowed are the members of dpsim_slave");
+                  "option " + option.name + " of a slave is unknown, expected the members of dpsim_slave");
   }
 }
 
@@ -68,14 +68,14 @@ dpsim_slave read_gsd(const char* path, const char* modules, uint32_t flags) {
 void copy(uint8_t* to, std::size_t capacity, const std::vector<uint8_t>& bytes, const char* what) {
   if (bytes.size() > capacity)
     throw Error(DPSIM_ERR_ARGUMENT, std::string(what) + " has " + std::to_string(bytes.size()) +
-                                        " bytes, allowed are 0 to " + std::to_string(capacity));
+                                        " bytes, expected 0 to " + std::to_string(capacity));
   std::copy(bytes.begin(), bytes.end(), to);
 }
 
 /// Throws Error if a parameter of a task is out of range.
 uint8_t byte_of(const char* name, int32_t value) {
   if (value < 0 || value > 255)
-    throw Error(DPSIM_ERR_ARGUMENT, std::string(name) + " is " + std::to_string(value) + ", allowed are 0 to 255");
+    throw Error(DPSIM_ERR_ARGUMENT, std::string(name) + " is " + std::to_string(value) + ", expected 0 to 255");
   return static_cast<uint8_t>(value);
 }
 

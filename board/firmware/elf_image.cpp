@@ -20,7 +20,7 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 namespace arm {
 namespace {
 
-std::string allowed_file() { return std::string("allowed is ") + tb::kFirmwareFile.what; }
+std::string allowed_file() { return std::string("expected ") + tb::kFirmwareFile.what; }
 
 // Limits of time and memory that a file can cost; linked firmware has about three segments.
 constexpr unsigned kMostProgramHeaders = 256;
@@ -74,7 +74,7 @@ class Reader {
 
   void check_range(std::uint64_t offset, std::uint64_t size, std::string_view what) const {
     if (size > file_.size() || offset > file_.size() - size)
-      refuse(fmt::format("is truncated: {} at byte {} with {} bytes, the file has {}; allowed is the whole file", what,
+      refuse(fmt::format("is truncated: {} at byte {} with {} bytes, the file has {}; expected the whole file", what,
                          offset, size, file_.size()));
   }
 
@@ -90,7 +90,7 @@ class Reader {
   template <typename T>
   T entry(std::uint64_t table, std::uint64_t entry_size, std::uint64_t index, std::string_view what) const {
     if (entry_size < sizeof(T))
-      refuse(fmt::format("has entries of {} bytes in its {}, allowed are {} or more", entry_size, what, sizeof(T)));
+      refuse(fmt::format("has entries of {} bytes in its {}, expected {} or more", entry_size, what, sizeof(T)));
     return at<T>(table + index * entry_size, what);
   }
 
@@ -125,18 +125,18 @@ class Reader {
 
   void read_segments() {
     if (header_.e_phnum > kMostProgramHeaders)
-      refuse(fmt::format("has {} program headers, allowed are {}", header_.e_phnum, kMostProgramHeaders));
+      refuse(fmt::format("has {} program headers, expected {}", header_.e_phnum, kMostProgramHeaders));
     for (unsigned i = 0; i < header_.e_phnum; ++i) {
       const auto segment = entry<Elf32_Phdr>(header_.e_phoff, header_.e_phentsize, i, "program header table");
       if (segment.p_type == PT_LOAD && segment.p_memsz > 0) read_segment(segment);
     }
-    if (image_.segments.empty()) refuse("has no load segments, allowed is a linked program with code and data");
+    if (image_.segments.empty()) refuse("has no load segments, expected a linked program with code and data");
   }
 
   void read_segment(const Elf32_Phdr& segment) {
     if (segment.p_filesz > segment.p_memsz)
       refuse(fmt::format(
-          "has a segment at 0x{:08X} with {} bytes in the file and {} in memory, allowed is no more than in memory",
+          "has a segment at 0x{:08X} with {} bytes in the file and {} in memory, expected no more than in memory",
           segment.p_paddr, segment.p_filesz, segment.p_memsz));
     check_memory(segment.p_vaddr, segment.p_memsz, "runs");
     if (segment.p_filesz == 0) return;
@@ -149,14 +149,14 @@ class Reader {
 
   void check_memory(std::uint32_t address, std::uint32_t size, std::string_view verb) const {
     if (!memory_.flash.holds(address, size) && !memory_.ram.holds(address, size))
-      refuse(fmt::format("has a segment that {} at 0x{:08X} with {} bytes, allowed are {} and {}", verb, address, size,
+      refuse(fmt::format("has a segment that {} at 0x{:08X} with {} bytes, expected {} and {}", verb, address, size,
                          flash_text(), ram_text()));
   }
 
   void check_overlap(const Elf32_Phdr& segment) const {
     for (const Segment& other : image_.segments) {
       if (segment.p_paddr < other.address + other.bytes.size() && other.address < segment.p_paddr + segment.p_filesz)
-        refuse(fmt::format("has two segments that are loaded over each other at 0x{:08X}, allowed are separate ones",
+        refuse(fmt::format("has two segments that are loaded over each other at 0x{:08X}, expected separate ones",
                            std::max(segment.p_paddr, other.address)));
     }
   }
@@ -183,12 +183,12 @@ class Reader {
     const std::uint32_t table = memory_.flash.start;
     const auto sp = loaded_word(table), reset = loaded_word(table + 4);
     if (!sp || !reset)
-      refuse(fmt::format("loads nothing at 0x{:08X}, allowed is a program with its vector table there", table));
+      refuse(fmt::format("loads nothing at 0x{:08X}, expected a program with its vector table there", table));
     image_.initial_sp = *sp;
     image_.reset_handler = *reset;
     const std::uint64_t ram_end = std::uint64_t{memory_.ram.start} + memory_.ram.size;
     if (*sp <= memory_.ram.start || *sp > ram_end || *sp % 4 != 0)
-      refuse(fmt::format("begins with stack pointer 0x{:08X}, allowed is a multiple of 4 in {} or the end of it", *sp,
+      refuse(fmt::format("begins with stack pointer 0x{:08X}, expected a multiple of 4 in {} or the end of it", *sp,
                          ram_text()));
     check_code_address(*reset, "reset vector");
   }
@@ -200,11 +200,11 @@ class Reader {
 
   void check_code_address(std::uint32_t address, std::string_view what) const {
     if (!memory_.flash.holds(address & ~1U, 2))
-      refuse(fmt::format("has its {} at 0x{:08X}, allowed is {}", what, address, flash_text()));
+      refuse(fmt::format("has its {} at 0x{:08X}, expected {}", what, address, flash_text()));
     if ((address & 1U) == 0)
       refuse(fmt::format(
-          "has its {} at 0x{:08X}, without the Thumb bit; allowed are odd addresses, a Cortex-M3 knows Thumb only",
-          what, address));
+          "has its {} at 0x{:08X}, without the Thumb bit; expected odd addresses, a Cortex-M3 knows Thumb only", what,
+          address));
   }
 
   void read_symbols() {
@@ -220,7 +220,7 @@ class Reader {
 
   void read_symbol_table(const Elf32_Shdr& table) {
     if (table.sh_link >= header_.e_shnum)
-      refuse(fmt::format("has a symbol table with names in section {}, allowed are sections below {}", table.sh_link,
+      refuse(fmt::format("has a symbol table with names in section {}, expected sections below {}", table.sh_link,
                          header_.e_shnum));
     const auto names = section_header(table.sh_link);
     check_range(names.sh_offset, names.sh_size, "the names of symbols");

@@ -13,11 +13,11 @@ std::optional<std::uint32_t> find_mailbox(const ElfImage& image, const std::stri
   if (found == image.symbols.end()) return std::nullopt;
   const Symbol& symbol = found->second;
   if (symbol.size != sizeof(dsdpv1_mailbox))
-    throw tb::InputError(fmt::format("{}: {} has {} bytes, allowed are {}: those of version {} of mailbox.h", path,
+    throw tb::InputError(fmt::format("{}: {} has {} bytes, expected {}: those of version {} of mailbox.h", path,
                                      DSDPV1_MAILBOX_SYMBOL, symbol.size, sizeof(dsdpv1_mailbox),
                                      DSDPV1_MAILBOX_VERSION));
   if (!FirmwareMemory().ram.holds(symbol.address, symbol.size) || symbol.address % alignof(dsdpv1_mailbox) != 0)
-    throw tb::InputError(fmt::format("{}: {} is at 0x{:08X}, allowed is the RAM from 0x{:08X}, a multiple of 8", path,
+    throw tb::InputError(fmt::format("{}: {} is at 0x{:08X}, expected the RAM from 0x{:08X}, a multiple of 8", path,
                                      DSDPV1_MAILBOX_SYMBOL, symbol.address, FirmwareMemory().ram.start));
   return symbol.address;
 }

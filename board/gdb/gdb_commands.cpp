@@ -132,7 +132,7 @@ std::string GdbCommands::monitor(std::string_view command) {
     if (!target_.reset()) return to_hex("the processor cannot be reset\n");
     return to_hex("reset before the next instruction: `stepi` goes to the reset handler\n");
   }
-  return to_hex(fmt::format("monitor {}: allowed are time, reset\n", command));
+  return to_hex(fmt::format("monitor {}: expected time, reset\n", command));
 }
 
 std::string GdbCommands::read_register(GdbFields fields) const {

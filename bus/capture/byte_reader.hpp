@@ -43,7 +43,7 @@ class ByteReader {
  private:
   [[noreturn]] void fail_short() const {
     throw CaptureError("ends in the middle of a packet, at byte " + std::to_string(at_) +
-                       ", allowed are whole packets; it was cut off");
+                       ", expected whole packets; it was cut off");
   }
 
   std::istream& in_;

@@ -77,7 +77,7 @@ class Table {
         begin(cells_of(line));
       else
         row(cells_of(line));
-    if (!begun_) fail("is empty, allowed is a table of levels");
+    if (!begun_) fail("is empty, expected a table of levels");
     taker_.finish(last_);
     return rate_;
   }
@@ -94,7 +94,7 @@ class Table {
     for (char c = 0; in_.get(c) && c != '\n';) {
       line += c;
       if (line.size() > kLongestLine)
-        fail(fmt::format("is longer than {} bytes, allowed are lines of up to that", kLongestLine));
+        fail(fmt::format("is longer than {} bytes, expected lines of up to that", kLongestLine));
     }
     return in_.good() || !line.empty();
   }
@@ -106,7 +106,7 @@ class Table {
     const std::string name = lower_case(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
     if (name.find("samplerate") != std::string::npos) {
       const auto rate = sample_rate(value);
-      if (!rate) fail(fmt::format("samplerate {}, allowed are a number and Hz, kHz, MHz or GHz", value.substr(0, 40)));
+      if (!rate) fail(fmt::format("samplerate {}, expected a number and Hz, kHz, MHz or GHz", value.substr(0, 40)));
       clock_.emplace(*rate);
       rate_ = rate;
     }
@@ -120,9 +120,9 @@ class Table {
     counted_ = !row_already && lower_case(cells[0]) == "samples";
     first_ = time_unit_ != 0 || counted_ ? 1 : 0;
     columns_ = cells.size();
-    if (columns_ <= first_) fail("has no column of levels, allowed are a time and levels, or levels");
+    if (columns_ <= first_) fail("has no column of levels, expected a time and levels, or levels");
     if (time_unit_ == 0 && !clock_)
-      fail("neither a time in the first column nor a samplerate before, allowed is one of them");
+      fail("neither a time in the first column nor a samplerate before, expected one of them");
     name_signals(cells, row_already);
     chosen_ = taker_.choose(names_);
     begun_ = true;
@@ -139,14 +139,14 @@ class Table {
 
   void row(const std::vector<std::string>& cells) {
     if (cells.size() != columns_)
-      fail(fmt::format("has {} columns, allowed are {} as in the first", cells.size(), columns_));
+      fail(fmt::format("has {} columns, expected {} as in the first", cells.size(), columns_));
     const Tick at = time_of(cells);
-    if (at < last_) fail("goes back in time, allowed is the order of time");
+    if (at < last_) fail("goes back in time, expected the order of time");
     last_ = at;
     for (std::size_t which = 0; which < chosen_.size(); ++which) {
       const std::string& cell = cells[first_ + chosen_[which]];
       const std::optional<bool> now = level(cell);
-      if (!now) fail(fmt::format("level {}, allowed are 0 and 1", cell.substr(0, 40)));
+      if (!now) fail(fmt::format("level {}, expected 0 or 1", cell.substr(0, 40)));
       taker_.level(at, which, *now);
     }
   }
@@ -156,7 +156,7 @@ class Table {
     const std::optional<double> time = decimal(cells[0]);
     if (counted_ && time && *time >= 0 && *time < kMostSamples) return clock_->at(static_cast<std::uint64_t>(*time));
     if (!time || !(std::abs(*time) * time_unit_ < kLongestTime))
-      fail(fmt::format("time {}, allowed is a number", cells[0].substr(0, 40)));
+      fail(fmt::format("time {}, expected a number", cells[0].substr(0, 40)));
     const Tick at = std::llround(*time * time_unit_ * static_cast<double>(kTicksPerSecond));
     if (!zero_) zero_ = std::min<Tick>(at, 0);  // a trigger may come after the first change
     return at - *zero_;

@@ -15,7 +15,7 @@ std::optional<std::uint16_t> link_type(const std::string& word) {
 
 void check_link(std::uint32_t link) {
   if (!may_be_profibus(link))
-    throw CaptureError(fmt::format("packets of link type {}, allowed are {} (PROFIBUS) and {} to {} (USER0 to USER15)",
+    throw CaptureError(fmt::format("packets of link type {}, expected {} (PROFIBUS) and {} to {} (USER0 to USER15)",
                                    link, kProfibusLink, kFirstUserLink, kLastUserLink));
 }
 

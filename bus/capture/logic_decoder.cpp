@@ -46,16 +46,16 @@ std::optional<std::size_t> likely_line(const std::vector<std::string>& names) {
 }  // namespace
 
 std::size_t choose_signal(const std::vector<std::string>& names, const std::string& wanted) {
-  if (names.empty()) throw CaptureError("no signal of one bit, allowed is a recording of the line");
+  if (names.empty()) throw CaptureError("no signal of one bit, expected a recording of the line");
   if (!wanted.empty()) {
     if (const auto whole = find(names, [&](const std::string& name) { return name == wanted; })) return *whole;
     const std::string last = lower_case(wanted);
     if (const auto found = find(names, [&](const std::string& name) { return leaf(name) == last; })) return *found;
-    throw CaptureError(fmt::format("no signal {}, allowed are {}", wanted, listed(names)));
+    throw CaptureError(fmt::format("no signal {}, expected {}", wanted, listed(names)));
   }
   if (names.size() == 1) return 0;
   if (const auto found = likely_line(names)) return *found;
-  throw CaptureError("several signals, name that of the line with --signal, allowed are " + listed(names));
+  throw CaptureError("several signals, name that of the line with --signal, expected " + listed(names));
 }
 
 /// A segment at one rate, with only the monitor on it.
@@ -145,7 +145,7 @@ int LogicDecoder::best_rate(Tick end) const {
   for (int baud = 0; baud < kBaudCount; ++baud)
     inverted.at(static_cast<std::size_t>(baud)) = worth(baud, end, !inverted_);
   const bool other = *std::max_element(inverted.begin(), inverted.end()) > 0;
-  throw CaptureError(fmt::format("no right telegram at any of the ten baud rates{}, allowed is a recording of the line",
+  throw CaptureError(fmt::format("no right telegram at any of the ten baud rates{}, expected a recording of the line",
                                  !other      ? ""
                                  : inverted_ ? " (without --invert there are some)"
                                              : " (with --invert there are some)"));

@@ -28,7 +28,7 @@ class PacketClock {
 
  private:
   [[noreturn]] static void fail() {
-    throw CaptureError("packets more than 20 years apart, allowed are times of one capture");
+    throw CaptureError("packets more than 20 years apart, expected times of one capture");
   }
 
   std::optional<std::int64_t> first_s_;

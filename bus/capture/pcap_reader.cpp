@@ -52,7 +52,7 @@ void read_pcap(std::istream& in, const TakeTelegram& take) {
     const std::uint64_t size = field(8);
     if (size > kLongestPacket)
       throw CaptureError(
-          fmt::format("a packet of {} bytes before byte {}, allowed are up to {}", size, file.at(), kLongestPacket));
+          fmt::format("a packet of {} bytes before byte {}, expected up to {}", size, file.at(), kLongestPacket));
     file.need(size, bytes);
     CapturedTelegram telegram;
     telegram.start = telegram.end = clock.at(field(0) * form.per_second + field(4), form.per_second);

@@ -38,7 +38,7 @@ std::uint64_t units_per_second(std::uint8_t resolution) {
   const unsigned power = resolution & 0x7FU;
   const bool binary = (resolution & 0x80U) != 0;
   if (power > (binary ? 40U : 12U))
-    throw CaptureError(fmt::format("time resolution 0x{:02X}, allowed are up to 10^-12 and 2^-40 seconds", resolution));
+    throw CaptureError(fmt::format("time resolution 0x{:02X}, expected up to 10^-12 and 2^-40 seconds", resolution));
   std::uint64_t units = 1;
   for (unsigned i = 0; i < power; ++i) units *= binary ? 2 : 10;
   return units;
@@ -70,19 +70,19 @@ class Reader {
     in_.need(4, order);
     big_endian_ = number_in(order, true) == pcapng::kByteOrder;
     if (!big_endian_ && number_in(order, false) != pcapng::kByteOrder)
-      throw CaptureError("a section without its byte-order magic, allowed is a pcapng file");
+      throw CaptureError("a section without its byte-order magic, expected a pcapng file");
     interfaces_.clear();
     const std::uint64_t length = length_of(front);
     if (length < pcapng::kBlockFrame + 16)
-      throw CaptureError("a section header that is too short, allowed is a pcapng file");
+      throw CaptureError("a section header that is too short, expected a pcapng file");
     in_.need(length - pcapng::kBlockFrame, body_);  // the byte order is already read; the length follows again
   }
 
   std::uint64_t length_of(const std::string& front) const {
     const std::uint64_t length = number(std::string_view(front).substr(4, 4));
     if (length >= pcapng::kBlockFrame && length % 4 == 0 && length <= kLongestBlock) return length;
-    throw CaptureError(fmt::format("a block of {} bytes before byte {}, allowed are multiples of 4 from {} to {}",
-                                   length, in_.at(), pcapng::kBlockFrame, kLongestBlock));
+    throw CaptureError(fmt::format("a block of {} bytes before byte {}, expected multiples of 4 from {} to {}", length,
+                                   in_.at(), pcapng::kBlockFrame, kLongestBlock));
   }
 
   void block(std::uint32_t type, std::uint64_t length) {
@@ -99,12 +99,12 @@ class Reader {
 
   const Reader& least(std::size_t size) const {
     if (body_.size() >= size) return *this;
-    throw CaptureError(fmt::format("a block that is too short before byte {}, allowed is a pcapng file", in_.at()));
+    throw CaptureError(fmt::format("a block that is too short before byte {}, expected a pcapng file", in_.at()));
   }
 
   void interface() {
     if (interfaces_.size() >= kMostInterfaces)
-      throw CaptureError(fmt::format("more than {} interfaces, allowed are up to that", kMostInterfaces));
+      throw CaptureError(fmt::format("more than {} interfaces, expected up to that", kMostInterfaces));
     Interface added;
     added.link = static_cast<std::uint32_t>(least(8).field(0, 2));
     for_options(8, [&](std::uint64_t code, std::string_view value) {

@@ -22,7 +22,7 @@ std::string metadata_of(ZipArchive& archive) {
   const auto take = [&text](const char* bytes, std::size_t size) {
     text.append(bytes, std::min(size, kLongestMetadata - text.size()));
   };
-  if (!archive.read("metadata", take)) throw CaptureError("has no metadata, allowed is a session of sigrok");
+  if (!archive.read("metadata", take)) throw CaptureError("has no metadata, expected a session of sigrok");
   return text;
 }
 
@@ -60,7 +60,7 @@ Session session_of(const std::map<std::string, std::string>& device) {
   session.unit = static_cast<std::size_t>(std::strtoul(value("unitsize").c_str(), nullptr, 10));
   if (session.member.empty() || !rate || session.unit < 1 || session.unit > kMostUnit)
     throw CaptureError(
-        "its metadata has no logic samples (capturefile, samplerate, unitsize 1 to 16), allowed is a session of "
+        "its metadata has no logic samples (capturefile, samplerate, unitsize 1 to 16), expected a session of "
         "sigrok");
   session.rate = *rate;
   session.clock = SampleClock(*rate);
@@ -123,7 +123,7 @@ std::uint64_t read_sigrok_levels(const std::string& archive, LevelTaker& taker) 
   if (!opened.read(session.member, add))
     for (int part = 1; opened.read(fmt::format("{}-{}", session.member, part), add); ++part) {
     }
-  if (!samples.any()) throw CaptureError("has no samples, allowed is a session of sigrok");
+  if (!samples.any()) throw CaptureError("has no samples, expected a session of sigrok");
   taker.finish(samples.end());
   return session.rate;
 }

@@ -19,7 +19,7 @@ voidpf open_bytes(voidpf bytes, const void* /*name*/, int /*mode*/) {
 }
 
 void check(bool good) {
-  if (!good) throw CaptureError("a member of the archive is damaged, allowed is a session of sigrok");
+  if (!good) throw CaptureError("a member of the archive is damaged, expected a session of sigrok");
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ ZipArchive::ZipArchive(const std::string& bytes) {
   calls.zopen64_file = open_bytes;
   calls.opaque = const_cast<std::string*>(&bytes);  // NOLINT(cppcoreguidelines-pro-type-const-cast): C, only reads
   file_.reset(unzOpen2_64("", &calls));
-  if (!file_) throw CaptureError("is no whole ZIP archive, allowed is a session of sigrok");
+  if (!file_) throw CaptureError("is no whole ZIP archive, expected a session of sigrok");
 }
 
 bool ZipArchive::read(const std::string& member, const TakeBytes& take) {

@@ -21,7 +21,7 @@ bool is_high(const FdlRequest& request) {
 Master1::Master1(Segment& segment, const MasterConfig& config)
     : config_(config), fdl_(segment, config.name, config.address, config.bus), baud_(config.baud) {
   if (config.address >= kHighestAddress)
-    throw std::invalid_argument(fmt::format("master address {}, allowed are 0 to 125", config.address));
+    throw std::invalid_argument(fmt::format("master address {}, expected 0 to 125", config.address));
   if (config.bus.ring) ring_ = std::make_unique<TokenRing>(fdl_, config.address, config.bus);
   if (ring_) ring_->set_baud(config.baud);
   fdl_.set_baud(now_, config.baud);

@@ -14,7 +14,7 @@ Master2::Master2(Segment& segment, const MasterConfig& config)
       ring_(fdl_, config.address, config.bus),
       baud_(config.baud) {
   if (config.address >= kHighestAddress)
-    throw std::invalid_argument(fmt::format("master address {}, allowed are 0 to 125", config.address));
+    throw std::invalid_argument(fmt::format("master address {}, expected 0 to 125", config.address));
   fdl_.set_baud(now_, config.baud);
   ring_.set_baud(config.baud);
   fdl_.on_done = [this](const FdlResult& result) { finished(result); };

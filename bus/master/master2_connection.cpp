@@ -49,7 +49,7 @@ Bytes long_add_addr(const AddressEnd& source, const AddressEnd& destination) {
 
 Connection::Connection(const ConnectionParameters& parameters, std::uint8_t master)
     : parameters_(parameters), master_(master) {
-  check(parameters.slave <= kHighestAddress, fmt::format("slave address {}, allowed are 0 to 126", parameters.slave));
+  check(parameters.slave <= kHighestAddress, fmt::format("slave address {}, expected 0 to 126", parameters.slave));
   check(parameters.features.size() == 2 && parameters.profile_features.size() == 2,
         "Features_Supported and Profile_Features_Supported have 2 bytes each");
   check(parameters.add_addr.size() <= kMaxInitiate, "Add_Addr does not fit the telegram");

@@ -25,11 +25,11 @@ void check_parameters(const SlaveParameters& slave) {
   check(slave.user_prm.size() <= 237, slave,
         fmt::format("{} user parameter bytes, at most 237", slave.user_prm.size()));
   check(!slave.cfg.empty() && slave.cfg.size() <= kMaxData, slave,
-        fmt::format("{} configuration bytes, allowed are 1 to 244", slave.cfg.size()));
+        fmt::format("{} configuration bytes, expected 1 to 244", slave.cfg.size()));
   check(slave.input_length >= 0 && slave.input_length <= 244, slave,
-        fmt::format("input length {}, allowed are 0 to 244", slave.input_length));
+        fmt::format("input length {}, expected 0 to 244", slave.input_length));
   check(slave.output_length >= 0 && slave.output_length <= 244, slave,
-        fmt::format("output length {}, allowed are 0 to 244", slave.output_length));
+        fmt::format("output length {}, expected 0 to 244", slave.output_length));
 }
 
 std::uint16_t ident_of(const Bytes& diagnosis) {

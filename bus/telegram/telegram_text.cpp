@@ -32,7 +32,7 @@ std::string add_word(std::string word, int line, TelegramText& text) {
   if (word.size() > 2 && word[0] == '0' && (word[1] == 'x' || word[1] == 'X')) word.erase(0, 2);
   for (const char c : word)
     if (std::isxdigit(static_cast<unsigned char>(c)) == 0)
-      return fmt::format("'{}' is no hexadecimal number, allowed are bytes of two digits 00 to FF", shown);
+      return fmt::format("'{}' is no hexadecimal number, expected bytes of two digits 00 to FF", shown);
   if (word.size() % 2 != 0) return fmt::format("'{}' has an odd number of digits, a byte has two: 00 to FF", shown);
   for (std::size_t i = 0; i < word.size(); i += 2) {
     text.bytes.push_back(static_cast<std::uint8_t>(std::stoul(word.substr(i, 2), nullptr, 16)));
@@ -98,7 +98,7 @@ std::optional<LogLine> json_log_line(const std::string& content, std::string& er
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
   if (!json.is_object() || text("kind").empty() || !json.contains("at_ns") || !json["at_ns"].is_number()) {
-    error = "is no line of a log, allowed are JSON objects with at_ns and kind, or bytes of two digits 00 to FF";
+    error = "is no line of a log, expected JSON objects with at_ns and kind, or bytes of two digits 00 to FF";
     return std::nullopt;
   }
   LogLine line{fmt::format("{:.3f}", json["at_ns"].get<double>()), text("kind"), text("bytes")};
@@ -137,10 +137,10 @@ bool get_line(std::istream& in, std::string& line) {
 
 std::string add_limited_line(const std::string& content, int line, TelegramText& text) {
   if (content.size() > kLongestLine)
-    return fmt::format("is longer than {} MB, allowed are lines of up to that", kLongestLine >> 20U);
+    return fmt::format("is longer than {} MB, expected lines of up to that", kLongestLine >> 20U);
   std::string wrong = add_line(content, line, text);
   if (wrong.empty() && text.bytes.size() > kMostBytes)
-    return fmt::format("more than {} MB of telegrams, allowed are up to that", kMostBytes >> 20U);
+    return fmt::format("more than {} MB of telegrams, expected up to that", kMostBytes >> 20U);
   return wrong;
 }
 

@@ -119,11 +119,11 @@ CampaignRecord read_record(const std::string& folder, std::uint64_t seed) {
     json.at("seed").get_to(other);
   } catch (const std::exception& error) {
     throw tb::InputError(path + ": no record of a campaign of this program (" + error.what() +
-                         "), allowed is --state with another folder");
+                         "), expected --state with another folder");
   }
   if (other != seed)
-    throw tb::InputError(fmt::format(
-        "{}: this campaign has seed {}, allowed is --seed {} or --state with another folder", path, other, other));
+    throw tb::InputError(fmt::format("{}: this campaign has seed {}, expected --seed {} or --state with another folder",
+                                     path, other, other));
   return record;
 }
 

@@ -72,7 +72,7 @@ std::vector<Fault> read_faults(const std::string& path) {
     std::istringstream words(line);
     Fault fault;
     if (!(words >> fault.number >> fault.block >> fault.stimulus) || !std::getline(words >> std::ws, fault.text))
-      throw tb::InputError(path, number, "is no fault, allowed is: number, block, stimulus, what is wrong");
+      throw tb::InputError(path, number, "is no fault, expected: number, block, stimulus, what is wrong");
     faults.push_back(std::move(fault));
   }
   return faults;
@@ -80,7 +80,7 @@ std::vector<Fault> read_faults(const std::string& path) {
 
 std::vector<NamedStimulus> read_stimuli(const std::string& folder, const tb::ChipKind& kind) {
   std::vector<NamedStimulus> stimuli;
-  if (!fs::is_directory(folder)) throw tb::InputError(folder, 0, "is no folder, allowed is one with stimulus files");
+  if (!fs::is_directory(folder)) throw tb::InputError(folder, 0, "is no folder, expected one with stimulus files");
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".stimulus") continue;
     const std::string text = tb::read_file(entry.path().string(), tb::kStimulusFile);

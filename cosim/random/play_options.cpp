@@ -18,7 +18,8 @@ std::shared_ptr<const tb::OwnSettings> chip_settings(const tb::ChipKind& kind, c
   YAML::Node scenario(YAML::NodeType::Map);
   for (const tb::scenario::Setting& each : tb::scenario::parse_settings(set)) {
     if (each.path.rfind("chip.", 0) != 0)
-      throw tb::InputError(each.origin, 0, "is no parameter of the chip, allowed is like chip.search_window_ms=1");
+      throw tb::InputError(each.origin, 0,
+                           "is no parameter of the chip, expected something like chip.search_window_ms=1");
     tb::scenario::apply(each, kind, scenario);
   }
   std::shared_ptr<tb::OwnSettings> chip = kind.make_chip_settings();

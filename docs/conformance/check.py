@@ -76,7 +76,7 @@ def check_clauses(root, data, known):
     for clause in [clause for document in data.documents for clause in document.clauses]:
         what = f"clause {clause.name}"
         if clause.name in seen:
-            yield f"{clause.where}: {what} is there twice, allowed is once"
+            yield f"{clause.where}: {what} is there twice, expected once"
         seen.add(clause.name)
         for name in clause.rulings:
             if name not in data.rulings:
@@ -112,7 +112,7 @@ def check_plan(data, known):
     planned = [section.rulings for section in data.plan]
     for letters in sorted({source.letters(name) for name in data.rulings}):
         if planned.count(letters) != 1:
-            yield f"{source.PLAN}:1: the rulings {letters}... stand in {planned.count(letters)} sections, allowed is one"
+            yield f"{source.PLAN}:1: the rulings {letters}... stand in {planned.count(letters)} sections, expected one"
     for text, where in data.texts:
         for name in named_in(text):
             if not known.has(name):

@@ -119,7 +119,7 @@ def build(node, file):
     for key, value in node.value:
         result.where_is[key.value] = f"{file}:{key.start_mark.line + 1}"
         if key.value in result:
-            raise BadData(f"{result.where_is[key.value]}: {key.value} is there twice, allowed is once")
+            raise BadData(f"{result.where_is[key.value]}: {key.value} is there twice, expected once")
         result[key.value] = build(value, file)
     return result
 
@@ -139,7 +139,7 @@ def read(root, file, kind=yaml.MappingNode, what="a mapping"):
 def keys(entry, what, needed, optional=()):
     for key in entry:
         if key not in [*needed, *optional]:
-            raise BadData(f"{entry.where}: {what} has no key {key}, allowed are {', '.join([*needed, *optional])}")
+            raise BadData(f"{entry.where}: {what} has no key {key}, expected {', '.join([*needed, *optional])}")
     for key in needed:
         if key not in entry:
             raise BadData(f"{entry.where}: {what} needs the key {key}")
@@ -162,7 +162,7 @@ def names(entry, key, where):
 def test(text, where):
     match = re.fullmatch(r"(\S+?)(?: \((.+)\))?", text, re.S)
     if match is None:
-        raise BadData(f'{where}: "{text}" is no test; allowed is a name, and behind it a note in brackets')
+        raise BadData(f'{where}: "{text}" is no test; expected a name, and behind it a note in brackets')
     return Test(match.group(1), match.group(2) or "")
 
 
@@ -223,7 +223,7 @@ def read_clause(entry, rulings, earlier, part):
     sources = Sources(entry, rulings, earlier, part)
     reason = entry.get("reason", "")
     if reason and "tests" in entry:
-        raise BadData(f"{entry.where}: clause {entry['at']} has tests and a reason for having none, allowed is one of them")
+        raise BadData(f"{entry.where}: clause {entry['at']} has tests and a reason for having none, expected one of them")
     ruled = joined([names(entry, "ruled", entry.where), *[clause.rulings for clause in sources.repeated]])
     found = [] if reason else sources.of(entry, "tests")
     if not reason and not found and sources.repeated:

@@ -19,7 +19,7 @@ import pathlib
 import sys
 
 if missing := [name for name in ("cocotb", "numpy", "dsdpv1", "cocotbext") if importlib.util.find_spec(name) is None]:
-    print(f"run.py: {sys.executable} has no {', '.join(missing)}, allowed is a Python with dsdpv1[cocotb] (docs/cocotb.md)", file=sys.stderr)
+    print(f"run.py: {sys.executable} has no {', '.join(missing)}, expected a Python with dsdpv1[cocotb] (docs/cocotb.md)", file=sys.stderr)
     sys.exit(2)
 
 from cocotb.runner import get_results, get_runner

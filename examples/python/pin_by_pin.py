@@ -8,7 +8,7 @@ import importlib.util
 import sys
 
 if missing := [name for name in ("numpy", "dsdpv1") if importlib.util.find_spec(name) is None]:
-    print(f"pin_by_pin.py: {sys.executable} has no {', '.join(missing)}, allowed is a Python with dsdpv1 (docs/python.md)", file=sys.stderr)
+    print(f"pin_by_pin.py: {sys.executable} has no {', '.join(missing)}, expected a Python with dsdpv1 (docs/python.md)", file=sys.stderr)
     sys.exit(2)
 
 import dsdpv1

@@ -82,7 +82,7 @@ enum {
   DPSIM_ERR_INTERNAL = -10 /**< a fault of the library itself; please report its message */
 };
 
-/** Text of this thread's last failed call, one line: "dpsim_chip_set: pin is 18, allowed are 0 to 17". Empty if none
+/** Text of this thread's last failed call, one line: "dpsim_chip_set: pin is 18, expected 0 to 17". Empty if none
  * has failed yet; a successful call does not change it. Valid until the next failing call of this thread. */
 DPSIM_API const char* dpsim_error_message(void);
 /** "DPSIM_ERR_TIME"; "unknown status" for other numbers. */

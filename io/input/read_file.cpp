@@ -90,7 +90,7 @@ std::string did_you_mean_file(const std::string& path) {
 std::string read_file(const std::string& path, const FileKind& kind) {
   ReadFile file = try_read_file(path, kind.most_mb);
   if (file.wrong == kAbsent) file.wrong += did_you_mean_file(path);
-  if (!file.wrong.empty()) throw InputError(path, 0, fmt::format("{}, allowed is {}", file.wrong, kind.what));
+  if (!file.wrong.empty()) throw InputError(path, 0, fmt::format("{}, expected {}", file.wrong, kind.what));
   return std::move(file.text);
 }
 

@@ -5,7 +5,7 @@
 
 namespace dsdpv1::tb {
 
-/// The kind of a file, for the error's "allowed is ...", and its largest size in MB. The limit is far beyond every
+/// The kind of a file, for the error's "expected ...", and its largest size in MB. The limit is far beyond every
 /// right file, so that a wrong name (/dev/zero, an image of a disk) gives one line and does not fill the memory.
 struct FileKind {
   const char* what;

@@ -28,7 +28,7 @@ std::string shown(const YAML::Node& node) {
 
 const std::string& scalar(const Field& field, const YAML::Node& node, const Source& source,
                           const std::string& allowed) {
-  if (!node.IsScalar()) fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), allowed));
+  if (!node.IsScalar()) fail(source, node, fmt::format("{} is {}, expected {}", field.name, shown(node), allowed));
   return node.Scalar();
 }
 
@@ -47,7 +47,7 @@ bus::Bytes read_byte_list(const Field& field, const YAML::Node& node, const Sour
   for (const YAML::Node& item : node) {
     const std::optional<std::int64_t> value = item.IsScalar() ? parse_integer(item.Scalar()) : std::nullopt;
     if (!value || *value < 0 || *value > 255)
-      fail(source, item, fmt::format("{} holds {}, allowed are numbers from 0 to 255", field.name, shown(item)));
+      fail(source, item, fmt::format("{} holds {}, expected numbers from 0 to 255", field.name, shown(item)));
     bytes.push_back(static_cast<std::uint8_t>(*value));
   }
   return bytes;
@@ -64,7 +64,7 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
 }
 
 std::string key_text(const YAML::Node& key, const Source& source) {
-  if (!key.IsScalar()) fail(source, key, fmt::format("a key is {}, allowed is a word", shown(key)));
+  if (!key.IsScalar()) fail(source, key, fmt::format("a key is {}, expected a word", shown(key)));
   return key.Scalar();
 }
 
@@ -72,7 +72,7 @@ std::string key_text(const YAML::Node& key, const Source& source) {
 const Choice& chosen(const Object& object, const YAML::Node& node, const Source& source) {
   const YAML::Node word = node[object.selector];
   if (!word.IsDefined())
-    fail(source, node, fmt::format("{} is missing in {}, allowed are {}", object.selector, object.name, join([&] {
+    fail(source, node, fmt::format("{} is missing in {}, expected {}", object.selector, object.name, join([&] {
                                      std::vector<std::string> words;
                                      for (const Choice& choice : object.choices) words.push_back(choice.word);
                                      return words;
@@ -99,13 +99,11 @@ void check_groups(const Object& object, const std::set<std::string>& seen, const
     const auto found = count(group);
     if (found == 0) fail(source, node, fmt::format("{} needs exactly one of {}", object.name, join(group)));
     if (found > 1)
-      fail(source, node, fmt::format("{} has {} of {}, allowed is exactly one", object.name, found, join(group)));
+      fail(source, node, fmt::format("{} has {} of {}, expected exactly one", object.name, found, join(group)));
   }
-  for (const auto& group : object.at_most_one) {
+  for (const auto& group : object.at_most_one)
     if (count(group) > 1)
-      fail(source, node,
-           fmt::format("{} has {} of {}, allowed is one at most", object.name, count(group), join(group)));
-  }
+      fail(source, node, fmt::format("{} has {} of {}, expected one at most", object.name, count(group), join(group)));
   for (const auto& group : object.at_least_one)
     if (count(group) == 0) fail(source, node, fmt::format("{} needs at least one of {}", object.name, join(group)));
 }
@@ -140,7 +138,7 @@ std::int64_t read_integer(const Field& field, const YAML::Node& node, const Sour
   const std::string allowed = integer_form(field);
   const std::optional<std::int64_t> value = parse_integer(scalar(field, node, source, allowed));
   if (!value || *value < field.type.range.min || *value > field.type.range.max)
-    fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), allowed));
+    fail(source, node, fmt::format("{} is {}, expected {}", field.name, shown(node), allowed));
   return *value;
 }
 
@@ -151,23 +149,23 @@ double read_number(const Field& field, const YAML::Node& node, const Source& sou
   scalar(field, node, source, allowed);
   const bool good = YAML::convert<double>::decode(node, value) && std::isfinite(value);
   if (!good || value < static_cast<double>(field.type.range.min) || value > static_cast<double>(field.type.range.max))
-    fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), allowed));
+    fail(source, node, fmt::format("{} is {}, expected {}", field.name, shown(node), allowed));
   return value;
 }
 
 bool read_boolean(const Field& field, const YAML::Node& node, const Source& source) {
   const std::string& text = scalar(field, node, source, "true or false");
   if (text != "true" && text != "false")
-    fail(source, node, fmt::format("{} is {}, allowed is true or false", field.name, shown(node)));
+    fail(source, node, fmt::format("{} is {}, expected true or false", field.name, shown(node)));
   return text == "true";
 }
 
 std::string read_text(const Field& field, const YAML::Node& node, const Source& source) {
   const std::string& text = scalar(field, node, source, "text");
-  if (text.empty()) fail(source, node, fmt::format("{} is empty, allowed is text", field.name));
+  if (text.empty()) fail(source, node, fmt::format("{} is empty, expected text", field.name));
   const auto most = static_cast<std::size_t>(field.type.range.max);
   if (most != 0 && text.size() > most)
-    fail(source, node, fmt::format("{} has {} characters, allowed are {}", field.name, text.size(), most));
+    fail(source, node, fmt::format("{} has {} characters, expected {}", field.name, text.size(), most));
   return text;
 }
 
@@ -178,17 +176,17 @@ std::size_t read_word(const Field& field, const YAML::Node& node, const Source& 
   const auto found = std::find(words.begin(), words.end(), text);
   if (found == words.end()) {
     fail(source, node,
-         fmt::format("{} is {}{}, allowed are {}", field.name, shown(node), did_you_mean(text, words), join(words)));
+         fmt::format("{} is {}{}, expected {}", field.name, shown(node), did_you_mean(text, words), join(words)));
   }
   return static_cast<std::size_t>(found - words.begin());
 }
 
 bus::Tick read_time(const Field& field, const YAML::Node& node, const Source& source) {
   const std::optional<bus::Tick> time = parse_time(scalar(field, node, source, kTimeForm));
-  if (!time) fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), kTimeForm));
+  if (!time) fail(source, node, fmt::format("{} is {}, expected {}", field.name, shown(node), kTimeForm));
   if (*time < field.type.range.min || *time > field.type.range.max) {
     fail(source, node,
-         fmt::format("{} is {}, allowed is {} to {}", field.name, shown(node), time_text(field.type.range.min),
+         fmt::format("{} is {}, expected {} to {}", field.name, shown(node), time_text(field.type.range.min),
                      time_text(field.type.range.max)));
   }
   return *time;
@@ -203,13 +201,13 @@ bus::Bytes read_bytes(const Field& field, const YAML::Node& node, const Source& 
     // 10 alone could be meant in decimal: one plain number must be quoted, or be in a list.
     const bool plain_number = node.Tag() == "?" && parse_integer(text).has_value();
     const std::optional<bus::Bytes> parsed = plain_number ? std::nullopt : parse_bytes(text);
-    if (!parsed) fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), bytes_form(field)));
+    if (!parsed) fail(source, node, fmt::format("{} is {}, expected {}", field.name, shown(node), bytes_form(field)));
     bytes = *parsed;
   }
   const auto length = static_cast<std::int64_t>(bytes.size());
   if (length < field.type.range.min || length > field.type.range.max) {
     fail(source, node,
-         fmt::format("{} has {} bytes, allowed are {} to {}", field.name, length, field.type.range.min,
+         fmt::format("{} has {} bytes, expected {} to {}", field.name, length, field.type.range.min,
                      field.type.range.max));
   }
   return bytes;
@@ -225,21 +223,21 @@ void check_list(const Field& field, const YAML::Node& node, const Source& source
   if (!node.IsSequence()) {
     std::string words;
     for (const Word& word : field.type.words) words += " or " + word.text;
-    fail(source, node, fmt::format("{} is {}, allowed is a list{}", field.name, shown(node), words));
+    fail(source, node, fmt::format("{} is {}, expected a list{}", field.name, shown(node), words));
   }
   const auto items = static_cast<std::int64_t>(node.size());
   if (items < field.type.range.min || items > field.type.range.max) {
     fail(source, node,
-         fmt::format("{} has {} items, allowed are {} to {}", field.name, items, field.type.range.min,
+         fmt::format("{} has {} items, expected {} to {}", field.name, items, field.type.range.min,
                      field.type.range.max));
   }
 }
 
 void read_object(const Object& object, void* owner, const YAML::Node& node, const Source& source) {
   if (!node.IsMap())
-    fail(source, node,
-         fmt::format("{} is {}, allowed is a mapping with the keys {}", object.name, shown(node),
-                     join(names_of(object))));
+    fail(
+        source, node,
+        fmt::format("{} is {}, expected a mapping with the keys {}", object.name, shown(node), join(names_of(object))));
   object.set_line(owner, line_of(node));
   const Choice* choice = object.selector.empty() ? nullptr : &chosen(object, node, source);
   const std::vector<std::string> allowed = allowed_keys(object, choice);
@@ -248,12 +246,11 @@ void read_object(const Object& object, void* owner, const YAML::Node& node, cons
     const std::string key = key_text(pair.first, source);
     if (!contains(allowed, key)) {
       const std::string where = choice != nullptr ? fmt::format("{} {}", object.selector, choice->word) : object.name;
-      fail(
-          source, pair.first,
-          fmt::format("unknown key {} in {}{}, allowed are {}", key, where, did_you_mean(key, allowed), join(allowed)));
+      fail(source, pair.first,
+           fmt::format("unknown key {} in {}{}, expected {}", key, where, did_you_mean(key, allowed), join(allowed)));
     }
     if (!seen.insert(key).second)
-      fail(source, pair.first, fmt::format("{} is there twice in {}, allowed is once", key, object.name));
+      fail(source, pair.first, fmt::format("{} is there twice in {}, expected once", key, object.name));
     object.find(key)->read(owner, pair.second, source);
     if (object.note_key) object.note_key(owner, {key, line_of(pair.first), option_of(pair.second)});
   }

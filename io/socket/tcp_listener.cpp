@@ -19,10 +19,8 @@ sockaddr_in address_of(const std::string& who, const std::string& bind, int port
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
-  if (::inet_pton(AF_INET, bind.c_str(), &address.sin_addr) != 1) {
-    throw InputError(
-        fmt::format("{}: --bind is {}, allowed is an IPv4 address such as 127.0.0.1 or 0.0.0.0", who, bind));
-  }
+  if (::inet_pton(AF_INET, bind.c_str(), &address.sin_addr) != 1)
+    throw InputError(fmt::format("{}: --bind is {}, expected an IPv4 address such as 127.0.0.1 or 0.0.0.0", who, bind));
   return address;
 }
 
@@ -46,7 +44,7 @@ int listen_at(const std::string& who, const sockaddr_in& address, const TcpOptio
   if (options.little_buffered) keep_buffers_little(listener.get());
   if (!listener || ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::listen(listener.get(), options.backlog) != 0) {
-    throw InputError(fmt::format("{}: TCP port {} cannot be had: {}, allowed is a free one", who, text_of(address),
+    throw InputError(fmt::format("{}: TCP port {} cannot be had: {}, expected a free one", who, text_of(address),
                                  std::strerror(errno)));
   }
   return listener.release();

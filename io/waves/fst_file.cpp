@@ -20,7 +20,7 @@ constexpr unsigned kMostChanges = 1U << 18;
 /// Checked before opening, because opening a FIFO waits for its reader.
 const std::string& regular(const std::string& path) {
   if (!find_place(path).direct) return path;
-  throw InputError(path, 0, "is no regular file, allowed for FST is one; a device or FIFO can take a .vcd");
+  throw InputError(path, 0, "is no regular file, which FST needs; a device or FIFO can take a .vcd");
 }
 
 }  // namespace

@@ -127,22 +127,22 @@ FstReader::FstReader(std::string path) : path_(std::move(path)) {
 
 void FstReader::check_file() const {
   const FstBlocks blocks = fst_blocks(path_);
-  if (!blocks.header && blocks.unpacked == 0) throw InputError(path_, 0, "is no wave, allowed are VCD and FST");
+  if (!blocks.header && blocks.unpacked == 0) throw InputError(path_, 0, "is no wave, expected VCD and FST");
   if (blocks.unpacked > kMostUnpacked)
     throw InputError(path_, 0,
-                     fmt::format("is an FST of {} MB that is compressed as a whole, allowed are {} MB",
+                     fmt::format("is an FST of {} MB that is compressed as a whole, expected {} MB",
                                  blocks.unpacked >> 20U, kMostUnpacked >> 20U));
   if (blocks.damaged) damaged();
   if (!blocks.complete())
     throw InputError(path_, 0,
-                     "is an FST that was cut, allowed is a complete one: was the simulator stopped while it wrote?");
+                     "is an FST that was cut, expected a complete one: was the simulator stopped while it wrote?");
   if (blocks.variables > kMostWaveVariables)
-    throw InputError(path_, 0,
-                     "declares " + std::to_string(blocks.variables) + " variables, allowed are " +
-                         std::to_string(kMostWaveVariables));
+    throw InputError(
+        path_, 0,
+        "declares " + std::to_string(blocks.variables) + " variables, expected " + std::to_string(kMostWaveVariables));
 }
 
-void FstReader::damaged() const { throw InputError(path_, 0, "is an FST that is damaged, allowed is a complete one"); }
+void FstReader::damaged() const { throw InputError(path_, 0, "is an FST that is damaged, expected a complete one"); }
 
 void FstReader::read_declarations() {
   ChildStream told([this](std::FILE* to) { tell_declarations(path_, to); });

@@ -25,7 +25,7 @@ class Part {
  public:
   explicit Part(const WavePart& what) : what_(what), reader_(read_wave(what.file)) {
     if (declarations().exponent != kPicosecond)
-      throw InputError(what.file, 0, "is a wave of another time scale, allowed are picoseconds");
+      throw InputError(what.file, 0, "is a wave of another time scale, expected picoseconds");
     outputs_.resize(declarations().signals.size());
     early_.resize(outputs_.size());
     advance();

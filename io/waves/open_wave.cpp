@@ -22,8 +22,8 @@ void check_wave_name(const std::string& path) {
 #endif
   if (ends_with(path, ".vcd") || (fst && ends_with(path, ".fst"))) return;
   if (ends_with(path, ".fst"))
-    throw InputError(path, 0, "this program was built without FST (Verilator's fstapi was not found), allowed is .vcd");
-  throw InputError(path, 0, "the ending of a wave file decides its format, allowed are .vcd and .fst");
+    throw InputError(path, 0, "this program was built without FST (Verilator's fstapi was not found), expected .vcd");
+  throw InputError(path, 0, "the ending of a wave file decides its format, expected .vcd or .fst");
 }
 
 std::unique_ptr<WaveWriter> open_wave(const std::string& path, const std::string& date) {

@@ -16,7 +16,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-constexpr const char* kAllowed = ", allowed is a wave, VCD or FST";
+constexpr const char* kAllowed = ", expected a wave, VCD or FST";
 
 /// Decides by the first byte: 0, the header's tag, or 254 for a file that is compressed as a whole. A FIFO is not read,
 /// because it gives its bytes only once.
@@ -38,7 +38,7 @@ std::unique_ptr<WaveReader> read_wave(const std::string& path) {
 #ifdef DSDPV1_WITH_FST
   return std::make_unique<FstReader>(path);
 #else
-  throw InputError(path, 0, "is FST, which this program was built without, allowed is a VCD");
+  throw InputError(path, 0, "is FST, which this program was built without, expected a VCD");
 #endif
 }
 

@@ -17,9 +17,9 @@ constexpr std::size_t kFstVersion = 74;  // place of the author in an FST file
 std::string beginning(const std::string& path, std::size_t length) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path, 0, "is no file, allowed is a wave's FILE.part that a run has left");
+    throw InputError(path, 0, "is no file, expected a wave's FILE.part that a run has left");
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path, 0, "cannot be opened, allowed is a wave's FILE.part that a run has left");
+  if (!in) throw InputError(path, 0, "cannot be opened, expected a wave's FILE.part that a run has left");
   std::string text(length, '\0');
   in.read(text.data(), static_cast<std::streamsize>(length));
   text.resize(static_cast<std::size_t>(in.gcount()));
@@ -62,7 +62,7 @@ WaveFormat wave_format(const std::string& path) {
   const std::string text = beginning(path, kFstVersion + author.size());
   if (text.rfind("$version " + author, 0) == 0) return WaveFormat::kVcd;
   if (text.size() > kFstVersion && text.front() == '\0' && text.substr(kFstVersion) == author) return WaveFormat::kFst;
-  throw InputError(path, 0, "is no wave of dsdpv1-sim, allowed is a wave's FILE.part that a run has left");
+  throw InputError(path, 0, "is no wave of dsdpv1-sim, expected a wave's FILE.part that a run has left");
 }
 
 std::uint64_t recover_vcd(const std::string& part, const std::string& output) {

@@ -31,7 +31,7 @@ WaveKind kind_of(const std::string& type) {
 
 std::string VcdDeclarations::word() {
   std::string text(text_.token());
-  if (text.empty()) text_.fail("ends within its declarations, allowed is a complete VCD with $enddefinitions");
+  if (text.empty()) text_.fail("ends within its declarations, expected a complete VCD with $enddefinitions");
   return text;
 }
 
@@ -39,7 +39,7 @@ std::string VcdDeclarations::rest() {
   std::string text;
   for (std::string next = word(); next != "$end"; next = word()) {
     text += (text.empty() ? "" : " ") + next;
-    if (text.size() > kMostWaveWidth) text_.fail("has no $end within reach, allowed is the text of a VCD");
+    if (text.size() > kMostWaveWidth) text_.fail("has no $end within reach, expected the text of a VCD");
   }
   return text;
 }
@@ -56,14 +56,14 @@ void VcdDeclarations::read() {
     } else if (command == "$scope") {
       scope();
     } else if (command == "$upscope") {
-      if (!scopes_.close()) text_.fail("$upscope without a $scope, allowed is one for each");
+      if (!scopes_.close()) text_.fail("$upscope without a $scope, expected one for each");
       skip();
     } else if (command == "$var") {
       variable();
     } else if (command.front() == '$') {
       skip();
     } else {
-      text_.fail("\"" + command.substr(0, 40) + "\" stands where a declaration of a VCD should, allowed is $...");
+      text_.fail("\"" + command.substr(0, 40) + "\" stands where a declaration of a VCD should, expected $...");
     }
   }
   skip();
@@ -72,7 +72,7 @@ void VcdDeclarations::read() {
 void VcdDeclarations::timescale() {
   const std::string text = rest();
   const std::optional<int> exponent = exponent_of(text);
-  if (!exponent) text_.fail("$timescale is " + text + ", allowed are 1, 10 or 100 fs, ps, ns, us, ms or s");
+  if (!exponent) text_.fail("$timescale is " + text + ", expected 1, 10 or 100 fs, ps, ns, us, ms or s");
   to_.exponent = *exponent;
 }
 
@@ -86,8 +86,8 @@ void VcdDeclarations::scope() {
 void VcdDeclarations::keep(std::size_t bytes) {
   names_ += bytes;
   if (names_ > kMostWaveNames || to_.variables.size() >= kMostWaveVariables)
-    text_.fail(fmt::format("declares more than is read, allowed are {} variables and {} MB of names",
-                           kMostWaveVariables, kMostWaveNames >> 20U));
+    text_.fail(fmt::format("declares more than is read, expected {} variables and {} MB of names", kMostWaveVariables,
+                           kMostWaveNames >> 20U));
 }
 
 void VcdDeclarations::variable() {
@@ -95,8 +95,8 @@ void VcdDeclarations::variable() {
   std::uint32_t width = 0;
   const auto [end, error] = std::from_chars(size.data(), size.data() + size.size(), width);
   if (error != std::errc() || *end != '\0' || width > kMostWaveWidth)
-    text_.fail(fmt::format("$var has the size {}, allowed are 0 to {} bits", size.substr(0, 40), kMostWaveWidth));
-  if (type == "port") text_.fail("is an extended VCD ($dumpports), allowed is that of $dumpvars");
+    text_.fail(fmt::format("$var has the size {}, expected 0 to {} bits", size.substr(0, 40), kMostWaveWidth));
+  if (type == "port") text_.fail("is an extended VCD ($dumpports), expected that of $dumpvars");
   const WaveKind kind = kind_of(type);
   const std::uint32_t place = signal(code, {kind, kind == WaveKind::kBits ? std::max(width, 1U) : 0U});
   if (type == "event") return;  // has no value
@@ -114,7 +114,7 @@ std::uint32_t VcdDeclarations::signal(const std::string& code, const WaveSignal&
     to_.signals.push_back(declared);
   }
   WaveSignal& known = to_.signals[place];
-  if (known.kind != declared.kind) text_.fail("$var " + code + " has two types, allowed is one");
+  if (known.kind != declared.kind) text_.fail("$var " + code + " has two types, expected one");
   known.width = std::max(known.width, declared.width);
   return place;
 }

@@ -39,10 +39,10 @@ void VcdReader::move_to(std::string_view digits) {
   std::uint64_t time = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), time);
   if (digits.empty() || error != std::errc() || end != digits.data() + digits.size())
-    text_.fail("\"#" + std::string(digits.substr(0, 40)) + "\" is no time, allowed are # and a number of 64 bits");
+    text_.fail("\"#" + std::string(digits.substr(0, 40)) + "\" is no time, expected # and a number of 64 bits");
   if (begin_ && time < now_)
     text_.fail("time " + std::to_string(time) + " comes after " + std::to_string(now_) +
-               ", allowed are times that do not decrease");
+               ", expected times that do not decrease");
   if (!begin_) begin_ = time;
   now_ = time;
 }
@@ -55,7 +55,7 @@ bool VcdReader::command(std::string_view word, WaveEvent& event) {
   if (word == "$end" || word == "$dumpvars" || word == "$dumpall") return false;
   if (word != "$comment" && word != "$vcdclose" && word != "$date" && word != "$version") refuse(word);
   for (std::string_view next = text_.token(); next != "$end"; next = text_.token())
-    if (next.empty()) text_.fail("ends within " + std::string(word) + ", allowed is a complete VCD");
+    if (next.empty()) text_.fail("ends within " + std::string(word) + ", expected a complete VCD");
   return false;
 }
 
@@ -92,7 +92,7 @@ bool VcdReader::word_value(std::string_view word, WaveEvent& event) {
 std::uint32_t VcdReader::signal(std::string_view code) const {
   const std::uint32_t place = codes_.find(code);
   if (place == VcdCodes::kNone || code.empty())
-    text_.fail("a value of \"" + std::string(code.substr(0, 40)) + "\", allowed are the codes that $var declares");
+    text_.fail("a value of \"" + std::string(code.substr(0, 40)) + "\", expected the codes that $var declares");
   return place;
 }
 
@@ -116,7 +116,7 @@ bool VcdReader::tell(WaveEvent& event, std::uint32_t signal, std::string_view va
 
 void VcdReader::refuse(std::string_view word) const {
   text_.fail("\"" + std::string(word.substr(0, 40)) +
-             "\" is no change, allowed are #TIME, 0 1 x z with a code, b..., r... or s... and a code, $dump...");
+             "\" is no change, expected #TIME, 0 1 x z with a code, b..., r... or s... and a code, $dump...");
 }
 
 }  // namespace dsdpv1::tb

@@ -27,7 +27,7 @@ constexpr std::array<bool, 256> blanks() {
 const std::array<bool, 256> VcdText::kBlank = blanks();
 
 VcdText::VcdText(const std::string& path) : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (!file_) throw InputError(path, 0, what_is_wrong(errno) + ", allowed is a wave, VCD or FST");
+  if (!file_) throw InputError(path, 0, what_is_wrong(errno) + ", expected a wave, VCD or FST");
   struct stat status {};
   if (::fstat(file_.get(), &status) == 0) size_ = static_cast<std::uint64_t>(status.st_size);
   // Room for all of a short file and its end; a pipe has no size and may be long.
@@ -46,7 +46,7 @@ void VcdText::fill() {
   while (have < room_ && !whole_) {
     const ssize_t got = ::read(file_.get(), buffer_.get() + have, room_ - have);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw InputError(path_, 0, what_is_wrong(errno) + ", allowed is a wave, VCD or FST");
+    if (got < 0) throw InputError(path_, 0, what_is_wrong(errno) + ", expected a wave, VCD or FST");
     whole_ = got == 0;
     have += static_cast<std::size_t>(got);
     read_ += static_cast<std::uint64_t>(got);
@@ -57,9 +57,9 @@ void VcdText::fill() {
 }
 
 void VcdText::check_word(const char* begin) const {
-  if (at_ != end_) fail("has a zero byte here, allowed is the text of a VCD");
-  if (!whole_) fail("has a word that is longer than any right one, allowed is the text of a VCD");
-  if (begin != at_) fail("ends within a line, allowed is a complete VCD: was the simulator stopped while it wrote?");
+  if (at_ != end_) fail("has a zero byte here, expected the text of a VCD");
+  if (!whole_) fail("has a word that is longer than any right one, expected the text of a VCD");
+  if (begin != at_) fail("ends within a line, expected a complete VCD: was the simulator stopped while it wrote?");
 }
 
 void VcdText::fail(const std::string& what) const { throw InputError(path_, line_, what); }

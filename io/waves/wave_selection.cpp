@@ -85,7 +85,7 @@ void SelectedWave::declare_wires(Declared& declared, const std::string& name, in
 void SelectedWave::check_patterns() const {
   for (const std::string& pattern : selection_.signals)
     if (std::none_of(names_.begin(), names_.end(), [&](const std::string& name) { return fits(pattern, name); }))
-      throw InputError(fmt::format("--wave-signals {} fits no signal{}, allowed are patterns of {}", pattern,
+      throw InputError(fmt::format("--wave-signals {} fits no signal{}, expected patterns of {}", pattern,
                                    did_you_mean(pattern, names_), join(names_)));
 }
 

@@ -93,7 +93,7 @@ std::vector<std::size_t> RecordTaker::choose(const std::vector<std::string>& sig
   leave_out_lone_data();
   if (chosen_.empty())
     throw CaptureError("shows no pin of the chip, its signals are " + tb::join(first_of(signals)) +
-                       "; allowed are the names of table 1, or --signal PIN=NAME");
+                       "; expected the names of table 1, or --signal PIN=NAME");
   return places_;
 }
 
@@ -130,11 +130,11 @@ std::size_t RecordTaker::given_place(const WireInfo& wire, const Names::Given& g
     if (!end || !in_scope(signal, names_.scope)) continue;
     if (found != Trace::kNone)
       throw CaptureError(
-          fmt::format("{} for {} means {} and {}, allowed is one of them", wanted, wire.name, signals[found], signal));
+          fmt::format("{} for {} means {} and {}, expected one of them", wanted, wire.name, signals[found], signal));
     found = i;
   }
   if (found == Trace::kNone)
-    throw CaptureError(fmt::format("has no signal {} for {}{}, allowed are {}", wanted, wire.name,
+    throw CaptureError(fmt::format("has no signal {} for {}{}, expected {}", wanted, wire.name,
                                    tb::did_you_mean(wanted, signals), tb::join(first_of(signals))));
   return found;
 }
@@ -146,8 +146,8 @@ std::size_t RecordTaker::named_place(const WireInfo& wire, const std::vector<std
     const bool right = std::find(allowed.begin(), allowed.end(), leaf(signals[i])) != allowed.end();
     if (!right || !in_scope(signals[i], names_.scope)) continue;
     if (found != Trace::kNone)
-      throw CaptureError(fmt::format("has {} twice, as {} and {}, allowed is one: --scope or --signal {}=NAME",
-                                     wire.name, signals[found], signals[i], wire.name));
+      throw CaptureError(fmt::format("has {} twice, as {} and {}, expected one: --scope or --signal {}=NAME", wire.name,
+                                     signals[found], signals[i], wire.name));
     found = i;
   }
   return found;
@@ -186,7 +186,8 @@ void RecordTaker::level(Tick at, std::size_t which, bool level) {
   }
   trace.edges.push_back(at);
   if (++changes_ > kMostChanges)
-    throw CaptureError(fmt::format("has more than {} million changes, allowed are so many", kMostChanges / 1'000'000));
+    throw CaptureError(
+        fmt::format("has more than {} million changes, expected at most as many", kMostChanges / 1'000'000));
 }
 
 }  // namespace dsdpv1::calibrate

@@ -53,8 +53,7 @@ Contents::Times Contents::look(const std::vector<std::string>& files) const {
 
 void Contents::fail_changed(const std::string& file) const {
   throw InputError(
-      file, 0,
-      "was changed while the " + kind_.word + " ran, allowed is the same content for all of its " + kind_.items);
+      file, 0, "was changed while the " + kind_.word + " ran, expected the same content for all of its " + kind_.items);
 }
 
 }  // namespace dsdpv1::tb::campaign

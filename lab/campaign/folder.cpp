@@ -78,7 +78,7 @@ Folder::Folder(fs::path path, Kind kind, const Json& description, Difference dif
 
 void Folder::own(const Json& description) {
   if (fs::exists(path_) && !fs::is_directory(path_))
-    throw InputError(path_.string(), 0, "is a file, allowed is a folder for the " + kind_.word);
+    throw InputError(path_.string(), 0, "is a file, expected a folder for the " + kind_.word);
   lock_.emplace(path_, kind_.word);
   Json before = fs::exists(file(kind_.description())) ? read_json(file(kind_.description())) : Json();
   const bool ours = before.is_object() && before.value("format", Json()) == kind_.format();
@@ -86,7 +86,7 @@ void Folder::own(const Json& description) {
   if (damaged) before = Json();  // a discarded value would compare equal to anything
   if (!ours && holds_something_else(damaged))
     throw InputError(path_.string(), 0,
-                     "holds something else, allowed is a new or empty folder, or one of a " + kind_.word);
+                     "holds something else, expected a new or empty folder, or one of a " + kind_.word);
   if (ours) started_anew_ = difference_(before, description);
   if (damaged) started_anew_ = "nothing that can be known, its " + kind_.description() + " is damaged";
   if (!started_anew_.empty()) clear();

@@ -60,7 +60,7 @@ bool Lock::take() {
   const std::string owner = file_ >= 0 ? owner_of(file_) : "";
   if (file_ >= 0) close(file_);
   if (error == EWOULDBLOCK)
-    throw InputError(folder_, 0, "a " + word_ + " " + owner + "is using it, allowed is one " + word_ + " at a time");
+    throw InputError(folder_, 0, "a " + word_ + " " + owner + "is using it, expected one " + word_ + " at a time");
   throw InputError(folder_, 0, "cannot be used for a " + word_ + ": " + std::strerror(error));
 }
 

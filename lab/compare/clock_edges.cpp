@@ -15,7 +15,7 @@ const Side& side_of(const Clock& clock, const Side& a, const Side& b) {
 /// A FIFO gives its bytes once.
 Side once_more(const Side& side) {
   if (!std::filesystem::is_regular_file(side.path()))
-    throw InputError(side.path(), 0, "has the clock and is no regular file, allowed is one: it is read twice");
+    throw InputError(side.path(), 0, "has the clock and is no regular file, expected one: it is read twice");
   return {side.path(), side.scope()};
 }
 
@@ -25,7 +25,7 @@ ClockEdges::ClockEdges(const Clock& clock, const Side& a, const Side& b, const S
     : rising_(clock.rising), side_(once_more(side_of(clock, a, b))), touched_(1) {
   const Net& net = side_.nets().find(clock.signal);
   if (net.kind != WaveKind::kBits || net.width != 1)
-    throw InputError(side_.path(), 0, net.name() + " is no clock, allowed is a signal of one bit");
+    throw InputError(side_.path(), 0, net.name() + " is no clock, expected a signal of one bit");
   probe_ = side_.watch({net}, touched_, 0);
   side_.start(scale, &side_of(clock, a, b) == &b ? shift_of_b : 0);
 }

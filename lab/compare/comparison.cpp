@@ -84,8 +84,8 @@ void Comparison::check_window() const {
     return fmt::format("{} to {}{}", scale_.text(side.begin()), side.next() ? "beyond " : "", scale_.text(side.end()));
   };
   throw InputError(a_.path(), 0,
-                   fmt::format("has nothing to compare from {} on: it goes from {}, {} from {}, allowed "
-                               "are --from, --to and --shift that leave a time both have",
+                   fmt::format("has nothing to compare from {} on: it goes from {}, {} from {}, expected "
+                               "--from, --to and --shift that leave a time both have",
                                scale_.text(from_), span(a_), b_.path(), span(b_)));
 }
 

@@ -56,7 +56,7 @@ std::string parse_value(const std::string& text, WaveKind kind, std::uint32_t wi
   const auto bits = number && *number >= 0 ? bits_of(*number, width) : std::nullopt;
   if (bits) return *bits;
   throw InputError(
-      fmt::format("{} is {}, allowed are numbers of {} bits, x, z, and as many of 0, 1, x, z", what, text, width));
+      fmt::format("{} is {}, expected numbers of {} bits, x, z, and as many of 0, 1, x, z", what, text, width));
 }
 
 std::string value_text(std::string_view value, WaveKind kind) {

@@ -22,7 +22,7 @@ std::vector<std::uint32_t> targets_of(const std::string& name, const std::vector
   }
   if (!targets.empty()) return targets;
   throw InputError(
-      fmt::format("dsdpv1-sim compare: --mask is for {}, which is not compared{}, allowed are signals that are", name,
+      fmt::format("dsdpv1-sim compare: --mask is for {}, which is not compared{}, expected signals that are", name,
                   did_you_mean(name, names)));
 }
 

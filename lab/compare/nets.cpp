@@ -73,7 +73,7 @@ Nets::Nets(const WaveDeclarations& declarations, const std::string& prefix, std:
   if (!found && !prefix.empty())
     throw InputError(file_, 0,
                      "has no signals in " + prefix + did_you_mean(prefix, declarations.scopes) +
-                         ", allowed is one of its scopes, like " + declarations.scopes.back());
+                         ", expected one of its scopes, like " + declarations.scopes.back());
   index();
 }
 
@@ -135,14 +135,14 @@ const Net& Nets::find(const std::string& name) const {
   std::vector<std::string> names;
   names.reserve(found.size());
   for (const Net* net : found) names.push_back(net->name());
-  if (!found.empty()) throw InputError(file_, 0, name + " is more than one signal, allowed are " + join(names));
+  if (!found.empty()) throw InputError(file_, 0, name + " is more than one signal, expected " + join(names));
   if (const Net* net = with_leaf(name)) return *net;
   for (std::size_t i = 0; i < std::min(nets_.size(), kCompared); ++i) names.push_back(nets_[i].leaf);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   const std::string meant = did_you_mean(name, names);
   names.resize(std::min(names.size(), kNamed));
-  throw InputError(file_, 0, "has no signal " + name + meant + ", allowed are its own, like " + join(names));
+  throw InputError(file_, 0, "has no signal " + name + meant + ", expected its own, like " + join(names));
 }
 
 }  // namespace dsdpv1::tb::compare

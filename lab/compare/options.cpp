@@ -13,7 +13,7 @@ Mask parse_mask(const std::string& text) {
       equal == std::string::npos ? "" : text.substr(equal + 1, target ? at - equal - 1 : std::string::npos);
   if (equal == std::string::npos || name == 0 || value.empty() || (target && at + 1 == text.size()))
     throw InputError("dsdpv1-sim compare: --mask is " + text +
-                     ", allowed are SIGNAL=VALUE, SIGNAL!=VALUE, and with @SIGNAL after it for one signal alone");
+                     ", expected SIGNAL=VALUE, SIGNAL!=VALUE, and with @SIGNAL after it for one signal alone");
   return {text.substr(0, name), value, !not_equal, target ? text.substr(at + 1) : ""};
 }
 
@@ -32,7 +32,7 @@ NamedPair parse_pair(const std::string& text) {
   pair.inverted = inverted;
   if (equal != std::string::npos) pair.b = text.substr(equal + (inverted ? 2 : 1));
   if (pair.a.empty() || pair.b.empty())
-    throw InputError("dsdpv1-sim compare: --signal is " + text + ", allowed are A=B and, for the other level, A=!B");
+    throw InputError("dsdpv1-sim compare: --signal is " + text + ", expected A=B and, for the other level, A=!B");
   return pair;
 }
 

@@ -53,8 +53,8 @@ class Matcher {
     if (a == nullptr || b == nullptr || lacks_a_side(names)) return;
     if (!comparable(*a, *b))
       throw InputError(a_.file(), 0,
-                       fmt::format("{} is {}, but {} of {} is {}, allowed are signals of one width", a->name(),
-                                   form(*a), b->name(), b_.file(), form(*b)));
+                       fmt::format("{} is {}, but {} of {} is {}, expected signals of one width", a->name(), form(*a),
+                                   b->name(), b_.file(), form(*b)));
     Pair pair{a->name(), {*a}, {*b, names.inverted}, names.tolerance};
     pair.b.driven = side_of(names.driven);
     pair.b.released = side_of(names.released);
@@ -89,7 +89,7 @@ class Matcher {
                                                                       3, static_cast<std::ptrdiff_t>(names.size()))});
     };
     throw InputError(a_.file(), 0,
-                     fmt::format("no signal has its counterpart in {} (here {}; there {}), allowed are "
+                     fmt::format("no signal has its counterpart in {} (here {}; there {}), expected "
                                  "equal names, --scope, --pins, --signal A=B",
                                  b_.file(), some(found_.only_a), some(found_.only_b)));
   }

@@ -99,7 +99,7 @@ Description last_description(const std::string& folder) {
     for (const Json& each : json.at("runs")) description.plan.runs.push_back(run_of(each));
     return description;
   } catch (const nlohmann::json::exception&) {
-    throw InputError(folder, 0, "holds no regression, allowed with --failed is the folder of the last one");
+    throw InputError(folder, 0, "holds no regression, --failed needs the folder of the last one");
   }
 }
 

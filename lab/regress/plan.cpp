@@ -29,7 +29,7 @@ std::vector<std::string> scenarios_in(const std::string& folder) {
   std::vector<std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (is_scenario(entry)) found.push_back(entry.path().lexically_normal().string());
-  if (found.empty()) throw InputError(folder, 0, "holds no scenario, allowed is a folder with .yaml or .yml files");
+  if (found.empty()) throw InputError(folder, 0, "holds no scenario, expected a folder with .yaml or .yml files");
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -40,9 +40,9 @@ std::vector<std::string> files_of(const std::string& path) {
     if (fs::exists(path)) return {fs::path(path).lexically_normal().string()};
   } catch (const fs::filesystem_error& error) {
     throw InputError(path, 0,
-                     "cannot be read (" + error.code().message() + "), allowed are scenarios and folders of them");
+                     "cannot be read (" + error.code().message() + "), expected scenarios and folders of them");
   }
-  throw InputError(path, 0, "no such file or folder, allowed are scenarios and folders of them");
+  throw InputError(path, 0, "no such file or folder, expected scenarios and folders of them");
 }
 
 /// Each once, in the order given.
@@ -60,10 +60,10 @@ std::vector<std::vector<std::string>> combinations(const std::vector<sweep::Para
   const sweep::Plan product{"", {}, "", parameters};
   std::set<std::string> paths;
   for (const sweep::Parameter& each : parameters)
-    if (!paths.insert(each.path).second) throw InputError("--set " + each.path, 0, "is set twice, allowed is once");
+    if (!paths.insert(each.path).second) throw InputError("--set " + each.path, 0, "is set twice, expected once");
   std::vector<std::vector<std::string>> all;
   if (product.points() > kMostRuns)
-    throw InputError(fmt::format("dsdpv1-sim regress: more than {} runs, allowed are fewer values", kMostRuns));
+    throw InputError(fmt::format("dsdpv1-sim regress: more than {} runs, expected fewer values", kMostRuns));
   for (std::size_t i = 0; i < product.points(); ++i) all.push_back(product.settings_of(i));
   return all;
 }
@@ -76,7 +76,7 @@ std::vector<std::string> seeds_of(const Request& request, const std::string& eng
 void check_seeds(const Request& request) {
   if (request.seeds.empty() || std::any_of(request.engines.begin(), request.engines.end(), is_rtl)) return;
   throw InputError("dsdpv1-sim regress: --seed changes nothing with --engine " + join(request.engines) +
-                   ": it is for what RTL begins with where nothing is reset, allowed with it are rtl, lockstep");
+                   ": it is for what RTL begins with where nothing is reset, it needs rtl, lockstep");
 }
 
 void add_runs(const Request& request, const Shard& shard, const Run& run,
@@ -90,7 +90,7 @@ void add_runs(const Request& request, const Shard& shard, const Run& run,
       else
         plan.runs.push_back(next);
       if (plan.runs.size() > kMostRuns)
-        throw InputError(fmt::format("dsdpv1-sim regress: more than {} runs, allowed are fewer of them", kMostRuns));
+        throw InputError(fmt::format("dsdpv1-sim regress: more than {} runs, expected fewer of them", kMostRuns));
     }
   }
 }
@@ -130,7 +130,7 @@ Shard parse_shard(const std::string& text) {
   const auto index = parse_integer(text.substr(0, slash));
   const auto count = parse_integer(slash == std::string::npos ? "" : text.substr(slash + 1));
   if (!index || !count || *index < 1 || *count < *index)
-    throw InputError("dsdpv1-sim regress: --shard is " + text + ", allowed is like 2/5: the second of five");
+    throw InputError("dsdpv1-sim regress: --shard is " + text + ", expected something like 2/5: the second of five");
   return {static_cast<std::uint64_t>(*index), static_cast<std::uint64_t>(*count)};
 }
 
@@ -141,7 +141,7 @@ std::vector<std::string> parse_seeds(const std::string& text) {
   for (const std::string& seed : seeds) {
     const auto number = parse_integer(seed);
     if (!number || *number < 0 || *number > kMost)
-      throw InputError(origin, 0, "seed is \"" + seed + "\", allowed is a whole number from 0 to 4294967295");
+      throw InputError(origin, 0, "seed is \"" + seed + "\", expected a whole number from 0 to 4294967295");
   }
   return seeds;
 }
@@ -157,7 +157,7 @@ Plan plan_of(const Request& request, const Shard& shard) {
   if (plan.runs.empty() && plan.left_out != 0 && shard.count == 1)
     throw InputError(
         "dsdpv1-sim regress: nothing is left to be run: --view tlm is neither for RTL nor for ARM boards at serial "
-        "ports, allowed is --view pins");
+        "ports, expected --view pins");
   return plan;
 }
 

@@ -234,7 +234,7 @@ void check_comparable(const Recording& recording) {
   if (beginning_of(recording).comparable < recording.requests.size()) return;
   throw InputError(recording.name, 0,
                    fmt::format("station {} is in data exchange where it begins, and no Set_Prm and Chk_Cfg follow, so "
-                               "that nothing can be compared without the lead-in, allowed is a capture with them",
+                               "that nothing can be compared without the lead-in, expected a capture with them",
                                recording.slave));
 }
 

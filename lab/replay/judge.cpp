@@ -117,14 +117,14 @@ Verdict Judge::compare_tsdr(RequestResult& result) const {
   const double unsure = std::max(2 * bits(recording_.resolution), 0.5);  // both ends of a recorded time
   if (options_.tsdr.tolerance_bits) {
     if (std::abs(recorded - model) <= *options_.tsdr.tolerance_bits) return Verdict::kEqual;
-    result.why = fmt::format("TSDR: recorded {:.2f} bit times, model {:.2f}, allowed are {:g} apart", recorded, model,
-                             *options_.tsdr.tolerance_bits);
+    result.why = fmt::format("TSDR: recorded {:.2f} bit times, model {:.2f}, expected at most {:g} apart", recorded,
+                             model, *options_.tsdr.tolerance_bits);
     return Verdict::kTsdr;
   }
   const int min_tsdr = min_tsdr_.least(), max_tsdr = bus::baud(recording_.baud).max_tsdr_bits;
   const auto right = [&](double tsdr) { return tsdr >= min_tsdr - unsure && tsdr <= max_tsdr + unsure; };
   if (right(recorded) && right(model)) return Verdict::kEqual;
-  result.why = fmt::format("TSDR: recorded {:.2f} bit times, model {:.2f}, allowed are min_TSDR {} to max_TSDR {}",
+  result.why = fmt::format("TSDR: recorded {:.2f} bit times, model {:.2f}, expected min_TSDR {} to max_TSDR {}",
                            recorded, model, min_tsdr, max_tsdr);
   return Verdict::kTsdr;
 }

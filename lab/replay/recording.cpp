@@ -37,7 +37,7 @@ Recorder::Recorder(std::string name, std::uint8_t slave, std::optional<int> baud
 void Recorder::telegram(const bus::capture::CapturedTelegram& telegram) {
   if (telegram.bytes.empty()) return;
   if (!telegram.baud && !baud_)
-    throw InputError(recording_.name, 0, "does not say its baud rate, name it with --baud, allowed are 12M to 9.6k");
+    throw InputError(recording_.name, 0, "does not say its baud rate, name it with --baud, expected 12M to 9.6k");
   if (!baud_) baud_ = telegram.baud;
   if (telegram.baud.value_or(*baud_) == *baud_) return take(telegram);
   if (!chosen_)
@@ -59,7 +59,7 @@ void Recorder::take(const bus::capture::CapturedTelegram& telegram) {
   if (!all.empty() && recorded.start < all.back().start)
     throw InputError(
         recording_.name, 0,
-        fmt::format("telegram {} is before the one that it follows, allowed is the order of time", all.size() + 1));
+        fmt::format("telegram {} is before the one that it follows, expected the order of time", all.size() + 1));
   all.push_back(std::move(recorded));
 }
 
@@ -131,7 +131,7 @@ void Recorder::check() const {
   const auto fail = [this](const std::string& what) { throw InputError(recording_.name, 0, what); };
   if (recording_.telegrams.empty())
     fail(recording_.left_out != 0 ? "holds no telegram at the rate of --baud"
-                                  : "holds no telegram, allowed is a capture of the line");
+                                  : "holds no telegram, expected a capture of the line");
   if (recording_.requests.empty())
     fail(fmt::format("no request to station {} (--as), {}", recording_.slave, stations()));
   const bool answers = std::any_of(recording_.requests.begin(), recording_.requests.end(),
@@ -150,8 +150,8 @@ std::string Recorder::stations() const {
   std::vector<std::string> words;
   words.reserve(answering.size());
   for (const std::uint8_t station : answering) words.push_back(std::to_string(station));
-  if (words.empty()) return "and nobody else answers, allowed is a capture with a slave that does";
-  return "allowed are the stations that answer: " + join(words);
+  if (words.empty()) return "and nobody else answers, expected a capture with a slave that does";
+  return "expected the stations that answer: " + join(words);
 }
 
 }  // namespace dsdpv1::tb::replay

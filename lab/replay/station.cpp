@@ -80,7 +80,7 @@ scenario::Scenario alone(scenario::Scenario scenario, const Recording& recording
     addresses.reserve(slaves.size());
     for (const scenario::Slave& each : slaves) addresses.push_back(std::to_string(each.address));
     throw InputError(scenario.file, 0,
-                     fmt::format("no slave has address {} (--as), allowed are {}", recording.slave, join(addresses)));
+                     fmt::format("no slave has address {} (--as), expected {}", recording.slave, join(addresses)));
   }
   slaves = {*slave};
   slaves.front().address = recording.slave;

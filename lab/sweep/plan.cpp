@@ -50,9 +50,9 @@ Bounds parse_range(Kind kind, const std::string& text, const std::string& origin
     step = parse(kind, text.substr(slash + 1));
   else if (kind == Kind::kInteger)
     step = 1;
-  if (!first || !last || !step) fail(origin, fmt::format("range {} is not understood, allowed is {}", text, allowed));
+  if (!first || !last || !step) fail(origin, fmt::format("range {} is not understood, expected {}", text, allowed));
   if (*last < *first) fail(origin, fmt::format("range {} ends before it begins", text));
-  if (*step <= 0) fail(origin, fmt::format("range {} has no step forward, allowed is a step above 0", text));
+  if (*step <= 0) fail(origin, fmt::format("range {} has no step forward, expected a step above 0", text));
   return {*first, *last, *step};
 }
 
@@ -79,11 +79,11 @@ std::vector<std::string> values_of(Kind kind, const std::string& list, const std
   std::set<std::string> seen;
   for (const std::string& item : split(list, ',')) {
     for (const std::string& value : expand(kind, item, origin)) {
-      if (!seen.insert(value).second) fail(origin, fmt::format("{} is there twice, allowed is once", value));
+      if (!seen.insert(value).second) fail(origin, fmt::format("{} is there twice, expected once", value));
       values.push_back(value);
     }
   }
-  if (values.size() > kMostValues) fail(origin, fmt::format("{} values, allowed are {}", values.size(), kMostValues));
+  if (values.size() > kMostValues) fail(origin, fmt::format("{} values, expected {}", values.size(), kMostValues));
   return values;
 }
 
@@ -127,10 +127,11 @@ std::string Plan::short_name(std::size_t parameter) const {
 
 void check(const Plan& plan) {
   if (plan.parameters.empty())
-    throw InputError("dsdpv1-sim sweep: --param is missing, allowed is like --param user_cpu.fsmc.datast=0..15");
+    throw InputError(
+        "dsdpv1-sim sweep: --param is missing, expected something like --param user_cpu.fsmc.datast=0..15");
   std::set<std::string> paths;
   const auto take = [&paths](const std::string& option, const std::string& path) {
-    if (!paths.insert(path).second) fail(option + " " + path, "is set twice, allowed is once");
+    if (!paths.insert(path).second) fail(option + " " + path, "is set twice, expected once");
   };
   for (const std::string& setting : plan.settings) take("--set", path_of(setting));
   std::size_t points = 1;
@@ -139,7 +140,7 @@ void check(const Plan& plan) {
     points *= parameter.values.size();
     if (points > kMostPoints)
       throw InputError(
-          fmt::format("dsdpv1-sim sweep: more than {} points, allowed are fewer values or parameters", kMostPoints));
+          fmt::format("dsdpv1-sim sweep: more than {} points, expected fewer values or parameters", kMostPoints));
   }
 }
 

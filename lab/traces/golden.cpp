@@ -24,7 +24,7 @@ constexpr const char* kManifestEnding = ".json";
 std::string regenerate(const std::string& name) { return "./run traces regenerate " + name; }
 
 [[noreturn]] void refuse(const std::string& file, const std::string& why, const std::string& name) {
-  throw InputError(file, 0, fmt::format("{}, allowed is what {} writes", why, regenerate(name)));
+  throw InputError(file, 0, fmt::format("{}, expected what {} writes", why, regenerate(name)));
 }
 
 std::string decompressed(const std::string& path, const std::string& name) {
@@ -65,7 +65,7 @@ std::vector<std::string> golden_names(const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (entry.path().extension() == kManifestEnding) names.push_back(entry.path().stem().string());
-  if (error) throw InputError(folder, 0, "is no folder of golden traces, allowed is one like traces");
+  if (error) throw InputError(folder, 0, "is no folder of golden traces, expected one like traces");
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -67,7 +67,7 @@ class Head {
   }
   [[noreturn]] void fail() const {
     throw InputError(file_, 0,
-                     fmt::format("holds no trace, allowed is what begins with \"{}\" (docs/traces.md)", kMagic));
+                     fmt::format("holds no trace, expected what begins with \"{}\" (docs/traces.md)", kMagic));
   }
 
  private:

@@ -36,7 +36,7 @@ ChipModule::ChipModule(const sc_core::sc_module_name& name, const ChipOptions& o
     : sc_core::sc_module(name), due_("due"), options_(options), chip_(options.chip) {
   require_resolution();
   if (options.phase < 0 || options.phase >= profibus::kTicksPerCycle) {
-    const std::string text = "phase is " + std::to_string(options.phase) + " ticks, allowed is 0 to 249";
+    const std::string text = "phase is " + std::to_string(options.phase) + " ticks, expected 0 to 249";
     SC_REPORT_ERROR("/dsdpv1/phase", text.c_str());
   }
   changed_ = outputs_of(options.chip.part);

@@ -68,7 +68,7 @@ void PinModule::clock_edge() {
   else
     clock_->falling(sc_core::sc_time_stamp());
   if (const auto mhz = clock_->take_wrong_frequency()) {
-    const std::string text = std::string(name()) + ": CLK is " + std::to_string(*mhz) + " MHz, allowed is 48 MHz +/- " +
+    const std::string text = std::string(name()) + ": CLK is " + std::to_string(*mhz) + " MHz, expected 48 MHz +/- " +
                              std::to_string(clock_tolerance_ppm_) + " ppm";
     SC_REPORT_WARNING("/dsdpv1/clock", text.c_str());
   }

@@ -30,7 +30,7 @@ RsuTlmModule::RsuTlmModule(const sc_core::sc_module_name& name, const RsuTlmOpti
     const int most = (1 << width(strap.pin)) - 1;
     if (strap.level < 0 || strap.level > most) {
       const std::string text = std::string(this->name()) + ": the strap " + dsdpv1::name(strap.pin) + " is " +
-                               std::to_string(strap.level) + ", allowed is 0 to " + std::to_string(most);
+                               std::to_string(strap.level) + ", expected 0 to " + std::to_string(most);
       SC_REPORT_ERROR("/dsdpv1/straps", text.c_str());
     }
     set(0, strap.pin, static_cast<Level>(strap.level));

@@ -23,7 +23,7 @@ std::uint64_t resolution_in_femtoseconds() {
   if (femtoseconds >= kFinest && femtoseconds <= kCoarsest) return femtoseconds;
   const std::string text =
       "the SystemC time resolution is " + sc_core::sc_get_time_resolution().to_string() +
-      ", allowed is 1 fs to 1 ps (a tick of the chip is 83.3 ps): call sc_core::sc_set_time_resolution(1, "
+      ", expected 1 fs to 1 ps (a tick of the chip is 83.3 ps): call sc_core::sc_set_time_resolution(1, "
       "sc_core::SC_PS) before the first sc_time is made";
   SC_REPORT_ERROR("/dsdpv1/time_resolution", text.c_str());
   return kCoarsest;  // for reports that do not throw

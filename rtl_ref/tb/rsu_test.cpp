@@ -44,7 +44,7 @@ int play_faults(const char* name) {
 int test(int argc, char** argv) {
   if (argc == 3 && std::string(argv[1]) == "faults") return play_faults(argv[2]);
   if (argc > 2 || (argc == 2 && kGroups.count(argv[1]) == 0)) {
-    std::fprintf(stderr, "rsu_test: allowed are nothing, spi, owner, uart, exchange, or: faults FILE\n");
+    std::fprintf(stderr, "rsu_test: expected nothing, spi, owner, uart, exchange, or: faults FILE\n");
     return 2;
   }
   for (const auto& [name, play] : kGroups) {

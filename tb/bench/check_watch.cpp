@@ -20,7 +20,7 @@ void refuse_unmade(const scenario::Scenario& scenario, ChecksMode mode, const sc
   const bool made = scenario.checks[checks::CheckId(static_cast<std::size_t>(rule - rules.begin()))].on;
   if (mode != ChecksMode::kOff && made) return;
   throw InputError(scenario.file, condition.line,
-                   fmt::format("{} is a check, which is off, allowed is {}", rule->id,
+                   fmt::format("{} is a check, which is off, expected {}", rule->id,
                                made ? "mode fail or report (--checks, checks: {mode})" : "enabled: true"));
 }
 

@@ -49,7 +49,7 @@ void check(const Scenario& scenario, const Action& action) {
   if (!action.when) return;
   if (const std::string key = untold(scenario, *action.when); !key.empty())
     throw InputError(scenario.file, action.when->line,
-                     fmt::format("when: {} is not known to masters whose slaves are elsewhere, allowed are dp_state "
+                     fmt::format("when: {} is not known to masters whose slaves are elsewhere, expected dp_state "
                                  "data_exch, data_exchanges and inputs of a slave that a master of class 1 brings up, "
                                  "connection_state, reply_of",
                                  key));
@@ -67,7 +67,7 @@ Action resolved(const Scenario& scenario, Setup& setup, Action action) {
 
 Scenario part_of_masters(const Scenario& whole, Setup& setup) {
   if (whole.masters.empty() && whole.masters2.empty())
-    throw InputError(whole.file, whole.line, "the scenario has no masters, allowed is one with masters or masters2");
+    throw InputError(whole.file, whole.line, "the scenario has no masters, expected one with masters or masters2");
   Scenario part = whole;
   part.slaves.clear();
   part.expect.clear();

@@ -66,7 +66,7 @@ const bus::Gsd& Setup::gsd(const scenario::Name& path) {
   if (!read.wrong.empty()) {
     // A path from the command line is absolute: relative to the user's working folder.
     const bool of_scenario = std::filesystem::path(path.text).is_relative();
-    fail(path.line, fmt::format("gsd {}: {}, allowed is {}{}", path.text, read.wrong, kGsdFile.what,
+    fail(path.line, fmt::format("gsd {}: {}, expected {}{}", path.text, read.wrong, kGsdFile.what,
                                 of_scenario ? ", its path relative to the scenario" : ""));
   }
   std::istringstream in(read.text);

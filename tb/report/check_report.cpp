@@ -64,14 +64,16 @@ std::string tightest(const RunResult& result, const std::vector<Row>& rows) {
       least = &row;
   if (least == nullptr) return "";
   const checks::Record& record = least->worst->record;
-  return fmt::format("; tightest {} {} at {}{}", least->rule->id, short_time(*record.worst_margin),
+  return fmt::format(", {} by only {} at {}{}", least->rule->id, short_time(*record.worst_margin),
                      moment_text(*record.at), at_slave(result, *least->worst));
 }
 
 std::string headline(const RunResult& result, const std::vector<Row>& rows) {
-  const auto kept = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.violations == 0; });
-  const bool all = static_cast<std::size_t>(kept) == rows.size();
-  return named_line("checks", fmt::format("{} of {} kept{}", kept, rows.size(), all ? tightest(result, rows) : ""));
+  const auto is_kept = [](const Row& row) { return row.violations == 0; };
+  const auto kept = static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), is_kept));
+  if (rows.empty()) return named_line("checks", "none was evaluated");
+  if (kept == rows.size()) return named_line("checks", fmt::format("all {} kept{}", kept, tightest(result, rows)));
+  return named_line("checks", fmt::format("{} of {} kept", kept, rows.size()));
 }
 
 std::string time_or_dash(std::optional<Tick> time, std::string (*text)(Tick)) { return time ? text(*time) : "-"; }

@@ -1,12 +1,12 @@
 #pragma once
-// What the checks found, on a terminal.
+// The findings of the checks, for a terminal.
 #include <string>
 
 #include "tb/bench/record.hpp"
 
 namespace dsdpv1::tb {
 
-/// Of which checks a table has a row.
+/// The checks that have a row in the table.
 enum class CheckRows { kViolated, kAll };
 
 /// How many checks were kept and which the tightest is; a row for each check that was violated, or for all that were

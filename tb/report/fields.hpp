@@ -1,5 +1,5 @@
 #pragma once
-// What a result file holds, said once: a function visits the fields of a value. From that visit come the JSON of a
+// The members of a result file, listed once: a function visits the fields of a value. That visit makes the JSON of a
 // value, its JSON Schema (draft 2020-12), and a table for people.
 #include <initializer_list>
 #include <nlohmann/json.hpp>

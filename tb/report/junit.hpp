@@ -13,8 +13,8 @@ struct JunitCase {
   std::string output;                  ///< what it has printed
 };
 
-/// The report `name`: a suite for each name of one, in the order of their first case. Control characters and bytes that
-/// are no UTF-8 are shown as escapes (bus::printable_lines), since XML cannot hold them.
+/// The report `name`: a suite for each name of one, in the order of their first case. Control characters and
+/// invalid UTF-8 are shown as escapes (bus::printable_lines), since XML cannot hold them.
 std::string junit(const std::string& name, const std::vector<JunitCase>& cases);
 
 }  // namespace dsdpv1::tb

@@ -1,5 +1,5 @@
 #pragma once
-// What the result file of a run holds, for programs and people.
+// The contents of the result file of a run, for programs and people.
 #include <string>
 
 #include "tb/bench/record.hpp"

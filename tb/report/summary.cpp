@@ -75,7 +75,7 @@ std::string times_of(const Group& group) {
   return fmt::format("{}, {} allowed", group.count, group.allowed);
 }
 
-/// A row for each station and code: nobody should need the log to find that out.
+/// A row for each station and code, so that the log is not needed for it.
 std::string repeated(const char* head, const std::vector<Repeated>& all) {
   if (all.empty()) return "";
   TextTable table({head, "reason", "times", "first", "last", "what, the first time"});
@@ -89,29 +89,50 @@ std::string tsdr(const SlaveResult& slave) {
   return slave.tsdr.answers == 0 ? "-" : fmt::format("{:.2f} .. {:.2f}", slave.tsdr.min_bits, slave.tsdr.max_bits);
 }
 
+using Row = std::vector<std::string>;
+
+Row joined(Row row, const Row& more) {
+  row.insert(row.end(), more.begin(), more.end());
+  return row;
+}
+
+Row state_of(const SlaveResult& slave) {
+  return {slave.name,
+          fmt::format("{}", slave.status.address),
+          name(slave.status.dp_state),
+          baud_text(slave.status.baud),
+          fmt::format("{}", slave.status.data_exchanges),
+          fmt::format("{}", slave.status.outputs_missed)};
+}
+
+Row times_of(const SlaveResult& slave) {
+  return {tsdr(slave), short_time(slave.status.longest_wait), short_time(slave.user.port.longest_wait),
+          short_time(slave.user.port.longest_hold)};
+}
+
+/// One table, or one of states and one of times where it is too wide.
 std::string slaves(const RunResult& result) {
-  TextTable table({"slave", "address", "DP state", "baud", "exchanges", "overwritten", "TSDR / bit times",
-                   "chip waited", "user waited", "longest hold"});
+  const Row state = {"slave", "address", "DP state", "baud", "exchanges", "overwritten"},
+            times = {"TSDR / bit times", "chip waited", "user waited", "longest hold"};
+  TextTable whole(joined(state, times)), states(state), others(joined({"slave"}, times));
   for (const SlaveResult& slave : result.slaves) {
-    table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
-               baud_text(slave.status.baud), fmt::format("{}", slave.status.data_exchanges),
-               fmt::format("{}", slave.status.outputs_missed), tsdr(slave), short_time(slave.status.longest_wait),
-               short_time(slave.user.port.longest_wait), short_time(slave.user.port.longest_hold)});
+    whole.add(joined(state_of(slave), times_of(slave)));
+    states.add(state_of(slave));
+    others.add(joined({slave.name}, times_of(slave)));
   }
-  return table.text() + "\n";
+  return (whole.fits() ? whole.text() : states.text() + others.text()) + "\n";
 }
 
 std::string interval_from(const MasterResult& master) {
   if (master.interval_given) return "min_slave_interval of the scenario";
-  return master.min_slave_interval_us == 0 ? "its slaves name no Min_Slave_Intervall"
-                                           : "Min_Slave_Intervall of its slaves";
+  return master.min_slave_interval_us == 0 ? "no Min_Slave_Intervall" : "Min_Slave_Intervall of its slaves";
 }
 
 std::string masters(const RunResult& result) {
   std::string text;
   for (const MasterResult& master : result.masters) {
     const std::string interval = master.min_slave_interval_us == 0
-                                     ? "as fast as the bus allows"
+                                     ? "without pauses"
                                      : fmt::format("{}us or more each", master.min_slave_interval_us);
     text += named_line(
         "master", fmt::format("{}: {} cycles, {} ({})", master.name, master.cycles, interval, interval_from(master)));
@@ -152,7 +173,7 @@ bool is_said(const RunResult& result, const SlaveResult& slave) {
       });
 }
 
-/// Of each other slave that is not in data exchange: why not, as its master and its chip have it.
+/// Why each other slave is not in data exchange, according to its master and its chip.
 std::string waiting(const RunResult& result) {
   std::string text;
   for (const SlaveResult& slave : result.slaves) {
@@ -201,13 +222,18 @@ std::string pace_text(double factor) {
   return fmt::format(": {:.{}f} times {} than real time", times, times < 10 ? 1 : 0, factor < 1 ? "slower" : "faster");
 }
 
+/// Of a run that is not the usual one.
+std::string execution(const RunResult& result) {
+  if (result.engine == "skip" && result.view == "pins") return "";
+  return fmt::format(" (engine {}, view {})", result.engine, result.view);
+}
+
 std::string measured(const RunResult& result) {
   std::string text =
       masters(result) +
       named_line("telegrams", fmt::format("{} ({} wrong)", result.telegrams, result.wrong_telegrams)) +
-      named_line("simulated",
-                 fmt::format("{} in {:.2f} s{} (engine {}, view {})", moment_text(result.simulated), result.wall_s,
-                             pace_text(result.real_time_factor()), result.engine, result.view));
+      named_line("simulated", fmt::format("{} in {:.2f} s{}{}", moment_text(result.simulated), result.wall_s,
+                                          pace_text(result.real_time_factor()), execution(result)));
   if (result.pacing) text += pacing(result.pacing->line, result.pacing->pace);
   return text + boards(result);
 }

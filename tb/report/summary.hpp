@@ -6,11 +6,11 @@
 
 namespace dsdpv1::tb {
 
-/// What the terminal shows at the end of a run: state changes with times, measurements of each slave, expectations,
+/// The text for the terminal at the end of a run: state changes with times, measurements of each slave, expectations,
 /// checks, verdict.
 std::string summary(const RunResult& result, CheckRows checks = CheckRows::kViolated);
 
-/// The same with all checks, as wide as it is: what files keep.
+/// The same with all checks and without wrapping, for files.
 std::string whole_summary(const RunResult& result);
 
 }  // namespace dsdpv1::tb

@@ -49,7 +49,7 @@ std::size_t longest_word_of(const std::string& text) {
   return longest;
 }
 
-/// Between words; a word that is too long by itself stays.
+/// Wraps between words; a longer word is kept whole.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
   if (width_of(text) <= width) return {text};
   std::vector<std::string> lines;
@@ -142,6 +142,8 @@ void TextTable::add(std::vector<std::string> row) {
   for (std::string& cell : row) cell = bus::printable(cell);
   rows_.push_back(std::move(row));
 }
+
+bool TextTable::fits() const { return total(widths_of(width_of)) <= limit; }
 
 std::string TextTable::text() const {
   Widths widths = widths_of(width_of);

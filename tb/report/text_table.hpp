@@ -8,7 +8,7 @@
 
 namespace dsdpv1::tb {
 
-/// How wide tables may be, for as long as it lives; the latest counts. Without one they are as wide as they need.
+/// Limits the width of tables during its lifetime; the latest limit counts. Without a limit tables are not wrapped.
 class TableWidth {
  public:
   static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
@@ -31,7 +31,7 @@ std::string line_of(const std::string& text);
 /// The text at the line's begin, wrapped in the same way.
 std::string wrapped_text(const std::string& text);
 
-/// A command of a shell, behind two blanks: where it is too wide it goes on below, each line but the last with a
+/// A command of a shell, after two blanks: where it is too wide it continues below, each line except the last with a
 /// backslash.
 std::string command_lines(const std::string& command);
 
@@ -43,6 +43,8 @@ class TextTable {
   explicit TextTable(std::vector<std::string> head) { add(std::move(head)); }
   void add(std::vector<std::string> row);
   std::string text() const;
+  /// True if no cell of text() has to be wrapped.
+  bool fits() const;
 
  private:
   using Widths = std::vector<std::size_t>;

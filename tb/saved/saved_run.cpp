@@ -75,7 +75,7 @@ SavedRun run_of(const json& given) {
 }
 
 [[noreturn]] void damaged(const std::string& path) {
-  throw InputError(path, 0, "is damaged, allowed is a saved run as it was written");
+  throw InputError(path, 0, "is damaged, expected a saved run as it was written");
 }
 
 }  // namespace
@@ -88,13 +88,13 @@ std::string to_bytes(const SavedRun& run) {
 
 SavedRun parse_saved_run(std::string_view bytes, const std::string& path) {
   if (bytes.substr(0, kMagic.size()) != kMagic)
-    throw InputError(path, 0, "is no saved run, allowed is what run --save-at writes");
+    throw InputError(path, 0, "is no saved run, expected what run --save-at writes");
   const std::string_view line = bytes.substr(0, bytes.find('\n'));
   const std::string_view object = bytes.substr(std::min(line.size() + 1, bytes.size()));
   const std::string version = fmt::format("{}{} ", kMagic, SavedRun::kVersion);
   if (line.substr(0, version.size()) != version)
     throw InputError(path, 0,
-                     fmt::format("is a saved run of another version of the format, allowed is {}", SavedRun::kVersion));
+                     fmt::format("is a saved run of another version of the format, expected {}", SavedRun::kVersion));
   if (line.substr(version.size()) != fingerprint(object)) damaged(path);
   try {
     SavedRun run = run_of(json::from_cbor(object.begin(), object.end()));

@@ -47,13 +47,13 @@ class Checker {
     const auto check = [&](const Name& name) {
       const auto good = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
       if (name.text.size() > 32 || !std::all_of(name.text.begin(), name.text.end(), good))
-        fail(name.line, fmt::format("name is \"{}\", allowed are 1 to 32 letters, digits and _", name.text));
+        fail(name.line, fmt::format("name is \"{}\", expected 1 to 32 letters, digits and _", name.text));
       if (name.text == "bus" || name.text == "script")
-        fail(name.line, fmt::format("name {} is taken, allowed is any other", name.text));
+        fail(name.line, fmt::format("name {} is taken, expected any other", name.text));
       const auto [place, fresh] = seen.emplace(name.text, name.line);
       if (!fresh)
         fail(name.line,
-             fmt::format("name {} is already that of line {}, allowed is each name once", name.text, place->second));
+             fmt::format("name {} is already that of line {}, expected each name once", name.text, place->second));
     };
     for (const Slave& slave : scenario_.slaves) check(slave.name);
     for (const Master& master : scenario_.masters) check(master.name);
@@ -66,8 +66,8 @@ class Checker {
   void check_known(const Name& name, const char* what, const std::vector<std::string>& known) const {
     if (name.empty() || std::find(known.begin(), known.end(), name.text) != known.end()) return;
     if (known.empty()) fail(name.line, fmt::format("{} {} does not exist, the scenario has none", what, name.text));
-    fail(name.line, fmt::format("{} {} does not exist{}, allowed are {}", what, name.text,
-                                did_you_mean(name.text, known), join(known)));
+    fail(name.line, fmt::format("{} {} does not exist{}, expected {}", what, name.text, did_you_mean(name.text, known),
+                                join(known)));
   }
   void check_slave_name(const Name& name) const { check_known(name, "slave", slaves_); }
   void check_master_name(const Name& name) const { check_known(name, "master", masters_); }
@@ -81,7 +81,7 @@ class Checker {
   void check_code(const Name& code) const {
     if (code.empty() || is_code(*scenario_.kind, code.text)) return;
     const std::vector<std::string>& codes = all_codes(*scenario_.kind);
-    fail(code.line, fmt::format("event {} does not exist{}, allowed are the codes of docs/reasons.md", code.text,
+    fail(code.line, fmt::format("event {} does not exist{}, expected the codes of docs/reasons.md", code.text,
                                 did_you_mean(code.text, codes)));
   }
 
@@ -89,7 +89,7 @@ class Checker {
     check_objects(slave.user_cpu.dpv1);
     scenario_.kind->check_user(*slave.user_cpu.own, *scenario_.chip, {scenario_.file}, slave.name.text, slave.line);
     if (slave.gsd.empty() && !slave.modules.empty())
-      fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
+      fail(slave.modules.front().line, "modules without gsd, expected the modules of a GSD file");
     if (!slave.gsd.empty()) return;
     const InitData& init = slave.init;
     const auto need = [&](bool there, const char* key) {
@@ -109,22 +109,22 @@ class Checker {
     for (const Dpv1Object& object : user.objects) {
       const auto [place, fresh] = seen.emplace(std::pair(object.slot, object.index), object.line);
       if (!fresh)
-        fail(object.line, fmt::format("slot {} index {} is already taken in line {}, allowed is each once", object.slot,
+        fail(object.line, fmt::format("slot {} index {} is already taken in line {}, expected each once", object.slot,
                                       object.index, place->second));
       if (!object.read && !object.write && !object.transport)
         fail(object.line, "an object needs at least one of read, write, transport");
       if (object.min_length > static_cast<int>(object.data.size()))
-        fail(object.line, fmt::format("min_length is {}, allowed is up to the length of data, {}", object.min_length,
+        fail(object.line, fmt::format("min_length is {}, expected up to the length of data, {}", object.min_length,
                                       object.data.size()));
       if (object.transport && object.classes == user_cpu::kClass1)
-        fail(object.line, "transport is a service of C2, allowed with classes: both or class_2");
+        fail(object.line, "transport is a service of C2, it needs classes: both or class_2");
     }
   }
 
   void check_master(const Master& master) const {
     check_free_address(master);
     if (!scenario_.masters2.empty() && !master.bus.ring)
-      fail(master.line, fmt::format("master {} is alone on the bus, beside masters2 allowed is bus: {{ring: true}}",
+      fail(master.line, fmt::format("master {} is alone on the bus, beside masters2 it needs bus: {{ring: true}}",
                                     master.name.text));
     for (const MasterSlave& slave : master.slaves) check_master_slave(slave);
   }
@@ -133,7 +133,7 @@ class Checker {
     check_free_address(master);
     for (const Master& other : scenario_.masters) {
       if (other.address == master.address)
-        fail(master.line, fmt::format("master {} has address {} of master {}, allowed is each address once",
+        fail(master.line, fmt::format("master {} has address {} of master {}, expected each address once",
                                       master.name.text, master.address, other.name.text));
     }
     for (const Connection& connection : master.connections) check_slave_name(connection.slave);
@@ -143,7 +143,7 @@ class Checker {
   void check_free_address(const AnyMaster& master) const {
     for (const Slave& slave : scenario_.slaves) {
       if (slave.address == master.address)
-        fail(master.line, fmt::format("master {} has address {} of slave {}, allowed is each address once",
+        fail(master.line, fmt::format("master {} has address {} of slave {}, expected each address once",
                                       master.name.text, master.address, slave.name.text));
     }
   }
@@ -153,14 +153,14 @@ class Checker {
     if (slave.slave.empty() && slave.gsd.empty() && (!slave.ident || !slave.cfg))
       fail(slave.line, "a master's slave needs slave, gsd, or ident and cfg");
     if (slave.gsd.empty() && slave.slave.empty() && !slave.modules.empty())
-      fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
+      fail(slave.modules.front().line, "modules without gsd, expected the modules of a GSD file");
     for (const std::uint8_t group : slave.groups)
-      if (group < 1 || group > 8) fail(slave.line, fmt::format("groups holds {}, allowed are 1 to 8", group));
+      if (group < 1 || group > 8) fail(slave.line, fmt::format("groups holds {}, expected 1 to 8", group));
   }
 
   void check_time(const std::optional<bus::Tick>& time, const char* key, int line) const {
     if (time && *time > scenario_.end)
-      fail(line, fmt::format("{} is {}, allowed is up to the end of the run, {}", key, time_text(*time),
+      fail(line, fmt::format("{} is {}, expected up to the end of the run, {}", key, time_text(*time),
                              time_text(scenario_.end)));
   }
 
@@ -173,19 +173,19 @@ class Checker {
                              condition.data_exchanges || condition.data_exchanges_at_most || condition.inputs ||
                              condition.outputs || !condition.event.empty() || condition.tsdr_min ||
                              condition.tsdr_max || condition.longest_wait_at_most;
-    if (about_slave && condition.slave.empty()) fail(condition.line, "slave is missing, allowed are " + join(slaves_));
+    if (about_slave && condition.slave.empty()) fail(condition.line, "slave is missing, expected " + join(slaves_));
     if ((condition.reply || condition.outcome) != condition.reply_of.has_value())
       fail(condition.line, "reply or outcome and reply_of are only allowed together");
     if (condition.outcome && !acyclic(*condition.reply_of))
-      fail(condition.line, "outcome is only known of acyclic services, allowed is reply");
+      fail(condition.line, "outcome is only known of acyclic services, expected reply");
     if (condition.connection_state && condition.connection.empty())
-      fail(condition.line, "connection_state without connection, allowed is a connection's name");
+      fail(condition.line, "connection_state without connection, expected a connection's name");
     if (condition.reply_of && class2(*condition.reply_of) == condition.connection.empty())
       fail(condition.line, "connection belongs to the services c2_read, c2_write and c2_transport");
     if (condition.reply_of && !class2(*condition.reply_of) && scenario_.masters.empty())
       fail(condition.line, "reply_of needs a master, the scenario has none");
     if (condition.event.empty() && condition.count_at_most)
-      fail(condition.line, "count_at_most without event, allowed is an event's code");
+      fail(condition.line, "count_at_most without event, expected an event's code");
   }
 
   void check_expectation(const Expectation& expectation) const {
@@ -204,7 +204,7 @@ class Checker {
     if (action.what == ActionKind::kOfChip)
       check_order(action);
     else if (action.bytes.size() > 255)
-      fail(action.line, fmt::format("bytes has {} bytes, allowed are 0 to 255", action.bytes.size()));
+      fail(action.line, fmt::format("bytes has {} bytes, expected 0 to 255", action.bytes.size()));
     switch (action.what) {
       case ActionKind::kReadInputs:
       case ActionKind::kReadOutputs:

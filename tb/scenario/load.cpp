@@ -59,9 +59,9 @@ std::optional<YAML::Mark> second_document(const std::string& text) {
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   try {
     YAML::Node root = YAML::Load(text);
-    if (root.IsNull()) throw InputError(file, 1, "is empty, allowed is a scenario");
+    if (root.IsNull()) throw InputError(file, 1, "is empty, expected a scenario");
     if (const std::optional<YAML::Mark> second = second_document(text))
-      throw InputError(file, second->line + 1, "a second document, allowed is one scenario a file");
+      throw InputError(file, second->line + 1, "a second document, expected one scenario a file");
     return root;
   } catch (const YAML::Exception& error) {
     throw InputError(file, error.mark.line + 1, "is not YAML: " + error.msg);
@@ -96,7 +96,7 @@ const ChipKind& kind_of(const YAML::Node& root, const std::string& file) {
   for (const ChipKind* each : chip_kinds()) names.emplace_back(each->name());
   throw InputError(
       file, keys::line_of(name),
-      fmt::format("kind is {}{}, allowed is {}", name.Scalar(), did_you_mean(name.Scalar(), names), join(names)));
+      fmt::format("kind is {}{}, expected {}", name.Scalar(), did_you_mean(name.Scalar(), names), join(names)));
 }
 
 std::vector<std::string> files_of(const YAML::Node& root, const std::string& scenario) {

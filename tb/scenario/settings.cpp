@@ -51,7 +51,7 @@ const Field& find(const Object& object, const std::string& step, const ChipKind&
     more = "; of every slave " + join(of_slave);
     names.insert(names.end(), of_slave.begin(), of_slave.end());
   }
-  fail(origin, fmt::format("unknown key {} in {}{}, allowed are {}{}", step, object.name, did_you_mean(step, names),
+  fail(origin, fmt::format("unknown key {} in {}{}, expected {}{}", step, object.name, did_you_mean(step, names),
                            allowed, more));
 }
 
@@ -61,17 +61,16 @@ bool has_keys(const Field& field) { return field.type.kind == Kind::kObject; }
 /// The end of a path must be one value.
 void check_end(const Field& field, const std::string& origin) {
   if (has_keys(field))
-    fail(origin,
-         fmt::format("{} is a mapping, allowed are its keys {}", field.name, join(names_of(*field.type.object))));
+    fail(origin, fmt::format("{} is a mapping, expected its keys {}", field.name, join(names_of(*field.type.object))));
   if (has_items(field))
-    fail(origin, fmt::format("{} is a list, allowed are the keys of one item, like {}.0.{}", field.name, field.name,
+    fail(origin, fmt::format("{} is a list, expected the keys of one item, like {}.0.{}", field.name, field.name,
                              field.type.object->fields.front().name));
 }
 
 /// As above for the middle of a path.
 void check_middle(const Field& field, const std::string& next, const std::string& origin) {
   if (has_keys(field) || has_items(field)) return;
-  fail(origin, fmt::format("{} is one value, allowed is no key {} below it", field.name, next));
+  fail(origin, fmt::format("{} is one value, expected no key {} below it", field.name, next));
 }
 
 const Field& walk(const Object& object, const Steps& steps, std::size_t at, const ChipKind& kind,
@@ -112,7 +111,7 @@ YAML::Node value_of(const Field& field, const Setting& setting) {
     try {
       value.reset(YAML::Load(setting.value));
     } catch (const YAML::Exception&) {
-      fail(setting.origin, fmt::format("{} is no list, allowed is like [1, 2]", setting.value));
+      fail(setting.origin, fmt::format("{} is no list, expected something like [1, 2]", setting.value));
     }
   }
   check_value(field, value, setting.origin);
@@ -173,7 +172,7 @@ class Writer {
     std::vector<std::string> names = item_names(list);
     const std::string near = did_you_mean(step, names);
     names.insert(names.begin(), list.size() == 1 ? "0" : fmt::format("0 to {}", list.size() - 1));
-    fail(setting_.origin, fmt::format("{} has no item {}{}, allowed are {}", field.name, step, near, join(names)));
+    fail(setting_.origin, fmt::format("{} has no item {}{}, expected {}", field.name, step, near, join(names)));
   }
 
   const Setting& setting_;
@@ -189,7 +188,7 @@ std::string given_path(const std::string& path) { return std::filesystem::absolu
 Setting parse_setting(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string origin = option + " " + text;
-  if (equals == std::string::npos || equals == 0) fail(origin, "allowed is PATH=VALUE, like user_cpu.cycle=40us");
+  if (equals == std::string::npos || equals == 0) fail(origin, "expected PATH=VALUE, like user_cpu.cycle=40us");
   return {text.substr(0, equals), text.substr(equals + 1), origin};
 }
 

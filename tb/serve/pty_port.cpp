@@ -29,7 +29,7 @@ class Link {
     std::error_code error;
     if (fs::is_symlink(fs::symlink_status(path, error)) && !fs::exists(path, error)) fs::remove(path, error);
     if (::symlink(target.c_str(), path.c_str()) != 0) {
-      const std::string hint = errno == EEXIST ? ", allowed is a name that is free" : "";
+      const std::string hint = errno == EEXIST ? ", expected a name that is free" : "";
       throw InputError(path, 0, std::string("cannot be made a link: ") + std::strerror(errno) + hint);
     }
     while_starting_.emplace(path);

@@ -59,13 +59,13 @@ class SerialPort : public HostConnection {
     device_.reset(::open(options_.device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!device_) return failed(std::string("cannot be opened: ") + std::strerror(errno));
     const int fd = device_.get();
-    if (::isatty(fd) == 0) return failed("is no serial port, allowed is a terminal device such as /dev/ttyUSB0");
+    if (::isatty(fd) == 0) return failed("is no serial port, expected a terminal device such as /dev/ttyUSB0");
     if (!take_alone(fd)) return failed("is in use by another program");
     if (!set_8e1(fd, options_.bits_per_second))
       return failed(fmt::format("refuses {} bit/s 8E1: {}", options_.bits_per_second, std::strerror(errno)));
     const int speed = speed_of(fd);
     if (speed * 50 < options_.bits_per_second * 49 || speed * 50 > options_.bits_per_second * 51) {
-      return failed(fmt::format("offers {} bit/s instead of {}, allowed is what its hardware can do (--baud)", speed,
+      return failed(fmt::format("offers {} bit/s instead of {}, expected what its hardware can do (--baud)", speed,
                                 options_.bits_per_second));
     }
     ask_for_low_latency(fd);

@@ -231,7 +231,7 @@ TEST(ArmBoard, FilesThatAreNoFirmwareGiveOneLine) {
   EXPECT_THAT(refused(DSDPV1_SIM), HasSubstr("64"));  // a program of this computer
   EXPECT_THAT(refused(std::string(DSDPV1_SOURCE_DIR) + "/README.md"), HasSubstr("ELF"));
   EXPECT_THAT(refused("nowhere.elf"), HasSubstr("nowhere.elf"));
-  EXPECT_THAT(refused("/dev/zero"), testing::StartsWith("/dev/zero: is larger than 64 MB, allowed is an executable"));
+  EXPECT_THAT(refused("/dev/zero"), testing::StartsWith("/dev/zero: is larger than 64 MB, expected an executable"));
 }
 
 // --- foreign firmware: no mailbox ------------------------------------------------------------------------------------
@@ -257,7 +257,7 @@ TEST_P(DemandingScenarios, AreRefusedInOneLineThatNamesTheDemand) {
   EXPECT_EQ(called.status, 2);
   EXPECT_THAT(called.err, testing::MatchesRegex("scenarios/" + name + "\\.yaml:[0-9]+: " + demand +
                                                 ".*foreign.elf, which has no mailbox \\(dsdpv1_bench\\), cannot "
-                                                "(be told|tell them); allowed is .*leave_out}\n"));
+                                                "(be told|tell them); expected .*leave_out}\n"));
 }
 INSTANTIATE_TEST_SUITE_P(All, DemandingScenarios, testing::ValuesIn(kDemands),
                          [](const auto& each) { return each.param.first; });
@@ -316,7 +316,8 @@ TEST(ArmBoard, SwitchesHoldInputPins) {
   EXPECT_THAT(run("[PA0=high]").out, HasSubstr("initialised: address 5"));
   for (const char* wrong :
        {"PA0=up", "PA=low", "PA16=low", "PA00=low", "PA+1=low", "PH0=low", "QA0=low", "PA0=", "PA0"})
-    EXPECT_THAT(run("[" + std::string(wrong) + "]").err, HasSubstr("allowed are like PA0=low or PG15=high")) << wrong;
+    EXPECT_THAT(run("[" + std::string(wrong) + "]").err, HasSubstr("expected something like PA0=low or PG15=high"))
+        << wrong;
   EXPECT_THAT(run("[PG14=low]").err, HasSubstr("a pin that the board wires to the chip"));
   EXPECT_THAT(run("[PA0=low, PA0=high]").err, HasSubstr("a pin that is there twice"));
 }
@@ -434,7 +435,7 @@ TEST(ArmBoard, ViewTlmHasNoSerialPinsForIt) {
   EXPECT_EQ(called.status, 2);
   EXPECT_EQ(called.err,
             "dsdpv1-sim run: --view tlm has whole frames and telegrams at the chip's serial ports, and "
-            "scenarios/arm_spi.yaml an ARM board that moves their pins, allowed is --view pins\n");
+            "scenarios/arm_spi.yaml an ARM board that moves their pins, expected --view pins\n");
   EXPECT_FALSE(std::filesystem::exists(folder.file("r.json")));
   const std::string folder_of = "'" DSDPV1_SOURCE_DIR "/scenarios/";
   const Called regressed =

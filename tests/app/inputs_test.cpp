@@ -112,7 +112,7 @@ TEST_F(Inputs, OneThatComesThroughADescriptorIsNotReplaced) {
   write("s.yaml", scenario_named("x"));
   const Called called = in_shell("\"$SIM\" run /dev/stdin --log s.yaml <s.yaml");
   EXPECT_EQ(called.status, 2);
-  EXPECT_EQ(called.err, "dsdpv1-sim run: --log would replace the scenario, s.yaml, allowed is a separate file\n");
+  EXPECT_EQ(called.err, "dsdpv1-sim run: --log would replace the scenario, s.yaml, expected a separate file\n");
   EXPECT_EQ(read(folder_.path() / "s.yaml"), scenario_named("x"));
 }
 
@@ -122,7 +122,7 @@ TEST_F(Inputs, StackThatIsTooSmallIsOneLine) {
   for (const char* arguments : {"run s.yaml", "reasons", "gsd x.gsd", "decode"}) {
     const Called called = in_shell(std::string("ulimit -s 128; exec \"$SIM\" ") + arguments);
     EXPECT_EQ(called.status, 2) << arguments;
-    EXPECT_EQ(called.err, "dsdpv1-sim: the stack is limited to 128 KB, allowed are 512 KB and more\n");
+    EXPECT_EQ(called.err, "dsdpv1-sim: the stack is limited to 128 KB, expected 512 KB or more\n");
     EXPECT_EQ(called.out, "");
   }
 }

@@ -106,8 +106,7 @@ TEST(Summary, HasOneLineWhenAllChecksAreKept) {
   run.kept.id = "HOLD";
   run.violated.id = "SETUP";
   const std::string text = tb::summary(run.result);
-  EXPECT_NE(text.find("  checks         2 of 2 kept; tightest HOLD 1.417 ns at 63.280 us\n"), std::string::npos)
-      << text;
+  EXPECT_NE(text.find("  checks         all 2 kept, HOLD by only 1.417 ns at 63.280 us\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("SETUP"), std::string::npos) << text;
   EXPECT_NE(tb::summary(run.result, tb::CheckRows::kAll).find("  SETUP      7         0        0         -"),
             std::string::npos);
@@ -134,12 +133,36 @@ TEST(Summary, SaysHowMuchSlowerOrFasterThanRealTimeItWas) {
 
 TEST(Summary, WrapsItsSentencesToTheTerminal) {
   tb::RunResult result;
-  result.engine = "skip";
+  result.engine = "rtl";
   result.view = "pins";
   const tb::TableWidth narrow(50);
-  EXPECT_NE(tb::summary(result).find("0.000 ns in 0.00 s (engine skip,\n                 view pins)\n"),
+  EXPECT_NE(tb::summary(result).find("0.000 ns in 0.00 s (engine rtl,\n                 view pins)\n"),
             std::string::npos)
       << tb::summary(result);
+}
+
+TEST(Summary, NamesEngineAndViewThatAreNotTheUsualOnes) {
+  tb::RunResult result;
+  result.engine = "skip";
+  result.view = "pins";
+  EXPECT_EQ(tb::summary(result).find("engine"), std::string::npos);
+  result.view = "tlm";
+  EXPECT_NE(tb::summary(result).find("0.000 ns in 0.00 s (engine skip, view tlm)\n"), std::string::npos);
+}
+
+TEST(Summary, PutsStatesAndTimesOfSlavesIntoTwoTablesWhereOneIsTooWide) {
+  tb::RunResult result;
+  result.slaves.resize(2);
+  result.slaves[0].name = "one";
+  result.slaves[1].name = "other";
+  const std::string whole = "overwritten  TSDR / bit times", states = "  slave  address  DP state",
+                    times = "  slave  TSDR / bit times";
+  EXPECT_NE(tb::summary(result).find(whole), std::string::npos);
+  const tb::TableWidth narrow(80);
+  const std::string text = tb::summary(result);
+  EXPECT_EQ(text.find(whole), std::string::npos);
+  EXPECT_NE(text.find(states), std::string::npos) << text;
+  EXPECT_NE(text.find(times), std::string::npos) << text;
 }
 
 TEST(ShortTime, HasTheUnitThatLeaves1To999) {

@@ -129,7 +129,7 @@ TEST(Kinds, WhatTheRsuDoesNotTakeIsSaid) {
     EXPECT_EQ(called.status, 2) << options;
     return called.err;
   };
-  EXPECT_NE(error(" --set chip.u_timer=47").find("u_timer is 47, allowed is 0 or"), std::string::npos);
+  EXPECT_NE(error(" --set chip.u_timer=47").find("u_timer is 47, expected 0 or"), std::string::npos);
   EXPECT_NE(error(" --set 'chip.uart_gaps=[1,2,3]'").find("uart_gaps has 3 items"), std::string::npos);
   EXPECT_NE(error(" --set 'chip.uart_gaps=[7,2,4,10,20,40,100,1001]'").find("from 1 to 1000 half characters"),
             std::string::npos);

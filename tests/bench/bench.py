@@ -50,19 +50,19 @@ def chosen_rows(text, known):
     names, allowed = [name for name in text.split(",") if name], [row.name for row in known]
     unknown = [name for name in names if name not in allowed]
     if unknown or not names:
-        raise ValueError(f"argument --only: unknown row {unknown[0] if unknown else '(none)'}, allowed are {', '.join(allowed)}")
+        raise ValueError(f"argument --only: unknown row {unknown[0] if unknown else '(none)'}, expected {', '.join(allowed)}")
     return [row for row in known if row.name in names]
 
 
 def some_rounds(text):
     if not re.fullmatch(r"[0-9]{1,9}", text) or not 1 <= int(text) <= MOST_ROUNDS:
-        raise argparse.ArgumentTypeError(f"{text} is no number of rounds, allowed are 1 to {MOST_ROUNDS}")
+        raise argparse.ArgumentTypeError(f"{text} is no number of rounds, expected 1 to {MOST_ROUNDS}")
     return int(text)
 
 
 def some_minutes(text):
     if not re.fullmatch(r"[0-9]{1,9}", text) or int(text) > MOST_MINUTES:
-        raise argparse.ArgumentTypeError(f"{text} is no number of minutes, allowed are 0 to {MOST_MINUTES}")
+        raise argparse.ArgumentTypeError(f"{text} is no number of minutes, expected 0 to {MOST_MINUTES}")
     return int(text)
 
 

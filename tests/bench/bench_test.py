@@ -220,10 +220,10 @@ class CommandLine(unittest.TestCase):
         self.assertIn(words, errors)
 
     def test_what_it_does_not_know_is_one_line_and_exit_2(self):
-        self.refuses("unknown row core_3, allowed are core_2, ", "--only", "core_2,core_3")
+        self.refuses("unknown row core_3, expected core_2, ", "--only", "core_2,core_3")
         self.refuses("unknown row (none)", "--only", ",")
         for rounds in ("0", "-1", "1001", "many", "²"):
-            self.refuses("is no number of rounds, allowed are 1 to 1000", f"--rounds={rounds}")
+            self.refuses("is no number of rounds, expected 1 to 1000", f"--rounds={rounds}")
         self.refuses("its folder is not there", "--json", "/nowhere/table.json")
         self.refuses("is no file that can be replaced", "--json", "/")
         self.refuses("--document needs all rows", "--document", "--only", "demo")

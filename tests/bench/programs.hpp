@@ -23,7 +23,7 @@ inline const Row* find(const std::vector<Row>& rows, const char* name) {
 inline int wrong(const char* program, const std::vector<Row>& rows, const char* name) {
   std::string allowed;
   for (const Row& row : rows) allowed += " " + row.name;
-  std::fprintf(stderr, "%s: unknown row %s, allowed are%s\n", program, name, allowed.c_str());
+  std::fprintf(stderr, "%s: unknown row %s, expected%s\n", program, name, allowed.c_str());
   return 2;
 }
 

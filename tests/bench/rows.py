@@ -109,7 +109,7 @@ ROWS = (
         in_program("bench_rtl", "core_vs_rtl"), RTL, limit="The core's limit, see core_16."),
     Row("c_api", 90, "%", "The chip through the C API as a share of the core itself, on the stimulus of core_16: a request is one call (`dpsim_chip_receive`, "
         "`Chip::hear`); L_REQ and PBTXD are watched by a callback and counted. In turns, in one process, in CPU time.", in_program("bench_capi", "c_api"), CAPI,
-        limit="Each change of a watched pin is one more call out of the library."),
+        limit="Each change of a watched pin is two more calls: from the core's pin to the number that all kinds of chip share, and out of the library."),
     Row("c_api_edges", None, "%", "The same with a call for each edge of a request (`dpsim_chip_set`, `Chip::set`), as in a simulator that has the chip's pins.",
         in_program("bench_capi", "c_api_edges"), CAPI),
     Row("c_api_changes", 10, "million/s", "Changes of all pins that the C API writes into the caller's buffer, on the same stimulus.",

@@ -59,7 +59,7 @@ TEST(SimulatorPins, OfEachKindAreThoseThatTheCApiLists) {
             "PBF 13 1 -1 26\nBR 14 1 -1 27\nREADY 15 1 -1 28\nMISO 16 1 19 29\nTXD 17 1 -1 30\n");
   EXPECT_EQ(pins_of_kind("dsdpv1_r").outputs.places().size(), 9U);
   EXPECT_EQ(dsdpv1_model_create("kind=dsdpv2"), 0);
-  EXPECT_NE(std::string(dsdpv1_error()).find("allowed are dsdpv1, dsdpv1_r, dsdpv1_rsu"), std::string::npos);
+  EXPECT_NE(std::string(dsdpv1_error()).find("expected dsdpv1, dsdpv1_r, dsdpv1_rsu"), std::string::npos);
 }
 
 TEST(SimulatorPins, ALevelComesBackAsItWasPacked) {
@@ -108,7 +108,7 @@ TEST(SimulatorModel, WrongCallsSayWhatIsWrong) {
   EXPECT_LT(dsdpv1_model_step(9999, 0, 0, 0, &next), 0);
   EXPECT_EQ(std::string(dsdpv1_error()), "handle 9999 is none: was the object created?");
   EXPECT_EQ(dsdpv1_model_create("rts_lead"), 0);
-  EXPECT_EQ(std::string(dsdpv1_error()), "option rts_lead is none, allowed is NAME=VALUE");
+  EXPECT_EQ(std::string(dsdpv1_error()), "option rts_lead is none, expected NAME=VALUE");
   EXPECT_EQ(dsdpv1_model_create("rts_lead=x"), 0);
   EXPECT_NE(std::string(dsdpv1_error()).find("option rts_lead is x"), std::string::npos);
   EXPECT_EQ(dsdpv1_model_create("rts_lead=33"), 0);

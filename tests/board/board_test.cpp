@@ -152,9 +152,10 @@ TEST_F(BoardTest, NonsenseInTheMailboxIsAFaultOfTheFirmware) {
   start(kNonsense, at_72_mhz(), {}, 0x20008000);
   board->on_error = [](const user_cpu::ProgramError&) { ADD_FAILURE() << "no error of the driver"; };
   run();
-  EXPECT_EQ(failure.first,
-            "the firmware has written nonsense into its mailbox (dsdpv1_bench): report.errors[0].error is 200, allowed "
-            "are the failures of dsdpv1_error");
+  EXPECT_EQ(
+      failure.first,
+      "the firmware has written nonsense into its mailbox (dsdpv1_bench): report.errors[0].error is 200, expected "
+      "the failures of dsdpv1_error");
   EXPECT_THAT(failure.second, HasSubstr("xpsr"));
   EXPECT_EQ(failures, 1);
 }

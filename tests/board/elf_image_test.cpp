@@ -110,7 +110,7 @@ TEST(ElfImage, WhereTheExampleComesFromIsSaid) {
     }
   };
   EXPECT_EQ(answer_of("build/none/examples/firmware/device_O2.elf"),
-            "build/none/examples/firmware/device_O2.elf: no such file, allowed is an executable for ARM (32 bit, "
+            "build/none/examples/firmware/device_O2.elf: no such file, expected an executable for ARM (32 bit, "
             "little endian) such as "
             "arm-none-eabi-gcc links; `./run sim run SCENARIO` builds the example firmware, and so does the target "
             "dsdpv1_firmware");
@@ -206,8 +206,9 @@ TEST(ElfImage, FilesThatCannotBeReadAreRefused) {
     }
     return "";
   };
-  EXPECT_THAT(message("there_is_none.elf"), AllOf(StartsWith("there_is_none.elf: no such file"), HasSubstr("allowed")));
-  EXPECT_THAT(message("."), AllOf(StartsWith(".: is a folder"), HasSubstr("allowed")));
+  EXPECT_THAT(message("there_is_none.elf"),
+              AllOf(StartsWith("there_is_none.elf: no such file"), HasSubstr("expected")));
+  EXPECT_THAT(message("."), AllOf(StartsWith(".: is a folder"), HasSubstr("expected")));
   EXPECT_THAT(message("/dev/zero"), StartsWith("/dev/zero: is larger than 64 MB"));
 }
 

@@ -437,7 +437,7 @@ TEST_F(GdbServerTest, MonitorResetsTheProcessor) {
   EXPECT_EQ(gdb.ask("s"), kStopped);
   EXPECT_EQ(pc(gdb), kRun);
   EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("time"))), "simulated time 0.000001000 s\n") << "before it is executed";
-  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("halt"))), "monitor halt: allowed are time, reset\n");
+  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("halt"))), "monitor halt: expected time, reset\n");
 }
 
 TEST_F(GdbServerTest, TargetThatCannotBeResetSaysSo) {
@@ -480,7 +480,7 @@ TEST_F(GdbServerTest, PortInUseIsOneLine) {
     FAIL() << "two servers at one port";
   } catch (const tb::InputError& error) {
     EXPECT_EQ(std::string(error.what()), "--gdb: TCP port 127.0.0.1:" + std::to_string(bench.port()) +
-                                             " cannot be had: Address already in use, allowed is a free one");
+                                             " cannot be had: Address already in use, expected a free one");
   }
 }
 

@@ -44,9 +44,9 @@ TEST_F(MailboxLinkTest, EveryByteAsAnErrorIsOneOfTheDriversOrIsNamed) {
     each.look(7, [&](const user_cpu::DriverError& error) { seen = error.error; });
     const bool known = failures.count(value) != 0;
     EXPECT_EQ(seen, known ? value : 0) << value;
-    EXPECT_EQ(each.wrong(), known ? ""
-                                  : "report.errors[0].error is " + std::to_string(value) +
-                                        ", allowed are the failures of dsdpv1_error");
+    EXPECT_EQ(
+        each.wrong(),
+        known ? "" : "report.errors[0].error is " + std::to_string(value) + ", expected the failures of dsdpv1_error");
   }
 }
 
@@ -56,7 +56,7 @@ TEST_F(MailboxLinkTest, CallThatTheDriverDoesNotHaveIsNamed) {
   EXPECT_EQ(link.wrong(), "");
   report_error(DSDPV1_ERR_C2_CRC, 8);
   look();
-  EXPECT_EQ(link.wrong(), "report.errors[1].during is 8, allowed are 0 to 7");
+  EXPECT_EQ(link.wrong(), "report.errors[1].during is 8, expected 0 to 7");
   EXPECT_EQ(errors.size(), 1U);
 }
 
@@ -69,7 +69,7 @@ TEST_F(MailboxLinkTest, LengthOfOutputsBeyondTheirPlaceIsNamedAndNothingIsFetche
   box.report.output_length = 245;
   box.report.outputs_received = 2;
   look();
-  EXPECT_EQ(link.wrong(), "report.output_length is 245, allowed are 0 to 244");
+  EXPECT_EQ(link.wrong(), "report.output_length is 245, expected 0 to 244");
   EXPECT_EQ(link.outputs().size(), 244U);
 }
 
@@ -80,7 +80,7 @@ TEST_F(MailboxLinkTest, DoneOfACommandThatWasNeverPostedIsNamed) {
   box.done = 0xFFFFFFFF;
   EXPECT_TRUE(link.has_news());
   EXPECT_FALSE(look());
-  EXPECT_EQ(link.wrong(), "done is 4294967295, allowed are `posted` and the number before it");
+  EXPECT_EQ(link.wrong(), "done is 4294967295, expected `posted` and the number before it");
 }
 
 TEST_F(MailboxLinkTest, SpoiltTelegramsAreHandedOver) {

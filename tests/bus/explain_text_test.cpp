@@ -99,7 +99,7 @@ TEST(DecodeText, ALogOfJsonLines) {
   EXPECT_EQ(result.code, 0) << result.error;
   EXPECT_THAT(result.text, HasSubstr("telegram 1, line 2, 1400.000 ns: 1 -> 3  request FDL status"));
   EXPECT_THAT(decoded("{\"at_ns\": 3}\n").error,
-              "bus.txt:1: is no line of a log, allowed are JSON objects with at_ns and kind, or bytes of two digits 00 "
+              "bus.txt:1: is no line of a log, expected JSON objects with at_ns and kind, or bytes of two digits 00 "
               "to FF");
   EXPECT_EQ(decoded("{not json\n").code, 2);
 }
@@ -145,7 +145,7 @@ TEST(DecodeText, NothingIsNoTelegram) {
 TEST(DecodeText, WhatIsNotHexadecimalIsAnErrorWithItsLineAndNoOutput) {
   const Result word = decoded("E5\nE5 XY\n");
   EXPECT_EQ(word.code, 2);
-  EXPECT_EQ(word.error, "bus.txt:2: 'XY' is no hexadecimal number, allowed are bytes of two digits 00 to FF");
+  EXPECT_EQ(word.error, "bus.txt:2: 'XY' is no hexadecimal number, expected bytes of two digits 00 to FF");
   EXPECT_EQ(word.text, "");
   const Result odd = decoded("123");
   EXPECT_EQ(odd.code, 2);

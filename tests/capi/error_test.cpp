@@ -20,21 +20,21 @@ TEST(CapiError, ArgumentsAreNamedWithWhatIsAllowed) {
   EXPECT_FAILS(dpsim_chip_set(chip.get(), 0, DPSIM_DSDPV1_L_REQ, 1), DPSIM_ERR_ARGUMENT,
                "dpsim_chip_set: L_REQ is an output");
   EXPECT_FAILS(dpsim_chip_set(chip.get(), 0, DPSIM_DSDPV1_A, 0x800), DPSIM_ERR_ARGUMENT,
-               "dpsim_chip_set: the level of A is 2048, allowed are 0 to 2047");
+               "dpsim_chip_set: the level of A is 2048, expected 0 to 2047");
   EXPECT_FAILS(dpsim_chip_set(chip.get(), 0, DPSIM_DSDPV1_D_IN, DPSIM_X), DPSIM_ERR_ARGUMENT,
-               "dpsim_chip_set: the level of D_IN is -2, allowed are 0 to 255 and DPSIM_Z");
+               "dpsim_chip_set: the level of D_IN is -2, expected 0 to 255 and DPSIM_Z");
   EXPECT_FAILS(dpsim_chip_set(chip.get(), DPSIM_LAST_TICK + 1, 0, 1), DPSIM_ERR_ARGUMENT,
-               "dpsim_chip_set: tick is 4611686018427387905, allowed are 0 to 4611686018427387904");
+               "dpsim_chip_set: tick is 4611686018427387905, expected 0 to 4611686018427387904");
   uint8_t cell = 0;
   EXPECT_FAILS(dpsim_chip_peek(chip.get(), 0x800, &cell), DPSIM_ERR_ARGUMENT,
-               "dpsim_chip_peek: address is 2048, allowed are 0 to 2047");
+               "dpsim_chip_peek: address is 2048, expected 0 to 2047");
   const dpsim_parameter wrong = {"rts_lead", 33};
   auto options = sized<dpsim_chip_options>();
   options.parameters = &wrong;
   options.parameter_count = 1;
   dpsim_chip* made = nullptr;
   EXPECT_FAILS(dpsim_chip_create(&options, &made), DPSIM_ERR_ARGUMENT,
-               "dpsim_chip_create: rts_lead is 33, allowed are 0 to 32");
+               "dpsim_chip_create: rts_lead is 33, expected 0 to 32");
   EXPECT_EQ(made, nullptr);
 }
 
@@ -43,7 +43,7 @@ TEST(CapiError, AStructWithoutItsSizeIsRefused) {
   dpsim_chip* chip = nullptr;
   const std::string size = std::to_string(sizeof options);
   EXPECT_FAILS(dpsim_chip_create(&options, &chip), DPSIM_ERR_SIZE,
-               "dpsim_chip_create: size of options is 0, allowed is sizeof, " + size + " here");
+               "dpsim_chip_create: size of options is 0, expected sizeof, " + size + " here");
   options.size = sizeof options + 8;  // of a later header
   EXPECT_EQ(dpsim_chip_create(&options, &chip), DPSIM_ERR_SIZE);
   dpsim_pin_info info{};
@@ -56,9 +56,9 @@ TEST(CapiError, WhatThereIsNotIsNotFound) {
   options.kind = "spc3";
   dpsim_chip* made = nullptr;
   EXPECT_FAILS(dpsim_chip_create(&options, &made), DPSIM_ERR_NOT_FOUND,
-               "dpsim_chip_create: kind is \"spc3\", allowed are dsdpv1, dsdpv1_r, dsdpv1_rsu");
+               "dpsim_chip_create: kind is \"spc3\", expected dsdpv1, dsdpv1_r, dsdpv1_rsu");
   EXPECT_FAILS(dpsim_chip_set(chip.get(), 0, 18, 1), DPSIM_ERR_NOT_FOUND,
-               "dpsim_chip_set: pin is 18, allowed are 0 to 17");
+               "dpsim_chip_set: pin is 18, expected 0 to 17");
   uint16_t pin = 0;
   EXPECT_FAILS(dpsim_pin_find(nullptr, "XINT", &pin), DPSIM_ERR_NOT_FOUND,
                "dpsim_pin_find: the chip has no pin \"XINT\"");
@@ -143,7 +143,7 @@ TEST(CapiError, WrongSlavesAreRefusedInTheMastersWords) {
   ok(dpsim_bus_add_master(bus.get(), nullptr, &master));
   auto slave = sized<dpsim_slave>();
   EXPECT_FAILS(dpsim_master_add_slave(master, &slave), DPSIM_ERR_ARGUMENT,
-               "dpsim_master_add_slave: cfg_size is 0, allowed are 1 to 244");
+               "dpsim_master_add_slave: cfg_size is 0, expected 1 to 244");
   slave.cfg_size = 1;
   slave.address = 127;
   EXPECT_EQ(dpsim_master_add_slave(master, &slave), DPSIM_ERR_ARGUMENT) << dpsim_error_message();

@@ -116,7 +116,7 @@ void expect_refused(const std::string& text, dpsim_status status, const std::str
 
 TEST(CapiScenario, WhatMastersCannotKnowOrDoIsRefusedInOneLine) {
   const std::string allowed =
-      " is not known to masters whose slaves are elsewhere, allowed are dp_state data_exch, data_exchanges and inputs "
+      " is not known to masters whose slaves are elsewhere, expected dp_state data_exch, data_exchanges and inputs "
       "of a "
       "slave that a master of class 1 brings up, connection_state, reply_of";
   const auto when = [](const std::string& condition) {
@@ -126,14 +126,14 @@ TEST(CapiScenario, WhatMastersCannotKnowOrDoIsRefusedInOneLine) {
   expect_refused(when("dp_state: wait_prm"), DPSIM_ERR_INPUT, "test.yaml:9: when: dp_state WAIT_PRM" + allowed);
   expect_refused(when("outputs: \"00\""), DPSIM_ERR_INPUT, "test.yaml:9: when: outputs" + allowed);
   expect_refused(kSlaves, DPSIM_ERR_INPUT,
-                 "test.yaml:1: the scenario has no masters, allowed is one with masters or masters2");
+                 "test.yaml:1: the scenario has no masters, expected one with masters or masters2");
   expect_refused(scenario_with("  - {at: 1us, do: clear}\n", "{name: eng, address: 3}"), DPSIM_ERR_SPACE,
                  "dpsim_bus_add_scenario: the scenario has 2 masters, capacity is 1");
 }
 
 TEST(CapiScenario, AMissingGsdLeavesNobodyOnTheBus) {
   expect_refused(kSlaves + "masters:\n  - {name: plc, slaves: [{address: 6, gsd: none.gsd}]}\n", DPSIM_ERR_INPUT,
-                 "test.yaml:7: gsd none.gsd: no such file, allowed is a GSD file, its path relative to the scenario");
+                 "test.yaml:7: gsd none.gsd: no such file, expected a GSD file, its path relative to the scenario");
 }
 
 }  // namespace

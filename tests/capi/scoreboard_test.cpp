@@ -210,15 +210,15 @@ TEST(CapiScoreboard, WrongCallsSayWhatIsAllowed) {
   compared(scoreboard.get(), {}, 1000);
   fails({999, 0, 0, 1, 0}, 1000, DPSIM_ERR_TIME, "tick is 999, which is before the present tick 1000");
   fails({1001, 0, 0, 1, 0}, 1000, DPSIM_ERR_TIME, "tick is 1000, which is before the present tick 1001");
-  fails({1001, 0, 18, 1, 0}, 1001, DPSIM_ERR_NOT_FOUND, "pin is 18, allowed are 0 to 17");
-  fails({1001, 0, DPSIM_DSDPV1_PBF, 2, 0}, 1001, DPSIM_ERR_ARGUMENT, "PBF is 2, allowed are -2 to 1");
+  fails({1001, 0, 18, 1, 0}, 1001, DPSIM_ERR_NOT_FOUND, "pin is 18, expected 0 to 17");
+  fails({1001, 0, DPSIM_DSDPV1_PBF, 2, 0}, 1001, DPSIM_ERR_ARGUMENT, "PBF is 2, expected -2 to 1");
   fails({1001, 0, DPSIM_DSDPV1_RESET, DPSIM_X, 0}, 1001, DPSIM_ERR_ARGUMENT,
-        "the level of RESET is -2, allowed are 0 to 1");
+        "the level of RESET is -2, expected 0 to 1");
   auto options = sized<dpsim_scoreboard_options>();
   options.tolerance = -1;
   dpsim_scoreboard* made = nullptr;
   EXPECT_EQ(dpsim_scoreboard_create(nullptr, &options, &made), DPSIM_ERR_ARGUMENT);
-  EXPECT_EQ(std::string(dpsim_error_message()).find("dpsim_scoreboard_create: tolerance is -1, allowed are 0 to "), 0U);
+  EXPECT_EQ(std::string(dpsim_error_message()).find("dpsim_scoreboard_create: tolerance is -1, expected 0 to "), 0U);
   auto model = sized<dpsim_chip_options>();
   model.kind = "spc3";
   EXPECT_EQ(dpsim_scoreboard_create(&model, nullptr, &made), DPSIM_ERR_NOT_FOUND);

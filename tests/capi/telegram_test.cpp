@@ -80,7 +80,7 @@ TEST(CapiTelegram, FieldsOutOfRangeAreRefused) {
   uint8_t bytes[DPSIM_MAX_TELEGRAM];
   size_t count = 0;
   EXPECT_EQ(dpsim_telegram_encode(&telegram, bytes, sizeof bytes, &count), DPSIM_ERR_ARGUMENT);
-  EXPECT_STREQ(dpsim_error_message(), "dpsim_telegram_encode: da is 128, allowed are 0 to 127");
+  EXPECT_STREQ(dpsim_error_message(), "dpsim_telegram_encode: da is 128, expected 0 to 127");
   telegram.da = 5;
   telegram.data_size = 3;  // SD1 has none
   EXPECT_EQ(dpsim_telegram_encode(&telegram, bytes, sizeof bytes, &count), DPSIM_ERR_ARGUMENT);

@@ -31,20 +31,20 @@ TEST(CsvReader, TablesAreToldFromHexadecimalText) {
 
 TEST(CsvReader, WrongLinesAreNamed) {
   const std::string head = "Time [s],D0\n";
-  EXPECT_EQ(table_error(head + "0,1\n1,2\n"), "line 3: level 2, allowed are 0 and 1");
-  EXPECT_EQ(table_error(head + "0,1\n1,0,1\n"), "line 3: has 3 columns, allowed are 2 as in the first");
-  EXPECT_EQ(table_error(head + "1,1\n0,0\n"), "line 3: goes back in time, allowed is the order of time");
-  EXPECT_EQ(table_error(head + "now,1\n"), "line 2: time now, allowed is a number");
-  EXPECT_EQ(table_error(head + "nan,1\n"), "line 2: time nan, allowed is a number");
-  EXPECT_EQ(table_error(head + "1e300,1\n"), "line 2: time 1e300, allowed is a number");
+  EXPECT_EQ(table_error(head + "0,1\n1,2\n"), "line 3: level 2, expected 0 or 1");
+  EXPECT_EQ(table_error(head + "0,1\n1,0,1\n"), "line 3: has 3 columns, expected 2 as in the first");
+  EXPECT_EQ(table_error(head + "1,1\n0,0\n"), "line 3: goes back in time, expected the order of time");
+  EXPECT_EQ(table_error(head + "now,1\n"), "line 2: time now, expected a number");
+  EXPECT_EQ(table_error(head + "nan,1\n"), "line 2: time nan, expected a number");
+  EXPECT_EQ(table_error(head + "1e300,1\n"), "line 2: time 1e300, expected a number");
   EXPECT_EQ(table_error("Time [s],D0,D1\n0,1,1\n"),
-            "several signals, name that of the line with --signal, allowed are D0, D1");
+            "several signals, name that of the line with --signal, expected D0, D1");
   EXPECT_EQ(table_error("logic\n1\n"),
-            "line 1: neither a time in the first column nor a samplerate before, allowed is one of them");
+            "line 1: neither a time in the first column nor a samplerate before, expected one of them");
   EXPECT_EQ(table_error("; Samplerate: fast\nlogic\n"),
-            "line 1: samplerate fast, allowed are a number and Hz, kHz, MHz or GHz");
+            "line 1: samplerate fast, expected a number and Hz, kHz, MHz or GHz");
   EXPECT_EQ(table_error(head + std::string(100'000, '1')),
-            "line 2: is longer than 65536 bytes, allowed are lines of up to that");
+            "line 2: is longer than 65536 bytes, expected lines of up to that");
 }
 
 TEST(CsvReader, TableWithoutTelegramsIsSaidToHaveNone) {

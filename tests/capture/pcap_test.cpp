@@ -83,7 +83,7 @@ TEST(Pcapng, UserLinkTypesAreReadOthersAreRefused) {
   for (const std::uint16_t link : std::initializer_list<std::uint16_t>{257, 147, 162})
     EXPECT_THAT(read(written({token(0)}, link)), SizeIs(1));
   EXPECT_EQ(error_of(written({token(0)}, 1)),
-            "packets of link type 1, allowed are 257 (PROFIBUS) and 147 to 162 (USER0 to USER15)");
+            "packets of link type 1, expected 257 (PROFIBUS) and 147 to 162 (USER0 to USER15)");
 }
 
 TEST(Pcapng, WordsOfLinkTypes) {

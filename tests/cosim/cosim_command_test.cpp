@@ -102,7 +102,7 @@ TEST(Cosim, FolderWithoutRtlIsNamed) {
   const app_test::Called called =
       call("cosim --rtl . --top chip '" + std::string(kSource) + "/scenarios/two_slaves.yaml'", folder.path());
   EXPECT_EQ(called.status, 2);
-  EXPECT_EQ(called.err, ".: holds no RTL, allowed are .sv and .v files\n");
+  EXPECT_EQ(called.err, ".: holds no RTL, expected .sv and .v files\n");
 }
 
 /// A wave's changes by the names of the signals.

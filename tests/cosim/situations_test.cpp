@@ -164,7 +164,7 @@ TEST_F(Record, OfAnEmptyFolderIsANewOne) { EXPECT_EQ(read_record(folder_, 7).cyc
 
 TEST_F(Record, OfAnotherSeedOrNoneIsOneLine) {
   write_record(folder_, new_record(8));
-  EXPECT_THAT(wrong(), HasSubstr("campaign.json: this campaign has seed 8, allowed is --seed 8 or --state"));
+  EXPECT_THAT(wrong(), HasSubstr("campaign.json: this campaign has seed 8, expected --seed 8 or --state"));
   std::ofstream(fs::path(folder_) / kCampaignFile) << "{\"schema\": 1}";
   EXPECT_THAT(wrong(), HasSubstr("campaign.json: no record of a campaign of this program"));
   std::ofstream(fs::path(folder_) / kCampaignFile) << "half a f";

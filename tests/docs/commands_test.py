@@ -54,7 +54,7 @@ class Examples(unittest.TestCase):
             with self.subTest(name):  # -S: without site-packages
                 done = subprocess.run([sys.executable, "-I", "-S", commands.ROOT / "examples" / name], capture_output=True, text=True, check=False)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
-                self.assertRegex(done.stderr, rf" has no .*numpy, dsdpv1.*, allowed is a Python with .*{page}")
+                self.assertRegex(done.stderr, rf" has no .*numpy, dsdpv1.*, expected a Python with .*{page}")
 
 
 class Tutorials(unittest.TestCase):

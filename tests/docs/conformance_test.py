@@ -205,7 +205,7 @@ class Conformance(small_project.SmallProject):
     # -------------------------------------------------------------------------------------------------------- bad data
     def test_a_key_that_does_not_exist(self):
         self.change(SHEET, "ruled:", "rules:")
-        self.expect_bad(f"{SHEET}:7: a clause has no key rules, allowed are at, says, ruled, same_as, tests, model, rtl, reason")
+        self.expect_bad(f"{SHEET}:7: a clause has no key rules, expected at, says, ruled, same_as, tests, model, rtl, reason")
 
     def test_a_key_that_is_missing(self):
         self.change(RULINGS, ", rtl: []", "")
@@ -213,11 +213,11 @@ class Conformance(small_project.SmallProject):
 
     def test_a_ruling_with_two_entries(self):
         self.change(RULINGS, "V1:", "P1:")
-        self.expect_bad(f"{RULINGS}:5: P1 is there twice, allowed is once")
+        self.expect_bad(f"{RULINGS}:5: P1 is there twice, expected once")
 
     def test_tests_and_a_reason(self):
         self.change(SHEET, "reason: not modelled", "reason: not modelled, tests: [Core]")
-        self.expect_bad(f"{SHEET}:9: clause T2 has tests and a reason for having none, allowed is one of them")
+        self.expect_bad(f"{SHEET}:9: clause T2 has tests and a reason for having none, expected one of them")
 
     def test_a_word_where_a_list_must_be(self):
         self.change(SHEET, "[P1]", "P1")

@@ -82,7 +82,7 @@ def check_lines(lines):
 
 def check_walk(lines, text, types):
     if len(lines) > MOST_LINES:
-        yield lines[MOST_LINES].number, f"the walk has {len(lines)} lines, allowed are {MOST_LINES}"
+        yield lines[MOST_LINES].number, f"the walk has {len(lines)} lines, expected {MOST_LINES}"
     yield from check_lines(lines)
     rooms = {line.room for line in lines}
     named = {word for line in lines for word in line.words} & types

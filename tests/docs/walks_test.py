@@ -58,7 +58,7 @@ class Walks(small_project.SmallProject):
 
     def test_a_walk_that_is_too_long(self):
         self.change_walk("1. `low/a.hpp`", "1. `low/a.cpp`\n" * 9 + "1. `low/a.hpp`")
-        self.expect("12: the walk has 12 lines, allowed are 10")
+        self.expect("12: the walk has 12 lines, expected 10")
 
     def test_wrong_counts(self):
         self.change_walk("2 rooms, 1 types.", "3 rooms, 1 types.")

@@ -156,7 +156,7 @@ def both_at_start(place):
         process.wait(DEADLINE)
     rows = sorted((place.end(process) for process in both), key=lambda row: row[1])
     check(all(row[0] == "all complete" for row in rows) and rows[0][1] == "0", "none has the result: %s" % rows)
-    check(rows[1][1] == "0" or rows[1][2].endswith("is using it, allowed is one sweep at a time"), "the other: %s" % rows[1])
+    check(rows[1][1] == "0" or rows[1][2].endswith("is using it, expected one sweep at a time"), "the other: %s" % rows[1])
     yield ["all complete", "0; the other 2 as in the row above, or 0 if it came after the first", ""]
 
 

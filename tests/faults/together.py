@@ -107,7 +107,7 @@ class ManyAtOnce(Folder):
             self.assertEqual(set(codes) - {0, 2}, set())
             for code, lines in ended:
                 if code == 2:
-                    self.assertRegex("\n".join(lines), r"^out: a (sweep|regression) with process id \d+ is using it, allowed is one \w+ at a time$")
+                    self.assertRegex("\n".join(lines), r"^out: a (sweep|regression) with process id \d+ is using it, expected one \w+ at a time$")
             self.assertFalse([name for name in self.found("out") if "PID" in name or "lock" in name])
 
 
@@ -178,7 +178,7 @@ class Regression(Folder):
         process = self.in_its_second_run("500ms")
         os.remove(self.file("device.gsd"))
         code, lines = self.end(process)
-        self.assertEqual((code, lines[-1]), (2, "device.gsd: was changed while the regression ran, allowed is the same content for all of its runs"))
+        self.assertEqual((code, lines[-1]), (2, "device.gsd: was changed while the regression ran, expected the same content for all of its runs"))
         self.assertEqual(self.do(*self.WORDS)[0], 1)  # a refusal of a scenario is the result of its run
         self.assertIn("device.gsd: no such file", self.said)
 

@@ -39,14 +39,14 @@ class Parser(argparse.ArgumentParser):
 
 def some_target(text):
     if text not in target_list.NAMES:
-        raise argparse.ArgumentTypeError(f"unknown target {text}, allowed are {', '.join(target_list.NAMES)}")
+        raise argparse.ArgumentTypeError(f"unknown target {text}, expected {', '.join(target_list.NAMES)}")
     return text
 
 
 def number(most, what):
     def parse(text):
         if not re.fullmatch(r"[0-9]{1,13}", text) or not 1 <= int(text) <= most:
-            raise argparse.ArgumentTypeError(f"{text} is no {what}, allowed are 1 to {most}")
+            raise argparse.ArgumentTypeError(f"{text} is no {what}, expected 1 to {most}")
         return int(text)
     return parse
 
@@ -54,7 +54,7 @@ def number(most, what):
 def some_input(text):
     path = pathlib.Path(text)
     if not path.is_file():
-        raise argparse.ArgumentTypeError(f"{text} is no file, allowed is an input of a target")
+        raise argparse.ArgumentTypeError(f"{text} is no file, expected an input of a target")
     return path.resolve()
 
 
@@ -75,7 +75,7 @@ def parse(words):
     if arguments.reproduce and len(arguments.target) != 1:
         parser.error("--reproduce needs one target, whose input it is")
     if arguments.seconds and arguments.runs:
-        parser.error("--seconds and --runs, allowed is one of them")
+        parser.error("--seconds and --runs, expected one of them")
     if not arguments.target:
         arguments.target = list(target_list.NAMES)
     return arguments

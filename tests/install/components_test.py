@@ -30,4 +30,4 @@ for component in ("dpi", "python"):
     said = refusal(component, missing="capi")
     assert f"component {component} needs component capi, which is not installed here" in said, said
 said = refusal("capi", missing="capi")
-assert "component capi is not installed here, allowed are " in said, said
+assert "component capi is not installed here, expected " in said, said

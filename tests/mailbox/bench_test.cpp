@@ -133,14 +133,14 @@ TEST_F(MailboxOnTheBench, KeysOfOneKindAreNotThoseOfAnother) {
 TEST_F(MailboxOnTheBench, NoConfigurationIsLongerThanItHolds) {
   const std::string script = "script: [{at: 1us, do: reinitialise, slave: a, cfg: 17 27 00}]\n";
   EXPECT_THAT(error_of(with("{kind: mailbox}", "{}"), {"slaves.a.init.cfg=17 27 00"}),
-              HasSubstr("3 bytes, allowed are 1 to 2"));
-  EXPECT_THAT(error_of(with("{kind: mailbox}", "{}", script)), HasSubstr("3 bytes, allowed are 1 to 2"));
+              HasSubstr("3 bytes, expected 1 to 2"));
+  EXPECT_THAT(error_of(with("{kind: mailbox}", "{}", script)), HasSubstr("3 bytes, expected 1 to 2"));
   EXPECT_EQ(error_of(with("{}", "{}", script)), "");
 }
 
 TEST_F(MailboxOnTheBench, AKindThatNobodyKnowsIsRefusedWithTheNamesOfThoseThatThereAre) {
   EXPECT_EQ(error_of(with("{kind: mailbix}", "{}")),
-            "x.yaml:4: kind is mailbix (did you mean mailbox?), allowed is dsdpv1, dsdpv1_r, dsdpv1_rsu, mailbox");
+            "x.yaml:4: kind is mailbix (did you mean mailbox?), expected dsdpv1, dsdpv1_r, dsdpv1_rsu, mailbox");
 }
 
 TEST_F(MailboxOnTheBench, TheCommandLineReachesItsKeys) {

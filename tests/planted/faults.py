@@ -43,13 +43,13 @@ class Parser(argparse.ArgumentParser):
 
 def some_list(text):
     if text not in lists.NAMES:
-        raise argparse.ArgumentTypeError(f"unknown list {text}, allowed are {', '.join(lists.NAMES)}")
+        raise argparse.ArgumentTypeError(f"unknown list {text}, expected {', '.join(lists.NAMES)}")
     return text
 
 
 def some_jobs(text):
     if not re.fullmatch(r"[0-9]{1,3}", text) or not 1 <= int(text) <= 512:
-        raise argparse.ArgumentTypeError(f"{text} is no number of jobs, allowed are 1 to 512")
+        raise argparse.ArgumentTypeError(f"{text} is no number of jobs, expected 1 to 512")
     return int(text)
 
 
@@ -75,7 +75,7 @@ def chosen(arguments):
     known = {fault.name for fault in faults}
     unknown = [name for name in arguments.only if name not in known]
     if unknown:
-        raise lists.BadList(f"faults: unknown fault {unknown[0]}, allowed are those of ./run faults --list")
+        raise lists.BadList(f"faults: unknown fault {unknown[0]}, expected those of ./run faults --list")
     return [fault for fault in faults if fault.name in arguments.only]
 
 

@@ -45,11 +45,11 @@ def rulings(root):
 
 def entry_of(node, where):
     if not isinstance(node, yaml.MappingNode):
-        raise BadList(f"{where}: this is no fault, allowed are the keys {', '.join(sorted(KEYS))}")
+        raise BadList(f"{where}: this is no fault, expected the keys {', '.join(sorted(KEYS))}")
     entry = {key.value: value.value for key, value in node.value}
     unknown, missing = sorted(set(entry) - KEYS), sorted(NEEDED - set(entry))
     if unknown:
-        raise BadList(f"{where}: unknown key {unknown[0]}, allowed are {', '.join(sorted(KEYS))}")
+        raise BadList(f"{where}: unknown key {unknown[0]}, expected {', '.join(sorted(KEYS))}")
     if missing:
         raise BadList(f"{where}: {missing[0]} is missing")
     return entry
@@ -62,12 +62,12 @@ def check(fault, root, known_rulings):
     count = source.read_text(encoding="utf-8").count(fault.replace) if fault.replace else 0
     if count != 1:
         found = "is not" if count == 0 else f"stands {count} times"
-        raise BadList(f"{fault.where}: {fault.name}: its text {found} in {fault.file}, allowed is once")
+        raise BadList(f"{fault.where}: {fault.name}: its text {found} in {fault.file}, expected once")
     if fault.planted(root) == source.read_text(encoding="utf-8"):
         raise BadList(f"{fault.where}: {fault.name}: nothing is changed")
     unknown = [name for name in re.findall(r"[A-Z]+[0-9]+", fault.rule) if name not in known_rulings]
     if unknown:
-        raise BadList(f"{fault.where}: {fault.name}: there is no ruling {unknown[0]}, allowed are those of {' and '.join(RULING_PAGES)}")
+        raise BadList(f"{fault.where}: {fault.name}: there is no ruling {unknown[0]}, expected those of {' and '.join(RULING_PAGES)}")
 
 
 def read(name, root=ROOT):
@@ -84,6 +84,6 @@ def read(name, root=ROOT):
         fault = Fault(list=name, where=where, **entry_of(node, where))
         check(fault, root, known_rulings)
         if fault.name in {other.name for other in faults}:
-            raise BadList(f"{where}: there is another {fault.name}, allowed is one of a name")
+            raise BadList(f"{where}: there is another {fault.name}, expected one of a name")
         faults.append(fault)
     return faults

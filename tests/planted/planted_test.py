@@ -105,7 +105,7 @@ class Lists(unittest.TestCase):
 
     def test_wrong_ones_are_one_line_with_file_and_line(self):
         for change, said in (
-                (("a = 1", "a = 3"), "one: its text is not in source.cpp, allowed is once"),
+                (("a = 1", "a = 3"), "one: its text is not in source.cpp, expected once"),
                 (("a = 1", "= 1"), "one: its text stands 2 times in source.cpp"),
                 (("a = 2", "a = 1"), "one: nothing is changed"),
                 (("source.cpp", "none.cpp"), "one: none.cpp is not there"),

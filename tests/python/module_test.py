@@ -59,17 +59,17 @@ class ErrorsTest(unittest.TestCase):
     def test_what_the_library_refuses_is_an_exception_with_its_words(self):
         chip = dsdpv1.Chip()
         self.refuses(dsdpv1.NotFoundError, "no pin FOO, it has RESET, R_REQ", chip.set, "FOO", 1)
-        self.refuses(dsdpv1.ArgumentError, "level of A is 2048, allowed are 0 to 2047", chip.set, "A", 2048)
+        self.refuses(dsdpv1.ArgumentError, "level of A is 2048, expected 0 to 2047", chip.set, "A", 2048)
         chip.advance(100)
         self.refuses(dsdpv1.TimeError, "tick is 99, which is before the present tick 100", chip.advance, 99)
         self.refuses(dsdpv1.StateError, "", lambda: chip.station)
-        self.refuses(dsdpv1.NotFoundError, 'kind is "foo", allowed are dsdpv1, dsdpv1_r, dsdpv1_rsu', dsdpv1.Chip, "foo")
+        self.refuses(dsdpv1.NotFoundError, 'kind is "foo", expected dsdpv1, dsdpv1_r, dsdpv1_rsu', dsdpv1.Chip, "foo")
         self.refuses(dsdpv1.NotFoundError, "speed", dsdpv1.Chip, parameters={"speed": 1})
         self.refuses(dsdpv1.InputError, "nix.yaml", dsdpv1.run, "nix.yaml")
         self.refuses(dsdpv1.InputError, "x.yaml:2: .*13M", dsdpv1.run, "x.yaml", text="name: x\nbaud: 13M\n")
         self.refuses(dsdpv1.UnsupportedError, "ARM board", dsdpv1.run, ROOT / "scenarios" / "arm_board_12m.yaml")
-        self.refuses(ValueError, "engine is fast, allowed are skip, step", dsdpv1.Chip, engine="fast")
-        self.refuses(ValueError, "baud is 13M, allowed are 12M", dsdpv1.Bus, "13M")
+        self.refuses(ValueError, "engine is fast, expected skip, step", dsdpv1.Chip, engine="fast")
+        self.refuses(ValueError, "baud is 13M, expected 12M", dsdpv1.Bus, "13M")
 
     def test_a_closed_object_refuses_everything(self):
         bus = dsdpv1.Bus()

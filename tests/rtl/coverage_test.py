@@ -107,7 +107,7 @@ class Report(unittest.TestCase):
         for pattern in ("word[3:]", "word[a]", "word[1", "word[]"):
             result = self.report([], f"toggle | rtl/block.sv | {pattern} | a constant\n")
             self.assertEqual(result.returncode, 1)
-            self.assertIn(f"reasons:1: wrong bits in {pattern}, allowed is", result.stderr)
+            self.assertIn(f"reasons:1: wrong bits in {pattern}, expected", result.stderr)
 
 
 if __name__ == "__main__":

@@ -36,28 +36,28 @@ if git -C "$(dirname "$run")" rev-parse HEAD >/dev/null 2>&1; then
   [[ $version == *"($(git -C "$(dirname "$run")" describe --always --abbrev=9)"*")" ]] || fail "--version names no commit: $version"
 fi
 
-refuses "unknown command dmeo (did you mean demo?), allowed are demo test edit sim" dmeo
-refuses "unknown command whatever, allowed are demo" whatever
-refuses "unknown group tets (did you mean tests?), allowed are toolchain libraries" deps d3 tets
-refuses "unknown group --force, allowed are toolchain" deps --force
+refuses "unknown command dmeo (did you mean demo?), expected demo test edit sim" dmeo
+refuses "unknown command whatever, expected demo" whatever
+refuses "unknown group tets (did you mean tests?), expected toolchain libraries" deps d3 tets
+refuses "unknown group --force, expected toolchain" deps --force
 refuses "--tsv is for --list" deps --tsv
 refuses "no file of the project" edit nowhere.cpp
-refuses "allowed is --quick" test --fast
-refuses "allowed is --quick" test --quick again
-refuses "allowed is default fast library debug coverage fuzz" build release
-refuses "allowed is --record" conformance now
-refuses "unknown argument --chekc, allowed is --check --record" release --chekc
+refuses "expected --quick" test --fast
+refuses "expected --quick" test --quick again
+refuses "expected default fast library debug coverage fuzz" build release
+refuses "expected --record" conformance now
+refuses "unknown argument --chekc, expected --check --record" release --chekc
 refuses "demo takes no arguments" demo now
 refuses "rtl-formal takes no arguments" rtl-formal quickly
 refuses "nightly takes no arguments" nightly quickly
 refuses "rtl-coverage takes no arguments" rtl-coverage again
-refuses "unknown row fast, allowed are core_2" bench --only fast
+refuses "unknown row fast, expected core_2" bench --only fast
 refuses "0 is no number of rounds" bench --rounds 0
-refuses "unknown row core_2, allowed are arm" bench --instructions --only core_2
+refuses "unknown row core_2, expected arm" bench --instructions --only core_2
 refuses "--record needs --instructions" bench --record
-refuses "unknown target gds, allowed are telegram" fuzz gds
+refuses "unknown target gds, expected telegram" fuzz gds
 refuses "0 is no number of seconds" fuzz --seconds 0
 refuses "--reproduce needs one target" fuzz --reproduce "$run"
-refuses "--seconds and --runs, allowed is one of them" fuzz --seconds 1 --runs 1
+refuses "--seconds and --runs, expected one of them" fuzz --seconds 1 --runs 1
 
 finish

@@ -67,8 +67,8 @@ class Refusals:
         self.restore(b"DSDPV1 saved run 2 " + fingerprint(content) + b"\n" + bytes(content), line="b.run: the run up to 1ms is not the one that was saved")
 
     def command_lines(self):
-        self.run("s.yaml", "--save-at", "4ms", "c.run", line="--save-at is 4ms, allowed is a time up to the end of the run, 3ms")
-        self.run("s.yaml", "--save-at", "soon", "c.run", line="--save-at is soon, allowed is")
+        self.run("s.yaml", "--save-at", "4ms", "c.run", line="--save-at is 4ms, expected a time up to the end of the run, 3ms")
+        self.run("s.yaml", "--save-at", "soon", "c.run", line="--save-at is soon, expected")
         self.run("s.yaml", "--save-at", "1ms", "s.yaml", line="would replace the scenario")
         self.run("--restore", "a.run", "--save-at", "2ms", "a.run", line="would replace the saved run")
         self.run("s.yaml", "--restore", "a.run", line="excludes")

@@ -63,13 +63,13 @@ std::string error_of_scenario(const std::string& text) {
 }
 
 TEST(Scenario, WhatBeginsWithACommaIsRefusedAtOnce) {
-  EXPECT_EQ(error_of_scenario(","), "s.yaml:1: is empty, allowed is a scenario");
+  EXPECT_EQ(error_of_scenario(","), "s.yaml:1: is empty, expected a scenario");
   EXPECT_EQ(error_of_scenario(kSmall + ",\n").rfind("s.yaml:", 0), 0U);
 }
 
 TEST(Scenario, ASecondDocumentIsNamedByItsLine) {
   EXPECT_EQ(error_of_scenario(kSmall + "---\nname: more\n"),
-            "s.yaml:7: a second document, allowed is one scenario a file");
+            "s.yaml:7: a second document, expected one scenario a file");
 }
 
 TEST(Scenario, PathsAreRelativeToItsFolder) {

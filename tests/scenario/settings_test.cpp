@@ -72,37 +72,36 @@ TEST(Settings, WrongPathIsNamedWithTheNearestKey) {
             "--set usercpu.cycle=1us: unknown key usercpu in scenario (did you mean user_cpu?)");
   EXPECT_NE(error.find("; of every slave name, address,"), std::string::npos) << error;
   EXPECT_EQ(error_of("slaves.third.address=1"),
-            "--set slaves.third.address=1: slaves has no item third, allowed are 0 to 1, first, second");
+            "--set slaves.third.address=1: slaves has no item third, expected 0 to 1, first, second");
   EXPECT_EQ(error_of("script.0.at=1us"), "--set script.0.at=1us: the scenario has no script");
 }
 
 TEST(Settings, PathMustEndAtOneValue) {
   EXPECT_EQ(error_of("user_cpu.fsmc=1"),
-            "--set user_cpu.fsmc=1: fsmc is a mapping, allowed are its keys addset, datast, busturn, hclk, mode");
+            "--set user_cpu.fsmc=1: fsmc is a mapping, expected its keys addset, datast, busturn, hclk, mode");
   EXPECT_EQ(error_of("slaves=1"),
-            "--set slaves=1: slaves is a list, allowed are the keys of one item, like slaves.0.name");
+            "--set slaves=1: slaves is a list, expected the keys of one item, like slaves.0.name");
   EXPECT_EQ(error_of("slaves.0=1"),
-            "--set slaves.0=1: slaves is a list, allowed are the keys of one item, like slaves.0.name");
-  EXPECT_EQ(error_of("end.long=1"), "--set end.long=1: end is one value, allowed is no key long below it");
+            "--set slaves.0=1: slaves is a list, expected the keys of one item, like slaves.0.name");
+  EXPECT_EQ(error_of("end.long=1"), "--set end.long=1: end is one value, expected no key long below it");
 }
 
 TEST(Settings, WrongValueTellsWhatIsAllowed) {
   EXPECT_EQ(error_of("user_cpu.fsmc.datast=256"),
-            "--set user_cpu.fsmc.datast=256: datast is \"256\", allowed is a whole number from 0 to 255 HCLK");
+            "--set user_cpu.fsmc.datast=256: datast is \"256\", expected a whole number from 0 to 255 HCLK");
   EXPECT_EQ(error_of("end=5"),
-            "--set end=5: end is \"5\", allowed is a number with a unit ns, us, ms, s or cycles, like 1.5ms");
-  EXPECT_EQ(error_of("user_cpu.fsmc.mode=B"), "--set user_cpu.fsmc.mode=B: mode is \"B\", allowed are 1, A");
-  EXPECT_EQ(error_of("init.cfg=[1, x"), "--set init.cfg=[1, x: [1, x is no list, allowed is like [1, 2]");
+            "--set end=5: end is \"5\", expected a number with a unit ns, us, ms, s or cycles, like 1.5ms");
+  EXPECT_EQ(error_of("user_cpu.fsmc.mode=B"), "--set user_cpu.fsmc.mode=B: mode is \"B\", expected 1, A");
+  EXPECT_EQ(error_of("init.cfg=[1, x"), "--set init.cfg=[1, x: [1, x is no list, expected something like [1, 2]");
 }
 
 TEST(Settings, NeedAPathAndAnEqualsSign) {
-  EXPECT_EQ(error_of("end"), "--set end: allowed is PATH=VALUE, like user_cpu.cycle=40us");
-  EXPECT_EQ(error_of("=1"), "--set =1: allowed is PATH=VALUE, like user_cpu.cycle=40us");
+  EXPECT_EQ(error_of("end"), "--set end: expected PATH=VALUE, like user_cpu.cycle=40us");
+  EXPECT_EQ(error_of("=1"), "--set =1: expected PATH=VALUE, like user_cpu.cycle=40us");
 }
 
 TEST(Settings, WhatTheyMakeOfTheScenarioIsCheckedLikeTheFile) {
-  EXPECT_EQ(error_of("masters.0.slaves.0.slave=third"),
-            "s.yaml:7: slave third does not exist, allowed are first, second");
+  EXPECT_EQ(error_of("masters.0.slaves.0.slave=third"), "s.yaml:7: slave third does not exist, expected first, second");
 }
 
 TEST(Settings, BusTimesAndFsmcRegistersTogetherAreRefused) {
@@ -115,7 +114,7 @@ TEST(Settings, BusTimesAndFsmcRegistersTogetherAreRefused) {
     tb::scenario::parse(text, "s.yaml", settings);
     FAIL() << "no error";
   } catch (const tb::InputError& error) {
-    EXPECT_STREQ(error.what(), "s.yaml:6: user_cpu has 2 of access, fsmc, allowed is one at most");
+    EXPECT_STREQ(error.what(), "s.yaml:6: user_cpu has 2 of access, fsmc, expected one at most");
   }
 }
 

@@ -53,7 +53,7 @@ TEST(Reasons, TheCaseOfACodeDoesNotMatter) {
     EXPECT_EQ(printed.out, upper.out) << code;
   }
   EXPECT_EQ(call("reasons prm_idnt", DSDPV1_SOURCE_DIR).err,
-            "dsdpv1-sim reasons: unknown code prm_idnt (did you mean PRM_IDENT?), allowed are those that `dsdpv1-sim "
+            "dsdpv1-sim reasons: unknown code prm_idnt (did you mean PRM_IDENT?), expected those that `dsdpv1-sim "
             "reasons` prints\n");
 }
 
@@ -61,7 +61,7 @@ TEST(Reasons, AnUnknownCodeIsRefusedInOneLine) {
   const app_test::Called printed = call("reasons PRM_IDNT", DSDPV1_SOURCE_DIR);
   EXPECT_EQ(printed.status, 2);
   EXPECT_EQ(printed.err,
-            "dsdpv1-sim reasons: unknown code PRM_IDNT (did you mean PRM_IDENT?), allowed are those that `dsdpv1-sim "
+            "dsdpv1-sim reasons: unknown code PRM_IDNT (did you mean PRM_IDENT?), expected those that `dsdpv1-sim "
             "reasons` prints\n");
 }
 

@@ -259,7 +259,7 @@ def main():
     parser.add_argument("--record", action="store_true", help="adds a row to docs/trust/soak.tsv, from which docs/trust.md is made")
     arguments = parser.parse_args()
     if not 0 < arguments.hours <= 1000:
-        parser.error("--hours is %s, allowed is above 0 and up to 1000" % arguments.hours)
+        parser.error("--hours is %s, expected above 0 and up to 1000" % arguments.hours)
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.default_int_handler)  # as SIGINT
     verdict, words = soak_for(os.path.abspath(arguments.program), arguments.hours, arguments.seed, arguments.record)

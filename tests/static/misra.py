@@ -53,7 +53,7 @@ def deviations(text):
         if line and not line.startswith("#"):
             fields = [field.strip() for field in line.split(" | ")]
             if len(fields) != 4:
-                raise ValueError(f"{DEVIATIONS.name}:{number}: has {len(fields)} fields, allowed are rule | file | part of the line | why")
+                raise ValueError(f"{DEVIATIONS.name}:{number}: has {len(fields)} fields, expected rule | file | part of the line | why")
             found.append(Deviation(*fields))
     return found
 

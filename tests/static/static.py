@@ -39,7 +39,7 @@ class Parser(argparse.ArgumentParser):
 
 def some_part(text):
     if text not in TARGETS:
-        raise argparse.ArgumentTypeError(f"unknown part {text}, allowed are {', '.join(TARGETS)}")
+        raise argparse.ArgumentTypeError(f"unknown part {text}, expected {', '.join(TARGETS)}")
     return text
 
 

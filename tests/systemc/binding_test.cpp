@@ -59,8 +59,8 @@ TEST(Binding, TheSocketOfTheLivePortMustBeBound) {
 }
 
 TEST(Binding, AStrapThatThereIsNotIsNamed) {
-  EXPECT_EQ(rsu_with({HostMode::kSpi, 4}), "/dsdpv1/straps: chip: the strap ADR is 4, allowed is 0 to 3");
-  EXPECT_EQ(rsu_with({HostMode::kUart, 1, 7, -1}), "/dsdpv1/straps: chip: the strap UIV is -1, allowed is 0 to 7");
+  EXPECT_EQ(rsu_with({HostMode::kSpi, 4}), "/dsdpv1/straps: chip: the strap ADR is 4, expected 0 to 3");
+  EXPECT_EQ(rsu_with({HostMode::kUart, 1, 7, -1}), "/dsdpv1/straps: chip: the strap UIV is -1, expected 0 to 7");
 }
 
 TEST(Binding, APinOfTheRsuThatIsNotBoundIsNamed) {

@@ -63,7 +63,7 @@ TEST(Clock, TheRightFrequencyIsNotReported) {
 
 TEST(Clock, AWrongFrequencyIsReportedOnceWithTheMeasuredValue) {
   EXPECT_THAT(reports_of("/dsdpv1/clock", "late"),
-              testing::ElementsAre("late: CLK is 47.619048 MHz, allowed is 48 MHz +/- 3000.000000 ppm"));
+              testing::ElementsAre("late: CLK is 47.619048 MHz, expected 48 MHz +/- 3000.000000 ppm"));
 }
 
 TEST(Clock, TheToleranceIsAParameter) { EXPECT_TRUE(reports_of("/dsdpv1/clock", "tolerant").empty()); }

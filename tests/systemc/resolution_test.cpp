@@ -35,9 +35,9 @@ TEST(Resolution, AModuleTakesThatOfThePlatform) {
 
 TEST(Resolution, ACoarserOneThanAPicosecondIsAClearError) {
   EXPECT_EQ(module_at(1, sc_core::SC_NS),
-            "/dsdpv1/time_resolution: the SystemC time resolution is 1 ns, allowed is 1 fs to 1 ps (a tick of the chip "
+            "/dsdpv1/time_resolution: the SystemC time resolution is 1 ns, expected 1 fs to 1 ps (a tick of the chip "
             "is 83.3 ps): call sc_core::sc_set_time_resolution(1, sc_core::SC_PS) before the first sc_time is made");
-  EXPECT_THAT(module_at(10, sc_core::SC_PS), testing::HasSubstr("resolution is 10 ps, allowed is 1 fs to 1 ps"));
+  EXPECT_THAT(module_at(10, sc_core::SC_PS), testing::HasSubstr("resolution is 10 ps, expected 1 fs to 1 ps"));
 }
 
 TEST(Resolution, WhoWantsAFemtosecondTooLateIsToldSo) {

@@ -85,7 +85,7 @@ TEST(ImpliedExchange, ExpectIsAListOrNone) {
     run({"expect: nothing\n"});
     FAIL() << "not refused";
   } catch (const tb::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("x.yaml:8: expect is \"nothing\", allowed is a list or none"));
+    EXPECT_THAT(error.what(), HasSubstr("x.yaml:8: expect is \"nothing\", expected a list or none"));
   }
 }
 

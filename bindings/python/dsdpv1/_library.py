@@ -34,7 +34,7 @@ def _load() -> ctypes.CDLL:
     found = library.dpsim_abi_version()
     wanted = _c.DPSIM_ABI_MAJOR * 65536 + _c.DPSIM_ABI_MINOR
     if found // 65536 != _c.DPSIM_ABI_MAJOR or found < wanted:
-        raise ImportError(f"{_path()} has the ABI {found // 65536}.{found % 65536}, allowed is {_c.DPSIM_ABI_MAJOR}, "
+        raise ImportError(f"{_path()} has the ABI {found // 65536}.{found % 65536}, expected {_c.DPSIM_ABI_MAJOR}, "
                           f"{_c.DPSIM_ABI_MINOR} or later")
     return library
 

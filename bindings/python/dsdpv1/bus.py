@@ -95,7 +95,7 @@ class Bus(Handle):
         highest_address, ring, no_token, slot_bits, set_bits, quiet_bits, target_rotation_bits, max_retries, gap_factor, min_slave_interval_us,
         clock_ppm; 0 is their default."""
         if personality not in PERSONALITIES:
-            raise ValueError(f"personality is {personality}, allowed are {', '.join(PERSONALITIES)}")
+            raise ValueError(f"personality is {personality}, expected {', '.join(PERSONALITIES)}")
         options = {**self._timing(timing), "address": address, "name": encoded(name), "personality": PERSONALITIES.index(personality)}
         return typing.cast(Master1, self._add(Master1(self._master(1, options))))
 

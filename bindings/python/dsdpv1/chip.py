@@ -108,7 +108,7 @@ def _timing(timing: typing.Optional[AccessTiming]) -> typing.Any:
 def chip_options(engine: str, kind: typing.Optional[str], name: typing.Optional[str], parameters: typing.Mapping[str, int]) -> typing.Any:
     """The options of Chip() and Bus.add_chip() for the library."""
     if engine not in ENGINES:
-        raise ValueError(f"engine is {engine}, allowed are {', '.join(ENGINES)}")
+        raise ValueError(f"engine is {engine}, expected {', '.join(ENGINES)}")
     table = (_c.dpsim_parameter * max(1, len(parameters)))(*(_c.dpsim_parameter(encoded(key), value) for key, value in parameters.items()))
     return sized(_c.dpsim_chip_options, engine=ENGINES.index(engine), kind=encoded(kind), name=encoded(name),
                  parameters=ctypes.cast(table, ctypes.POINTER(_c.dpsim_parameter)), parameter_count=len(parameters))

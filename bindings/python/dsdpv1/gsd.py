@@ -46,7 +46,7 @@ class Slave:
                      c1_response_timeout=self.c1_response_timeout, min_slave_interval_us=self.min_slave_interval_us)
         for name, value, limit in (("user_prm", self.user_prm, _c.DPSIM_MAX_USER_PRM), ("cfg", self.cfg, _c.DPSIM_MAX_CFG)):
             if len(value) > limit:
-                raise ValueError(f"{name} has {len(value)} bytes, allowed are 0 to {limit}")
+                raise ValueError(f"{name} has {len(value)} bytes, expected 0 to {limit}")
             getattr(made, name)[:len(value)] = value
         return made
 

@@ -180,7 +180,7 @@ class Master1(Master):
     def ask(self, service: str, address: int) -> int:
         """A service without data: one of SERVICES."""
         if service not in SERVICES:
-            raise ValueError(f"service is {service}, allowed are {', '.join(SERVICES)}")
+            raise ValueError(f"service is {service}, expected {', '.join(SERVICES)}")
         return _id(lib.dpsim_master_ask, self, SERVICES[service], address)
 
     def global_control(self, group: int = 0, address: int = BROADCAST, *, clear: bool = False, freeze: typing.Optional[bool] = None,

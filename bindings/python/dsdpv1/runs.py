@@ -33,7 +33,7 @@ def _options(path: typing.Optional[Path], source: typing.Optional[str], settings
              files: typing.Mapping[str, typing.Optional[Path]]) -> typing.Any:
     for name, value, allowed in (("engine", engine, ENGINES), ("checks", checks, CHECKS)):
         if value is not None and value not in allowed:
-            raise ValueError(f"{name} is {value}, allowed are {', '.join(allowed)}")
+            raise ValueError(f"{name} is {value}, expected {', '.join(allowed)}")
     words = (ctypes.c_char_p * max(1, len(settings)))(*(encoded(f"{key}={value}") for key, value in settings.items()))
     return sized(_c.dpsim_run_options, engine=ENGINES.index(engine), checks=0 if checks is None else 1 + CHECKS.index(checks), setting_count=len(settings), path=_file(path),
                  text=encoded(source), settings=ctypes.cast(words, ctypes.POINTER(ctypes.c_char_p)), **{key: _file(each) for key, each in files.items()})

@@ -37,7 +37,7 @@ class Telegram:
 
     def _native(self) -> typing.Any:
         if len(self.data) > _c.DPSIM_MAX_DATA:
-            raise ValueError(f"data has {len(self.data)} bytes, allowed are 0 to {_c.DPSIM_MAX_DATA}")
+            raise ValueError(f"data has {len(self.data)} bytes, expected 0 to {_c.DPSIM_MAX_DATA}")
         made = sized(_c.dpsim_telegram, kind=self.kind, da=self.da, sa=self.sa, fc=self.fc, data_size=len(self.data))
         made.dsap, made.ssap = (_c.DPSIM_NO_SAP if sap is None else sap for sap in (self.dsap, self.ssap))
         made.data[:len(self.data)] = self.data
@@ -77,7 +77,7 @@ def explain(data: bytes, style: str = "line", dpv1: typing.Optional[bool] = None
     parameterised for DPV1, which decides how a device related diagnosis is read; None: both ways are shown."""
     styles = ("line", "service", "bytes")
     if style not in styles:
-        raise ValueError(f"style is {style}, allowed are {', '.join(styles)}")
+        raise ValueError(f"style is {style}, expected {', '.join(styles)}")
     words = ctypes.c_char_p()
     lib.dpsim_telegram_explain(bytes(data), len(data), styles.index(style), -1 if dpv1 is None else int(dpv1), ctypes.byref(words))
     return text(words.value)

@@ -28,7 +28,7 @@ def bit_ticks(baud: str) -> int:
 def baud_index(baud: str) -> int:
     """The number of a rate, as B012 codes it (table 5). ValueError: unknown rate."""
     if baud not in BAUDS:
-        raise ValueError(f"baud is {baud}, allowed are {', '.join(BAUDS)}")
+        raise ValueError(f"baud is {baud}, expected {', '.join(BAUDS)}")
     return BAUDS.index(baud)
 
 

@@ -228,7 +228,7 @@ bool MailboxLink::hand_over() {
 
 /// Returns `right`; keeps the first wrong value for wrong().
 bool MailboxLink::is_right(const std::string& field, unsigned value, bool right, const char* allowed) {
-  if (!right && wrong_.empty()) wrong_ = fmt::format("{} is {}, allowed are {}", field, value, allowed);
+  if (!right && wrong_.empty()) wrong_ = fmt::format("{} is {}, expected {}", field, value, allowed);
   return right;
 }
 

@@ -28,7 +28,7 @@ class MailboxLink {
   /// see wrong().
   bool look(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
 
-  /// The first invalid value in the mailbox: "report.output_length is 250, allowed are 0 to 244". Empty: none. After
+  /// The first invalid value in the mailbox: "report.output_length is 250, expected 0 to 244". Empty: none. After
   /// one, look() does nothing.
   const std::string& wrong() const { return wrong_; }
 

@@ -100,7 +100,7 @@ class Finder {
 
   std::string refusal(const std::string& what, const char* cannot) const {
     return fmt::format(
-        "{}, and {}, which has no mailbox ({}), cannot {}; allowed is what chip and bus show, or user_cpu: "
+        "{}, and {}, which has no mailbox ({}), cannot {}; expected what chip and bus show, or user_cpu: "
         "{{without_mailbox: "
         "leave_out}}",
         what, firmware_, DSDPV1_MAILBOX_SYMBOL, cannot);

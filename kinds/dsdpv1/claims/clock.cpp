@@ -46,7 +46,7 @@ void measure_clock(Scene& scene, double limit_ppm, Found& found) {
     scene.time.scale = common(measured, possible);
   } else {
     found.judge.fails(kClock, scene.sent.front().start,
-                      fmt::format("{:+.0f} ppm, allowed are {:.0f}", (measured.middle() - 1) * 1e6, limit_ppm));
+                      fmt::format("{:+.0f} ppm, expected at most {:.0f}", (measured.middle() - 1) * 1e6, limit_ppm));
     scene.time.scale = measured;
   }
 }

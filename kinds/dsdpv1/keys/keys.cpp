@@ -148,7 +148,7 @@ const keys::Object& chip_keys_of(Part part) {
 void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file) {
   if (chip.u_timer > 0 && chip.u_timer < 48)
     throw InputError(file, chip.line,
-                     fmt::format("u_timer is {}, allowed is 0 or an integer from 48 to 4800000 cycles", chip.u_timer));
+                     fmt::format("u_timer is {}, expected 0 or an integer from 48 to 4800000 cycles", chip.u_timer));
 }
 
 bool is_strap(const std::string& key) {
@@ -249,15 +249,14 @@ void check_switches(const Dsdpv1User& user, const std::string& file) {
   std::map<std::pair<unsigned, unsigned>, std::string> seen;
   for (const Name& text : user.switches) {
     const auto fail = [&](const std::string& why) { throw InputError(file, text.line, why); };
-    if (user.kind != CpuKind::kArm) fail("switches without kind: arm, allowed are those of an ARM board");
+    if (user.kind != CpuKind::kArm) fail("switches without kind: arm, expected those of an ARM board");
     const std::optional<Switch> one = parse_switch(text.text);
-    if (!one) fail(fmt::format("switches holds {}, allowed are like PA0=low or PG15=high", text.text));
+    if (!one) fail(fmt::format("switches holds {}, expected something like PA0=low or PG15=high", text.text));
     if (is_wired(*one))
-      fail(fmt::format(
-          "switches holds {}, a pin that the board wires to the chip; allowed are the others of PA0 to PG15",
-          text.text));
+      fail(fmt::format("switches holds {}, a pin that the board wires to the chip; expected the others of PA0 to PG15",
+                       text.text));
     if (!seen.emplace(std::pair(one->port, one->pin), text.text).second)
-      fail(fmt::format("switches holds {}, a pin that is there twice, allowed is once", text.text));
+      fail(fmt::format("switches holds {}, a pin that is there twice, expected once", text.text));
   }
 }
 
@@ -268,11 +267,10 @@ void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const st
   if (arm && user.elf.empty())
     throw InputError(file, line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave));
   if (!arm && !user.elf.empty())
-    throw InputError(file, user.elf.line, "elf without kind: arm, allowed is firmware of an ARM board");
+    throw InputError(file, user.elf.line, "elf without kind: arm, expected firmware of an ARM board");
   check_switches(user, file);
   if (arm && user.timing)
-    throw InputError(file, user.timing->line,
-                     "timing is that of kind: native, allowed with arm are cpi, fsmc and access");
+    throw InputError(file, user.timing->line, "timing is that of kind: native, an ARM board has cpi, fsmc and access");
 }
 
 }  // namespace dsdpv1::tb

@@ -78,7 +78,7 @@ Tick period_of(const SpiKeys& keys) { return (1000 * bus::kTicksPerUs + keys.clo
 void check_mosi(const SpiKeys& keys, const std::string& file) {
   if (keys.mosi_delay <= period_of(keys) / 2) return;
   throw InputError(file, keys.line,
-                   fmt::format("mosi_delay is {} ticks, allowed is half of SCK's period, {} ticks, at most",
+                   fmt::format("mosi_delay is {} ticks, expected half of SCK's period, {} ticks, at most",
                                keys.mosi_delay, period_of(keys) / 2));
 }
 
@@ -103,7 +103,7 @@ user_cpu::UartPort uart_port(const UartKeys& keys, const Dsdpv1Settings& chip) {
 void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file) {
   const auto refuse = [&](int where, const char* key) {
     throw InputError(file, where,
-                     fmt::format("{} is that of kind: native, allowed with arm are the firmware's registers", key));
+                     fmt::format("{} is that of kind: native, an ARM board has the firmware's registers", key));
   };
   if (user.spi) refuse(user.spi->line, "spi");
   if (user.uart) refuse(user.uart->line, "uart");
@@ -112,7 +112,7 @@ void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const 
     if (is_of_the_card(*parse_switch(text.text)))
       throw InputError(file, text.line,
                        fmt::format("switches holds {}, a pin that the board wires to the straps and ports of a "
-                                   "DSDPV1-RSU; allowed are the others",
+                                   "DSDPV1-RSU; expected the others",
                                    text.text));
 }
 
@@ -149,7 +149,7 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
   if (user.kind == CpuKind::kArm) check_board_port(user, chip, file);
   const char* mode = mode_name(chip.mode);
   const auto refuse = [&](int where, const char* key, const char* allowed) {
-    throw InputError(file, where, fmt::format("{} with mode: {} of the chip, allowed is {}", key, mode, allowed));
+    throw InputError(file, where, fmt::format("{} with mode: {} of the chip, expected {}", key, mode, allowed));
   };
   if (user.spi && chip.mode != HostMode::kSpi) refuse(user.spi->line, "spi", "mode: spi");
   if (user.spi) check_mosi(*user.spi, file);
@@ -158,17 +158,16 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
   if (user.access) refuse(user.access->line, "access", "mode: parallel");
   if (user.fsmc) refuse(user.fsmc->line, "fsmc", "mode: parallel");
   if (chip.address < 1 || chip.address > 2)
-    throw InputError(
-        file, line,
-        fmt::format("address is {}, to which no telegram of slave {}'s user CPU can go, allowed are 1 and 2",
-                    chip.address, slave));
+    throw InputError(file, line,
+                     fmt::format("address is {}, to which no telegram of slave {}'s user CPU can go, expected 1 and 2",
+                                 chip.address, slave));
 }
 
 void check_order(const std::string& order, CpuKind kind, HostMode mode, const std::string& file, int line) {
   const std::vector<std::string> useful = orders_for(kind, mode);
   if (std::find(useful.begin(), useful.end(), order) != useful.end()) return;
   throw InputError(file, line,
-                   fmt::format("{} is of no use with mode: {} of the chip{}, allowed are {}", order, mode_name(mode),
+                   fmt::format("{} is of no use with mode: {} of the chip{}, expected {}", order, mode_name(mode),
                                kind == CpuKind::kArm ? " and kind: arm" : "", fmt::join(useful, ", ")));
 }
 

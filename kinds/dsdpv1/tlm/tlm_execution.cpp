@@ -76,7 +76,7 @@ class TlmExecution : public Execution {
   std::unique_ptr<ChipView> make_chip(const ChipKind& kind, const ChipRequest& request) override {
     const auto* settings = dynamic_cast<const Dsdpv1Settings*>(&request.settings);
     if (settings == nullptr)
-      throw InputError(fmt::format("--view tlm is not for chips of the kind {}, allowed is --view pins", kind.name()));
+      throw InputError(fmt::format("--view tlm is not for chips of the kind {}, expected --view pins", kind.name()));
     if (!has_serial_ports(settings->part)) return make_view(request, dsdpv1::systemc::TlmOptions());
     dsdpv1::systemc::RsuTlmOptions options;
     options.straps = {settings->mode, settings->address, settings->uart_rate, settings->interval};

@@ -38,7 +38,7 @@ local function shape_of(tvb)
     if kind == "SD3" then return {kind = kind, body = 1, stop = 12, size = 14} end
     if size < 4 then return nil, "cut off" end
     local le, ler = tvb(1, 1):uint(), tvb(2, 1):uint()
-    if le < 4 or le > 249 then return nil, "LE is " .. le .. ", allowed are 4 to 249" end
+    if le < 4 or le > 249 then return nil, "LE is " .. le .. ", expected 4 to 249" end
     if le ~= ler then return nil, "LE and LEr differ" end
     if tvb(3, 1):uint() ~= 0x68 then return nil, "the fourth byte is no second SD2" end
     return {kind = kind, body = 4, stop = 4 + le, size = 6 + le}

@@ -10,7 +10,7 @@ constexpr Tick kLeastBeside = 20 * bus::kTicksPerNs;  ///< shown before and afte
 
 Tick beside(const Instance& instance) { return std::max(kLeastBeside, (instance.last() - instance.first()) / 4); }
 
-/// Of two times that may be missing.
+/// The better of two times, each of which may be missing.
 template <class Better>
 std::optional<Tick> better(std::optional<Tick> a, std::optional<Tick> b, const Better& is_better) {
   if (!a || !b) return a ? a : b;

@@ -15,7 +15,7 @@ struct SpanLimits {
   std::optional<Tick> least, greatest;
 };
 
-/// Of one span of an instance; absent moments were not seen.
+/// Measured times of one span of an instance; absent moments were not seen.
 struct MeasuredSpan {
   std::optional<Tick> from, to;
   SpanLimits limits;

@@ -15,7 +15,7 @@ class Distribution {
 
   void add(bus::Tick value);
   std::uint64_t count() const { return count_; }
-  /// Of nothing: 0.
+  /// 0 without values.
   bus::Tick least() const { return count_ == 0 ? 0 : least_; }
   bus::Tick greatest() const { return greatest_; }
   double mean() const { return count_ == 0 ? 0 : static_cast<double>(sum_) / static_cast<double>(count_); }

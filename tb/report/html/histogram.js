@@ -18,7 +18,7 @@ function binsOf(times, unit) {
   return {scale, bins: bins.filter(each => each.count)};
 }
 
-// The least time allowed is in the picture, the greatest where it happens to be.
+// The picture includes the least permitted time, and the greatest if it is in the range.
 function withLimit(scale, times, unit) {
   const [least, greatest] = scale.domain();
   if (!times.limits.length || times.limits[0] / unit > least) return scale;

@@ -1,4 +1,4 @@
-// The margin of each check: all of them as a strip, the worst as a mark. What is left of 0 is a violation.
+// The margins of each check: all as a strip, the worst as a mark. Left of 0 are violations.
 const ROW = 24, CHECK_LEFT = 250, CHECK_RIGHT = 150;
 const FARTHEST = 1e9;  // ns, where the axis ends
 

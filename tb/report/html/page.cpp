@@ -36,7 +36,7 @@ std::string scripts() {
 
 using Pieces = std::map<std::string, std::string, std::less<>>;
 
-/// Puts the pieces into their places, @LIKE_THIS@, of which each stands alone; what they bring is not looked into.
+/// Replaces each @NAME@ by its piece; the text of a piece is not searched again.
 std::string filled(std::string_view page, const Pieces& pieces) {
   std::string text;
   while (true) {

@@ -1,5 +1,5 @@
 #pragma once
-// The report of a run as one HTML page that loads nothing from anywhere.
+// The report of a run as one HTML page that loads nothing.
 #include <string>
 
 #include "tb/bench/record.hpp"
@@ -7,7 +7,7 @@
 
 namespace dsdpv1::tb::html {
 
-/// `recorder` has heard the whole run and is finished; `version`: of the program.
+/// `recorder` has recorded the whole run and is finished; `version`: of the program.
 std::string page(const RunResult& result, const RunRecorder& recorder, const std::string& version);
 
 }  // namespace dsdpv1::tb::html

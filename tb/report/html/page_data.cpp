@@ -108,7 +108,7 @@ Json code_of(const checks::Rule& rule) {
           {"page", "checks.md"}};
 }
 
-/// What the run's checks and events mean; the checks first.
+/// The meaning of the run's checks and events; the checks first.
 Json codes_of(const RunResult& result, const ChipKind& kind) {
   std::set<std::string> used;
   for (const CheckResult& each : result.checks) used.insert(each.rule->id);

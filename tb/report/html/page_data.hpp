@@ -1,5 +1,5 @@
 #pragma once
-// The data of the page as JSON. Times are ticks of 1/12 ns but in the result, which stands there as --result writes it.
+// The data of the page as JSON. Times are ticks of 1/12 ns, except in the result, which is as --result writes it.
 #include <string>
 
 #include "tb/bench/record.hpp"
@@ -7,7 +7,7 @@
 
 namespace dsdpv1::tb::html {
 
-/// It can stand within a script element: without '<'.
+/// Contains no '<', so that it can stand in a script element.
 std::string page_data(const RunResult& result, const RunRecorder& recorder, const std::string& version);
 
 }  // namespace dsdpv1::tb::html

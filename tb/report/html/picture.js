@@ -1,4 +1,4 @@
-// What all pictures share: a drawing as wide as its place, zoom along time, a hint at the pointer.
+// Shared by all pictures: a drawing as wide as its place, zoom along time, a hint at the pointer.
 
 // A picture in `parent`: draw(svg, width) is called now and whenever its place has another width.
 function picture(parent, name, draw) {

@@ -40,7 +40,7 @@ bool PinMemory::holds(const DiagramEdge& edge, Tick at) const {
       [&](const PinLevel& wanted) { return had(wanted, at); });
 }
 
-/// Just before `at` or at it: pins that change at one tick are told in any order.
+/// Just before `at` or at it: changes of one tick arrive in any order.
 bool PinMemory::had(const PinLevel& wanted, Tick at) const {
   const Pin& own = pins_.at(wanted.pin);
   auto step = std::upper_bound(own.steps.begin(), own.steps.end(), at,

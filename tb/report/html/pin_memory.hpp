@@ -35,9 +35,9 @@ class PinMemory {
   void add(Tick at, PinNumber pin, Level level);
 
   Level level(PinNumber pin) const;
-  /// Whether a change of `pin` to `level` at `at`, the last that was added, is this edge.
+  /// True if the change of `pin` to `level` at `at`, the last one added, is this edge.
   bool is(const DiagramEdge& edge, Tick at, PinNumber pin, Level level) const;
-  /// The last such edge at or before `at`. With conditions only the last kLooked changes are looked at.
+  /// The last such edge at or before `at`. With conditions only the last kLooked changes are searched.
   std::optional<Tick> last(const DiagramEdge& edge, Tick at) const;
   /// The first such edge from `from` to `to`.
   std::optional<Tick> first(const DiagramEdge& edge, Tick from, Tick to) const;

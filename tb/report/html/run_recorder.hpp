@@ -1,6 +1,6 @@
 #pragma once
-// What the report of a run shows beside its result, gathered while it goes on, in bounded memory: telegrams,
-// distributions of times, timing diagrams, and the pins round each violation.
+// The contents of a report besides the result, gathered during the run in bounded memory: telegrams, distributions of
+// times, timing diagrams, and the pins round each violation.
 #include <deque>
 #include <map>
 #include <optional>

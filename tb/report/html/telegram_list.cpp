@@ -72,7 +72,7 @@ void TelegramList::add(const HeardTelegram& heard) {
       {wire.start, wire.end, lanes_.number(sender(wire)), texts_.number(heard.words()), group_of(wire), wire.tsdr});
 }
 
-/// What it is stands last, as in the words of telegrams on the line.
+/// The subject is last, as in the words of telegrams on the line.
 void TelegramList::add(const std::string& slave, const HostTelegram& telegram) {
   if (count_++ >= kKept) return;
   const bool right = telegram.wrong.empty();

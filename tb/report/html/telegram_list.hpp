@@ -10,7 +10,7 @@
 
 namespace dsdpv1::tb::html {
 
-/// What a telegram is about; the chart has a colour for each.
+/// The subject of a telegram; the chart has a colour for each.
 enum class TelegramGroup : std::uint8_t {
   kDataExchange,
   kDp,
@@ -40,12 +40,12 @@ class TelegramList {
   /// Names of stations come from the scenario.
   explicit TelegramList(const scenario::Scenario& scenario);
   void add(const HeardTelegram& heard);
-  /// Between a slave and its user, in a lane of its own.
+  /// Between a slave and its user, in a separate lane.
   void add(const std::string& slave, const HostTelegram& telegram);
 
   const std::vector<ListedTelegram>& kept() const { return kept_; }
   std::uint64_t count() const { return count_; }
-  /// Who sends: "plc (2)", "demo (5)", "address 9", "not readable"; "demo, host".
+  /// The senders: "plc (2)", "demo (5)", "address 9", "not readable"; "demo, host".
   const std::vector<std::string>& lanes() const { return lanes_.list; }
   const std::vector<std::string>& texts() const { return texts_.list; }
   /// "demo (5)" or "address 5".

@@ -31,7 +31,7 @@ function barsOf(telegrams, scale) {
   return bars;
 }
 
-// What a telegram is about stands last: "2 -> 5  request SRD low FCB=1 FCV=1  Set_Prm: ...".
+// The subject of a telegram is last: "2 -> 5  request SRD low FCB=1 FCV=1  Set_Prm: ...".
 function barText(data, bar) {
   const text = data.texts[bar.first.words].split("  ").pop(), room = Math.floor((bar.width - 6) / 6.2);
   if (bar.count > 1 || room < 5) return "";

@@ -24,7 +24,7 @@ function wirePath(segments, x) {
   return segments.map((each, i) => `${i ? "L" : "M"}${x(each.from)},${levelY(each.level)}L${x(each.to)},${levelY(each.level)}`).join("");
 }
 
-// A bus: two lines that cross where the value changes, one in the middle where nobody drives.
+// A bus: two lines that cross where the value changes, one in the middle where it floats.
 function busPath(each, x) {
   const from = x(each.from), to = x(each.to), slope = Math.min(SLOPE, (to - from) / 2);
   if (each.level === "z") return `M${from},${MIDDLE}L${to},${MIDDLE}`;
@@ -70,7 +70,7 @@ function limitAt(span, limit, picture) {
   return (isCountedBack(span, picture) ? span.to - limit : span.from + limit) - picture.anchor;
 }
 
-// The text stands right of its arrow, left of it where there is no room, else above it.
+// The text is right of its arrow, else left of it, else above it.
 function placeText(text, from, to, left, right) {
   const width = textWidth(text);
   if (to + 8 + width <= right) return {x: to + 8, y: ARROW + 4, anchor: "start"};

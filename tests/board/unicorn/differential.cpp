@@ -191,7 +191,7 @@ int run(const std::vector<std::string>& images, std::uint64_t seed) {
     std::ifstream file(path, std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
     if (bytes.size() < 2 || bytes.size() > kCodeBytes) {
-      fmt::print(stderr, "{}: holds {} bytes, allowed are 2 to {}\n", path, bytes.size(), kCodeBytes);
+      fmt::print(stderr, "{}: holds {} bytes, expected 2 to {}\n", path, bytes.size(), kCodeBytes);
       return 2;
     }
     const std::uint64_t before = campaign.instructions();

@@ -83,7 +83,7 @@ TEST_F(JoinWaves, PartOfAnotherTimeScaleIsRefusedAndNothingIsWritten) {
     tb::join_waves({{model(), "", ""}, {other, "", "x"}}, path("both.vcd"));
     FAIL();
   } catch (const tb::InputError& error) {
-    EXPECT_EQ(error.what(), other + ": is a wave of another time scale, allowed are picoseconds");
+    EXPECT_EQ(error.what(), other + ": is a wave of another time scale, expected picoseconds");
   }
   EXPECT_FALSE(fs::exists(path("both.vcd")));
 }

@@ -97,7 +97,7 @@ TEST(WaveSelection, RefusesAPatternThatFitsNoSignalAndNamesThem) {
     FAIL() << "not refused";
   } catch (const tb::InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "--wave-signals plc.stata fits no signal (did you mean plc.state?), allowed are patterns of "
+                 "--wave-signals plc.stata fits no signal (did you mean plc.state?), expected patterns of "
                  "plc.LEVEL, plc.state");
   }
 }

@@ -154,8 +154,8 @@ TEST_F(ReadWaves, ChangesAcrossTheEndOfABufferAreWhole) {
 }
 
 TEST_F(ReadWaves, DamagedVcdIsRefusedInOneLine) {
-  EXPECT_THAT(refusal_of(""), HasSubstr("w: is empty, allowed is a wave"));
-  EXPECT_THAT(refusal("none"), HasSubstr("none: no such file, allowed is a wave"));
+  EXPECT_THAT(refusal_of(""), HasSubstr("w: is empty, expected a wave"));
+  EXPECT_THAT(refusal("none"), HasSubstr("none: no such file, expected a wave"));
   fs::create_directory(path("folder"));
   EXPECT_THAT(refusal("folder"), HasSubstr("folder: is a folder"));
   EXPECT_THAT(refusal_of("hello\n"), HasSubstr("w:1: \"hello\" stands where a declaration of a VCD should"));
@@ -168,12 +168,12 @@ TEST_F(ReadWaves, DamagedVcdIsRefusedInOneLine) {
   EXPECT_THAT(refusal_of(kHead + "#0\nb10"), HasSubstr("w:3: ends within a line"));
   EXPECT_THAT(refusal_of(kHead + "#5\n#4\n"), HasSubstr("w:3: time 4 comes after 5"));
   EXPECT_THAT(refusal_of(kHead + "#99999999999999999999\n"), HasSubstr("is no time"));
-  EXPECT_THAT(refusal_of(kHead + "#0\n1?\n"), HasSubstr("w:3: a value of \"?\", allowed are the codes"));
+  EXPECT_THAT(refusal_of(kHead + "#0\n1?\n"), HasSubstr("w:3: a value of \"?\", expected the codes"));
   EXPECT_THAT(refusal_of(kHead + "#0\n2!\n"), HasSubstr("w:3: \"2!\" is no change"));
   EXPECT_THAT(refusal_of(kHead + "#0\nb12 #\n"), HasSubstr("\"b12\" is no change"));
   EXPECT_THAT(refusal_of(kHead + "#0\npH 0 6 !\n"), HasSubstr("\"pH\" is no change"));
-  EXPECT_THAT(refusal_of("$timescale 3 ns $end\n"), HasSubstr("$timescale is 3 ns, allowed are 1, 10 or 100 fs"));
-  EXPECT_THAT(refusal_of("$var wire 99999999 ! a $end "), HasSubstr("$var has the size 99999999, allowed are 0 to"));
+  EXPECT_THAT(refusal_of("$timescale 3 ns $end\n"), HasSubstr("$timescale is 3 ns, expected 1, 10 or 100 fs"));
+  EXPECT_THAT(refusal_of("$var wire 99999999 ! a $end "), HasSubstr("$var has the size 99999999, expected 0 to"));
   EXPECT_THAT(refusal_of("$var port 1 ! a $end "), HasSubstr("is an extended VCD"));
   EXPECT_THAT(refusal_of("$upscope $end "), HasSubstr("$upscope without a $scope"));
   EXPECT_THAT(refusal_of(std::string(8U << 20U, 'a') + std::string(1U << 20U, 'a')),
@@ -232,12 +232,12 @@ TEST_F(ReadWaves, FstThatWasCutOrDamagedIsRefusedWhereverThatIs) {
     const std::string said = refusal("damaged.fst");
     if (said == "none") continue;  // these bytes were values, which can be others
     EXPECT_THAT(said,
-                testing::MatchesRegex("damaged.fst: is an FST that (was cut|is damaged), allowed is a complete one.*"))
+                testing::MatchesRegex("damaged.fst: is an FST that (was cut|is damaged), expected a complete one.*"))
         << at;
     ++refused;
   }
   EXPECT_GT(refused, 3);
-  EXPECT_THAT(refusal_of(std::string(400, '\0')), HasSubstr("w: is no wave, allowed are VCD and FST"));
+  EXPECT_THAT(refusal_of(std::string(400, '\0')), HasSubstr("w: is no wave, expected VCD and FST"));
 }
 #endif
 

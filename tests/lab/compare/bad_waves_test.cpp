@@ -51,15 +51,14 @@ TEST_F(BadWaves, AreRefusedInOneLine) {
 TEST_F(BadWaves, AndSoAreWrongOptions) {
   EXPECT_THAT(refusal("good.vcd none.vcd"), HasSubstr("none.vcd: no such file"));
   EXPECT_THAT(refusal("good.vcd"), HasSubstr("B is missing (dsdpv1-sim compare A B)"));
-  EXPECT_THAT(refusal("good.vcd good.vcd --tolerance 5"),
-              HasSubstr("--tolerance is 5, allowed is a number with a unit"));
+  EXPECT_THAT(refusal("good.vcd good.vcd --tolerance 5"), HasSubstr("--tolerance is 5, expected a number with a unit"));
   EXPECT_THAT(refusal("good.vcd good.vcd --from -5ns"), HasSubstr("--from is -5ns"));
-  EXPECT_THAT(refusal("good.vcd good.vcd --x sometimes"), HasSubstr("--x is sometimes, allowed are expected, any"));
-  EXPECT_THAT(refusal("good.vcd good.vcd --z never"), HasSubstr("--z is never, allowed are equal, expected, any"));
-  EXPECT_THAT(refusal("good.vcd good.vcd --mask a"), HasSubstr("--mask is a, allowed are SIGNAL=VALUE"));
-  EXPECT_THAT(refusal("good.vcd good.vcd --signal a"), HasSubstr("--signal is a, allowed are A=B"));
+  EXPECT_THAT(refusal("good.vcd good.vcd --x sometimes"), HasSubstr("--x is sometimes, expected expected, any"));
+  EXPECT_THAT(refusal("good.vcd good.vcd --z never"), HasSubstr("--z is never, expected equal, expected, any"));
+  EXPECT_THAT(refusal("good.vcd good.vcd --mask a"), HasSubstr("--mask is a, expected SIGNAL=VALUE"));
+  EXPECT_THAT(refusal("good.vcd good.vcd --signal a"), HasSubstr("--signal is a, expected A=B"));
   EXPECT_THAT(refusal("good.vcd good.vcd --pins none.yaml"), HasSubstr("none.yaml: no such file"));
-  EXPECT_THAT(refusal("good.vcd good.vcd --wave both.png"), HasSubstr("allowed are .vcd and .fst"));
+  EXPECT_THAT(refusal("good.vcd good.vcd --wave both.png"), HasSubstr("expected .vcd or .fst"));
   EXPECT_THAT(refusal("good.vcd good.vcd --json good.vcd"), HasSubstr("--json would replace"));
   EXPECT_THAT(refusal("good.vcd good.vcd --from 1ms"), HasSubstr("has nothing to compare from 1000000 ns on"));
 }

@@ -186,7 +186,7 @@ TEST_F(Compare, MasksHideWhileTheirConditionHolds) {
   options_.masks = {tb::compare::parse_mask("oe=0@q")};
   EXPECT_THAT(refusal(a, b), HasSubstr("--mask is for q, which is not compared"));
   options_.masks = {tb::compare::parse_mask("d=256")};
-  EXPECT_THAT(refusal(a, b), HasSubstr("--mask d is 256, allowed are numbers of 8 bits"));
+  EXPECT_THAT(refusal(a, b), HasSubstr("--mask d is 256, expected numbers of 8 bits"));
   options_.masks = {tb::compare::parse_mask("en=1")};
   EXPECT_THAT(refusal(a, b), HasSubstr("has no signal en"));
 }

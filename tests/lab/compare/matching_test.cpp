@@ -77,7 +77,7 @@ TEST_F(Matching, NamedSignalsMustBeThereAndBeOne) {
   options_.pairs = {tb::compare::parse_pair("a=u.b")};
   EXPECT_THAT(pairs("t(a )", "t(u(b )v(b ))"), ElementsAre("t.a"));
   options_.pairs = {tb::compare::parse_pair("a=b")};
-  EXPECT_THAT(refusal("t(a )", "t(u(b )v(b ))"), HasSubstr("b is more than one signal, allowed are t.u.b, t.v.b"));
+  EXPECT_THAT(refusal("t(a )", "t(u(b )v(b ))"), HasSubstr("b is more than one signal, expected t.u.b, t.v.b"));
   options_.pairs = {tb::compare::parse_pair("a=irq_out")};
   EXPECT_THAT(refusal("t(a )", "t(irq_oot )"),
               HasSubstr("b.vcd: has no signal irq_out (did you mean irq_oot?), allowed"));

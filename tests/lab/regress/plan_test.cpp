@@ -98,9 +98,9 @@ TEST_F(RegressPlan, ANewScenarioMovesNoRunToAnotherShard) {
 
 TEST_F(RegressPlan, WhatIsNotThereOrChangesNothingIsRefused) {
   EXPECT_THAT(error_of([this] { plan_of(request({"none"}), {}); }),
-              HasSubstr("none: no such file or folder, allowed are scenarios and folders of them"));
+              HasSubstr("none: no such file or folder, expected scenarios and folders of them"));
   fs::create_directories(folder_.path() / "empty");
-  EXPECT_THAT(error_of([this] { plan_of(request({"empty"}), {}); }), HasSubstr("empty: holds no scenario, allowed is"));
+  EXPECT_THAT(error_of([this] { plan_of(request({"empty"}), {}); }), HasSubstr("empty: holds no scenario, expected"));
   Request seeds = request({"a.yaml"});
   seeds.seeds = {"1"};
   EXPECT_THAT(error_of([&] { plan_of(seeds, {}); }), HasSubstr("--seed changes nothing with --engine skip"));
@@ -110,7 +110,7 @@ TEST_F(RegressPlan, WhatIsNotThereOrChangesNothingIsRefused) {
   EXPECT_THAT(error_of([&] { plan_of(impossible, {}); }), HasSubstr("nothing is left to be run"));
   Request twice = request({"a.yaml"});
   twice.parameters = {{"baud", {"12M"}}, {"baud", {"6M"}}};
-  EXPECT_EQ(error_of([&] { plan_of(twice, {}); }), "--set baud: is set twice, allowed is once");
+  EXPECT_EQ(error_of([&] { plan_of(twice, {}); }), "--set baud: is set twice, expected once");
   Request many = request({"a.yaml", "b.yaml"});
   many.parameters = {{"a", std::vector<std::string>(1000, "1")}, {"b", std::vector<std::string>(51, "1")}};
   EXPECT_THAT(error_of([&] { plan_of(many, {}); }), HasSubstr("more than 100000 runs"));
@@ -120,13 +120,13 @@ TEST(RegressShard, IsAPartOfSoMany) {
   EXPECT_EQ(parse_shard("2/5").index, 2U);
   EXPECT_EQ(parse_shard("5/5").count, 5U);
   for (const char* text : {"", "2", "0/5", "6/5", "a/b", "1/", "1/0", "-1/5", "1/2/3"})
-    EXPECT_THAT(error_of([text] { parse_shard(text); }), HasSubstr("allowed is like 2/5")) << text;
+    EXPECT_THAT(error_of([text] { parse_shard(text); }), HasSubstr("expected something like 2/5")) << text;
 }
 
 TEST(RegressSeeds, AreListsAndRangesOfWholeNumbers) {
   EXPECT_THAT(parse_seeds("1..3,7"), ElementsAre("1", "2", "3", "7"));
-  EXPECT_THAT(error_of([] { parse_seeds("1,x"); }), HasSubstr("seed is \"x\", allowed is a whole number from 0 to"));
-  EXPECT_THAT(error_of([] { parse_seeds("4294967296"); }), HasSubstr("allowed is a whole number"));
+  EXPECT_THAT(error_of([] { parse_seeds("1,x"); }), HasSubstr("seed is \"x\", expected a whole number from 0 to"));
+  EXPECT_THAT(error_of([] { parse_seeds("4294967296"); }), HasSubstr("expected a whole number"));
   EXPECT_THAT(error_of([] { parse_seeds("1,1"); }), HasSubstr("1 is there twice"));
 }
 

@@ -92,7 +92,7 @@ TEST(Recording, NamesTheStationsThatAnswer) {
   capture.add(outputs({1}));
   capture.add(inputs({1}));
   EXPECT_THAT(why_not(capture),
-              HasSubstr("made.pcapng: no request to station 7 (--as), allowed are the stations that answer: 5"));
+              HasSubstr("made.pcapng: no request to station 7 (--as), expected the stations that answer: 5"));
 }
 
 TEST(Recording, ASilentSlaveCannotBePlayed) {
@@ -100,8 +100,7 @@ TEST(Recording, ASilentSlaveCannotBePlayed) {
   capture.add(outputs({1}));
   EXPECT_THAT(
       why_not(capture),
-      HasSubstr(
-          "station 5 (--as) never answers, and nobody else answers, allowed is a capture with a slave that does"));
+      HasSubstr("station 5 (--as) never answers, and nobody else answers, expected a capture with a slave that does"));
 }
 
 TEST(Recording, ResolutionIsTheLargestUnitOfAllStarts) {

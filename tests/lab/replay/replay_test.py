@@ -128,7 +128,7 @@ def coarse_times(folder):
     expect("microseconds: unit", result["resolution_ns"], 1000)
     expect("microseconds: said", "whole multiples of 1us, 0.5 bit times" in text, True)
     missing = sim(folder, "replay", "us.pcap", "--as", "5", status=2)
-    expect("no rate", missing.stderr, "us.pcap: does not say its baud rate, name it with --baud, allowed are 12M to 9.6k\n")
+    expect("no rate", missing.stderr, "us.pcap: does not say its baud rate, name it with --baud, expected 12M to 9.6k\n")
 
 
 def logs(folder):
@@ -142,7 +142,7 @@ def logs(folder):
            "run.jsonl: is a log, which does not say its baud rate, name it with --baud\n")
     (folder / "cut.log").write_text("   1.000 ns  bus  telegram  words  68 05 ... (49 bytes)\n", encoding="utf-8")
     expect("cut", sim(folder, "replay", "cut.log", "--as", "5", "--baud", "1.5M", status=2).stderr,
-           "cut.log:1: has not all bytes, allowed is a log with all of them (--log-whole, .jsonl)\n")
+           "cut.log:1: has not all bytes, expected a log with all of them (--log-whole, .jsonl)\n")
 
 
 def reference_rtl(folder):
@@ -151,7 +151,7 @@ def reference_rtl(folder):
     is_equal(folder, "the reference RTL", capture, "--engine", "rtl")
     refused = sim(folder, "replay", capture, "--as", "5", "--engine", "rtl", "--wave", "x.vcd", "--wave-inside", status=2)
     expect("no inside", refused.stderr,
-           "dsdpv1-sim replay: --wave-inside is about the model, allowed with it is --engine step or skip\n")
+           "dsdpv1-sim replay: --wave-inside is about the model, it needs --engine step or skip\n")
 
 
 # --- different --------------------------------------------------------------------------------------------------------
@@ -238,12 +238,12 @@ def shifted_answer(folder):
     found, _, _ = first(folder, "--tsdr-tolerance", "1")
     expect("where", found["telegram"], at)
     expect("what", (found["verdict"], found["why"]), ("other TSDR", found["why"]))
-    expect("numbers", bool(re.match(r"TSDR: recorded 14\.2\d bit times, model 11\.2\d, allowed are 1 apart", found["why"])), True)
+    expect("numbers", bool(re.match(r"TSDR: recorded 14\.2\d bit times, model 11\.2\d, expected 1 apart", found["why"])), True)
     at, _ = planted(folder, shift(-6))
     found, _, _ = first(folder)
     expect("early: where", found["telegram"], at)
     expect("early: numbers",
-           bool(re.match(r"TSDR: recorded 5\.2\d bit times, model 11\.2\d, allowed are min_TSDR 11 to max_TSDR 800", found["why"])), True)
+           bool(re.match(r"TSDR: recorded 5\.2\d bit times, model 11\.2\d, expected min_TSDR 11 to max_TSDR 800", found["why"])), True)
 
 
 def unlock(folder):
@@ -307,7 +307,7 @@ def in_the_middle(folder):
     alone = sim(folder, "replay", "middle.pcapng", "--as", "5", "--no-lead-in", status=2)
     expect("nothing to compare", alone.stderr,
            "middle.pcapng: station 5 is in data exchange where it begins, and no Set_Prm and Chk_Cfg follow, so that nothing can be "
-           "compared without the lead-in, allowed is a capture with them\n")
+           "compared without the lead-in, expected a capture with them\n")
     later = max(packet.ns for packet in middle) + 60_000_000  # time to find the rate, 12M
     again = [pcapng.Packet(packet.block()[8:-4]) for packet in packets]
     for packet in again:
@@ -360,7 +360,7 @@ def outputs(folder):
            ["replay.fst", "replay.gtkw", "replay.json", "replay.log", "replay.pcapng", "replay.sucl", "replay.tsv", "result.json"])
     clash = sim(folder, "replay", capture, "--as", "5", "--json", "run.pcapng", status=2)
     expect("an output is no input", clash.stderr,
-           "dsdpv1-sim replay: --json would replace the capture, run.pcapng, allowed is a separate file\n")
+           "dsdpv1-sim replay: --json would replace the capture, run.pcapng, expected a separate file\n")
 
 
 CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, changed_byte, missing_answer, answer_without_syn,

@@ -110,7 +110,7 @@ TEST_F(SweepCommand, PointThatTheScenarioRefusesIsNotPossible) {
 TEST_F(SweepCommand, ScenarioThatIsWrongAtEveryPointIsBadInput) {
   const Called called = sweep("--param slaves.0.name=bus,script --out out");
   EXPECT_EQ(called.status, 2);
-  EXPECT_EQ(called.err, "s.yaml:4: name bus is taken, allowed is any other\n");
+  EXPECT_EQ(called.err, "s.yaml:4: name bus is taken, expected any other\n");
   EXPECT_FALSE(fs::exists(folder_.file("out")));
 }
 

@@ -215,7 +215,7 @@ TEST_F(SweepFolder, HasOneOwnerAtATime) {
       ADD_FAILURE() << "two owners";
     } catch (const tb::InputError& error) {
       EXPECT_EQ(error.what(), (base_ / "out").string() + ": a sweep with process id " + std::to_string(::getpid()) +
-                                  " is using it, allowed is one sweep at a time");
+                                  " is using it, expected one sweep at a time");
     }
   }
   open();

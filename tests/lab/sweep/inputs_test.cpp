@@ -44,7 +44,7 @@ class SweepInputs : public testing::Test {
     return "no error";
   }
   std::string changed(const char* name) const {
-    return file(name) + ": was changed while the sweep ran, allowed is the same content for all of its points";
+    return file(name) + ": was changed while the sweep ran, expected the same content for all of its points";
   }
 
   fs::path base_;

@@ -52,19 +52,19 @@ TEST(SweepParameter, ListsAndRangesMix) {
 
 TEST(SweepParameter, WrongOnesAreNamed) {
   EXPECT_EQ(error_of("user_cpu.fsmc.datast=0..256"),
-            "--param user_cpu.fsmc.datast=0..256: datast is \"256\", allowed is a whole number from 0 to 255 HCLK");
+            "--param user_cpu.fsmc.datast=0..256: datast is \"256\", expected a whole number from 0 to 255 HCLK");
   EXPECT_EQ(error_of("user_cpu.fsmc.datast=5..1"),
             "--param user_cpu.fsmc.datast=5..1: range 5..1 ends before it begins");
   EXPECT_EQ(error_of("user_cpu.fsmc.datast=1..5/0"),
-            "--param user_cpu.fsmc.datast=1..5/0: range 1..5/0 has no step forward, allowed is a step above 0");
+            "--param user_cpu.fsmc.datast=1..5/0: range 1..5/0 has no step forward, expected a step above 0");
   EXPECT_EQ(error_of("user_cpu.fsmc.datast=1..x"),
-            "--param user_cpu.fsmc.datast=1..x: range 1..x is not understood, allowed is FIRST..LAST or "
+            "--param user_cpu.fsmc.datast=1..x: range 1..x is not understood, expected FIRST..LAST or "
             "FIRST..LAST/STEP");
   EXPECT_EQ(error_of("user_cpu.cycle=1us..5us"),
-            "--param user_cpu.cycle=1us..5us: range 1us..5us is not understood, allowed is FIRST..LAST/STEP in times, "
+            "--param user_cpu.cycle=1us..5us: range 1us..5us is not understood, expected FIRST..LAST/STEP in times, "
             "like 10ns..100ns/10ns");
   EXPECT_EQ(error_of("user_cpu.fsmc.addset=1,0..2"),
-            "--param user_cpu.fsmc.addset=1,0..2: 1 is there twice, allowed is once");
+            "--param user_cpu.fsmc.addset=1,0..2: 1 is there twice, expected once");
   EXPECT_EQ(error_of("user_cpu.cycle=1us..1s/1us"),
             "--param user_cpu.cycle=1us..1s/1us: range 1us..1s/1us has more than 10000 values");
   EXPECT_EQ(error_of("baud=12M,11M").substr(0, 47), "--param baud=12M,11M: baud is \"11M\" (did you me");
@@ -87,11 +87,11 @@ TEST(SweepPlan, NamesAreShortWhereThatIsClear) {
 
 TEST(SweepPlan, NeedsParametersEachOnceAndNotTooManyPoints) {
   EXPECT_EQ(error_of(Plan{"s.yaml", {}, "", {}}),
-            "dsdpv1-sim sweep: --param is missing, allowed is like --param user_cpu.fsmc.datast=0..15");
-  EXPECT_EQ(error_of(Plan{"s.yaml", {"a=1"}, "", {{"a", {"2"}}}}), "--param a: is set twice, allowed is once");
+            "dsdpv1-sim sweep: --param is missing, expected something like --param user_cpu.fsmc.datast=0..15");
+  EXPECT_EQ(error_of(Plan{"s.yaml", {"a=1"}, "", {{"a", {"2"}}}}), "--param a: is set twice, expected once");
   const std::vector<std::string> many(1000, "1");
   EXPECT_EQ(error_of(Plan{"s.yaml", {}, "", {{"a", many}, {"b", many}}}),
-            "dsdpv1-sim sweep: more than 100000 points, allowed are fewer values or parameters");
+            "dsdpv1-sim sweep: more than 100000 points, expected fewer values or parameters");
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ class TracesCommand : public testing::Test {
     EXPECT_THAT(called.out, IsEmpty());
     EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
     EXPECT_THAT(called.err, HasSubstr(words));
-    EXPECT_THAT(called.err, HasSubstr(", allowed is what ./run traces regenerate bus_timing writes"));
+    EXPECT_THAT(called.err, HasSubstr(", expected what ./run traces regenerate bus_timing writes"));
   }
   /// Another trace with a manifest that fits it.
   void replace_trace(const std::string& content) const {
@@ -83,9 +83,8 @@ TEST_F(TracesCommand, ANameMeansTheScenarioOfTheSourceTree) {
   EXPECT_EQ(call("traces check " + kName, folder_.path()).status, 0);
   const Called called = call("traces check bus_timings", folder_.path());
   EXPECT_EQ(called.status, 2);
-  EXPECT_THAT(
-      called.err,
-      HasSubstr("there is no scenario bus_timings (did you mean bus_timing?), allowed are a path and the names "));
+  EXPECT_THAT(called.err,
+              HasSubstr("there is no scenario bus_timings (did you mean bus_timing?), expected a path and the names "));
 }
 
 TEST_F(TracesCommand, AChangedScenarioIsRefused) {
@@ -146,7 +145,7 @@ TEST_F(TracesCommand, ATraceThatHoldsSomethingElseIsRefused) {
   const Called called = traces("check");
   EXPECT_EQ(called.status, 2);
   EXPECT_EQ(called.err,
-            "traces/bus_timing.trace.xz: holds no trace, allowed is what begins with \"golden trace 1\" "
+            "traces/bus_timing.trace.xz: holds no trace, expected what begins with \"golden trace 1\" "
             "(docs/traces.md)\n");
 }
 
@@ -157,7 +156,7 @@ TEST_F(TracesCommand, AScenarioWithoutGoldenIsRefused) {
   fs::remove(trace());
   const Called called = traces("check");
   EXPECT_EQ(called.status, 2);
-  EXPECT_EQ(called.err, "traces/bus_timing.trace.xz: no such file, allowed is a golden trace (.xz)\n");
+  EXPECT_EQ(called.err, "traces/bus_timing.trace.xz: no such file, expected a golden trace (.xz)\n");
 }
 
 TEST_F(TracesCommand, AGoldenWithoutScenarioIsNamedWhenAllAreChecked) {
@@ -169,8 +168,7 @@ TEST_F(TracesCommand, AGoldenWithoutScenarioIsNamedWhenAllAreChecked) {
   EXPECT_EQ(called.status, 2);
   EXPECT_THAT(called.err, HasSubstr("traces/gone.json: there is no scenario "));
   for (const std::string& name : app_test::shipped_scenarios())
-    EXPECT_THAT(called.err,
-                HasSubstr("traces/" + name + ".json: no such file, " + name + " has no golden, allowed is"));
+    EXPECT_THAT(called.err, HasSubstr("traces/" + name + ".json: no such file, " + name + " has no golden, expected"));
 }
 
 void TracesCommand::shift_interrupt() const {
@@ -281,17 +279,17 @@ TEST_F(TracesCommand, OptionsThatDoNotFitAreRefused) {
   for (const char* options : {"--view tlm", "--set end=1ms"}) {
     const Called called = call(run + options, folder_.path());
     EXPECT_EQ(called.status, 2) << options;
-    EXPECT_THAT(called.err, MatchesRegex("dsdpv1-sim run: --golden is about .*, allowed with it is .*\n"));
+    EXPECT_THAT(called.err, MatchesRegex("dsdpv1-sim run: --golden is about .*, it needs .*\n"));
   }
   const Called fault = traces("check", "--fault 3");
   EXPECT_EQ(fault.status, 2);
-  EXPECT_THAT(fault.err, HasSubstr("--fault is one of the RTL, allowed with it is --engine rtl or lockstep"));
+  EXPECT_THAT(fault.err, HasSubstr("--fault is one of the RTL, it needs --engine rtl or lockstep"));
   EXPECT_EQ(traces("check", "--engine fast").status, 2);
   for (const char* none : {"", " chek", " --help-me"})
     EXPECT_EQ(call(std::string("traces") + none, folder_.path()).status, 2);
-  EXPECT_THAT(call("traces", folder_.path()).err, HasSubstr("allowed are check, regenerate, list, wave"));
+  EXPECT_THAT(call("traces", folder_.path()).err, HasSubstr("expected check, regenerate, list, wave"));
   EXPECT_THAT(call("traces regenerate --folder nowhere", folder_.path()).err,
-              HasSubstr("nowhere: is no folder of golden traces, allowed is one like traces"));
+              HasSubstr("nowhere: is no folder of golden traces, expected one like traces"));
 }
 
 }  // namespace

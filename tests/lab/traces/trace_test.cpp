@@ -75,7 +75,7 @@ TEST_F(Traces, ThatAreCutOrForeignAreRefusedInOneLine) {
       const Trace trace(each, "f.xz");
       ADD_FAILURE() << "taken: " << each;
     } catch (const tb::InputError& error) {
-      EXPECT_THAT(error.what(), testing::StartsWith("f.xz: holds no trace, allowed is"));
+      EXPECT_THAT(error.what(), testing::StartsWith("f.xz: holds no trace, expected"));
     }
   }
 }

@@ -21,7 +21,7 @@ class PinChecker:
         """`limits`: as in dsdpv1.Checker, ticks; None: the rule is not checked. `mode`: "fail", or "report": violations are kept for `finish` or
         other readers."""
         if mode not in ("fail", "report"):
-            raise ValueError(f"mode is {mode}, allowed are fail, report")
+            raise ValueError(f"mode is {mode}, expected fail, report")
         self.violations: typing.List[dsdpv1.Violation] = []
         self._fails = mode == "fail"
         self._checker = dsdpv1.Checker(pins.kind.name, limits=limits)

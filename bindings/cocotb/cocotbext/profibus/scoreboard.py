@@ -61,7 +61,7 @@ class Scoreboard:
         """`parameters` of the model (access_interval, ready_cycles, ...): those of the DUT. Differences that last at most `tolerance` ticks are
         ignored: for RTL with delays."""
         if now() != 0:
-            raise RuntimeError(f"the scoreboard begins at tick {now()}, allowed is 0, before anything has happened")
+            raise RuntimeError(f"the scoreboard begins at tick {now()}, expected 0, before anything has happened")
         self.difference: typing.Optional[Difference] = None
         self._pins, self._fails = pins, fails
         self._board = dsdpv1.Scoreboard(pins.kind.name, parameters, tolerance)

@@ -21,7 +21,7 @@ MOST_FS = 40_000  # per step
 def _steps_per_us() -> int:
     steps = int(get_sim_steps(1, "us"))
     if steps < 1_000_000_000 // MOST_FS:
-        raise RuntimeError(f"the simulator's precision is {1_000_000 / steps:g} ps, allowed is at most {MOST_FS / 1000:g} ps: set it to 1 ps")
+        raise RuntimeError(f"the simulator's precision is {1_000_000 / steps:g} ps, expected at most {MOST_FS / 1000:g} ps: set it to 1 ps")
     return steps
 
 

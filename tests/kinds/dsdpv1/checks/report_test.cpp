@@ -84,7 +84,7 @@ TEST_F(ChecksOfTheProgram, ResultHasMarginTimeHistogramAndPinHistory) {
 TEST_F(ChecksOfTheProgram, UnknownWordIsRefusedInOneLine) {
   const app_test::Called called = run("--checks reprt");
   EXPECT_EQ(called.status, 2);
-  EXPECT_EQ(called.err, "dsdpv1-sim run: --checks is reprt (did you mean report?), allowed are fail, report, off\n");
+  EXPECT_EQ(called.err, "dsdpv1-sim run: --checks is reprt (did you mean report?), expected fail, report, off\n");
 }
 
 TEST(ChecksDocument, IsWhatTheTableSays) {
