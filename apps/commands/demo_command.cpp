@@ -25,7 +25,7 @@ void make_folder(const std::string& path) {
   fs::create_directories(path, error);
   if (error)
     throw tb::InputError("dsdpv1-sim demo: the folder " + path + " cannot be made (" + error.message() +
-                         "), allowed is one that can: --out FOLDER");
+                         "), expected one that can: --out FOLDER");
 }
 
 class Demo : public Command {

@@ -43,7 +43,7 @@ def main() -> int:
     try:
         return _demo(given.out)
     except OSError as error:
-        print(f"{parser.prog} demo: {error.filename}: {error.strerror}, allowed is a folder that can be written: --out FOLDER", file=sys.stderr)
+        print(f"{parser.prog} demo: {error.filename}: {error.strerror}, expected a folder that can be written: --out FOLDER", file=sys.stderr)
     except Error as error:
         print(error, file=sys.stderr)
     return 2
