@@ -124,8 +124,9 @@ std::string slaves(const RunResult& result) {
 }
 
 std::string interval_from(const MasterResult& master) {
-  if (master.interval_given) return "min_slave_interval of the scenario";
-  return master.min_slave_interval_us == 0 ? "no Min_Slave_Intervall" : "Min_Slave_Intervall of its slaves";
+  const bool has_none = master.min_slave_interval_us == 0;
+  if (master.interval_given) return has_none ? "min_slave_interval: 0" : "min_slave_interval of the scenario";
+  return has_none ? "no Min_Slave_Intervall" : "Min_Slave_Intervall of its slaves";
 }
 
 std::string masters(const RunResult& result) {

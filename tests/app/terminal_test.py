@@ -24,7 +24,7 @@ expect:
   - {slave: demo, dp_state: data_exch}
 """
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
-MOST_LINES = 28
+MOST_LINES = 29
 GREEN, RED = "\x1b[1;32m", "\x1b[1;31m"
 
 
