@@ -1,4 +1,5 @@
 """Breaks a small project on purpose, to see that check_licences.py finds each kind of fault and nothing else."""
+import os
 import pathlib
 import tempfile
 import unittest
@@ -185,8 +186,12 @@ class Ninja(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             build = pathlib.Path(folder)
             (build / "build.ninja").write_text(NINJA, encoding="utf-8")
+            (build / "obj").mkdir()
+            (build / "obj/b.o").touch()
             (build / "libd.so").touch()
             self.assertEqual(ninja_build.not_built(build), ["apps/sim"])
+            os.utime(build / "libd.so", (1, 1))  # linked before its object was compiled again
+            self.assertEqual(ninja_build.not_built(build), ["apps/sim", "libd.so"])
 
     def test_an_object_may_have_what_a_precompiled_header_has(self):
         self.assertEqual(ninja_build.precompiled_of(self.edges, {"obj/a.o", "obj/b.o", "obj/c.o"}), {"all.hxx.gch"})

@@ -98,9 +98,17 @@ def absolute(folder, files):
     return {os.path.normpath(os.path.join(folder, file)) for file in files}
 
 
+def is_current(folder, edges, name):
+    """Linked after all of its objects and shared libraries, and these after theirs."""
+    shared = {word for word in edges[name].libraries if word in edges and LINKERS.match(edges[word].rule)}
+    files = [folder / each for each in (name, *objects_of(edges, name), *shared)]
+    return all(each.exists() for each in files) and all(is_current(folder, edges, each) for each in shared) and max(each.stat().st_mtime_ns for each in files) == files[0].stat().st_mtime_ns
+
+
 def not_built(folder):
-    """The paths of programs and shared libraries that the build knows and that are not there, as in preset edit."""
-    return [name for name in linked(edges_of((folder / "build.ninja").read_text(encoding="utf-8"))) if not (folder / name).exists()]
+    """The paths of programs and shared libraries that the build knows and that are missing or older than an object of theirs, as in preset edit."""
+    edges = edges_of((folder / "build.ninja").read_text(encoding="utf-8"))
+    return [name for name in linked(edges) if not is_current(folder, edges, name)]
 
 
 def programs(folder):
@@ -109,7 +117,7 @@ def programs(folder):
     notes = notes_of(subprocess.run(["ninja", "-C", folder, "-t", "deps"], capture_output=True, text=True, check=True).stdout)
     made = {}
     for name in linked(edges):
-        if (folder / name).exists():
+        if is_current(folder, edges, name):
             objects = objects_of(edges, name)
             files, precompiled = (set().union(*(notes.get(each, []) for each in some)) for some in (objects, precompiled_of(edges, objects)))
             libraries = system_libraries(edges, name) | needed(folder / name)
