@@ -72,7 +72,7 @@ constexpr Word kWords[] = {{"as", "ADDRESS"},
 }  // namespace
 
 std::string value_word(const CLI::Option& option) {
-  const std::string type = option.get_type_name();  // with what its checks say
+  const std::string type = option.get_type_name();  // followed by the texts of its checks
   std::string word = type.substr(0, type.find(':'));
   const bool is_text = word.rfind("TEXT", 0) == 0, is_number = word == "INT" || word == "UINT" || word == "FLOAT";
   if (!is_text && !is_number) return word;

@@ -60,14 +60,14 @@ void SpiPort::frame_begins(Cycle now) {
   frame_ = too_soon || commit_.waits() ? Frame::kDeaf : Frame::kRequest;
 }
 
-// X at the J of a write that must wait (5.2).
+// A frame begins (X) at the judgement (J) of a write that must wait (5.2).
 void SpiPort::begins_with_wait(Cycle now) {
   if (frame_ == Frame::kNone) return;
   log_.at_cycle(now, Reason::kSpiWriteWaits);
   frame_ = Frame::kDeaf;
 }
 
-// Reports and ignores a frame that begins too soon after a write; returns whether it did.
+// Reports a frame that begins too soon after a write. Returns true if it must be ignored.
 bool SpiPort::report_gap(Cycle now) {
   const bool deaf = now < gap_until_;
   const Tick ticks = shift_.fell_at() - write_ended_;

@@ -47,7 +47,7 @@ void HostUart::reply_error(Cycle now, std::uint8_t code, bool data_exch) {
   send(now);
 }
 
-// After the last move.
+// Called after the commit's last move.
 void HostUart::reply_done(Cycle now) {
   const auto address = static_cast<std::uint8_t>(address_);
   if (request_.command == Command::kExchange) {

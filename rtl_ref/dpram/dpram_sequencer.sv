@@ -11,7 +11,7 @@ module dpram_sequencer (
   input  logic [20:0] ready_cycles_i,     // D1
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic        user_holds_i,     // or asks for the DPRAM; by whatever port, in step with clk_i
+  input  logic        user_holds_i,     // or requests the DPRAM, by any port; synchronous to clk_i
   output logic        owns_o,           // from the cycle after the start to the last of an access
   output logic        interrupt_o,      // a flag of parameters or configuration is written at this edge
   // DPRAM
@@ -96,7 +96,7 @@ module dpram_sequencer (
   assign {crc_high, crc_low} = crc_q;
   assign boot_low = boot_q[1:0];
 
-  // In the order of 9.2, the first lowest
+  // In the order of 9.2, the first in bit 0
   assign due = {
     status_due,
     c2_mail,
@@ -173,7 +173,7 @@ module dpram_sequencer (
     endcase
   end
 
-  // The choice looks it up, so that its users read a register; after the high byte it is the address of the low byte
+  // Looked up at the choice, so that later states read a register; after the CRC's high byte the address of its low byte
   always_ff @(posedge clk_i) begin
     if (chooses) crc_address_q <= crc_address;
     else if (state_q == SEQ_READ_CRC_HIGH || state_q == SEQ_WRITE_CRC_HIGH) crc_address_q <= crc_address_q + 11'd1;
@@ -258,7 +258,7 @@ module dpram_sequencer (
   logic [15:0] crc_start;
   assign crc_start = `FAULT(55) ? 16'h0000 : 16'hFFFF;
 
-  // The CRC of a written block begins with the byte of the choice itself
+  // The CRC of a written block begins with the byte that the choice writes
   logic [15:0] crc_first;
   crc16 u_crc_first (.crc_i(crc_start), .byte_i(wdata_o), .crc_o(crc_first));
 
@@ -362,7 +362,7 @@ module dpram_sequencer (
   assign interrupt_o = state_q == SEQ_FLAG && (item_q == ITEM_PRM || item_q == ITEM_CFG || (item_q == ITEM_OUTPUTS && `FAULT(58)));
   assign owns_o = own_q;
 
-  // ---- transfer from the station: parameters begin after the seven standard bytes; of a request the choice writes the first
+  // ---- transfer from the station: parameters begin after the seven standard bytes; the choice writes a request's first byte
   logic [7:0] transfer_q, transfer_start, transfer_index;
   assign transfer_start = take_prm ? 8'd7 : take_request ? 8'd1 : 8'd0;
   assign transfer_index = chooses ? transfer_start : state_q == SEQ_WRITE_BYTES ? transfer_q + 8'd1 : transfer_q;
