@@ -1,14 +1,13 @@
 #pragma once
 // `--gdb PORT`: a processor under a gdb on the same machine, by the remote serial protocol. One thread: while the
-// processor is halted the server keeps the processor's call, hence simulated time stands still.
+// processor is halted the server does not return from its call, so simulated time stands still.
 //
 // The run waits at the first instruction until a gdb has connected and lets it go. gdb may leave (`detach`, `quit`, a
 // broken connection): the run continues, and the next gdb may connect; `kill` ends the run. Only real time is lost, so
 // a run with a debugger has the result of a run without, unless the user changes registers or memory.
 //
 // gdb goes back (reverse-step, reverse-continue) by a journey: the run ends, and its owner begins it again with the
-// same history. The server of that run has the connection, and lets everything pass up to the place that gdb
-// wants.
+// same history. The new run's server has the connection, and halts nowhere before the place that gdb wants.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -33,8 +32,7 @@ struct GdbOptions {
 
 class GdbServer final : public Debugger {
  public:
-  /// Throws tb::InputError in one line when the port cannot be had. `target` is used as long as the server lives, its
-  /// end apart.
+  /// Throws tb::InputError in one line when the port is not available. `target` is used until the server's destructor.
   GdbServer(DebugTarget& target, GdbOptions options);
   /// Tells a gdb that waits for a stop that the run has ended.
   ~GdbServer() override;
@@ -100,7 +98,7 @@ class GdbServer final : public Debugger {
   GdbCommands commands_;
   bool due_ = true;        ///< consider() has to look at the next instruction, whichever it is
   bool waiting_ = true;    ///< for the first gdb
-  bool attached_ = false;  ///< a gdb has connected and has not been taken leave of
+  bool attached_ = false;  ///< a gdb has connected and has not been let go
   unsigned until_look_ = kInstructionsPerLook;
   bool stepping_ = false;
   bool over_ = false;                        ///< the run ends: nothing halts it any more

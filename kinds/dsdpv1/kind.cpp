@@ -171,12 +171,11 @@ std::vector<Order> parallel_orders() {
 
 std::vector<Order> rsu_orders() {
   std::vector<Order> orders = parallel_orders();
-  orders.push_back(
-      {{user_cpu::kFlipBit,
-        "The next telegrams of the user CPU have a wrong bit: SPI and UART, there with a parity that fits.",
-        {"slave"},
-        {"times"}},
-       said_flip_bit});
+  orders.push_back({{user_cpu::kFlipBit,
+                     "The next telegrams of the user CPU have a wrong bit (SPI, or UART with right parity).",
+                     {"slave"},
+                     {"times"}},
+                    said_flip_bit});
   orders.push_back({{user_cpu::kCutTelegram,
                      "The next telegrams of the user CPU end too early: XSS rises within the third byte, or only two "
                      "characters are sent.",

@@ -27,7 +27,7 @@ struct Difference {
 /// "pin READY of io: golden 0, here still 1", "the line: golden still 1, here 0".
 std::string what_differs(const Difference& difference);
 
-/// Gets all signals from a Tap, and the bus as an Observer. Compares up to the first difference: at each tick every
+/// Gets all signals from a Tap, and telegrams as an Observer. Compares up to the first difference: at each tick every
 /// signal must change as often and to the same levels as in the golden. The order of signals within one tick does not
 /// matter.
 class GoldenCheck : public Sink, public Observer {

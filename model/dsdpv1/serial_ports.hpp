@@ -22,7 +22,7 @@ class SerialPorts {
 
   HostMode mode() const { return mode_; }
   bool live() const { return mode_ != HostMode::kParallel; }
-  /// The edge of `now`, of the live port.
+  /// Evaluates the live port at the edge `now`.
   void eval(Cycle now, const ChipSide& side);
   Cycle next() const;
   /// The chip must not begin an access; valid after eval().

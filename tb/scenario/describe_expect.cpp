@@ -46,7 +46,7 @@ void describe_condition(ObjectOf<T>& o) {
                                           {ActionKind::kC2Transport, "c2_transport", ""}},
          "The service whose last answer `reply` and `outcome` are about.");
   o.bytes("reply", &C::reply, {0, 244},
-          "Data of the last answer of that service; of an acyclic one that was refused Error_Decode, Error_Code_1 and "
+          "Data of the last answer of that service; of a refused acyclic one: Error_Decode, Error_Code_1 and "
           "Error_Code_2.");
   o.word("outcome", &C::outcome,
          std::vector<WordFor<bus::AcyclicOutcome>>{

@@ -109,7 +109,7 @@ std::string row_of_checks(const std::vector<const Field*>& fields, const Object&
   for (const Field* field : fields)
     if (is_check(*field) && field->type.object == &object)
       names += fmt::format("{}[`{}`](checks.md#{})", names.empty() ? "" : ", ", field->name, lower_case(field->name));
-  return fmt::format("| {} | {} |  | Its limit, or whether it is made. |\n", names, link(object));
+  return fmt::format("| {} | {} |  | Its limit; on or off. |\n", names, link(object));
 }
 
 std::string rows(const std::vector<const Field*>& fields) {

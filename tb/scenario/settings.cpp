@@ -67,7 +67,7 @@ void check_end(const Field& field, const std::string& origin) {
                              field.type.object->fields.front().name));
 }
 
-/// As above for the middle of a path.
+/// Before its end a path must lead into a mapping or a list.
 void check_middle(const Field& field, const std::string& next, const std::string& origin) {
   if (has_keys(field) || has_items(field)) return;
   fail(origin, fmt::format("{} is one value, expected no key {} below it", field.name, next));

@@ -47,8 +47,8 @@ const ObjectOf<Fsmc>& fsmc_keys() {
         "firmware of an ARM board writes; for a native CPU addset 1, datast 5, busturn 0, mode 1, hclk 72.");
     o.integer("addset", &Fsmc::addset, {0, 15}, "HCLK", "ADDSET: WR (and in mode A RD) falls one HCLK more after CSR.");
     o.integer("datast", &Fsmc::datast, {0, 255}, "HCLK",
-              "DATAST: low time of WR; D is sampled one HCLK more after the address phase. The manual reserves 0: no "
-              "low time of WR, against Ts.");
+              "DATAST: low time of WR; D is sampled one HCLK more after the address phase. The manual reserves 0: WR "
+              "would have no low time (Ts).");
     o.integer("busturn", &Fsmc::busturn, {0, 15}, "HCLK", "BUSTURN: additional high time of CSR between accesses.");
     o.integer("hclk", &Fsmc::hclk_mhz, {1, 72}, "MHz", "Frequency of HCLK (default: RCC's on an ARM board, else 72).");
     o.word("mode", &Fsmc::mode,

@@ -20,18 +20,20 @@ const ObjectOf<SpiKeys>& spi_keys() {
   static const ObjectOf<SpiKeys> keys = [] {
     using S = SpiKeys;
     const Range range = {0, bus::kTicksPerMs};
-    ObjectOf<S> o("spi",
-                  "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's is its firmware's). "
-                  "Times beyond the chip's limits (SP2) are "
-                  "reported as violations.");
+    ObjectOf<S> o(
+        "spi",
+        "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's firmware sets its own). "
+        "Times beyond the chip's limits (SP2) are "
+        "reported as violations.");
     o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "Frequency of SCK, with equal high and low times.");
     o.time("lead", &S::lead, range, "XSS falls before SCK's first rise.");
     o.time("lag", &S::lag, range, "XSS rises after SCK's last fall.");
     o.time("gap", &S::gap, range, "Least high time of XSS between two frames.");
     o.time("byte_gap", &S::byte_gap, range, "Additional low time of SCK between two bytes.");
-    o.time("mosi_delay", &S::mosi_delay, range,
-           "Time from SCK's fall, for the first bit XSS's fall, to the change of MOSI; at most half of SCK's period, "
-           "when it changes with the rise.");
+    o.time(
+        "mosi_delay", &S::mosi_delay, range,
+        "Time from SCK's fall (XSS's for the first bit) to the change of MOSI; at most half of SCK's period: it then "
+        "changes with the rise.");
     o.integer("spare", &S::spare, {0, static_cast<int>(DSDPV1_SPI_SPARE)}, "bytes",
               "Greatest delay of a reply after the request (SP6).");
     return o;
@@ -42,7 +44,8 @@ const ObjectOf<SpiKeys>& spi_keys() {
 const ObjectOf<UartKeys>& uart_keys() {
   static const ObjectOf<UartKeys> keys = [] {
     using U = UartKeys;
-    ObjectOf<U> o("uart", "The native user CPU's UART, on a chip with mode: uart (an ARM board's is its firmware's).");
+    ObjectOf<U> o("uart",
+                  "The native user CPU's UART, on a chip with mode: uart (an ARM board's firmware sets its own).");
     o.integer("rate", &U::rate, {9600, 1'843'200}, "bit/s", "Its baud rate (default: the chip's uart_rate).");
     o.time("gap", &U::gap, {0, bus::kTicksPerSecond}, "Idle time between two characters of a telegram.");
     return o;
