@@ -1,7 +1,7 @@
 #pragma once
 // The chip's side of the DPRAM as the driver sees it, in memory and without time: it makes one access whenever the user
 // releases: when R_REQ and R_STA are both low, in whichever order they fell. It watches the user's discipline: no
-// access without ownership, B006 counted once a hold, R_STA only with R_REQ and after two free samples.
+// access without ownership, B006 counted once per hold, R_STA only with R_REQ and after two free samples.
 #include <array>
 #include <cstdint>
 #include <functional>
