@@ -89,14 +89,14 @@ std::string tsdr(const SlaveResult& slave) {
   return slave.tsdr.answers == 0 ? "-" : fmt::format("{:.2f} .. {:.2f}", slave.tsdr.min_bits, slave.tsdr.max_bits);
 }
 
-using Row = std::vector<std::string>;
+using Cells = std::vector<std::string>;
 
-Row joined(Row row, const Row& more) {
+Cells joined(Cells row, const Cells& more) {
   row.insert(row.end(), more.begin(), more.end());
   return row;
 }
 
-Row state_of(const SlaveResult& slave) {
+Cells state_of(const SlaveResult& slave) {
   return {slave.name,
           fmt::format("{}", slave.status.address),
           name(slave.status.dp_state),
@@ -105,15 +105,15 @@ Row state_of(const SlaveResult& slave) {
           fmt::format("{}", slave.status.outputs_missed)};
 }
 
-Row times_of(const SlaveResult& slave) {
+Cells times_of(const SlaveResult& slave) {
   return {tsdr(slave), short_time(slave.status.longest_wait), short_time(slave.user.port.longest_wait),
           short_time(slave.user.port.longest_hold)};
 }
 
 /// One table, or one of states and one of times where it is too wide.
 std::string slaves(const RunResult& result) {
-  const Row state = {"slave", "address", "DP state", "baud", "exchanges", "overwritten"},
-            times = {"TSDR / bit times", "chip waited", "user waited", "longest hold"};
+  const Cells state = {"slave", "address", "DP state", "baud", "exchanges", "overwritten"},
+              times = {"TSDR / bit times", "chip waited", "user waited", "longest hold"};
   TextTable whole(joined(state, times)), states(state), others(joined({"slave"}, times));
   for (const SlaveResult& slave : result.slaves) {
     whole.add(joined(state_of(slave), times_of(slave)));
