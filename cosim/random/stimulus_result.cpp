@@ -71,8 +71,8 @@ void stimulus_fields(Fields& out, const StimulusResult& result) {
   out.field("cases", only_if(random, result.cases),
             "random cases, up to and including the one that differs; null: `--replay`");
   out.field("cycles", result.counts.cycles, "compared and equal");
-  out.field("pin_changes", result.counts.pin_changes, "also");
-  out.field("dpram_images", result.counts.dpram_images, "also");
+  out.field("pin_changes", result.counts.pin_changes, "compared and equal");
+  out.field("dpram_images", result.counts.dpram_images, "compared and equal");
   out.object_or_null("case", random && result.difference ? &result : nullptr, case_fields,
                      "the random case that differs; null: none, or `--replay`");
   out.object_or_null("difference", result.difference, difference_fields,

@@ -68,7 +68,7 @@ TEST(Settings, WrongPathIsNamedWithTheNearestKey) {
   EXPECT_EQ(error_of("user_cpu.cicle=1us").substr(0, 73),
             "--set user_cpu.cicle=1us: unknown key cicle in user_cpu (did you mean cyc");
   const std::string error = error_of("usercpu.cycle=1us");
-  EXPECT_EQ(error.substr(0, error.find(", allowed")),
+  EXPECT_EQ(error.substr(0, error.find(", expected")),
             "--set usercpu.cycle=1us: unknown key usercpu in scenario (did you mean user_cpu?)");
   EXPECT_NE(error.find("; of every slave name, address,"), std::string::npos) << error;
   EXPECT_EQ(error_of("slaves.third.address=1"),

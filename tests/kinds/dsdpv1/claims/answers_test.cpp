@@ -49,7 +49,7 @@ TEST(CalibrateAnswers, AreReadAtEachRateWithAnotherClock) {
       capture.stretch(ppm);
       const calibrate::Result result = capture.judge();
       EXPECT_EQ(contradicted(result), "") << baud << ", " << ppm;
-      EXPECT_EQ(claim(result, "S3", "nobody asked").tally.holds, 3U) << baud << ", " << ppm;
+      EXPECT_EQ(claim(result, "S3", "without a request").tally.holds, 3U) << baud << ", " << ppm;
     }
 }
 
@@ -84,7 +84,7 @@ void expect_right_from_anywhere(int baud, double tsdr, const std::function<calib
     capture.begin_at(at);
     const calibrate::Result result = judge(capture);
     EXPECT_EQ(contradicted(result), "") << at / bit;
-    EXPECT_GE(claim(result, "S3", "nobody asked").tally.holds, 2U) << at / bit;
+    EXPECT_GE(claim(result, "S3", "without a request").tally.holds, 2U) << at / bit;
   }
 }
 
@@ -107,7 +107,7 @@ TEST(CalibrateAnswers, AnAnswerThatNobodyAskedForIsContradicted) {
   capture.wait_ms(1);
   capture.answer(data_answer({2}));
   exchange_data(capture, 2);
-  EXPECT_EQ(claim(capture.judge(), "S3", "nobody asked").verdict, Verdict::kContradicted);
+  EXPECT_EQ(claim(capture.judge(), "S3", "without a request").verdict, Verdict::kContradicted);
 }
 
 // --- S3, S10: idle ---------------------------------------------------------------------------------------------------
@@ -205,7 +205,7 @@ TEST(CalibrateAnswers, ADisturbanceAfterTheDecisionDoesNotEndTheWait) {
 }
 
 TEST(CalibrateAnswers, ALowLevelBeforeTheDecisionMakesTheRequestVoid) {
-  EXPECT_EQ(claim(disturbed(0.5, 20), "S3", "nobody asked").verdict, Verdict::kContradicted);
+  EXPECT_EQ(claim(disturbed(0.5, 20), "S3", "without a request").verdict, Verdict::kContradicted);
 }
 
 /// min_TSDR is 140 bit times. Characters that are not a telegram, so many, begin 40 bit times after a request, whose
@@ -225,14 +225,14 @@ TEST(CalibrateAnswers, ADisturbanceOfAnyLengthDoesNotEndTheWait) {
   for (const std::size_t characters : {2U, 8U}) {
     const calibrate::Result result = disturbed_for_long(k1M5, characters, 140).judge();
     EXPECT_EQ(contradicted(result), "") << characters;
-    EXPECT_EQ(claim(result, "S3", "nobody asked").tally.holds, 7U) << characters;
+    EXPECT_EQ(claim(result, "S3", "without a request").tally.holds, 7U) << characters;
   }
   EXPECT_EQ(contradicted(disturbed_for_long(k12M, 8, 140).judge_sampled(24e6)), "") << "it may be a request";
 }
 
 TEST(CalibrateAnswers, AfterMaxTsdrAnAnswerIsToWhatIsNoTelegram) {
   const calibrate::Result result = disturbed_for_long(k1M5, 8, 160).judge();
-  EXPECT_EQ(claim(result, "S3", "nobody asked").tally.fails, 1U);
+  EXPECT_EQ(claim(result, "S3", "without a request").tally.fails, 1U);
 }
 
 // --- S2 --------------------------------------------------------------------------------------------------------------
