@@ -31,7 +31,7 @@ html_title = f"dsdpv1 {version}"
 html_copy_source = False
 
 # Types of C and of other modules have no page here.
-nitpick_ignore_regex = [("c:identifier", r"u?int\d+_t|size_t|bool|dsdpv1_link"), ("py:class", r"(enum|os|numpy|typing|pathlib)\..*|dsdpv1\.(_library\.Handle|user\.T|telegram\.Kind)")]
+nitpick_ignore_regex = [("c:identifier", r"u?int\d+_t|size_t|bool|dsdpv1_link"), ("py:class", r"(enum|os|np|numpy|typing|pathlib)\..*|dsdpv1\.(_library\.Handle|user\.T|telegram\.Kind)|PinName")]
 
 
 CODE = re.compile(r"\b[A-Z]{1,2}\d+\b")

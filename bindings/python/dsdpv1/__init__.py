@@ -9,6 +9,7 @@
     chip = dsdpv1.Chip()
     chip.set("RESET", 1, at=20 * US)
     chip.advance(1 * MS)
+
 Times are whole ticks of 1/12 ns. A refused call raises an Error that says what was wrong and what is allowed. An object, with all that belongs to
 it, is used by one thread at a time; different objects are independent, and long calls let other threads run. An exception in a callback propagates
 from the call that triggered it. See docs/python.md.
