@@ -19,13 +19,11 @@ std::string line(const std::string& heading, const std::string& what) {
   return fmt::format("{:<17} {}\n", heading, what);
 }
 
-std::string microseconds(const Result& result, Time at) {
-  return fmt::format("{:.3f} us", static_cast<double>(result.scale.tick(at)) / static_cast<double>(bus::kTicksPerUs));
-}
+std::string moment(const Result& result, Time at) { return tb::moment_text(result.scale.tick(at)); }
 
 std::string file_text(const Result& result, const FileResult& file) {
-  return fmt::format("{}: {} signals, {} to {}{}", file.path, file.signals, microseconds(result, file.begin),
-                     file.ended ? "" : "beyond ", microseconds(result, file.end));
+  return fmt::format("{}: {} signals, {} to {}{}", file.path, file.signals, moment(result, file.begin),
+                     file.ended ? "" : "beyond ", moment(result, file.end));
 }
 
 std::string names_text(std::vector<std::string> names) {
@@ -87,7 +85,7 @@ std::string table(const Result& result) {
 std::string window(const Result& result) {
   const std::size_t count = result.signals.size();
   return fmt::format("{} signal{} from {} to {}: {} values{}", count, count == 1 ? "" : "s",
-                     microseconds(result, result.from), microseconds(result, result.to), compared(result),
+                     moment(result, result.from), moment(result, result.to), compared(result),
                      result.tolerance != 0 ? ", tolerance " + result.scale.text(result.tolerance) : "");
 }
 

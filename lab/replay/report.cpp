@@ -28,10 +28,6 @@ std::string line(const std::string& heading, const std::string& what) {
   return fmt::format("{:<17} {}\n", heading, what);
 }
 
-std::string microseconds(Tick at) {
-  return fmt::format("{:.3f} us", static_cast<double>(at) / static_cast<double>(bus::kTicksPerUs));
-}
-
 double bits(const Result& result, Tick ticks) {
   return static_cast<double>(ticks) / static_cast<double>(bus::baud(result.baud).bit);
 }
@@ -140,7 +136,7 @@ std::vector<std::pair<Verdict, std::size_t>> left_aside(const Result& result) {
 
 std::string first_text(const Result& result) {
   if (const RequestResult* first = result.first_difference())
-    return line("first difference", fmt::format("at {}, telegram {} of the capture: {}", microseconds(first->start),
+    return line("first difference", fmt::format("at {}, telegram {} of the capture: {}", tb::moment_text(first->start),
                                                 first->telegram + 1, first->why)) +
            line("  request", in_words(first->request)) + line("  recorded", answer_text(result, first->recorded)) +
            line("  model", answer_text(result, first->model));
@@ -151,13 +147,13 @@ std::string unasked_text(const Result& result) {
   if (result.unasked.empty()) return "";
   const Answer& first = result.unasked.front();
   return line("unasked", fmt::format("the model sent {} telegrams without a request to it, the first at {}: {}",
-                                     result.unasked.size(), microseconds(first.start), in_words(first.bytes)));
+                                     result.unasked.size(), tb::moment_text(first.start), in_words(first.bytes)));
 }
 
 std::string capture_text(const Result& result) {
   std::string text =
       fmt::format("{}: {} telegrams from {} to {} at {}, {}", bus::printable(result.capture), result.telegrams,
-                  microseconds(result.begin), microseconds(result.end), bus::baud(result.baud).name, result.form);
+                  tb::moment_text(result.begin), tb::moment_text(result.end), bus::baud(result.baud).name, result.form);
   if (result.left_out != 0) text += fmt::format(", {} at other rates left out", result.left_out);
   return text;
 }
@@ -217,7 +213,7 @@ std::string text(const Result& result, const RunResult& run) {
   text += line("model", result.station);
   text += line("inputs", result.inputs_recorded ? "the recorded ones, and the recorded diagnoses"
                                                 : "those of the scenario's user CPU");
-  text += line("lead-in", microseconds(result.lead_in) + (result.started ? kStarted : ""));
+  text += line("lead-in", tb::moment_text(result.lead_in) + (result.started ? kStarted : ""));
   text += line("TSDR / bit times", fmt::format("recorded {}, model {} (min / median / max); {}",
                                                spread_text(result, recorded_spread(result)),
                                                spread_text(result, model_spread(result)), rule_text(result)));

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "io/input/units.hpp"
 #include "lab/campaign/children.hpp"
 
 namespace dsdpv1::tb::sweep {
@@ -75,7 +77,9 @@ std::string Point::reason() const {
   if (!error.empty()) return error;
   const std::string bad = bad_reads != 0 ? fmt::format("{} reads of unknown data", bad_reads) : "";
   const std::string seen =
-      first ? fmt::format("{} at {:.3f} us: {}", first->code, first->at_ns / 1000, first->text) : "";
+      first ? fmt::format("{} at {}: {}", first->code, tb::moment_text(std::llround(first->at_ns * bus::kTicksPerNs)),
+                          first->text)
+            : "";
   if (!bad.empty() || !seen.empty()) return bad + (bad.empty() || seen.empty() ? "" : "; ") + seen;
   if (exit == campaign::kNothingJudged) return "nothing was judged: no data exchange, and nothing was expected";
   return unmet.empty() ? fmt::format("exit code {}", exit) : "not met: " + unmet;

@@ -66,6 +66,12 @@ def record(folder, baud="12M", behaviour="count", diagnosis=DIAGNOSIS, **outputs
     return folder / "run.pcapng"
 
 
+def moment_ms(ns):
+    """As reports show it: microseconds and finer without trailing zeros after three digits."""
+    whole = f"{ns / 1e6:.6f}"
+    return whole[:-3] + whole[-3:].rstrip("0") + " ms"
+
+
 def replayed(folder, capture, *options, status=0, slave=5):
     """The result as JSON, with the text beside it."""
     done = sim(folder, "replay", capture, "--as", slave, "--json", "replay.json", *options, status=status)
@@ -189,7 +195,7 @@ def changed_byte(folder):
     expect("where", (found["telegram"], found["at_ns"]), (at, packets[at - 1].ns))
     expect("what", found["why"], "byte 9: recorded 73 (input 2), model 33 (input 2)")
     expect("how often", (result["verdicts"]["other bytes"], len(result["differences"])), (1, 1))
-    expect("in words", f"first difference  at {packets[at - 1].ns / 1000:.3f} us, telegram {at} of the capture: byte 9" in text, True)
+    expect("in words", f"first difference  at {moment_ms(packets[at - 1].ns)}, telegram {at} of the capture: byte 9" in text, True)
     expect("given, it is none", replayed(folder, "planted.pcapng")[0]["equal"], True)
 
 
