@@ -51,7 +51,9 @@ class Cosim : public Command {
 
   int carry_out() override {
     if (run_.scenario.empty() == replay_.empty())
-      throw tb::InputError(std::string(kCosim) + ": expected one of SCENARIO and --replay");
+      throw tb::InputError(std::string(kCosim) + (replay_.empty()
+                                                      ? ": a scenario is missing (FILE.yaml, or --replay FILE)"
+                                                      : ": expected one of SCENARIO and --replay"));
     run_.scenario = scenario_file(kCosim, run_.scenario);
     if (!replay_.empty()) return rtl_random(stimulus());
     leave_nothing_on_signals();

@@ -267,7 +267,7 @@ void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const st
   if (arm && user.elf.empty())
     throw InputError(file, line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave));
   if (!arm && !user.elf.empty())
-    throw InputError(file, user.elf.line, "elf without kind: arm, expected firmware of an ARM board");
+    throw InputError(file, user.elf.line, "elf without kind: arm, expected both (--set user_cpu.kind=arm)");
   check_switches(user, file);
   if (arm && user.timing)
     throw InputError(file, user.timing->line, "timing is that of kind: native, an ARM board has cpi, fsmc and access");
