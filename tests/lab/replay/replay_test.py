@@ -67,9 +67,8 @@ def record(folder, baud="12M", behaviour="count", diagnosis=DIAGNOSIS, **outputs
 
 
 def moment_ms(ns):
-    """As reports show it: microseconds and finer without trailing zeros after three digits."""
-    whole = f"{ns / 1e6:.6f}"
-    return whole[:-3] + whole[-3:].rstrip("0") + " ms"
+    """As reports show it: to the nanosecond, or to the microsecond where that is exact."""
+    return f"{ns / 1e6:.6f}".removesuffix("000") + " ms"
 
 
 def replayed(folder, capture, *options, status=0, slave=5):
