@@ -315,7 +315,7 @@ void Board::follow_flash() { core_.set_flash(flash_.wait_states(), flash_.prefet
 void Board::check_clock() {
   const std::int64_t hz = rcc_.sysclk_hz(), mhz = hz / 1'000'000, wanted = (hz - 1) / kSysclkWithoutWait;
   if (hclk_hz() > kGreatestHclk && is_new(kRcc, kTooFast))
-    note(fmt::format("HCLK is {} MHz, expected 72 MHz", hclk_hz() / 1'000'000));
+    note(fmt::format("HCLK is {} MHz, expected at most 72 MHz", hclk_hz() / 1'000'000));
   else if (wanted > flash_.wait_states() && is_new(kFlash, kTooFast))
     note(fmt::format("SYSCLK is {} MHz with {} wait states of flash (FLASH_ACR.LATENCY), which needs {}", mhz,
                      flash_.wait_states(), wanted));
