@@ -125,7 +125,7 @@ class Reader {
 
   void read_segments() {
     if (header_.e_phnum > kMostProgramHeaders)
-      refuse(fmt::format("has {} program headers, expected {}", header_.e_phnum, kMostProgramHeaders));
+      refuse(fmt::format("has {} program headers, expected at most {}", header_.e_phnum, kMostProgramHeaders));
     for (unsigned i = 0; i < header_.e_phnum; ++i) {
       const auto segment = entry<Elf32_Phdr>(header_.e_phoff, header_.e_phentsize, i, "program header table");
       if (segment.p_type == PT_LOAD && segment.p_memsz > 0) read_segment(segment);

@@ -165,7 +165,7 @@ std::string read_text(const Field& field, const YAML::Node& node, const Source& 
   if (text.empty()) fail(source, node, fmt::format("{} is empty, expected text", field.name));
   const auto most = static_cast<std::size_t>(field.type.range.max);
   if (most != 0 && text.size() > most)
-    fail(source, node, fmt::format("{} has {} characters, expected {}", field.name, text.size(), most));
+    fail(source, node, fmt::format("{} has {} characters, expected at most {}", field.name, text.size(), most));
   return text;
 }
 

@@ -130,7 +130,7 @@ void FstReader::check_file() const {
   if (!blocks.header && blocks.unpacked == 0) throw InputError(path_, 0, "is no wave, expected VCD and FST");
   if (blocks.unpacked > kMostUnpacked)
     throw InputError(path_, 0,
-                     fmt::format("is an FST of {} MB that is compressed as a whole, expected {} MB",
+                     fmt::format("is an FST of {} MB that is compressed as a whole, expected at most {} MB",
                                  blocks.unpacked >> 20U, kMostUnpacked >> 20U));
   if (blocks.damaged) damaged();
   if (!blocks.complete())

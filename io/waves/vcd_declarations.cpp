@@ -86,8 +86,8 @@ void VcdDeclarations::scope() {
 void VcdDeclarations::keep(std::size_t bytes) {
   names_ += bytes;
   if (names_ > kMostWaveNames || to_.variables.size() >= kMostWaveVariables)
-    text_.fail(fmt::format("declares more than is read, expected {} variables and {} MB of names", kMostWaveVariables,
-                           kMostWaveNames >> 20U));
+    text_.fail(fmt::format("declares more than is read, expected at most {} variables and {} MB of names",
+                           kMostWaveVariables, kMostWaveNames >> 20U));
 }
 
 void VcdDeclarations::variable() {

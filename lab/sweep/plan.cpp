@@ -83,7 +83,8 @@ std::vector<std::string> values_of(Kind kind, const std::string& list, const std
       values.push_back(value);
     }
   }
-  if (values.size() > kMostValues) fail(origin, fmt::format("{} values, expected {}", values.size(), kMostValues));
+  if (values.size() > kMostValues)
+    fail(origin, fmt::format("{} values, expected at most {}", values.size(), kMostValues));
   return values;
 }
 
