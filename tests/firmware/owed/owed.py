@@ -18,9 +18,13 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 FLAGS = ["-mcpu=cortex-m3", "-mthumb", "-O2", "-g", "-fno-inline", "-ffreestanding", "-nostdlib", "-Wall", "-Wextra", "-Wconversion", "-Werror",
          f"-Wl,-T,{HERE}/station.ld", "-Wl,--build-id=none"]
-PORTS = {"P": "parallel", "S": "spi"}
+PORTS = {"P": "parallel", "S": "spi", "U": "uart"}
 FAULT = re.compile(r'X\((\w+), "(\w+)", (\w+), "([^"]*)"\)')
-SOURCES = [HERE / "station.c", HERE / "parallel.c", HERE / "spi.c"]
+SOURCES = {"parallel": ["blocks.c", "parallel.c"], "spi": ["blocks.c", "spi.c"], "uart": ["uart.c"]}
+
+
+def sources(port):
+    return [HERE / name for name in ["board.c", "cells.c", "station.c", *SOURCES[port]]]
 
 
 class Fault:
@@ -28,14 +32,15 @@ class Fault:
         self.name, self.ports, self.kind, self.what = name, ports, kind, what
 
     def marks(self, port):
-        """The places marked TELLS(name), as file:line."""
+        """The statements after a comment with TELLS(name), as file:line."""
         found = []
-        for source in SOURCES:
-            if source.stem in PORTS.values() and source.stem != port:
-                continue
-            for number, line in enumerate(source.read_text().splitlines(), 1):
+        for source in sources(port):
+            lines = source.read_text().splitlines()
+            for number, line in enumerate(lines):
                 if f"TELLS({self.name})" in line:
-                    found.append(f"{source.name}:{number}")
+                    while "*/" not in lines[number]:
+                        number += 1
+                    found.append(f"{source.name}:{number + 2}")
         return found
 
 
@@ -45,7 +50,7 @@ def faults():
 
 def build(gcc, fault, port, elf):
     volatile = ["-DPLANTED_NOT_VOLATILE"] if fault.name == "NOT_VOLATILE" else []
-    subprocess.run([gcc, *FLAGS, f"-DPLANTED={fault.name}", *volatile, HERE / "station.c", HERE / f"{port}.c", "-lgcc", "-o", elf], check=True)
+    subprocess.run([gcc, *FLAGS, f"-DPLANTED={fault.name}", *volatile, *sources(port), "-lgcc", "-o", elf], check=True)
 
 
 def places(result):
@@ -78,7 +83,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("sim")
     parser.add_argument("gcc")
-    parser.add_argument("--ports", default="PS")
+    parser.add_argument("--ports", default="PSU")
     parser.add_argument("--faults", default="")
     arguments = parser.parse_args()
     wanted = [name for name in arguments.faults.split(",") if name]

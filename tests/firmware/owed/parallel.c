@@ -30,7 +30,8 @@ static void start_fsmc(void) {
     WORD(0x40012000u) = 0x4444444Bu; /* PG: A10 */
   }
   const uint32_t control = HAS(FSMC_MULTIPLEXED) ? 0x108Bu : HAS(FSMC_WIDE) ? 0x1091u : 0x1081u;
-  WORD(0xA0000004u) = 1u | 5u << 8; /* TELLS(FSMC_UNCLOCKED) */
+  /* TELLS(FSMC_UNCLOCKED) */
+  WORD(0xA0000004u) = 1u | 5u << 8;
   WORD(0xA0000000u) = control;
 }
 
@@ -38,7 +39,8 @@ void port_start(void) {
   WORD(PORTC_CLEAR) = R_REQ | R_STA;
   const uint32_t pins = HAS(OPEN_DRAIN) ? 0x77u : HAS(ALTERNATE) ? 0xBBu : 0x33u;
   WORD(PORTC_LOW) = pins << 24 | 0x444444u;
-  if (HAS(DRIVES_L)) WORD(PORTC_LOW + 4u) = 0x44444433u; /* TELLS(DRIVES_L) */
+  /* TELLS(DRIVES_L) */
+  if (HAS(DRIVES_L)) WORD(PORTC_LOW + 4u) = 0x44444433u;
   start_fsmc();
 }
 
@@ -58,20 +60,24 @@ static void wait_for_chip(void) {
 }
 
 void take(void) {
-  WORD(PORTC_SET) = R_REQ; /* TELLS(ALTERNATE) TELLS(OPEN_DRAIN) */
+  /* TELLS(ALTERNATE) TELLS(OPEN_DRAIN) */
+  WORD(PORTC_SET) = R_REQ;
   wait_for_chip();
-  WORD(PORTC_SET) = R_STA; /* TELLS(STA_UNLOOKED) TELLS(LOOK_EARLY) */
-  if (!HAS(UNCOUNTED))
-    CELLS[0x006] =
-        (uint8_t)(CELLS[0x006] +
-                  1u); /* TELLS(FSMC_FLOATING) TELLS(FSMC_WIDE) TELLS(FSMC_MULTIPLEXED) TELLS(NOT_VOLATILE) */
+  /* TELLS(STA_UNLOOKED) TELLS(LOOK_EARLY) */
+  WORD(PORTC_SET) = R_STA;
+  /* TELLS(FSMC_FLOATING) TELLS(FSMC_WIDE) TELLS(FSMC_MULTIPLEXED) TELLS(NOT_VOLATILE) */
+  if (!HAS(UNCOUNTED)) CELLS[0x006] = (uint8_t)(CELLS[0x006] + 1u);
 }
 
 void give_back(void) {
-  WORD(PORTC_CLEAR) = R_STA; /* TELLS(UNCOUNTED) TELLS(CLEARED_UNREAD) TELLS(LENGTH_UNREAD) TELLS(OUTPUT_CRC_UNREAD)
-                                TELLS(PRM_CRC_UNREAD) TELLS(CRC_EXCHANGED) TELLS(CRC_LATE) TELLS(INPUTS_IN_TWO)
-                                TELLS(VERDICT_ALWAYS) TELLS(VERDICT_CACHED) TELLS(OUTPUTS_LATE) */
-  if (HAS(RELEASE_EARLY)) CELLS[0x011] = CELLS[0x011]; /* TELLS(RELEASE_EARLY) */
+  /*
+   * TELLS(UNCOUNTED) TELLS(CLEARED_UNREAD) TELLS(LENGTH_UNREAD) TELLS(OUTPUT_CRC_UNREAD) TELLS(PRM_CRC_UNREAD)
+   * TELLS(CRC_EXCHANGED) TELLS(CRC_LATE) TELLS(INPUTS_IN_TWO) TELLS(VERDICT_ALWAYS) TELLS(VERDICT_CACHED)
+   * TELLS(OUTPUTS_LATE)
+   */
+  WORD(PORTC_CLEAR) = R_STA;
+  /* TELLS(RELEASE_EARLY) */
+  if (HAS(RELEASE_EARLY)) CELLS[0x011] = CELLS[0x011];
   WORD(PORTC_CLEAR) = R_REQ;
 }
 
@@ -80,5 +86,6 @@ void read_cells(unsigned from, uint8_t* bytes, unsigned count) {
 }
 
 void write_cells(unsigned to, const uint8_t* bytes, unsigned count) {
-  for (unsigned i = 0; i < count; ++i) CELLS[to + i] = bytes[i]; /* TELLS(CHIPS_FLAG) */
+  /* TELLS(CHIPS_FLAG) */
+  for (unsigned i = 0; i < count; ++i) CELLS[to + i] = bytes[i];
 }

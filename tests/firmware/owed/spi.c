@@ -25,7 +25,8 @@ static uint8_t character(uint8_t out) {
   WORD(SPI_DR) = out;
   while ((WORD(SPI_SR) & 1u) == 0u) {
   }
-  return (uint8_t)WORD(SPI_DR); /* TELLS(OVERRUN) */
+  /* TELLS(OVERRUN) */
+  return (uint8_t)WORD(SPI_DR);
 }
 
 /* Two bytes are sent before the first is fetched. */
@@ -47,8 +48,9 @@ static void transfer(unsigned count) {
   for (unsigned i = first; i < count; ++i) frame[i] = character(frame[i]);
   while ((WORD(SPI_SR) & 0x80u) != 0u) {
   }
-  WORD(PORTA_SET) = 1u << 4; /* TELLS(TELEGRAM_CRC) TELLS(CHIPS_FLAG) */
-  pause_us(3);               /* 000 6.3.2: 2.7 us */
+  /* TELLS(TELEGRAM_CRC) TELLS(CHIPS_FLAG) */
+  WORD(PORTA_SET) = 1u << 4;
+  pause_us(3); /* 000 6.3.2: 2.7 us */
 }
 
 static unsigned seal(unsigned count) {
