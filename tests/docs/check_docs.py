@@ -23,6 +23,8 @@ import subprocess
 import sys
 import tempfile
 
+import commands
+
 SCENARIO = "scenarios/power_on_12m.yaml"
 PICTURES = ["docs/img/power_on_12m.svg", "docs/img/handshake.svg"]  # as draw_wave.py takes them
 HOUSE = ["docs/architecture.md", "docs/img/house.svg"]
@@ -89,7 +91,7 @@ def check_files(root):
             if not is_path(name, folders):
                 continue
             places = [root, path.parent, *(root / room for room in ROOMS)]
-            if any(any(place.glob(name.rstrip("/"))) for place in places) or ("/" not in name and name in names):
+            if any(any(place.glob(name.rstrip("/"))) for place in places) or ("/" not in name and name in names | commands.files(text).keys()):
                 continue
             yield fault(root, path, text, word.start(), f"there is no {name}")
 

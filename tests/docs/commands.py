@@ -2,8 +2,10 @@
 """Types in what a page tells its reader to type, and compares what it shows.
 
     commands.py PAGE BUILD
+    commands.py --files FOLDER PAGE
 
-All ```sh blocks of the page are one session of bash: in an empty folder for docs/tutorials/, else in the project's folder. Each block has to
+All ```sh blocks of the page are one session of bash: in an empty folder for docs/tutorials/, else in the project's folder. A block in another language whose first line
+is a comment that begins with the name of a file is this file; a page with files has an empty folder, too, with these files. --files writes them into FOLDER. Each block has to
 end with 0, or with the N of <!-- exit N --> before it; the first command of a block that fails ends it. A ```text block that follows is what it
 prints, "..." standing for anything. The project is in ~/dsdpv1: the sources, the real ./run, and BUILD as build/default; nothing is built or installed.
 """
@@ -17,6 +19,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"(?:^<!-- exit (\d+) -->\n)?^```sh\n(.*?)^```\n(?:\s*^```text\n(.*?)^```$)?", re.M | re.S)
+FILE = re.compile(r"^```\w+\n((?:/\*|#) ([\w.]+): .*?)^```$", re.M | re.S)
 NOT_SHARED = {"build", "out", "run", "packages.txt", ".git"}
 # A block that takes longer hangs, regardless of the times on a page.
 DEADLINE = 900
@@ -38,6 +41,16 @@ class Block:
 
 def blocks(page):
     return [Block(page, found) for found in BLOCK.finditer(page)]
+
+
+def files(page):
+    """Text by name."""
+    return {found.group(2): found.group(1) for found in FILE.finditer(page)}
+
+
+def write_files(page, folder):
+    for name, text in files(page).items():
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 def shows(shown, printed):
@@ -94,9 +107,10 @@ def session(page, build):
         home = pathlib.Path(name)
         tree, work, results = project(home, build), home / "work", home / "results"
         work.mkdir(), results.mkdir()
+        write_files(text, work)
         environment = {**os.environ, "HOME": name, "PATH": f"{home}/tools:/usr/bin:/bin:{os.environ['PATH']}", "NO_COLOR": "1", **without_network(build)}
         environment.setdefault("CCACHE_DIR", os.path.expanduser("~/.cache/ccache"))
-        subprocess.run(["bash", "-c", script(all_blocks, results)], cwd=work if page.parent.name == "tutorials" else tree, env=environment,
+        subprocess.run(["bash", "-c", script(all_blocks, results)], cwd=work if page.parent.name == "tutorials" or files(text) else tree, env=environment,
                        stdin=subprocess.DEVNULL, check=False, timeout=DEADLINE)
         for number, block in enumerate(all_blocks):
             printed = (results / f"{number}.out").read_text(encoding="utf-8")
@@ -108,6 +122,9 @@ def session(page, build):
 
 
 def main():
+    if sys.argv[1] == "--files":
+        write_files(pathlib.Path(sys.argv[3]).read_text(encoding="utf-8"), pathlib.Path(sys.argv[2]))
+        return
     wrong = session(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve())
     if wrong:
         sys.exit(wrong)

@@ -29,6 +29,9 @@ class Commands(unittest.TestCase):
     def test_the_folder_is_empty_and_the_project_is_at_home(self):
         self.assertEqual(page("```sh\nls\nls ~/dsdpv1/README.md\n~/dsdpv1/run --version | cut -c -6\n```\n```text\n.../README.md\ndsdpv1\n```\n"), "")
 
+    def test_the_files_of_a_page(self):
+        self.assertEqual(page("```c\n/* a.c: first */\nint a;\n```\n```yaml\n# b.yaml: second\n```\n```c\nint c;\n```\n```sh\nls; tail -1 a.c\n```\n```text\na.c\nb.yaml\nint a;\n```\n"), "")
+
     def test_another_output(self):
         self.assertIn("page.md:2: echo 2\ndoes not print what the page shows", page("```sh\necho 2\n```\n```text\n1\n```\n"))
 
@@ -55,6 +58,15 @@ class Examples(unittest.TestCase):
                 done = subprocess.run([sys.executable, "-I", "-S", commands.ROOT / "examples" / name], capture_output=True, text=True, check=False)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
                 self.assertRegex(done.stderr, rf" has no .*numpy, dsdpv1.*, expected a Python with .*{page}")
+
+
+class Guide(unittest.TestCase):
+    def test_each_piece_of_code_is_a_file_that_is_compiled(self):
+        text = (commands.ROOT / "docs/programmers_guide.md").read_text(encoding="utf-8")
+        sources = commands.files(text)
+        self.assertEqual(re.findall(r"^```(?:c|yaml)\n(?!(?:/\*|#) [\w.]+: ).*$", text, re.M), [])
+        typed = " ".join([each.commands for each in commands.blocks(text)] + re.findall(r'^#include "(\w+\.h)"', "".join(sources.values()), re.M))
+        self.assertEqual([name for name in sources if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", typed)], [])
 
 
 class Tutorials(unittest.TestCase):

@@ -14,14 +14,14 @@ void board_wait_ns(std::uint32_t ns);
 void board_put(std::uint8_t character);
 void board_flush(void);
 bool board_get(std::uint8_t* character);
-std::uint32_t board_us(void);
+std::uint32_t board_cycles(void);
 }
 
 namespace dsdpv1::board {
 
 // Used by the examples' board functions; the examples are C and have no objects.
-FakeRsu* rsu = nullptr;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-std::uint32_t us = 0;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+FakeRsu* rsu = nullptr;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+std::uint32_t cycles = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 }  // namespace dsdpv1::board
 
@@ -33,7 +33,7 @@ void board_wait_ns(std::uint32_t /*ns*/) {}
 void board_put(std::uint8_t character) { dsdpv1::board::rsu->uart_character(character); }
 void board_flush() {}
 bool board_get(std::uint8_t* character) { return dsdpv1::board::rsu->next_character(*character); }
-std::uint32_t board_us() { return dsdpv1::board::us++; }
+std::uint32_t board_cycles() { return dsdpv1::board::cycles += 72; }
 
 namespace dsdpv1 {
 namespace {
