@@ -40,6 +40,9 @@ class System {
   /// WFI or WFE with nothing pending: lets time pass until set_interrupt was called or cycle `until` (kNever: none) has
   /// come; the system calls advance_to.
   virtual void sleep(std::uint64_t until) = 0;
+  /// The handler of external interrupt `irq` has returned at `pc` kStorm times, and its source was never low.
+  virtual void storm(unsigned /*irq*/, std::uint32_t /*pc*/) {}
+  static constexpr unsigned kStorm = 100;
   /// AIRCR.SYSRESETREQ or a debugger's reset: the peripherals fall back to their state after reset; the processor
   /// starts again at its vector table.
   virtual void reset() {}
@@ -187,6 +190,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void write_frame(std::uint32_t sp, std::uint32_t return_address, std::uint32_t xpsr);
   void chain_fault(FaultKind kind, std::uint32_t address, std::uint32_t exc_return);
   FaultOutcome outcome(unsigned fault_handler, int priority) const;
+  void end_handler(unsigned exception);
   void return_from_exception();
   void unstack(std::uint32_t exc_return);
   bool return_allowed(std::uint32_t exc_return) const;

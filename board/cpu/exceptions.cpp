@@ -116,12 +116,17 @@ bool CortexM3::return_allowed(std::uint32_t exc_return) const {
   }
 }
 
+void CortexM3::end_handler(unsigned exception) {
+  nvic_.end(exception);
+  if (nvic_.unserved(exception) == System::kStorm) system_.storm(exception - kFirstInterrupt, engine_.returned_at());
+}
+
 void CortexM3::return_from_exception() {
   const std::uint32_t exc_return = engine_.read(Register::kPc) | 1U;
   const bool allowed = return_allowed(exc_return);
   const unsigned ended = handler();
   if (ended < Nvic::kExceptions)  // a debugger may have written any number into XPSR
-    nvic_.end(ended);
+    end_handler(ended);
   if (ended != kNmi) engine_.write(Register::kFaultmask, 0);
   event_ = true;
   if (!allowed) {

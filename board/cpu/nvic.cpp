@@ -37,6 +37,7 @@ void Nvic::clear_pending(unsigned exception) {
 void Nvic::set_level(unsigned exception, bool high) {
   State& state = state_[exception];
   state.level = high;
+  if (!high) state.unserved = 0;
   if (high && !state.active) set_pending(exception);
 }
 
@@ -51,6 +52,7 @@ void Nvic::end(unsigned exception) {
   State& state = state_[exception];
   state.active = false;
   state.pending = state.pending || state.level;
+  if (state.level) ++state.unserved;
   update_active();
   update_foremost();
 }

@@ -54,6 +54,8 @@ class Nvic {
   void begin(unsigned exception);
   /// Its handler returned.
   void end(unsigned exception);
+  /// How often its handler has returned since its source was low last.
+  unsigned unserved(unsigned exception) const { return state_[exception].unserved; }
   unsigned active_count() const { return active_count_; }
 
   /// 0 to 255 with four bits implemented; of reset, NMI and HardFault it is fixed.
@@ -85,6 +87,7 @@ class Nvic {
   struct State {
     bool pending, active, enabled, level;
     std::uint8_t priority;
+    unsigned unserved;
   };
   template <typename Test>
   std::uint32_t collect(unsigned first, Test test) const;

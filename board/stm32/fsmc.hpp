@@ -22,6 +22,9 @@ class Fsmc {
   user_cpu::FsmcBank bank(std::int64_t hclk_hz) const;
   /// The firmware has switched the bank off (MBKEN), or writing to it (WREN).
   bool refuses(bool write) const;
+  /// Other than 8 bits (MWID); the address on the data lines (MUXEN).
+  bool is_wide() const;
+  bool is_multiplexed() const;
 
  private:
   user_cpu::FsmcOverride given_;

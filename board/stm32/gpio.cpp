@@ -22,7 +22,7 @@ constexpr TagList kGpioTags = {{kLckr, 16, 1, "LCKK"}};
 constexpr RegisterTable Gpio::kRegisters{kGpioRegisters, kGpioTags};
 
 void Gpio::set_modes() {
-  outputs_ = pushed_ = alternate_ = pulled_ = analog_ = 0;
+  outputs_ = pushed_ = alternate_ = pushed_alternate_ = pulled_ = analog_ = 0;
   for (unsigned pin = 0; pin < 16; ++pin) {
     const unsigned mode = (words_[pin < 8 ? kCrl : kCrh] >> (pin % 8 * 4)) & 0xFU;
     const bool drives = (mode & kModeMask) != 0, other = (mode & kAlternate) != 0;
@@ -32,6 +32,7 @@ void Gpio::set_modes() {
     set(outputs_, drives && !other);
     set(pushed_, drives && !other && (mode & kOpenDrain) == 0);
     set(alternate_, drives && other);
+    set(pushed_alternate_, drives && other && (mode & kOpenDrain) == 0);
     set(pulled_, mode == kPulledInput);
     set(analog_, mode == kAnalog);
   }
@@ -46,6 +47,15 @@ std::uint16_t Gpio::input(std::uint16_t outside, std::uint16_t levels) const {
 
 std::uint32_t Gpio::read(std::uint32_t offset, std::uint16_t driven, std::uint16_t levels) const {
   return offset == kIdr ? input(driven, levels) : words_.read(offset);
+}
+
+std::uint32_t Gpio::addressed(std::uint32_t offset, std::uint32_t value) const {
+  switch (offset) {
+    case kBsrr: return (value | value >> 16U) & 0xFFFFU;
+    case kBrr: return value & 0xFFFFU;
+    case kOdr: return (value ^ words_[kOdr]) & 0xFFFFU;
+    default: return 0;
+  }
 }
 
 void Gpio::write(std::uint32_t offset, std::uint32_t value) {

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::uint32_t kBlock = 0x400;
 
+/// Everything from here on belongs to the processor and its debug port.
+constexpr std::uint32_t kPrivateBus = 0xE000'0000;
 /// Settings of the debug port: every start-up writes them; they mean nothing here.
 constexpr std::uint32_t kDbgmcu = 0xE004'2000;
 
@@ -19,24 +21,35 @@ struct Named {
 };
 
 // RM0008, memory map.
-constexpr std::array<Named, 29> kBlocks = {{
-    {0x1FFF'F400, "system memory"}, {0x4000'0000, "TIM2"},  {0x4000'0400, "TIM3"}, {0x4000'0800, "TIM4"},
-    {0x4000'0C00, "TIM5"},          {0x4000'1000, "TIM6"},  {0x4000'1400, "TIM7"}, {0x4000'2800, "RTC"},
-    {0x4000'2C00, "WWDG"},          {0x4000'3000, "IWDG"},  {0x4000'3C00, "SPI3"}, {0x4000'4800, "USART3"},
-    {0x4000'4C00, "UART4"},         {0x4000'5000, "UART5"}, {0x4000'5400, "I2C1"}, {0x4000'5800, "I2C2"},
-    {0x4000'5C00, "USB"},           {0x4000'6400, "CAN"},   {0x4000'6C00, "BKP"},  {0x4000'7000, "PWR"},
-    {0x4000'7400, "DAC"},           {0x4001'2400, "ADC1"},  {0x4001'2800, "ADC2"}, {0x4001'2C00, "TIM1"},
-    {0x4001'3400, "TIM8"},          {0x4001'8000, "SDIO"},  {0x4002'0000, "DMA1"}, {0x4002'0400, "DMA2"},
-    {0x4002'3000, "CRC"},
+constexpr std::array<Named, 28> kBlocks = {{
+    {0x1FFF'F000, "system memory"}, {0x1FFF'F400, "system memory"}, {0x1FFF'F800, "option bytes"},
+    {0x4000'6000, "USB memory"},    {0x4001'3C00, "ADC3"},
+
+    {0x4000'1000, "TIM6"},          {0x4000'1400, "TIM7"},          {0x4000'2800, "RTC"},
+    {0x4000'2C00, "WWDG"},          {0x4000'3C00, "SPI3"},          {0x4000'4800, "USART3"},
+    {0x4000'4C00, "UART4"},         {0x4000'5000, "UART5"},         {0x4000'5400, "I2C1"},
+    {0x4000'5800, "I2C2"},          {0x4000'5C00, "USB"},           {0x4000'6400, "CAN"},
+    {0x4000'6C00, "BKP"},           {0x4000'7000, "PWR"},           {0x4000'7400, "DAC"},
+    {0x4001'2400, "ADC1"},          {0x4001'2800, "ADC2"},          {0x4001'2C00, "TIM1"},
+    {0x4001'3400, "TIM8"},          {0x4001'8000, "SDIO"},          {0x4002'0000, "DMA1"},
+    {0x4002'0400, "DMA2"},          {0x4002'3000, "CRC"},
 }};
 
+const Named* block_of(std::uint32_t address) {
+  const auto* const found = std::find_if(kBlocks.begin(), kBlocks.end(), [address](const Named& each) {
+    return each.address == (address & ~(kBlock - 1));
+  });
+  return found != kBlocks.end() ? found : nullptr;
+}
+
 std::string name_of(std::uint32_t block) {
-  const auto found =
-      std::find_if(kBlocks.begin(), kBlocks.end(), [block](const Named& each) { return each.address == block; });
-  return found != kBlocks.end() ? found->name : fmt::format("0x{:08X}", block);
+  const Named* const known = block_of(block);
+  return known != nullptr ? known->name : fmt::format("0x{:08X}", block);
 }
 
 }  // namespace
+
+bool OtherRegisters::is_mapped(std::uint32_t address) { return address >= kPrivateBus || block_of(address) != nullptr; }
 
 OtherRegisters::Use& OtherRegisters::use(std::uint32_t address, std::uint32_t pc) {
   const auto [place, fresh] = uses_.try_emplace(address & ~(kBlock - 1));

@@ -11,6 +11,8 @@ namespace dsdpv1::arm {
 
 class OtherRegisters {
  public:
+  /// An STM32F103xE has something there: a peripheral, system memory, the debug port.
+  static bool is_mapped(std::uint32_t address);
   /// `address` of a word, `pc` of the instruction that uses it.
   std::uint32_t read(std::uint32_t address, std::uint32_t pc);
   void write(std::uint32_t address, std::uint32_t value, std::uint32_t pc);

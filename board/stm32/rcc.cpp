@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::uint32_t kCr = 0x00, kCfgr = 0x04, kCir = 0x08, kApb2rstr = 0x0C, kApb1rstr = 0x10, kBdcr = 0x20,
                         kCsr = 0x24;
-constexpr std::uint32_t kRmvf = 1U << 24U, kResetFlags = 0xFC00'0000;
+constexpr std::uint32_t kRmvf = 1U << 24U, kResetFlags = 0xFC00'0000, kPinReset = 1U << 26U, kSoftwareReset = 1U << 28U,
+                        kWatchdogReset = 1U << 29U;
 
 constexpr RegisterList kRccRegisters = {  // of high-density devices
     {kCr, "CR", 0x83, 0x010D'00F9},
@@ -94,6 +95,12 @@ std::uint32_t Rcc::read(std::uint32_t offset) const {
     case kCsr: return with_ready(value, 1U);  // LSE, LSI
     default: return value;
   }
+}
+
+void Rcc::reset(bool by_watchdog) {
+  const std::uint32_t flags = words_[kCsr] & kResetFlags;
+  *this = {};
+  words_[kCsr] = (words_[kCsr] & ~kResetFlags) | flags | kPinReset | (by_watchdog ? kWatchdogReset : kSoftwareReset);
 }
 
 void Rcc::write(std::uint32_t offset, std::uint32_t value) {

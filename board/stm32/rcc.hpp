@@ -15,6 +15,9 @@ class Rcc {
   std::uint32_t read(std::uint32_t offset) const;
   void write(std::uint32_t offset, std::uint32_t value);
 
+  /// A system reset, which leaves the flags of earlier ones (7.3.10).
+  void reset(bool by_watchdog);
+
   /// Frequency of HCLK: 8 MHz, the HSI, after a reset. The board's crystal (HSE) has 8 MHz (p).
   std::int64_t hclk_hz() const;
   /// The clock that the AHB divider makes it of, which flash works with.

@@ -14,5 +14,8 @@ void exti15_10_handler(void);
 void spi_handler(void);
 /* A character was received or sent (uart_port.c). */
 void usart2_handler(void);
+/* The wait for a character is over (uart_port.c). */
+void tim2_handler(void);
+void tim3_handler(void);
 
 #endif /* INTERRUPTS_H */

@@ -36,6 +36,14 @@ typedef struct {
   vector interrupts[kIrqCount];
 } vector_table;
 
+#ifdef BOARD_SERIAL_INTERRUPTS
+#define TIM2_HANDLER tim2_handler
+#define TIM3_HANDLER tim3_handler
+#else
+#define TIM2_HANDLER unexpected
+#define TIM3_HANDLER unexpected
+#endif
+
 #define FIVE_UNEXPECTED unexpected, unexpected, unexpected, unexpected, unexpected
 #define TEN_UNEXPECTED FIVE_UNEXPECTED, FIVE_UNEXPECTED
 
@@ -45,9 +53,10 @@ __attribute__((section(".vectors"), used)) const vector_table vectors = {
     {reset_handler, unexpected /* NMI */, unexpected /* HardFault */, unexpected /* MemManage */,
      unexpected /* BusFault */, unexpected /* UsageFault */, 0, 0, 0, 0, unexpected /* SVCall */,
      unexpected /* DebugMonitor */, 0, unexpected /* PendSV */, systick_handler},
-    {TEN_UNEXPECTED,    TEN_UNEXPECTED,                                                                /* 0 to 19 */
-     unexpected,        unexpected,     unexpected,  exti9_5_handler, unexpected,     FIVE_UNEXPECTED, /* 20 to 29 */
-     FIVE_UNEXPECTED,   spi_handler,    spi_handler, unexpected,      usart2_handler, unexpected,      /* 30 to 39 */
-     exti15_10_handler, unexpected,     unexpected,  unexpected,      unexpected,     FIVE_UNEXPECTED,
+    {TEN_UNEXPECTED,    TEN_UNEXPECTED, /* 0 to 19 */
+     unexpected,        unexpected,     unexpected,   exti9_5_handler, unexpected,     unexpected,
+     unexpected,        unexpected,     TIM2_HANDLER, TIM3_HANDLER,                                /* 20 to 29 */
+     FIVE_UNEXPECTED,   spi_handler,    spi_handler,  unexpected,      usart2_handler, unexpected, /* 30 to 39 */
+     exti15_10_handler, unexpected,     unexpected,   unexpected,      unexpected,     FIVE_UNEXPECTED,
      TEN_UNEXPECTED}, /* 40 to 59 */
 };

@@ -78,6 +78,8 @@ typedef struct {
 #define RCC_APB2ENR_IOPGEN (1u << 8)
 #define RCC_APB2ENR_SPI1EN (1u << 12)
 #define RCC_APB2ENR_USART1EN (1u << 14)
+#define RCC_APB1_TIM2 (1u << 0) /* in APB1ENR and in APB1RSTR */
+#define RCC_APB1_TIM3 (1u << 1)
 #define RCC_APB1ENR_SPI2EN (1u << 14)
 #define RCC_APB1ENR_USART2EN (1u << 17)
 
@@ -176,9 +178,32 @@ typedef struct {
 #define SPI_SR_OVR (1u << 6)
 #define SPI_SR_BSY (1u << 7)
 
+/* ------------------------------------------------------------------------------------------------------------- timers
+ */
+
+typedef struct {
+  reg32 CR1, CR2, SMCR, DIER, SR, EGR, CCMR[2], CCER, CNT, PSC, ARR;
+} timer_registers;
+#define TIM2 ((timer_registers*)0x40000000u)
+#define TIM3 ((timer_registers*)0x40000400u)
+#define TIM_CR1_CEN (1u << 0)
+#define TIM_CR1_OPM (1u << 3)
+#define TIM_DIER_UIE (1u << 0)
+#define TIM_SR_UIF (1u << 0)
+#define TIM_EGR_UG (1u << 0)
+
 /* --------------------------------------------------------------------------------------------------------- interrupts
  */
 
-enum { kIrqExti9To5 = 23, kIrqSpi1 = 35, kIrqSpi2 = 36, kIrqUsart2 = 38, kIrqExti15To10 = 40, kIrqCount = 60 };
+enum {
+  kIrqExti9To5 = 23,
+  kIrqTim2 = 28,
+  kIrqTim3,
+  kIrqSpi1 = 35,
+  kIrqSpi2 = 36,
+  kIrqUsart2 = 38,
+  kIrqExti15To10 = 40,
+  kIrqCount = 60
+};
 
 #endif /* STM32F103_H */

@@ -74,7 +74,53 @@ static bool next_character(uint8_t* to) {
   return true;
 }
 
+/* TIM2 ends the wait for the first character, TIM3 that for the next one: after 3.5 characters. */
+static volatile bool over;
+
+static void expire(timer_registers* timer) {
+  if ((timer->SR & TIM_SR_UIF) == 0u) return; /* it was reset meanwhile */
+  timer->SR = ~TIM_SR_UIF;
+  over = true;
+}
+
+void tim2_handler(void) { expire(TIM2); }
+void tim3_handler(void) { expire(TIM3); }
+
+static void stop_timers(void) {
+  RCC->APB1RSTR |= RCC_APB1_TIM2 | RCC_APB1_TIM3;
+  RCC->APB1RSTR &= ~(RCC_APB1_TIM2 | RCC_APB1_TIM3);
+}
+
+/* Their clock is twice PCLK1. UG loads PSC, and sets UIF. */
+static void start_timer(timer_registers* timer, uint32_t steps, uint32_t us_of_step) {
+  stop_timers();
+  over = false;
+  timer->PSC = us_of_step * 2u * BOARD_APB1_MHZ - 1u;
+  timer->ARR = steps - 1u;
+  timer->EGR = TIM_EGR_UG;
+  timer->SR = 0;
+  timer->DIER = TIM_DIER_UIE;
+  timer->CR1 = TIM_CR1_OPM | TIM_CR1_CEN;
+}
+
+static uint16_t receive(void* ctx, uint8_t* bytes, uint16_t n, uint32_t timeout_us) {
+  (void)ctx;
+  const uint32_t silence_us = 38500000u / uart_port()->baud + 1u; /* a character has 11 bits */
+  uint16_t count = 0;
+  start_timer(TIM2, timeout_us / 100u + 1u, 100);
+  while (count < n && !over)
+    if (next_character(&bytes[count])) {
+      ++count;
+      start_timer(TIM3, silence_us, 1);
+    }
+  stop_timers();
+  return count;
+}
+
 static void prepare(void) {
+  RCC->APB1ENR |= RCC_APB1_TIM2 | RCC_APB1_TIM3;
+  board_enable_serial(kIrqTim2);
+  board_enable_serial(kIrqTim3);
   USART2->CR1 |= USART_CR1_RXNEIE;
   board_enable_serial(kIrqUsart2);
 }
@@ -116,11 +162,6 @@ static bool next_character(uint8_t* to) {
   return fetch(USART2->SR, to);
 }
 
-static void prepare(void) {}
-void usart2_handler(void) {} /* not enabled */
-
-#endif
-
 static uint16_t receive(void* ctx, uint8_t* bytes, uint16_t n, uint32_t timeout_us) {
   (void)ctx;
   uint16_t count = 0;
@@ -131,6 +172,11 @@ static uint16_t receive(void* ctx, uint8_t* bytes, uint16_t n, uint32_t timeout_
     }
   return count;
 }
+
+static void prepare(void) {}
+void usart2_handler(void) {} /* not enabled */
+
+#endif
 
 /* Half characters by the code of UIV (ruling UA3). */
 static const uint16_t intervals[] = {7, 2, 4, 10, 20, 40, 100, 200};

@@ -10,6 +10,18 @@
 #include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::tb {
+namespace {
+
+/// Of an error of a program: a refusal, unless the kind's tables of codes say violation.
+profibus::Severity severity_of(const ChipKind& kind, const std::string& code) {
+  for (const CodeTable& table : kind.codes())
+    for (const CodeText& each : table.codes)
+      if (each.code == code && each.severity == name(profibus::Severity::kViolation))
+        return profibus::Severity::kViolation;
+  return profibus::Severity::kRefusal;
+}
+
+}  // namespace
 
 void Journal::log(LogEntry entry) {
   if (!log_) return;
@@ -90,7 +102,7 @@ void Journal::flag(const bus::Flag& flag) {
 }
 
 void Journal::error(std::size_t slave, const user_cpu::ProgramError& error) {
-  happened(tally(name_of(slave), error.code, profibus::Severity::kRefusal), error.at, error.text);
+  happened(tally(name_of(slave), error.code, severity_of(*scenario_.kind, error.code)), error.at, error.text);
 }
 
 void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, bool changed) {

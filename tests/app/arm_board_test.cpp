@@ -395,6 +395,32 @@ TEST(ArmBoard, FaultEndsTheRunWithTheSourceLine) {
   EXPECT_EQ(read(folder.file("pins")), read(folder.file("tlm")));
 }
 
+TEST(ArmBoard, WhatARealBoardWouldNotForgiveFailsTheRunUnlessItIsAllowed) {
+  const app_test::Folder folder;
+  const std::string scenario =
+      "name: careless\nbaud: 12M\nend: 1ms\nslaves: [{name: board, address: 5, init: {ident: 1, "
+      "max_inputs: 2, max_outputs: 2, cfg: \"31\"}, user_cpu: {kind: arm, elf: '" +
+      std::string(FIRMWARE_CARELESS) + "'}}]\nexpect: [{slave: board, event: READY_FLAG}]\n";
+  std::ofstream(folder.file("s.yaml")) << scenario;
+  std::ofstream(folder.file("allowed.yaml")) << scenario << "allow: [{event: BOARD_CLOCK_OFF, slave: board}]\n";
+  for (const std::string view : {"pins", "tlm"}) {
+    const Called called =
+        call("run s.yaml --no-progress --result r.json --log " + view + " --view " + view, folder.path());
+    EXPECT_EQ(called.status, 1);
+    EXPECT_THAT(called.out, HasSubstr("FAILED: 4 violations"));
+    EXPECT_THAT(called.out, testing::ContainsRegex("BOARD_CLOCK_OFF +4 "));
+    EXPECT_THAT(read(folder.file(view)),
+                HasSubstr("GPIOB is used while its clock is off in RCC_APB2ENR, in run at careless.c:8"));
+    const Json violated = Json::parse(read(folder.file("r.json"))).at("violated");
+    ASSERT_EQ(violated.size(), 1U);
+    EXPECT_EQ(violated.at(0).at("count"), 4);
+  }
+  EXPECT_EQ(read(folder.file("pins")), read(folder.file("tlm")));
+  const Called allowed = call("run allowed.yaml --no-progress", folder.path());
+  EXPECT_EQ(allowed.status, 0) << allowed.out;
+  EXPECT_THAT(allowed.out, HasSubstr("PASSED, 4 violations allowed"));
+}
+
 // --- commands --------------------------------------------------------------------------------------------------------
 
 TEST(ArmBoard, ScenarioAndCaptureMayBePipes) {

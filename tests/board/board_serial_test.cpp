@@ -33,7 +33,8 @@ enum Program {
   kMisused,
   kRemapped,
   kQuick,
-  kBusy
+  kBusy,
+  kUnsetUart
 };
 
 constexpr Tick kHclk9 = 1500;  // nine periods of 72 MHz
@@ -91,7 +92,7 @@ class SerialBus : public user_cpu::PinHostBus {
 
 class BoardSerial : public testing::Test {
  protected:
-  void start(Program program, unsigned card = 1, bool serial = true) {
+  void start(Program program, unsigned card = 1, bool serial = true, HostMode mode = HostMode::kParallel) {
     arm::BoardOptions options;
     auto firmware = std::make_shared<arm::Firmware>(*arm::load_firmware(SERIAL));
     const std::uint32_t word = firmware->image.symbols.at("program").address;
@@ -102,8 +103,10 @@ class BoardSerial : public testing::Test {
     options.fsmc.hclk_mhz = 72;
     options.card = card;
     options.serial = serial;
+    options.mode = mode;
     board = std::make_unique<arm::Board>(
         host, std::move(options), [this](Tick at, bool level) { resets.emplace_back(at, level); }, kStart);
+    board->on_error = [this](const user_cpu::ProgramError& error) { misuses.push_back(error.text); };
     board->on_failure = [](Tick, const std::string& why, const std::string&) { ADD_FAILURE() << why; };
   }
   void run_until(Tick end) {
@@ -129,6 +132,7 @@ class BoardSerial : public testing::Test {
   SerialBus host{memory};
   std::vector<std::pair<Tick, bool>> resets;
   std::unique_ptr<arm::Board> board;
+  std::vector<std::string> misuses;
 };
 
 /// The sixteen edges of a byte lie `half` cycles of HCLK apart, XSS round them.
@@ -349,12 +353,44 @@ TEST_F(BoardSerial, OutputsMoveSpiByHand) {
   EXPECT_EQ(cell(1), 0);
 }
 
+TEST_F(BoardSerial, APortThatSendsWithoutItsPinsIsTold) {
+  start(kRemapped, 1, true, HostMode::kSpi);
+  run();
+  EXPECT_THAT(misuses, ElementsAre(testing::MatchesRegex("SPI1 sends while PA5 \\(SCK\\) is not its pin, in spi1 at "
+                                                         "serial.c:[0-9]+")));
+  host.restart();
+  start(kUnsetUart, 1, true, HostMode::kUart);
+  run();
+  EXPECT_THAT(misuses.back(), testing::StartsWith("USART2 sends while PA2 (TX) is not its pin, in unset_uart at"));
+  misuses.clear();
+  host.restart();
+  start(kSpi1, 1, true, HostMode::kSpi);
+  run();
+  EXPECT_THAT(misuses, IsEmpty());
+}
+
+TEST_F(BoardSerial, BytesThatAreLostAtThePortInUseAreTold) {
+  start(kOverrun, 1, true, HostMode::kSpi);
+  run();
+  EXPECT_EQ(misuses.size(), 2U);
+  EXPECT_THAT(misuses.at(0), testing::StartsWith("a byte for SPI is lost (OVR), in "));
+  misuses.clear();
+  host.restart();
+  start(kUartOverrun, 1, true, HostMode::kUart);
+  run_until(kStart + 50 * bus::kTicksPerUs);
+  say(kStart + 100 * bus::kTicksPerUs, 0x21);
+  say(kStart + 110 * bus::kTicksPerUs, 0x22);
+  run();
+  EXPECT_THAT(misuses, ElementsAre(testing::StartsWith("a character for USART2 is lost (ORE), in ")));
+}
+
 TEST_F(BoardSerial, ClocksOffAndFunctionsThatAreMissingAreListed) {
   start(kMisused);
   run();
   EXPECT_EQ(cell(0), 0);  // RCC has reset it
-  EXPECT_THAT(board->board()->notes, ElementsAre(HasSubstr("SPI1 is used while its clock is off in RCC_APB2ENR"),
-                                                 HasSubstr("SPI1_CR1.RXONLY is set to 1, which the board does not"),
+  EXPECT_EQ(cell(1), 0x54);
+  EXPECT_THAT(misuses, ElementsAre(HasSubstr("SPI1 is used while its clock is off in RCC_APB2ENR")));
+  EXPECT_THAT(board->board()->notes, ElementsAre(HasSubstr("SPI1_CR1.RXONLY is set to 1, which the board does not"),
                                                  HasSubstr("USART2_CR3.HDSEL is set to 1, which the board does not")));
 }
 

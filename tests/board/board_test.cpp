@@ -44,7 +44,19 @@ enum Program {
   kClocksOff,
   kBusy,
   kDivided,
-  kRestarted
+  kRestarted,
+  kWideBus,
+  kMultiplexed,
+  kFloatingBus,
+  kWrongPins,
+  kOutside,
+  kBank2,
+  kTimer,
+  kTimerWhileBusy,
+  kIrqStorm,
+  kWatchdog,
+  kWatchdogAsleep,
+  kStuck
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -101,6 +113,11 @@ class BoardTest : public testing::Test {
     board = std::make_unique<arm::Board>(
         host, std::move(options), [this](Tick at, bool level) { resets.emplace_back(at, level); }, kStart);
     board->on_text = [this](Tick, const std::string& line) { lines.push_back(line); };
+    board->on_error = [this](const user_cpu::ProgramError& error) {
+      EXPECT_GE(error.at, kStart);
+      codes.push_back(error.code);
+      misuses.push_back(error.text);
+    };
     board->on_failure = [this](Tick, const std::string& why, const std::string& table) {
       failure = {why, table};
       ++failures;
@@ -126,6 +143,7 @@ class BoardTest : public testing::Test {
   std::vector<std::pair<Tick, bool>> resets;
   std::vector<std::string> lines;
   std::pair<std::string, std::string> failure;
+  std::vector<std::string> codes, misuses;  ///< of what a real board would not forgive
   int failures = 0;
   std::unique_ptr<arm::Board> board;
 };
@@ -299,16 +317,20 @@ TEST_F(BoardTest, HclkFollowsRccFrom8MhzOn) {
   EXPECT_GT(periods[4], periods[3] * 1.2) << "flash waits";
   EXPECT_EQ(board->board()->hclk_hz, 36'000'000);
   EXPECT_EQ(board->board()->hclk_source, "PLL, 9 x HSE, divided by 2");
-  EXPECT_THAT(board->board()->notes,
-              Contains(HasSubstr("SYSCLK is 64 MHz with 0 wait states of flash (FLASH_ACR.LATENCY), which needs 2")));
+  EXPECT_THAT(
+      misuses,
+      Contains(HasSubstr(
+          "SYSCLK is 64 MHz with 0 wait states of flash (FLASH_ACR.LATENCY), which needs 2, in clock_tree at")));
+  EXPECT_THAT(codes, ElementsAre("BOARD_FLASH_LATENCY", "BOARD_CLOCK_FAST"));  // PCLK1
 }
 
 TEST_F(BoardTest, FlashWaitsForSysclkWhateverTheAhbDividerMakesOfIt) {
   start(kDivided, {});
   run();
   EXPECT_EQ(board->board()->hclk_hz, 36'000'000);
-  EXPECT_THAT(board->board()->notes,
-              Contains(HasSubstr("SYSCLK is 72 MHz with 1 wait states of flash (FLASH_ACR.LATENCY), which needs 2")));
+  EXPECT_THAT(
+      misuses,
+      ElementsAre(HasSubstr("SYSCLK is 72 MHz with 1 wait states of flash (FLASH_ACR.LATENCY), which needs 2")));
 }
 
 TEST_F(BoardTest, AResetByTheFirmwareSwitchesTheTerminalOff) {
@@ -354,7 +376,7 @@ TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
     const Tick before = target.now();
     const std::size_t changes = pins.changes.size();
     for (const std::uint32_t address : {0x60000123U, 0x6000'0923U, 0x40021018U, 0x40011008U, 0x40012008U, 0x40010414U,
-                                        0x40013804U, 0x40000024U, 0xA0000000U}) {
+                                        0x40013804U, 0x40001024U, 0xA0000000U}) {
       std::uint8_t byte = 0;
       looks += target.read_memory(address, &byte, 1);
       EXPECT_TRUE(byte == 0xA5 || address >> 28U != 6U);
@@ -372,7 +394,7 @@ TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
   run();
   EXPECT_EQ(looks, 9U);
   const auto changes = pins.changes;
-  EXPECT_TRUE(board->board()->notes.empty());  // TIM2 was read, not used
+  EXPECT_TRUE(board->board()->notes.empty());  // TIM6 was read, not used
   pins.changes.clear();
   start(kAccesses);
   run();
@@ -427,11 +449,11 @@ TEST_F(BoardTest, UsartPrintsLinesAndRccIsReadyAtOnce) {
 TEST_F(BoardTest, OtherPeripheralsKeepWhatIsWrittenAndAreListed) {
   start(kStrange);
   run();
-  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 77), std::pair(1, 0)));
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 77), std::pair(1, 0), std::pair(2, 0)));
   EXPECT_THAT(board->board()->notes,
-              ElementsAre(HasSubstr("GPIOB is used while its clock is off in RCC_APB2ENR"),
-                          testing::AllOf(HasSubstr("TIM2 is not on the board: 2 reads and 1 writes"),
+              ElementsAre(testing::AllOf(HasSubstr("TIM6 is not on the board: 2 reads and 1 writes"),
                                          HasSubstr("strange at probe.c"))));
+  EXPECT_THAT(codes, ElementsAre("BOARD_CLOCK_OFF"));
 }
 
 TEST_F(BoardTest, FieldsAndRegistersThatTheBoardDoesNotHaveAreListedOnceWithTheirLine) {
@@ -448,21 +470,126 @@ TEST_F(BoardTest, FieldsAndRegistersThatTheBoardDoesNotHaveAreListedOnceWithThei
                           lacks("SPI2_CR1.MSTR is set to 0,", 7), lacks("USART1_CR1.RE is set to 1,", 6),
                           lacks("USART2_CR3.CTSE is set to 1,", 5), lacks("RCC_CR.HSITRIM is set to 0,", 4),
                           lacks("RCC has no register at 0x40021028 on the board, first in", 3),
-                          lacks("FLASH_ACR.HLFCYA is set to 1,", 2), lacks("FSMC_BCR1.MTYP is set to 1,", 1),
-                          lacks("FSMC_BCR1.MWID is set to 1,", 1)));
+                          lacks("FLASH_ACR.HLFCYA is set to 1,", 2), lacks("FSMC_BCR1.MTYP is set to 1,", 1)));
 }
 
-TEST_F(BoardTest, PeripheralsWithoutTheirClockAreListed) {
+TEST_F(BoardTest, PeripheralsWithoutTheirClockReadZeroAndTheFsmcDoesNotAnswer) {
   start(kClocksOff);
   run();
-  std::vector<std::string> notes = board->board()->notes;
-  for (std::string& note : notes) note.resize(note.find(','));
-  const auto off = [](const std::string& name, const std::string& bus = "APB2") {
-    return name + " is used while its clock is off in RCC_" + bus + "ENR";
-  };
-  EXPECT_THAT(notes, ElementsAre(off("AFIO"), off("GPIOA"), off("GPIOB"), off("GPIOC"), off("GPIOD"), off("GPIOE"),
-                                 off("GPIOF"), off("GPIOG"), off("SPI1"), off("USART1"), off("SPI2", "APB1"),
-                                 off("USART2", "APB1"), off("FSMC", "AHB")));
+  std::vector<std::string> expected, names;
+  for (const char* name : {"AFIO", "GPIOA", "GPIOB", "GPIOC", "GPIOD", "GPIOE", "GPIOF", "GPIOG", "SPI1", "USART1",
+                           "SPI2", "USART2", "FSMC", "FSMC"})
+    expected.emplace_back(name);
+  for (const std::string& misuse : misuses) names.push_back(misuse.substr(0, misuse.find(' ')));
+  EXPECT_EQ(names, expected);
+  EXPECT_EQ(codes, std::vector<std::string>(14, "BOARD_CLOCK_OFF"));
+  EXPECT_THAT(misuses.at(1), testing::MatchesRegex("GPIOA is used while its clock is off in RCC_APB2ENR, in clocks_off "
+                                                   "at probe.c:[0-9]+"));
+  EXPECT_THAT(failure.first, HasSubstr("clocks_off at probe.c"));
+  ASSERT_EQ(pins.written.size(), 14U);
+  for (const auto& [cell, value] : pins.written) EXPECT_EQ(value, 0) << cell;  // CRL after a reset: 44444444
+}
+
+TEST_F(BoardTest, ABusOf16BitsHalvesAddressesAndHasNoOddBytes) {
+  start(kWideBus);
+  run();
+  EXPECT_THAT(pins.written,
+              ElementsAre(std::pair(0x10, 0x23), std::pair(0x10, 0), std::pair(0x18, 0x28), std::pair(0x19, 0x29)));
+  EXPECT_EQ(codes, std::vector<std::string>(6, "BOARD_FSMC_MODE"));
+  EXPECT_THAT(misuses.at(0), HasSubstr("the chip is accessed with FSMC_BCR1.MWID = 1, in wide_bus at probe.c:"));
+}
+
+TEST_F(BoardTest, AMultiplexedBusHasNoAddressForTheChip) {
+  start(kMultiplexed);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 0)));
+  EXPECT_EQ(codes, std::vector<std::string>(2, "BOARD_FSMC_MODE"));
+}
+
+TEST_F(BoardTest, LinesOfTheBusThatFloatCarryNothing) {
+  start(kFloatingBus);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0x25, 0x44), std::pair(0x25, 0)));  // 4C without D3
+  EXPECT_EQ(codes, std::vector<std::string>(5, "BOARD_PIN_MODE"));
+  EXPECT_THAT(misuses.at(0), HasSubstr("while pins are not set up for it: PF1 (A1), PD1 (D3), in floating_bus at"));
+  EXPECT_THAT(misuses.at(2), HasSubstr("for it: PD4 (NOE), PF1 (A1), in"));
+  EXPECT_THAT(misuses.at(4), HasSubstr("for it: PD7 (NE1), PF1 (A1), in"));
+}
+
+TEST_F(BoardTest, PinsThatAreMovedAreOutputsAndThoseOfTheChipAreNot) {
+  start(kWrongPins);
+  run();
+  EXPECT_THAT(misuses,
+              ElementsAre(HasSubstr("PC6 (R_REQ) is set or cleared while it is not an output, in wrong_pins at"),
+                          HasSubstr("PC6 (R_REQ) is set while it is open drain: it stays low"),
+                          HasSubstr("PE4 (RESET) is set or cleared while it is not an output"),
+                          HasSubstr("PC8 is an output, and the chip drives L_REQ"),
+                          HasSubstr("PC9 is an output, and the chip drives L_STA"),
+                          HasSubstr("PG6 is an output, and the chip drives INTR0")));
+  EXPECT_THAT(codes, ElementsAre("BOARD_PIN_MODE", "BOARD_PIN_MODE", "BOARD_PIN_MODE", "BOARD_PIN_CONFLICT",
+                                 "BOARD_PIN_CONFLICT", "BOARD_PIN_CONFLICT"));
+  EXPECT_TRUE(pins.of(Pin::kRReq).empty());
+}
+
+TEST_F(BoardTest, AnAddressWithoutAnythingIsToldAndMayBeABusFault) {
+  start(kOutside);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 0)));
+  EXPECT_THAT(codes, ElementsAre("BOARD_NOT_MAPPED", "BOARD_NOT_MAPPED", "BOARD_NOT_MAPPED"));
+  EXPECT_THAT(failure.first, HasSubstr("outside at probe.c"));
+  start(kBank2);
+  run();
+  EXPECT_THAT(failure.first, HasSubstr("bank_2 at probe.c"));
+}
+
+TEST_F(BoardTest, ATimerAsksForItsInterruptToASleepingAndToABusyProcessor) {
+  for (const Program program : {kTimer, kTimerWhileBusy}) {
+    pins = Pins();
+    start(program);
+    run();
+    EXPECT_THAT(pins.written,
+                ElementsAre(std::pair(0, 1), std::pair(1, 1), std::pair(2, 1), std::pair(3, 8)));  // UG sets UIF; OPM
+    const auto wr = pins.of(Pin::kWr);
+    const Tick since = wr.at(5).at - wr.at(3).at;  // from before CEN until the handler
+    EXPECT_GT(since, 100 * bus::kTicksPerUs);
+    EXPECT_LT(since, 101 * bus::kTicksPerUs);
+    EXPECT_THAT(misuses, ElementsAre());
+  }
+}
+
+TEST_F(BoardTest, AHandlerThatLeavesItsFlagIsAStorm) {
+  start(kIrqStorm);
+  run();
+  EXPECT_THAT(codes, ElementsAre("BOARD_IRQ_STORM"));
+  EXPECT_THAT(misuses.at(0), testing::StartsWith("the handler of IRQ 28 has returned 100 times, and its source still "
+                                                 "asks, in TIM2_handler at probe.c:"));
+}
+
+TEST_F(BoardTest, TheWatchdogResetsAProcessorThatDoesNotReloadIt) {
+  for (const Program program : {kWatchdog, kWatchdogAsleep}) {
+    pins = Pins();
+    codes.clear();
+    misuses.clear();
+    start(program);
+    run_until(kStart + 2 * bus::kTicksPerMs);
+    EXPECT_THAT(pins.written, ElementsAre(std::pair(1, 0xFF), std::pair(2, 3),
+                                          std::pair(0, 0x2C)));  // closed; PVU, RVU; IWDGRSTF, PORRSTF, PINRSTF
+    EXPECT_THAT(codes, ElementsAre("BOARD_WATCHDOG"));
+    EXPECT_THAT(misuses.at(0), HasSubstr("resets the processor 0.4 ms after its last reload, in watchdog"));
+    const auto wr = pins.of(Pin::kWr);
+    EXPECT_GT(wr.at(5).at - wr.at(3).at, 500 * bus::kTicksPerUs) << "it was reloaded once";
+    EXPECT_LT(wr.at(5).at - wr.at(3).at, 1000 * bus::kTicksPerUs);
+  }
+}
+
+TEST_F(BoardTest, FirmwareThatOnlyComputesIsStuckAndOneThatSleepsIsNot) {
+  start(kStuck);
+  run_until(kStart + 250 * bus::kTicksPerMs);
+  EXPECT_THAT(codes, ElementsAre("STUCK"));
+  EXPECT_THAT(misuses.at(0), testing::StartsWith("100 ms without an access or sleep, in stuck at probe.c:"));
+  start(kAccesses);
+  run_until(kStart + 350 * bus::kTicksPerMs);
+  EXPECT_EQ(codes.size(), 1U);
 }
 
 // Although the firmware has a handler for it, which writes to the chip.

@@ -187,24 +187,19 @@ TEST(Registers, OfFsmc) {
   expect_registers<Fsmc>(Fsmc::kRegisters, expected, read, &Fsmc::write, Fsmc({}));
   const Fields card = {{{"PBKEN", 0x4}}}, interrupts = {{{"I[F:R]EN", 0x38}}};
   const Fields enable = {{{"MBKEN", 0x1}}}, mode = {{{"ACCMOD", 0x3000'0000}}};
-  expect_tags(Fsmc::kRegisters, {{0x00,
-                                  {{{"MUXEN", 0x2},
-                                    {"MTYP", 0xC},
-                                    {"MWID", 0x30},
-                                    {"BURSTEN", 0x100},
-                                    {"ASYNCWAIT", 0x8000},
-                                    {"CBURSTRW", 0x8'0000}}}},
-                                 {0x04, mode},
-                                 {0x08, enable},
-                                 {0x10, enable},
-                                 {0x18, enable},
-                                 {0x60, card},
-                                 {0x64, interrupts},
-                                 {0x80, card},
-                                 {0x84, interrupts},
-                                 {0xA0, card},
-                                 {0xA4, interrupts},
-                                 {0x104, mode}});
+  expect_tags(Fsmc::kRegisters,
+              {{0x00, {{{"MTYP", 0xC}, {"BURSTEN", 0x100}, {"ASYNCWAIT", 0x8000}, {"CBURSTRW", 0x8'0000}}}},
+               {0x04, mode},
+               {0x08, enable},
+               {0x10, enable},
+               {0x18, enable},
+               {0x60, card},
+               {0x64, interrupts},
+               {0x80, card},
+               {0x84, interrupts},
+               {0xA0, card},
+               {0xA4, interrupts},
+               {0x104, mode}});
   // NWAIT is only used in bursts.
   EXPECT_EQ(Fsmc::kRegisters.asked(0x00, 0xDFFF).size(), Fsmc::kRegisters.asked(0x00, 0xFFFF).size() - 1);
   ASSERT_EQ(Fsmc::kRegisters.asked(0x00, 0x2100).size(), 2U);

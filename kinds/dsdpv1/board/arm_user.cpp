@@ -82,6 +82,7 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
   const auto& settings = static_cast<const Dsdpv1Settings&>(*request.scenario.chip);
   if (dsdpv1::has_serial_ports(settings.part)) {
     options.serial = true;
+    options.mode = settings.mode;
     hold_straps(options.switches, settings);
     if (settings.mode != HostMode::kParallel) options.card = static_cast<unsigned>(settings.address);
   }

@@ -14,6 +14,13 @@ namespace {
 // The board's wiring.
 constexpr unsigned kRReqPin = 6, kRStaPin = 7;
 
+/// Of SerialSide, then TIM2 to TIM5.
+constexpr std::array<unsigned, 7> kDeviceIrq = {35, 36, 38, 28, 29, 30, 50};
+
+std::string milliseconds(Tick ticks) {
+  return fmt::format("{:.1f} ms", static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerMs));
+}
+
 /// An action executed at once on the bench's stack.
 class AtOnce : public user_cpu::Transfer {
  public:
@@ -49,6 +56,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
       since_(start),
       serial_(ports_, options_.serial ? options_.card : 0),
       fsmc_(options_.fsmc),
+      wires_(wires()),
       notes_(options_.notes),
       core_(*this, MemoryMap(), options_.timing),
       cpu_(
@@ -64,6 +72,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
   core_.attach(debugger_.get());
   follow_clock();
   follow_flash();
+  follow_memory_bus();
   core_.on_fault([this](const Fault& fault) { note_fault(fault); });
   terminal_.on_line = [this](const std::string& line) {
     if (on_text) on_text(now(), line);
@@ -80,18 +89,75 @@ Board::~Board() {
 void Board::run(Tick now) {
   if (mailbox_) look_at_mailbox(now);
   for (Tick at = now;;) {
-    if (serial_tick() <= at) run_serial(at);
+    if (device_tick() <= at) run_devices(at);
     if (cpu_.next() <= at) cpu_.run(at);
-    at = serial_tick();
+    at = device_tick();
     if (at == bus::kNever || cpu_.next() < at || !turn_goes_on(at)) break;
   }
   if (std::exchange(chip_reset_due_, false)) set_chip_reset_(cpu_.now(), chip_reset_);
 }
 
 /// Peripherals run before the processor; their interrupts end its sleep.
-void Board::run_serial(Tick now) {
-  while (serial_tick() <= now) serial_.run(now, bus_);
-  if ((serial_.requests() << kExtiIrq.size() & ~requests_) != 0) cpu_.wake(now);
+void Board::run_devices(Tick now) {
+  while (device_tick() <= now) {
+    if (watchdog_.next() <= now) bite();
+    if (serial_tick() <= now) serial_.run(now, bus_), look_for_overruns();
+    if (timer_tick() <= now) catch_up_timers();
+  }
+  if ((device_requests() << kExtiIrq.size() & ~requests_) != 0) cpu_.wake(now);
+}
+
+void Board::catch_up_timers() {
+  const std::uint64_t due = timers_at_;
+  for (Timer& each : timers_) each.catch_up(due);
+  plan_timers();
+}
+
+void Board::plan_timers() {
+  timers_at_ = Timer::kNever;
+  for (const Timer& each : timers_) timers_at_ = std::min(timers_at_, each.next());
+}
+
+/// Bits for kDeviceIrq.
+unsigned Board::device_requests() const {
+  unsigned asked = serial_.requests();
+  for (std::size_t i = 0; i < timers_.size(); ++i)
+    asked |= static_cast<unsigned>(timers_.at(i).asks()) << (kSerialIrq.size() + i);
+  return asked;
+}
+
+/// The watchdog resets the processor before its next instruction.
+void Board::bite() {
+  tell(tb::board_code::kWatchdog, fmt::format("the watchdog (IWDG) resets the processor {} after its last reload",
+                                              milliseconds(watchdog_.length())));
+  watchdog_ = Watchdog(kLsi);
+  bitten_ = true;
+  core_.reset();
+  cpu_.wake(pins_->now());
+}
+
+void Board::look_for_overruns() {
+  for (const auto block : {SerialSide::kSpi1, SerialSide::kSpi2, SerialSide::kUsart2}) {
+    const std::uint64_t before = std::exchange(lost_.at(block), serial_.lost(block));
+    if (lost_.at(block) != before && is_in_use(block))
+      tell(tb::board_code::kOverrun,
+           block == SerialSide::kUsart2 ? "a character for USART2 is lost (ORE)" : "a byte for SPI is lost (OVR)");
+  }
+}
+
+/// Delays before the first access to the chip, and with the chip in reset, do no harm.
+void Board::look_if_stuck() {
+  constexpr Tick kMost = 100 * bus::kTicksPerMs;
+  if (touches_ == touches_seen_ && in_service_ && chip_reset_)
+    misused(tb::board_code::kStuck, "100 ms without an access or sleep");
+  touches_seen_ = touches_;
+  look_at_ = cycle_of(now() + kMost);
+}
+
+void Board::storm(unsigned irq, std::uint32_t pc) {
+  come_up();
+  tell(tb::board_code::kIrqStorm,
+       fmt::format("the handler of IRQ {} has returned {} times, and its source still asks", irq, kStorm), pc);
 }
 
 /// Called while the chip acts, possibly before this agent's turn; the processor may be ahead.
@@ -210,21 +276,22 @@ void Board::come_up() {
   take_intr0_edges();
 }
 
-/// Runs the serial peripherals up to the processor's time.
-void Board::meet_serial() {
-  if (serial_tick() <= now()) come_up();
+/// Runs the peripherals up to the processor's time.
+void Board::meet_devices() {
+  if (device_tick() <= now()) come_up();
 }
 
 /// The processor may stay ahead of the other agents as long as none of them is due.
 std::uint64_t Board::keep_up() {
   if (has_news() || stays_until() <= now()) come_up();
+  if (core_.cycles() >= look_at_) look_if_stuck();
   return next_due();
 }
 
 /// The cycle up to which the processor may stay ahead.
 std::uint64_t Board::next_due() {
   const Tick next = stays_until();
-  return next == bus::kNever ? kNever : cycle_of(std::max(next, now()));
+  return next == bus::kNever ? look_at_ : std::min(look_at_, cycle_of(std::max(next, now())));
 }
 
 /// A chip that runs ahead reports its edges before their time.
@@ -233,10 +300,10 @@ Tick Board::stays_until() {
   return intr0_edges_.empty() ? quiet : std::min(quiet, intr0_edges_.front().at);
 }
 
-/// The serial peripherals count as other agents.
-Tick Board::quiet_until() { return others() != nullptr ? std::min(serial_tick(), others()->quiet_until()) : 0; }
+/// The peripherals count as other agents.
+Tick Board::quiet_until() { return others() != nullptr ? std::min(device_tick(), others()->quiet_until()) : 0; }
 
-bool Board::go_on(Tick tick) { return serial_tick() > tick && turn_goes_on(tick); }
+bool Board::go_on(Tick tick) { return device_tick() > tick && turn_goes_on(tick); }
 
 /// Checks first what is checked between two turns.
 bool Board::turn_goes_on(Tick tick) {
@@ -246,6 +313,7 @@ bool Board::turn_goes_on(Tick tick) {
 void Board::sleep(std::uint64_t until) {
   const Tick end = until == kNever ? bus::kNever : tick_of(until);
   pins_->wait_until(now());
+  ++touches_;
   bool woken = false;
   while (!take_intr0_edges() && !woken && pins_->now() < end) woken = pins_->wait_for_wake(end);
   core_.advance_to(std::max(core_.cycles(), cycle_of(pins_->now())));
@@ -255,13 +323,19 @@ void Board::reset() {
   come_up();
   ports_ = {};
   exti_ = {};
-  rcc_ = {};
+  rcc_.reset(std::exchange(bitten_, false));
   flash_ = {};
+  timers_ = {};
+  timers_at_ = Timer::kNever;
+  watchdog_ = Watchdog(kLsi);
   follow_flash();
   terminal_.reset();
   serial_.reset();
   serial_.follow(rcc_);
   fsmc_ = Fsmc(options_.fsmc);
+  follow_memory_bus();
+  wires_ = wires();
+  slow_flash_ = fast_ = in_service_ = false;
   follow_clock();
   update_interrupts();
   update_pins();
@@ -279,9 +353,9 @@ bool Board::take_intr0_edges() {
 
 /// Returns true if there was an event, which ends a WFE.
 bool Board::update_interrupts() {
-  const unsigned now = exti_.requests() | serial_.requests() << kExtiIrq.size(), changed = now ^ requests_;
+  const unsigned now = exti_.requests() | device_requests() << kExtiIrq.size(), changed = now ^ requests_;
   const auto irq = [](std::size_t i) {
-    return i < kExtiIrq.size() ? kExtiIrq.at(i) : kSerialIrq.at(i - kExtiIrq.size());
+    return i < kExtiIrq.size() ? kExtiIrq.at(i) : kDeviceIrq.at(i - kExtiIrq.size());
   };
   requests_ = now;
   for (std::size_t i = 0; changed >> i != 0; ++i)

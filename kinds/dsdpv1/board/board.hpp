@@ -30,10 +30,15 @@
 #include "board/stm32/other_registers.hpp"
 #include "board/stm32/rcc.hpp"
 #include "board/stm32/terminal.hpp"
+#include "board/stm32/timer.hpp"
+#include "board/stm32/watchdog.hpp"
 #include "kinds/dsdpv1/board/mailbox_link.hpp"
+#include "kinds/dsdpv1/board/memory_bus.hpp"
 #include "kinds/dsdpv1/board/serial_side.hpp"
+#include "kinds/dsdpv1/keys/board_codes.hpp"
 #include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/programs.hpp"
+#include "model/dsdpv1/config.hpp"
 #include "tb/chip/chip_view.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 
@@ -56,6 +61,7 @@ struct BoardOptions {
   Switches switches;
   unsigned card = 1;                                  ///< 1 or 2: selects the wiring of RESET, INTR0 and SPI
   bool serial = false;                                ///< the chip has the pins of SPI and UART
+  HostMode mode = HostMode::kParallel;                ///< the port in use
   std::function<const tb::ChipView&(Tick now)> chip;  ///< the chip's state at `now`, for a debugger; null: not shown
   std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
   std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
@@ -68,7 +74,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
         Tick start);
   ~Board() override;
 
-  Tick next() const override { return std::min(cpu_.next(), serial_tick()); }
+  Tick next() const override { return std::min(cpu_.next(), device_tick()); }
   void run(Tick now) override;
   void interrupt_changed(Tick at, bool level) override;
   void command(Tick now, const user_cpu::Command& command) override;
@@ -86,10 +92,19 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   struct Place {
     unsigned port, pin;
   };
+  /// A line between the chip and a pin of a port.
+  struct Wire {
+    Place at;
+    const char* name;
+    bool from_chip = false;
+    bool pushed = false;   ///< pulled low, so that an open drain cannot raise it
+    unsigned unheard = 0;  ///< stores to the pin since it was an output last
+  };
   /// Levels driven onto a port's pins from outside the processor.
   struct Levels {
     std::uint16_t driven, levels;
   };
+  static constexpr Tick kLsi = bus::kTicksPerSecond / 40'000;  ///< (p)
   enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
 
   // Others, called by the CPU that moves the pins
@@ -113,7 +128,18 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void run_firmware(user_cpu::Cpu& cpu);
   Tick serial_tick() const { return serial_.next() == SerialSide::kNever ? bus::kNever : tick_of(serial_.next()); }
   bool turn_goes_on(Tick tick);
-  void run_serial(Tick now);
+  Tick timer_tick() const { return timers_at_ == Timer::kNever ? bus::kNever : tick_of(timers_at_); }
+  Tick device_tick() const { return std::min({serial_tick(), timer_tick(), watchdog_.next()}); }
+  void run_devices(Tick now);
+  void catch_up_timers();
+  void plan_timers();
+  void follow_timers();
+  unsigned device_requests() const;
+  void bite();
+  void look_for_overruns();
+  void look_if_stuck();
+  bool is_in_use(SerialSide::Block block) const;
+  void storm(unsigned irq, std::uint32_t pc) override;
   void txd_changed(Tick at, bool level);
   void note_fault(const Fault& fault);
   void failed(const Fault& fault);
@@ -121,7 +147,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Tick tick_of(std::uint64_t cycle) const;
   std::uint64_t cycle_of(Tick tick) const;
   void come_up();
-  void meet_serial();
+  void meet_devices();
   bool take_intr0_edges();
   bool update_interrupts();
   void update_pins();
@@ -134,6 +160,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void follow_clock();
   void follow_flash();
   void check_clock();
+  std::vector<Wire> wires() const;
   std::int64_t hclk_hz() const;
 
   std::uint32_t load_chip(std::uint32_t address, unsigned bytes);
@@ -141,6 +168,11 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void end_accesses(unsigned count);
   void set_access_timing();
   bool may_access(std::uint32_t address, bool write);
+  void follow_memory_bus();
+  void tell_wrong_bus();
+  std::uint32_t load_by_wrong_bus(std::uint32_t address, unsigned bytes);
+  void store_by_wrong_bus(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  bool is_outside(std::uint32_t address);
   std::uint32_t load_word(std::uint32_t address);
   std::uint32_t load_register(const Peripheral& of, std::uint32_t offset);
   std::uint32_t peek_register(const Peripheral& of, std::uint32_t offset) const;
@@ -158,7 +190,14 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
   /// Notes uses of a register that a real one would not support or the board does not model.
   void look_at(const Peripheral& of, std::uint32_t offset, std::optional<std::uint32_t> written);
-  void look_at_clock(const Peripheral& of);
+  /// False: it has no clock.
+  bool answers(const Peripheral& of);
+  void look_at_pins(unsigned port, const Gpio& before, std::uint32_t addressed);
+  void look_at_output(Wire& wire, std::uint32_t addressed);
+  void look_at_serial_pins(SerialSide::Block block);
+  void misused(const tb::BoardCode& code, const std::string& text);
+  /// In the line at work, or that of `pc`.
+  void tell(const tb::BoardCode& code, const std::string& text, std::optional<std::uint32_t> pc = {});
   /// True once for each; `what`: a bit of the register, or more.
   bool is_new(std::uint32_t address, unsigned what) { return noted_.emplace(address, what).second; }
   void note(const std::string& text);
@@ -176,13 +215,24 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Rcc rcc_;
   FlashInterface flash_;
   Terminal terminal_;
+  std::array<Timer, 4> timers_;              ///< TIM2 to TIM5
+  std::uint64_t timers_at_ = Timer::kNever;  ///< the next one's next()
+  Watchdog watchdog_{kLsi};
+  std::array<std::uint64_t, 3> lost_{};  ///< SerialSide::lost, as told
+  bool bitten_ = false;                  ///< the next reset is the watchdog's
   Fsmc fsmc_;
+  MemoryBus memory_bus_;
+  std::vector<Wire> wires_;
+  std::uint64_t touches_ = 0, touches_seen_ = 0;  ///< accesses and sleeps; when look_at_ was set
+  std::uint64_t look_at_ = 0;                     ///< the cycle at which firmware without one since is stuck
+  bool in_service_ = false;                       ///< the chip has been accessed
+  bool slow_flash_ = false, fast_ = false;        ///< the clocks are wrong, and that has been told
   OtherRegisters others_;
   std::deque<Intr0Edge> intr0_edges_;  ///< not yet reached by the processor
   bool intr0_ = true;
   bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
   user_cpu::HandshakeCounters handshake_;
-  unsigned requests_ = 0;  ///< of exti_ and, above them, serial_, as last passed to the processor
+  unsigned requests_ = 0;  ///< of exti_ and, above them, device_requests(), as last passed to the processor
   std::set<std::pair<std::uint32_t, unsigned>> noted_;  ///< by is_new
   std::vector<std::string> notes_;
   std::optional<Fault> fault_;  ///< that the firmware would have handled

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "kinds/dsdpv1/board/board.hpp"
 #include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
@@ -9,13 +10,13 @@
 namespace dsdpv1::arm {
 
 struct Peripheral {
-  enum Kind : std::uint8_t { kAfio, kExti, kGpio, kTerminal, kSerial, kRcc, kFlash, kFsmc };
+  enum Kind : std::uint8_t { kAfio, kExti, kGpio, kTerminal, kSerial, kRcc, kFlash, kTimer, kWatchdog, kFsmc };
 
   Kind kind = kAfio;
   std::uint32_t base = 0;
   const char* name = nullptr;
   const RegisterTable* registers = nullptr;
-  unsigned number = 0;              ///< of a port; SerialSide::Block
+  unsigned number = 0;              ///< of a port, of a timer from TIM2 on; SerialSide::Block
   std::uint32_t clock_enables = 0;  ///< the register of RCC; 0: it always has its clock
   unsigned clock_bit = 0;
 };
@@ -27,23 +28,28 @@ constexpr std::uint32_t kBank1 = 0x6000'0000, kBank1End = 0x7000'0000, kRegionSi
 constexpr std::uint32_t kGpioA = 0x4001'0800, kRcc = 0x4002'1000, kFlash = 0x4002'2000, kBlock = 0x400;
 constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000;
 constexpr std::uint32_t kChipMask = 0x7FF;  // A10..A0
-constexpr std::uint32_t kGpioIdr = 0x08;
+constexpr std::uint32_t kGpioCrh = 0x04, kGpioIdr = 0x08;
 constexpr std::uint32_t kAfioMapr = 0x04;
+constexpr std::array<std::uint32_t, 3> kSerialDr = {Spi::kDr, Spi::kDr, Usart::kDr};  // by SerialSide::Block
 
 // The board's wiring.
-constexpr unsigned kLReqPin = 8, kLStaPin = 9;
+constexpr unsigned kRReqPin = 6, kRStaPin = 7, kLReqPin = 8, kLStaPin = 9;
 constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
 
 constexpr std::uint64_t kApbCycles = 2;
-constexpr std::int64_t kGreatestHclk = 72'000'000, kSysclkWithoutWait = 24'000'000;
+constexpr std::int64_t kGreatestHclk = 72'000'000, kGreatestPclk1 = 36'000'000, kSysclkWithoutWait = 24'000'000;
 
-enum : unsigned { kNoRegister = 32, kClockOff, kTooFast };  // is_new: beside the bits of a register
+constexpr unsigned kNoRegister = 32;  // is_new: beside the bits of a register
 
 constexpr Peripheral port(unsigned number, const char* name) {
   return {Peripheral::kGpio, kGpioA + number * kBlock, name, &Gpio::kRegisters, number, Rcc::kApb2enr, 2 + number};
 }
 
-constexpr std::array<Peripheral, 16> kMap = {{
+constexpr Peripheral timer(unsigned number, const char* name) {
+  return {Peripheral::kTimer, kPeripherals + number * kBlock, name, &Timer::kRegisters, number, Rcc::kApb1enr, number};
+}
+
+constexpr std::array<Peripheral, 21> kMap = {{
     {Peripheral::kAfio, 0x4001'0000, "AFIO", &Exti::kAfioRegisters, 0, Rcc::kApb2enr, 0},
     {Peripheral::kExti, 0x4001'0400, "EXTI", &Exti::kRegisters},
     port(0, "GPIOA"),
@@ -59,6 +65,11 @@ constexpr std::array<Peripheral, 16> kMap = {{
     {Peripheral::kTerminal, 0x4001'3800, "USART1", &Terminal::kRegisters, 0, Rcc::kApb2enr, 14},
     {Peripheral::kRcc, kRcc, "RCC", &Rcc::kRegisters},
     {Peripheral::kFlash, kFlash, "FLASH", &FlashInterface::kRegisters},
+    timer(0, "TIM2"),
+    timer(1, "TIM3"),
+    timer(2, "TIM4"),
+    timer(3, "TIM5"),
+    {Peripheral::kWatchdog, 0x4000'3000, "IWDG", &Watchdog::kRegisters},
     {Peripheral::kFsmc, Fsmc::kBase, "FSMC", &Fsmc::kRegisters, 0, Rcc::kAhbenr, 8},
 }};
 constexpr const Peripheral& kFsmc = kMap.back();
@@ -81,12 +92,14 @@ const Peripheral* peripheral_at(std::uint32_t address) {
 // ------------------------------------------------------------------------------------------------- loads and stores
 
 std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
+  ++touches_;
   if (address >= kBank1 && address < kBank1End) return load_chip(address, bytes);
   const std::uint32_t word = load_word(address & ~3U) >> (address % 4 * 8);
   return bytes == 4 ? word : word & ((1U << bytes * 8) - 1);
 }
 
 void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  ++touches_;
   if (address >= kBank1 && address < kBank1End) return store_chip(address, bytes, value);
   if (bytes == 4) return store_word(address, value);
   // The bridge to APB writes whole words only, so the rest of the register is kept.
@@ -99,6 +112,7 @@ void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
 std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
   if (!may_access(address, false)) return 0;
   come_up();
+  if (!memory_bus_.is_right()) return load_by_wrong_bus(address, bytes);
   std::uint32_t value = 0;
   for (unsigned i = 0; i < bytes; ++i)
     value |= static_cast<std::uint32_t>(pins_->read(static_cast<std::uint16_t>((address + i) & kChipMask))) << i * 8;
@@ -109,6 +123,7 @@ std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
 void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   if (!may_access(address, true)) return;
   come_up();
+  if (!memory_bus_.is_right()) return store_by_wrong_bus(address, bytes, value);
   for (unsigned i = 0; i < bytes; ++i)
     pins_->write(static_cast<std::uint16_t>((address + i) & kChipMask), static_cast<std::uint8_t>(value >> i * 8));
   end_accesses(bytes);
@@ -122,19 +137,64 @@ void Board::set_access_timing() {
   pins_->set_access_timing(options_.access.value_or(made.read), options_.access.value_or(made.write));
 }
 
+/// RM0008 21.3.1: a bank that is not enabled answers with an error. One without its clock does not answer (p: the
+/// same).
 bool Board::may_access(std::uint32_t address, bool write) {
-  if (fsmc_.refuses(write) || address >= kBank1 + kRegionSize) {
-    core_.bus_error();
-    return false;
+  in_service_ = true;
+  if (answers(kFsmc) && !fsmc_.refuses(write) && address < kBank1 + kRegionSize) return true;
+  core_.bus_error();
+  return false;
+}
+
+void Board::follow_memory_bus() { memory_bus_ = memory_bus(ports_, fsmc_, options_.mode == HostMode::kParallel); }
+
+void Board::tell_wrong_bus() {
+  if (memory_bus_.wide || memory_bus_.multiplexed)
+    misused(tb::board_code::kFsmcMode,
+            fmt::format("the chip is accessed with FSMC_BCR1.{}", memory_bus_.multiplexed ? "MUXEN = 1" : "MWID = 1"));
+  if (!memory_bus_.wrong_pins.empty())
+    misused(tb::board_code::kPinMode,
+            fmt::format("the chip is accessed while pins are not set up for it: {}", memory_bus_.wrong_pins));
+}
+
+/// A bus of 16 bits makes one cycle of two bytes; that of the odd address is on lines that the chip does not have, and
+/// read as 0 (p), as is a chip that is not selected.
+std::uint32_t Board::load_by_wrong_bus(std::uint32_t address, unsigned bytes) {
+  tell_wrong_bus();
+  const unsigned width = memory_bus_.wide ? 2 : 1;
+  std::uint32_t value = 0;
+  unsigned cycles = 0;
+  for (unsigned i = 0; memory_bus_.reads && i < bytes; i += width, ++cycles) {
+    const std::uint32_t byte = pins_->read(memory_bus_.cell(address + i));
+    if (width == 1 || (address + i) % 2 == 0) value |= byte << i * 8;
   }
-  look_at_clock(kFsmc);
+  if (cycles != 0) end_accesses(cycles);
+  return value;
+}
+
+/// A single byte is on both halves of a bus of 16 bits, whose byte enables the chip does not have (p).
+void Board::store_by_wrong_bus(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  tell_wrong_bus();
+  const unsigned width = memory_bus_.wide ? 2 : 1;
+  unsigned cycles = 0;
+  for (unsigned i = 0; memory_bus_.writes && i < bytes; i += width, ++cycles)
+    pins_->write(memory_bus_.cell(address + i), static_cast<std::uint8_t>(value >> i * 8 & memory_bus_.data));
+  if (cycles != 0) end_accesses(cycles);
+}
+
+/// In the blocks of peripherals an address without one reads 0 (p); elsewhere nothing answers.
+bool Board::is_outside(std::uint32_t address) {
+  if (OtherRegisters::is_mapped(address)) return false;
+  misused(tb::board_code::kNotMapped, fmt::format("0x{:08X} is accessed", address));
+  if (address - kPeripherals >= kPeripheralsSize) core_.bus_error();
   return true;
 }
 
 std::uint32_t Board::load_word(std::uint32_t address) {
   core_.advance_to(core_.cycles() + kApbCycles);
   const Peripheral* const here = peripheral_at(address);
-  if (here == nullptr) return others_.read(address, core_.pc());
+  if (here == nullptr) return is_outside(address) ? 0 : others_.read(address, core_.pc());
+  if (!answers(*here)) return 0;
   look_at(*here, address - here->base, {});
   const std::uint32_t value = load_register(*here, address - here->base);
   if (stays(*here)) core_.stays(next_due());
@@ -146,8 +206,14 @@ std::uint32_t Board::load_register(const Peripheral& of, std::uint32_t offset) {
     case Peripheral::kGpio: return load_port(of.number, offset);
     case Peripheral::kExti: come_up(); return exti_.read(offset);
     case Peripheral::kSerial: {
-      meet_serial();
+      meet_devices();
       const std::uint32_t value = serial_.read(static_cast<SerialSide::Block>(of.number), offset);
+      update_interrupts();
+      return value;
+    }
+    case Peripheral::kTimer: {
+      const std::uint32_t value = timers_.at(of.number).read(offset, core_.cycles());
+      plan_timers();
       update_interrupts();
       return value;
     }
@@ -156,9 +222,10 @@ std::uint32_t Board::load_register(const Peripheral& of, std::uint32_t offset) {
 }
 
 /// True if reading the register has no effect and gives the same value until another agent has a turn. That is false
-/// for MISO and the lamps; for L_REQ and L_STA while an idle, unobserved chip simulates its accesses afterwards; and
-/// for missing registers, whose accesses are counted.
+/// for MISO and the lamps; for timers; for L_REQ and L_STA while an idle, unobserved chip simulates its accesses
+/// afterwards; and for missing registers, whose accesses are counted.
 bool Board::stays(const Peripheral& of) const {
+  if (of.kind == Peripheral::kTimer || of.kind == Peripheral::kWatchdog) return false;
   if (of.kind != Peripheral::kGpio) return true;
   if (of.number == kC) return r_req_ || r_sta_;
   return of.number != kG && !serial_.has_miso(of.number);
@@ -228,6 +295,8 @@ std::uint32_t Board::peek_register(const Peripheral& of, std::uint32_t offset) c
     case Peripheral::kSerial: return serial_.peek(static_cast<SerialSide::Block>(of.number), offset);
     case Peripheral::kRcc: return rcc_.read(offset);
     case Peripheral::kFlash: return flash_.read(offset);
+    case Peripheral::kTimer: return timers_.at(of.number).peek(offset, core_.cycles());
+    case Peripheral::kWatchdog: return watchdog_.read(offset, now());
     case Peripheral::kFsmc: return fsmc_.read(offset);
   }
   return 0;
@@ -250,7 +319,11 @@ std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
 void Board::store_word(std::uint32_t address, std::uint32_t value) {
   core_.advance_to(core_.cycles() + kApbCycles);
   const Peripheral* const here = peripheral_at(address);
-  if (here == nullptr) return others_.write(address, value, core_.pc());
+  if (here == nullptr) {
+    if (!is_outside(address)) others_.write(address, value, core_.pc());
+    return;
+  }
+  if (!answers(*here)) return;
   look_at(*here, address - here->base, value);
   store_register(*here, address - here->base, value);
 }
@@ -276,8 +349,15 @@ void Board::store_register(const Peripheral& of, std::uint32_t offset, std::uint
       follow_flash();
       check_clock();
       break;
+    case Peripheral::kTimer:
+      timers_.at(of.number).write(offset, value, core_.cycles());
+      plan_timers();
+      update_interrupts();
+      break;
+    case Peripheral::kWatchdog: watchdog_.write(offset, value, now()); break;
     case Peripheral::kFsmc:
       fsmc_.write(offset, value);
+      follow_memory_bus();
       set_access_timing();
       break;
   }
@@ -289,6 +369,8 @@ void Board::store_gpio(unsigned port, std::uint32_t offset, std::uint32_t value)
   Gpio& gpio = ports_.at(port);
   const Gpio before = gpio;
   gpio.write(offset, value);
+  if (offset <= kGpioCrh) follow_memory_bus();
+  look_at_pins(port, before, before.addressed(offset, value));
   update_pins();
   update_serial_pins();
   if (!exti_.listens(port)) return;
@@ -300,29 +382,49 @@ void Board::store_gpio(unsigned port, std::uint32_t offset, std::uint32_t value)
 }
 
 void Board::store_rcc(std::uint32_t offset, std::uint32_t value) {
-  meet_serial();
+  meet_devices();
   rcc_.write(offset, value);
   if (!options_.fsmc.hclk_mhz) follow_clock();
   serial_.follow(rcc_);
+  follow_timers();
   update_serial_pins();
   update_interrupts();
   check_clock();
+}
+
+/// Their clock is PCLK1, doubled where APB1 divides (7.2).
+void Board::follow_timers() {
+  const unsigned divider = std::max(rcc_.apb1_divider() / 2, 1U);
+  for (unsigned i = 0; i < timers_.size(); ++i) {
+    timers_.at(i).follow(divider, rcc_.is_clocked(Rcc::kApb1enr, i), core_.cycles());
+    if ((rcc_.apb1_resets() >> i & 1U) != 0) timers_.at(i).reset();
+  }
+  plan_timers();
 }
 
 void Board::follow_flash() { core_.set_flash(flash_.wait_states(), flash_.prefetch()); }
 
 /// RM0008, FLASH_ACR: one wait state for each 24 MHz of SYSCLK after the first.
 void Board::check_clock() {
-  const std::int64_t hz = rcc_.sysclk_hz(), mhz = hz / 1'000'000, wanted = (hz - 1) / kSysclkWithoutWait;
-  if (hclk_hz() > kGreatestHclk && is_new(kRcc, kTooFast))
-    note(fmt::format("HCLK is {} MHz, expected at most 72 MHz", hclk_hz() / 1'000'000));
-  else if (wanted > flash_.wait_states() && is_new(kFlash, kTooFast))
-    note(fmt::format("SYSCLK is {} MHz with {} wait states of flash (FLASH_ACR.LATENCY), which needs {}", mhz,
-                     flash_.wait_states(), wanted));
+  const std::int64_t hz = rcc_.sysclk_hz(), wanted = (hz - 1) / kSysclkWithoutWait;
+  const bool slow = hz <= kGreatestHclk && wanted > flash_.wait_states();
+  if (slow && !std::exchange(slow_flash_, slow))
+    misused(tb::board_code::kFlashLatency,
+            fmt::format("SYSCLK is {} MHz with {} wait states of flash (FLASH_ACR.LATENCY), which needs {}",
+                        hz / 1'000'000, flash_.wait_states(), wanted));
+  slow_flash_ = slow;
+  const std::int64_t hclk = rcc_.hclk_hz(), pclk1 = hclk / rcc_.apb1_divider();
+  const bool fast = hclk > kGreatestHclk || pclk1 > kGreatestPclk1;
+  if (fast && !std::exchange(fast_, fast))
+    misused(tb::board_code::kClockFast,
+            hclk > kGreatestHclk ? fmt::format("HCLK is {} MHz, expected at most 72 MHz", hclk / 1'000'000)
+                                 : fmt::format("PCLK1 is {} MHz, expected at most 36 MHz", pclk1 / 1'000'000));
+  fast_ = fast;
 }
 
 void Board::store_serial(SerialSide::Block block, std::uint32_t offset, std::uint32_t value) {
-  meet_serial();
+  meet_devices();
+  if (offset == kSerialDr.at(block)) look_at_serial_pins(block);
   serial_.write(block, offset, value, core_.cycles());
   update_serial_pins();
   update_interrupts();
@@ -331,7 +433,6 @@ void Board::store_serial(SerialSide::Block block, std::uint32_t offset, std::uin
 // ------------------------------------------------------------------------------------------------- notes
 
 void Board::look_at(const Peripheral& of, std::uint32_t offset, std::optional<std::uint32_t> written) {
-  look_at_clock(of);
   if (of.registers->is_plain(offset)) return;
   const RegisterEntry* const to = of.registers->find(offset);
   const std::uint32_t address = of.base + offset;
@@ -344,11 +445,89 @@ void Board::look_at(const Peripheral& of, std::uint32_t offset, std::optional<st
                        tag->value_in(*written) > 9 ? "0x" : "", tag->value_in(*written)));
 }
 
-void Board::look_at_clock(const Peripheral& of) {
-  if (of.clock_enables == 0 || rcc_.is_clocked(of.clock_enables, of.clock_bit) || !is_new(of.base, kClockOff)) return;
-  note(fmt::format("{} is used while its clock is off in RCC_{}, where a real one does not answer", of.name,
-                   Rcc::kRegisters.find(of.clock_enables)->name));
+// ------------------------------------------------------------------------- what a real board would not forgive
+
+bool Board::answers(const Peripheral& of) {
+  if (of.clock_enables == 0 || rcc_.is_clocked(of.clock_enables, of.clock_bit)) return true;
+  misused(tb::board_code::kClockOff, fmt::format("{} is used while its clock is off in RCC_{}", of.name,
+                                                 Rcc::kRegisters.find(of.clock_enables)->name));
+  return false;
 }
+
+/// Lines that the chip drives, and those that firmware moves by a port.
+std::vector<Board::Wire> Board::wires() const {
+  std::vector<Wire> all = {{intr0_pin_, "INTR0", true}, {reset_pin_, "RESET"}};
+  const Place first_of_spi = options_.card == 2 ? Place{kB, 12} : Place{kA, 4};
+  switch (options_.mode) {
+    case HostMode::kParallel:
+      all.insert(all.end(), {{{kC, kRReqPin}, "R_REQ", false, true},
+                             {{kC, kRStaPin}, "R_STA", false, true},
+                             {{kC, kLReqPin}, "L_REQ", true},
+                             {{kC, kLStaPin}, "L_STA", true}});
+      break;
+    case HostMode::kSpi:
+      all.insert(all.end(), {{first_of_spi, "XSS"}, {{first_of_spi.port, first_of_spi.pin + 2}, "MISO", true}});
+      break;
+    case HostMode::kUart: all.push_back({{kA, 3}, "TXD", true}); break;
+  }
+  return all;
+}
+
+void Board::look_at_pins(unsigned port, const Gpio& before, std::uint32_t addressed) {
+  for (Wire& wire : wires_) {
+    if (wire.at.port != port) continue;
+    const unsigned pin = wire.at.pin;
+    if (!wire.from_chip)
+      look_at_output(wire, addressed);
+    else if (ports_.at(port).drives(pin) && !before.drives(pin))
+      misused(tb::board_code::kPinConflict,
+              fmt::format("{} is an output, and the chip drives {}", pin_name(port, pin), wire.name));
+  }
+}
+
+/// One store before the pin is an output gives it its first level.
+void Board::look_at_output(Wire& wire, std::uint32_t addressed) {
+  const auto [port, pin] = wire.at;
+  if ((addressed >> pin & 1U) == 0) return;
+  const Gpio& gpio = ports_.at(port);
+  const std::string name = pin_name(port, pin);
+  if (gpio.is_output(pin)) {
+    wire.unheard = 0;
+    if (wire.pushed && !gpio.is_pushed(pin) && !gpio.drives(pin))
+      misused(tb::board_code::kPinMode,
+              fmt::format("{} ({}) is set while it is open drain: it stays low", name, wire.name));
+  } else if (++wire.unheard > 1) {
+    misused(tb::board_code::kPinMode,
+            fmt::format("{} ({}) is set or cleared while it is not an output", name, wire.name));
+  }
+}
+
+bool Board::is_in_use(SerialSide::Block block) const {
+  return block == SerialSide::kUsart2 ? options_.mode == HostMode::kUart
+                                      : options_.mode == HostMode::kSpi && block + 1U == options_.card;
+}
+
+void Board::look_at_serial_pins(SerialSide::Block block) {
+  if (!is_in_use(block)) return;
+  in_service_ = true;
+  const std::string wrong = serial_.wrong_pin(block);
+  if (wrong.empty()) return;
+  const char* const name = block == SerialSide::kUsart2 ? "USART2" : block == SerialSide::kSpi1 ? "SPI1" : "SPI2";
+  misused(tb::board_code::kPinMode, fmt::format("{} sends while {} is not its pin", name, wrong));
+}
+
+/// All others come up first: the bench hears of it in order of time.
+void Board::misused(const tb::BoardCode& code, const std::string& text) {
+  come_up();
+  tell(code, text);
+}
+
+void Board::tell(const tb::BoardCode& code, const std::string& text, std::optional<std::uint32_t> pc) {
+  if (!on_error) return;
+  on_error({now(), code.code, fmt::format("{}, in {}", text, options_.firmware->lines.at(pc.value_or(core_.pc())))});
+}
+
+// ------------------------------------------------------------------------------------------------- notes
 
 std::vector<std::string> Board::serial_notes() const {
   std::vector<std::string> lines;

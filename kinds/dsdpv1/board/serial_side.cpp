@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinds/dsdpv1/board/memory_bus.hpp"
+
 namespace dsdpv1::arm {
 namespace {
 
@@ -150,6 +152,21 @@ void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPin
     append(out_.back(), before.mosi);
     append(in_.back(), chip.miso(at));
   }
+}
+
+/// TX idles high, as its pull-up does, so that it may be open drain.
+std::string SerialSide::wrong_pin(Block block) const {
+  if (block == kUsart2) {
+    const bool passes = (mapr_ & kUsart2Remap) == 0 && ports_.at(kPortA).is_alternate(kTxPin);
+    return usart_.drives() && !passes ? pin_name(kPortA, kTxPin) + " (TX)" : "";
+  }
+  const bool here = block != kSpi1 || (mapr_ & kSpi1Remap) == 0;
+  for (const auto& [pin, name] : {std::pair(kSck, " (SCK)"), std::pair(kMosi, " (MOSI)")}) {
+    const unsigned at = kFirstPin.at(block) + pin;
+    if (spi_.at(block).drives() && !(here && ports_.at(block).is_pushed_alternate(at)))
+      return pin_name(block, at) + name;
+  }
+  return "";
 }
 
 SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {

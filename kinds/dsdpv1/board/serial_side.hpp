@@ -9,6 +9,7 @@
 // function, by the peripheral; remapped ones (AFIO_MAPR) are no longer on these pins.
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "board/stm32/gpio.hpp"
@@ -62,6 +63,9 @@ class SerialSide {
     std::uint16_t driven = 0, levels = 0;
   };
   Seen seen(unsigned port, bool miso) const;
+  /// A pin by which a block sends to the chip and which is not its alternate function here: "PA5 (SCK)"; empty: none,
+  /// or it sends nothing.
+  std::string wrong_pin(Block block) const;
   /// The port has a pin of the chip.
   bool concerns(unsigned port) const { return card_ != 0 && port < 2; }
   /// MISO is on that port, so its level must be known.

@@ -1,6 +1,7 @@
 #include "kinds/dsdpv1/keys/codes.hpp"
 
 #include "driver/dsdpv1.h"
+#include "kinds/dsdpv1/keys/board_codes.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/scenario/event_codes.hpp"
@@ -108,8 +109,11 @@ std::vector<CodeText> driver_codes() {
 }
 
 std::vector<CodeText> board_codes() {
-  return {{scenario::kFirmwareFault, "violation", "the firmware of an ARM board has met a fault; the run ends",
-           "See the source line and the registers below the table, or run it again with --gdb."}};
+  std::vector<CodeText> list = {{scenario::kFirmwareFault, "violation",
+                                 "the firmware of an ARM board has met a fault; the run ends",
+                                 "See the source line and the registers below the table, or run it again with --gdb."}};
+  for (const BoardCode& each : kBoardCodes) list.push_back({each.code, "violation", each.text, each.advice});
+  return list;
 }
 
 }  // namespace
@@ -118,7 +122,9 @@ const std::vector<CodeTable>& dsdpv1_codes() {
   static const std::vector<CodeTable> tables = {
       {"The chip", "`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal, `{a:ns}` a time.", chip_codes()},
       {"The driver", "Results of the C driver's calls, with their values.", driver_codes()},
-      {"The ARM board", "See [arm_board.md](arm_board.md).", board_codes()}};
+      {"The ARM board",
+       "See [arm_board.md](arm_board.md#what-a-real-board-would-not-forgive). Numbers are sections of RM0008, rev. 20.",
+       board_codes()}};
   return tables;
 }
 

@@ -8,6 +8,7 @@
 #define CHIP(offset) (*(volatile uint8_t*)(0x60000000u + (offset)))
 #define CHIP16(offset) (*(volatile uint16_t*)(0x60000000u + (offset)))
 
+enum { TIM_CR1 = 0x00, TIM_DIER = 0x0C, TIM_SR = 0x10, TIM_EGR = 0x14, TIM_CNT = 0x24, TIM_PSC = 0x28, TIM_ARR = 0x2C };
 enum {
   AFIO_MAPR = 0x40010004,
   AFIO_EXTICR2 = 0x4001000C,
@@ -21,13 +22,20 @@ enum {
   GPIOB_ODR = 0x40010C0C,
   GPIOB_LCKR = 0x40010C18,
   GPIOC_CRL = 0x40011000,
+  GPIOC_CRH = 0x40011004,
   GPIOC_IDR = 0x40011008,
   GPIOC_ODR = 0x4001100C,
   GPIOC_BSRR = 0x40011010,
   GPIOC_BRR = 0x40011014,
+  GPIOD_CRL = 0x40011400,
+  GPIOD_CRH = 0x40011404,
   GPIOE_CRL = 0x40011800,
+  GPIOE_CRH = 0x40011804,
   GPIOE_IDR = 0x40011808,
   GPIOE_BSRR = 0x40011810,
+  GPIOF_CRL = 0x40011C00,
+  GPIOF_CRH = 0x40011C04,
+  GPIOG_CRL = 0x40012000,
   GPIOG_IDR = 0x40012008,
   SPI1_CR1 = 0x40013000,
   SPI1_CR2 = 0x40013004,
@@ -38,7 +46,14 @@ enum {
   USART1_DR = 0x40013804,
   USART1_CR1 = 0x4001380C,
   USART2_CR3 = 0x40004414,
-  TIM2_CNT = 0x40000024,
+  TIM2 = 0x40000000,
+  TIM6_CNT = 0x40001024,
+  IWDG_KR = 0x40003000,
+  IWDG_PR = 0x40003004,
+  IWDG_RLR = 0x40003008,
+  IWDG_SR = 0x4000300C,
+  RCC_APB1RSTR = 0x40021010,
+  RCC_CSR = 0x40021024,
   RCC_CR = 0x40021000,
   RCC_CFGR = 0x40021004,
   RCC_AHBENR = 0x40021014,
@@ -52,6 +67,7 @@ enum {
 #define FSMC_BWTR1 0xA0000104u
 #define NVIC_ISER0 0xE000E100u
 
+enum { IRQ_STORM = 27 }; /* its number in programs */
 const volatile uint32_t program __attribute__((used)) = 0;
 static volatile uint32_t edges;
 
@@ -60,8 +76,20 @@ static void clocks(void) {
   REG(RCC_AHBENR) |= 1u << 8;
 }
 
+/* The lines of the memory bus are alternate functions, R_REQ and R_STA outputs; 8 bits, not multiplexed. */
+static void memory_bus(void) {
+  REG(GPIOC_CRL) = 0x33444444;
+  REG(GPIOD_CRL) = 0xB4BB44BB;
+  REG(GPIOD_CRH) = 0xBB444444;
+  REG(GPIOE_CRL) = 0xB4444444;
+  REG(GPIOE_CRH) = 0x44444BBB;
+  REG(GPIOF_CRL) = 0x44BBBBBB;
+  REG(GPIOF_CRH) = 0xBBBB4444;
+  REG(GPIOG_CRL) = 0x4444444B;
+  REG(FSMC_BCR1) = 0x1081; /* MBKEN, WREN */
+}
+
 static void handshake(void) {
-  REG(GPIOC_CRL) = 0x11444444; /* PC6, PC7 outputs */
   REG(GPIOC_BSRR) = 1u << 6;
   CHIP(0) = (uint8_t)(REG(GPIOC_IDR) >> 8);
   REG(GPIOC_BSRR) = 1u << 7;
@@ -72,7 +100,6 @@ static void handshake(void) {
 }
 
 static void accesses(void) {
-  REG(FSMC_BCR1) = 0x1001; /* MBKEN, WREN, 8 bits */
   REG(FSMC_BTR1) = 3u | 7u << 8;
   CHIP(0x123) = CHIP(0x456);
   REG(FSMC_BCR1) = 0x5001; /* EXTMOD: mode A, writes by BWTR */
@@ -102,7 +129,7 @@ static void interrupt(void) {
 }
 
 static void chip_reset(void) {
-  REG(GPIOE_CRL) = 0x44414444;
+  REG(GPIOE_CRL) = 0xB4414444;
   REG(GPIOE_BSRR) = 1u << 20;
   for (volatile int i = 0; i < 100; ++i) {
   }
@@ -124,11 +151,13 @@ static void text(void) {
 }
 
 static void strange(void) {
-  REG(TIM2_CNT) = 77;
-  CHIP(0) = (uint8_t)REG(TIM2_CNT);
-  CHIP(1) = (uint8_t)REG(TIM2_CNT + 4);
+  REG(TIM6_CNT) = 77;
+  CHIP(0) = (uint8_t)REG(TIM6_CNT);
+  CHIP(1) = (uint8_t)REG(TIM6_CNT + 4);
   REG(RCC_APB2ENR) = 0;
   REG(GPIOB_ODR) = 1;
+  REG(RCC_APB2ENR) = 0x41FD;
+  CHIP(2) = (uint8_t)REG(GPIOB_ODR);
 }
 
 static void undefined(void) { __asm volatile("udf #0"); }
@@ -215,7 +244,7 @@ static void lacking(void) {
   REG(RCC_CR) &= ~(1u << 7); /* HSITRIM */
   REG(RCC_AHBRSTR) = REG(RCC_AHBRSTR) + 1u;
   REG(FLASH_ACR) = 1u << 3;
-  REG(FSMC_BCR1) = 0x1095; /* MWID, MTYP */
+  REG(FSMC_BCR1) = 0x1085; /* MTYP */
   CHIP16(0) = __LINE__;
 }
 
@@ -247,12 +276,127 @@ static void clocks_off(void) {
       {RCC_APB2ENR, 4, 0x40011000},  {RCC_APB2ENR, 5, 0x40011400},  {RCC_APB2ENR, 6, 0x40011800},
       {RCC_APB2ENR, 7, 0x40011C00},  {RCC_APB2ENR, 8, 0x40012000},  {RCC_APB2ENR, 12, 0x40013000},
       {RCC_APB2ENR, 14, 0x40013800}, {RCC_APB1ENR, 14, 0x40003800}, {RCC_APB1ENR, 17, 0x40004400},
-      {RCC_AHBENR, 8, FSMC_BTR1},    {RCC_AHBENR, 8, 0x60000000},   {RCC_AHBENR, 8, EXTI_PR}};
+      {RCC_AHBENR, 8, EXTI_PR},      {RCC_AHBENR, 8, FSMC_BTR1},    {RCC_AHBENR, 8, 0x60000000}};
   for (unsigned i = 0; i < sizeof uses / sizeof *uses; ++i) {
     serial_clocks();
     REG(RCC_AHBENR) = 0x114;
     REG(uses[i][0]) &= ~(1u << uses[i][1]);
-    (void)REG(uses[i][2]);
+    const uint32_t word = REG(uses[i][2]);
+    REG(RCC_AHBENR) = 0x114;
+    CHIP(i) = (uint8_t)(word >> 24);
+  }
+}
+
+/* The bus of 16 bits: bytes at an even and an odd address, a word. */
+static void wide_bus(void) {
+  REG(FSMC_BCR1) = 0x1091;
+  CHIP(0x20) = CHIP(0x46);
+  CHIP(0x21) = CHIP(0x47);
+  *(volatile uint32_t*)0x60000030u = *(volatile uint32_t*)0x60000050u;
+}
+
+/* As after a reset, but with WREN. */
+static void multiplexed(void) {
+  REG(FSMC_BCR1) = 0x10CB;
+  CHIP(0x20) = CHIP(0x46);
+}
+
+/* A1 and D3 float, then NOE, then NE1. */
+static void floating_bus(void) {
+  REG(0x40011C00) = 0x44BBBB4B;
+  REG(GPIOD_CRL) = 0xB4BB444B;
+  CHIP(0x25) = CHIP(0x4E);
+  REG(GPIOD_CRL) = 0xB4B444BB;
+  CHIP(0x25) = CHIP(0x4E);
+  REG(GPIOD_CRL) = 0x44BB44BB;
+  CHIP(0x25) = 1;
+}
+
+/* R_REQ as an alternate function, then open drain; RESET as an input; the lines of the chip as outputs. */
+static void wrong_pins(void) {
+  REG(GPIOC_CRL) = 0x3B444444;
+  REG(GPIOC_BSRR) = 1u << 6; /* the first level, for an output to come */
+  REG(GPIOC_BRR) = 1u << 6;
+  REG(GPIOC_CRL) = 0x37444444;
+  REG(GPIOC_BSRR) = 1u << 6;
+  REG(GPIOC_BRR) = 1u << 6;
+  REG(GPIOE_BSRR) = 1u << 20;
+  REG(GPIOE_BSRR) = 1u << 4;
+  REG(GPIOC_CRH) = 0x44444433;
+  REG(GPIOG_CRL) = 0x4344444B;
+}
+
+/* Between the peripherals, one on the bus behind them, in a bank of the FSMC that the board lacks. */
+static void outside(void) {
+  REG(0x40014C00) = 1;
+  CHIP(0) = (uint8_t)REG(0x40014C00);
+  (void)REG(0x1FFFF7E8); /* unique device ID */
+  (void)REG(0xE0042000); /* DBGMCU_IDCODE */
+  (void)REG(0x50000000);
+}
+static void bank_2(void) { (void)REG(0x70000000); }
+
+/* A hundred microseconds at 72 MHz, once. */
+static void start_timer(void) {
+  REG(RCC_APB1ENR) = 1;
+  REG(RCC_APB1RSTR) = 1;
+  REG(RCC_APB1RSTR) = 0;
+  REG(TIM2 + TIM_PSC) = 71;
+  REG(TIM2 + TIM_ARR) = 99;
+  REG(TIM2 + TIM_EGR) = 1;
+  CHIP(0) = (uint8_t)REG(TIM2 + TIM_SR);
+  REG(TIM2 + TIM_SR) = 0;
+  REG(TIM2 + TIM_DIER) = 1;
+  REG(NVIC_ISER0) = 1u << 28;
+  CHIP(1) = 1;
+  REG(TIM2 + TIM_CR1) = 9; /* OPM, CEN */
+}
+static void timer(void) {
+  start_timer();
+  __asm volatile("wfi");
+  CHIP(3) = (uint8_t)REG(TIM2 + TIM_CR1);
+}
+static void timer_while_busy(void) {
+  start_timer();
+  while (edges == 0) {
+  }
+  CHIP(3) = (uint8_t)REG(TIM2 + TIM_CR1);
+}
+static void irq_storm(void) { timer(); }
+
+/* Once: RAM survives a reset. */
+static void start_watchdog(void) {
+  volatile uint32_t* const been_here = (volatile uint32_t*)0x20008000u;
+  if (*been_here == 0x5AFE) {
+    CHIP(0) = (uint8_t)(REG(RCC_CSR) >> 24);
+    for (;;) __asm volatile("wfi");
+  }
+  *been_here = 0x5AFE;
+  REG(IWDG_RLR) = 1; /* closed */
+  CHIP(1) = (uint8_t)REG(IWDG_RLR);
+  REG(IWDG_KR) = 0x5555;
+  REG(IWDG_PR) = 0;
+  REG(IWDG_RLR) = 3;
+  CHIP(2) = (uint8_t)REG(IWDG_SR);
+  REG(IWDG_KR) = 0xAAAA;
+  REG(IWDG_KR) = 0xCCCC;
+  for (volatile int i = 0; i < 2000; ++i) {
+  }
+  REG(IWDG_KR) = 0xAAAA;
+}
+static void watchdog(void) {
+  start_watchdog();
+  for (;;) {
+  }
+}
+static void watchdog_asleep(void) {
+  start_watchdog();
+  for (;;) __asm volatile("wfi");
+}
+
+static void stuck(void) {
+  CHIP(0) = 1;
+  for (;;) {
   }
 }
 
@@ -280,22 +424,34 @@ void EXTI9_5_handler(void) {
   REG(EXTI_PR) = 1u << 6;
 }
 
+void TIM2_handler(void);
+void TIM2_handler(void) {
+  CHIP(2) = (uint8_t)REG(TIM2 + TIM_SR);
+  ++edges;
+  if (program != IRQ_STORM) REG(TIM2 + TIM_SR) = ~1u;
+}
+
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {handshake,  accesses,   unset_accesses, interrupt, chip_reset,
-                                           text,       strange,    undefined,      bank_off,  masked_and_rising,
-                                           inputs,     clock_tree, nonsense,       lacking,   registers,
-                                           clocks_off, busy,       divided,        restarted};
+  static void (*const programs[])(void) = {
+      handshake, accesses,  unset_accesses,   interrupt,         chip_reset, text,
+      strange,   undefined, bank_off,         masked_and_rising, inputs,     clock_tree,
+      nonsense,  lacking,   registers,        clocks_off,        busy,       divided,
+      restarted, wide_bus,  multiplexed,      floating_bus,      wrong_pins, outside,
+      bank_2,    timer,     timer_while_busy, irq_storm,         watchdog,   watchdog_asleep,
+      stuck};
   edges = 0;
   clocks();
+  memory_bus();
   programs[program]();
   for (;;) __asm volatile("wfi");
 }
 
-/* Initial stack pointer, reset, HardFault and IRQ 23 (ARMv7-M B1.5.3). */
+/* Initial stack pointer, reset, HardFault and IRQs 23, 28 (ARMv7-M B1.5.3). */
 extern char stack_top[];
-__attribute__((section(".vectors"), used)) static const void* const vectors[16 + 24] = {
+__attribute__((section(".vectors"), used)) static const void* const vectors[16 + 29] = {
     [0] = stack_top,
     [1] = (const void*)run,
     [3] = (const void*)HardFault_handler,
-    [16 + 23] = (const void*)EXTI9_5_handler};
+    [16 + 23] = (const void*)EXTI9_5_handler,
+    [16 + 28] = (const void*)TIM2_handler};

@@ -20,9 +20,16 @@ enum {
   GPIOB_CRL = 0x40010C00,
   GPIOB_CRH = 0x40010C04,
   GPIOB_BSRR = 0x40010C10,
+  GPIOC_CRL = 0x40011000,
+  GPIOD_CRL = 0x40011400,
+  GPIOD_CRH = 0x40011404,
   GPIOD_IDR = 0x40011408,
   GPIOE_CRL = 0x40011800,
+  GPIOE_CRH = 0x40011804,
   GPIOE_BSRR = 0x40011810,
+  GPIOF_CRL = 0x40011C00,
+  GPIOF_CRH = 0x40011C04,
+  GPIOG_CRL = 0x40012000,
   RCC_CFGR = 0x40021004,
   RCC_APB2RSTR = 0x4002100C,
   RCC_AHBENR = 0x40021014,
@@ -35,6 +42,7 @@ enum {
 enum { CR1 = 0x00, CR2 = 0x04, SR = 0x08, DR = 0x0C }; /* of an SPI */
 enum { USART_SR = 0x00, USART_DR = 0x04, USART_BRR = 0x08, USART_CR1 = 0x0C, USART_CR3 = 0x14 };
 enum { RXNE = 1, TXE = 2, OVR = 0x40, BSY = 0x80 };
+#define FSMC_BCR1 0xA0000000u
 #define NVIC_ISER1 0xE000E104u
 
 const volatile uint32_t program __attribute__((used)) = 0;
@@ -45,6 +53,19 @@ static void clocks(void) {
   REG(RCC_APB1ENR) = 1u << 14 | 1u << 17;
   REG(RCC_AHBENR) |= 1u << 8;
   REG(RCC_CFGR) = 4u << 8; /* PCLK1 is half of HCLK */
+}
+
+/* The lines of the memory bus are alternate functions, R_REQ and R_STA outputs; 8 bits, not multiplexed. */
+static void memory_bus(void) {
+  REG(GPIOC_CRL) = 0x33444444;
+  REG(GPIOD_CRL) = 0xB4BB44BB;
+  REG(GPIOD_CRH) = 0xBB444444;
+  REG(GPIOE_CRL) = 0xB4444444;
+  REG(GPIOE_CRH) = 0x44444BBB;
+  REG(GPIOF_CRL) = 0x44BBBBBB;
+  REG(GPIOF_CRH) = 0xBBBB4444;
+  REG(GPIOG_CRL) = 0x4444444B;
+  REG(FSMC_BCR1) = 0x1081; /* MBKEN, WREN */
 }
 
 /* XSS an output, high; SCK, MOSI alternate functions, MISO an input. */
@@ -154,7 +175,7 @@ static void own_event(void) {
 
 /* INTR0 and RESET of card 2. */
 static void card2(void) {
-  REG(GPIOE_CRL) = 0x44144444;
+  REG(GPIOE_CRL) = 0xB4144444;
   REG(GPIOE_BSRR) = 1u << 21;
   for (volatile int i = 0; i < 100; ++i) {
   }
@@ -184,8 +205,11 @@ static void by_hand(void) {
 
 /* Features that the board does not have or support. */
 static void misused(void) {
+  REG(SPI1 + CR1) = 0x0354 | 1u << 10; /* RXONLY */
   REG(RCC_APB2ENR) = 0xFD;
-  REG(SPI1 + CR1) = 0x0354 | 1u << 10; /* RXONLY, clock off */
+  REG(SPI1 + CR1) = 0; /* clock off */
+  REG(RCC_APB2ENR) = 0x11FD;
+  CHIP(1) = (uint8_t)REG(SPI1 + CR1);
   REG(USART2 + USART_CR3) = 1u << 3;
   REG(USART2 + USART_CR1) = 0x2000;
   REG(RCC_APB2RSTR) = 1u << 12;
@@ -225,6 +249,12 @@ static void busy(void) {
   CHIP(8) = 1;
 }
 
+static void unset_uart(void) {
+  REG(USART2 + USART_BRR) = 20;
+  REG(USART2 + USART_CR1) = 0x340C;
+  REG(USART2 + USART_DR) = 0x31;
+}
+
 void SPI1_handler(void);
 void SPI1_handler(void) {
   CHIP(0) = (uint8_t)REG(SPI1 + DR);
@@ -245,9 +275,10 @@ void EXTI15_10_handler(void) { REG(EXTI_PR) = 1u << 12; }
 void run(void);
 void run(void) {
   static void (*const programs[])(void) = {spi1,  spi2,    overrun, spi_by_interrupt, uart,  uart_overrun, own_event,
-                                           card2, by_hand, misused, remapped,         quick, busy};
+                                           card2, by_hand, misused, remapped,         quick, busy,         unset_uart};
   heard = 0;
   clocks();
+  memory_bus();
   programs[program]();
   for (;;) __asm volatile("wfi");
 }
