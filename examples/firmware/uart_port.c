@@ -96,7 +96,7 @@ static void start_timer(timer_registers* timer, uint32_t steps, uint32_t us_of_s
   stop_timers();
   over = false;
   timer->PSC = us_of_step * 2u * BOARD_APB1_MHZ - 1u;
-  timer->ARR = steps - 1u;
+  timer->ARR = steps; /* with 0 it stands still */
   timer->EGR = TIM_EGR_UG;
   timer->SR = 0;
   timer->DIER = TIM_DIER_UIE;
@@ -107,7 +107,7 @@ static uint16_t receive(void* ctx, uint8_t* bytes, uint16_t n, uint32_t timeout_
   (void)ctx;
   const uint32_t silence_us = 38500000u / uart_port()->baud + 1u; /* a character has 11 bits */
   uint16_t count = 0;
-  start_timer(TIM2, timeout_us / 100u + 1u, 100);
+  start_timer(TIM2, timeout_us / 10u + 1u, 10);
   while (count < n && !over)
     if (next_character(&bytes[count])) {
       ++count;
