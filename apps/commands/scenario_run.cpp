@@ -128,7 +128,7 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
   ResultFiles files(arguments, scenario, options);
   SavedRuns saved(arguments, request.described, request.restored ? &*request.restored : nullptr, scenario.end);
   saved.ask(options);
-  Rewind rewind(arguments, *scenario.kind);
+  Rewind rewind(arguments, scenario);
   rewind.ask(options);
   tb::Bench bench(scenario, options, std::move(execution));
   tb::Progress progress(scenario.end, shows_progress(arguments.progress));

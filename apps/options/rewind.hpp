@@ -16,7 +16,7 @@ namespace dsdpv1::app {
 class Rewind {
  public:
   /// Throws tb::InputError for a code or a time that is none, or where there can be no rewinding.
-  Rewind(const RunArguments& arguments, const tb::ChipKind& kind);
+  Rewind(const RunArguments& arguments, const tb::scenario::Scenario& scenario);
 
   bool wanted() const { return !code_.empty(); }
   void ask(tb::RunOptions& options) const;

@@ -125,6 +125,9 @@ class Dsdpv1Kind : public ChipKind {
   }
   MakeUser make_user(const UserRequest& request) const override { return make_dsdpv1_user(request); }
   bool has_debugger(const scenario::Slave& slave) const override { return own(slave.user_cpu).kind == CpuKind::kArm; }
+  bool has_process(const scenario::Slave& slave) const override {
+    return own(slave.user_cpu).kind == CpuKind::kProcess;
+  }
   bool needs_pins(const scenario::Scenario& scenario) const override {
     const bool serial = static_cast<const Dsdpv1Settings&>(*scenario.chip).mode != HostMode::kParallel;
     return serial && std::any_of(scenario.slaves.begin(), scenario.slaves.end(),

@@ -168,6 +168,8 @@ class ChipKind {
   virtual MakeUser make_user(const UserRequest& request) const = 0;
   /// Whether a debugger can be connected to the slave's user CPU.
   virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
+  /// Whether the slave's user CPU is a process of its own, which a copy of this one does not have.
+  virtual bool has_process(const scenario::Slave& /*slave*/) const { return false; }
   /// Whether a user CPU of the scenario sets pins for which --view tlm only has transactions.
   virtual bool needs_pins(const scenario::Scenario& /*scenario*/) const { return false; }
 

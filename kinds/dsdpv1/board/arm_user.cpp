@@ -9,7 +9,7 @@
 #include "board/gdb/history_player.hpp"
 #include "io/input/input_error.hpp"
 #include "kinds/dsdpv1/board/board.hpp"
-#include "kinds/dsdpv1/board/untold.hpp"
+#include "kinds/dsdpv1/chip/untold.hpp"
 #include "kinds/dsdpv1/chip/user_maker.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "tb/bench/program_options.hpp"
@@ -70,7 +70,8 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
   arm::BoardOptions options;
   options.firmware = arm::load_firmware(scenario::resolve(request.scenario, own.elf));
   if (!options.firmware->mailbox) {
-    Untold missing = untold(request.scenario, request.slave, options.firmware->path);
+    Untold missing = untold(request.scenario, request.slave, options.firmware->path,
+                            fmt::format("has no mailbox ({})", DSDPV1_MAILBOX_SYMBOL));
     options.notes = std::move(missing.notes);
     request.left_out.merge(missing.left_out);
   }

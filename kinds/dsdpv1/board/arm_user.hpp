@@ -4,7 +4,7 @@
 namespace dsdpv1::tb {
 
 /// Registers the ARM board; call it before the first scenario is read. Parts of a scenario that firmware without a
-/// mailbox cannot execute are left out or rejected, see untold.hpp.
+/// mailbox cannot execute are left out or rejected, see ../chip/untold.hpp.
 void add_arm_board();
 
 }  // namespace dsdpv1::tb

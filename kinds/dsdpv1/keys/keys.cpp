@@ -174,18 +174,29 @@ ObjectOf<Dsdpv1User> plain_user_keys() {
   o.word("kind", &U::kind,
          std::vector<WordFor<CpuKind>>{
              {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
-             {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
+             {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"},
+             {CpuKind::kProcess, "process",
+              "`program`, compiled for this computer, in a process (docs/tutorials/c_driver_on_host.md); its accesses have the times "
+              "of `timing`"}},
          "The processor.");
   o.file("elf", &U::elf,
          "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to the current "
          "folder.");
+  o.file("program", &U::program,
+         "Program of kind: process, relative to the scenario's folder; on the command line relative to the current "
+         "folder.");
+  o.names("arguments", &U::arguments, {0, 64}, "Its arguments.");
+  o.time("patience", &U::patience, {0, 86'400 * bus::kTicksPerSecond},
+         "How long it may compute between two calls of its port, in the time of this computer; 0: no limit, for a "
+         "debugger.");
   o.word("without_mailbox", &U::without_mailbox,
          std::vector<WordFor<WithoutMailbox>>{
              {WithoutMailbox::kRefuse, "refuse",
               "the first of them is reported in one line, and the scenario does not run"},
              {WithoutMailbox::kLeaveOut, "leave_out",
               "actions are not carried out, expectations not judged, and each is listed at the end"}},
-         "For firmware without a mailbox: the treatment of actions for the user CPU, of expectations of outputs or of "
+         "For firmware without a mailbox: the treatment of actions for the user CPU, of "
+         "expectations of outputs or of "
          "errors of the driver, and of settings for its program beside `elf` (docs/arm_board.md).");
   o.names("switches", &U::switches, {0, 112},
           "Switches on input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 except those that the board "
@@ -263,7 +274,17 @@ void check_switches(const Dsdpv1User& user, const std::string& file) {
 }  // namespace
 
 void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const std::string& slave, int line) {
-  const bool arm = user.kind == CpuKind::kArm;
+  const bool arm = user.kind == CpuKind::kArm, process = user.kind == CpuKind::kProcess;
+  if (process && user.program.empty())
+    throw InputError(file, line, fmt::format("program is missing, slave {} has a process that runs it", slave));
+  if (!process && !user.program.empty())
+    throw InputError(file, user.program.line,
+                     "program without kind: process, expected both (--set user_cpu.kind=process)");
+  if (process && user.without_mailbox != WithoutMailbox::kRefuse)
+    throw InputError(file, line, "without_mailbox is that of kind: arm, a process is never told anything");
+  if (!process && !user.arguments.empty())
+    throw InputError(file, user.arguments.front().line,
+                     "arguments without kind: process, expected those of its program");
   if (arm && user.elf.empty())
     throw InputError(file, line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave));
   if (!arm && !user.elf.empty())

@@ -48,7 +48,7 @@ struct CpuTimes : user_cpu::CpuTiming {
   int line = 0;
 };
 
-enum class CpuKind : std::uint8_t { kNative, kArm };
+enum class CpuKind : std::uint8_t { kNative, kArm, kProcess };
 /// Treatment of scenario parts that need firmware with a mailbox.
 enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
 
@@ -70,14 +70,17 @@ struct UartKeys {
 struct Dsdpv1User : OwnSettings {
   CpuKind kind = CpuKind::kNative;
   Name elf;                                                  ///< kArm
-  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
+  Name program;                                              ///< kProcess
+  std::vector<Name> arguments;                               ///< kProcess
+  Tick patience = 10 * bus::kTicksPerSecond;                 ///< kProcess: of the host's time; 0: no limit
+  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< not kNative
   std::vector<Name> switches;                                ///< kArm: "PA0=low"
   std::optional<double> cpi;                                 ///< kArm: cycles of HCLK per instruction
-  std::optional<CpuTimes> timing;                            ///< kNative; its `access` is unused: see the next member
+  std::optional<CpuTimes> timing;                            ///< not kArm; its `access` is unused: see the next member
   std::optional<AccessTimes> access;
   std::optional<Fsmc> fsmc;
-  std::optional<SpiKeys> spi;    ///< kNative, HostMode::kSpi
-  std::optional<UartKeys> uart;  ///< kNative, HostMode::kUart
+  std::optional<SpiKeys> spi;    ///< not kArm, HostMode::kSpi
+  std::optional<UartKeys> uart;  ///< not kArm, HostMode::kUart
 };
 
 /// A switch of an ARM board that holds an input pin.

@@ -54,13 +54,14 @@ class SerialPort {
   void spoil(TelegramFault fault, int times, Tick pause);
   /// Sends any bytes and their CRC; see `listen` of a scenario's host_telegram.
   void telegram(std::vector<std::uint8_t> bytes, std::optional<int> listen);
+  // The functions of dsdpv1_spi and dsdpv1_uart.
+  bool frame(const std::uint8_t* out, std::uint8_t* in, std::size_t n);
+  bool send(const std::uint8_t* bytes, std::size_t n);
+  std::uint16_t receive(std::uint8_t* bytes, std::size_t n, std::uint32_t timeout_us);
 
  private:
   void telegram_over_spi(std::vector<std::uint8_t> bytes, int listen);
   void telegram_over_uart(const std::vector<std::uint8_t>& bytes, std::optional<int> listen);
-  bool frame(const std::uint8_t* out, std::uint8_t* in, std::size_t n);
-  bool send(const std::uint8_t* bytes, std::size_t n);
-  std::uint16_t receive(std::uint8_t* bytes, std::size_t n, std::uint32_t timeout_us);
   void pause(std::uint32_t ns);
   bool is_spoilt(TelegramFault fault);
   UartFault uart_fault();

@@ -1,12 +1,12 @@
-#include "kinds/dsdpv1/board/untold.hpp"
+#include "kinds/dsdpv1/chip/untold.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
-#include "board/firmware/mailbox.h"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
@@ -48,10 +48,11 @@ std::optional<std::string> wanted(const Condition& condition, const std::string&
 
 class Finder {
  public:
-  Finder(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& firmware)
+  Finder(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& path, std::string because)
       : scenario_(scenario),
         slave_(slave),
-        firmware_(std::filesystem::path(firmware).filename().string()),
+        program_(std::filesystem::path(path).filename().string()),
+        because_(std::move(because)),
         leave_out_(own(slave.user_cpu).without_mailbox == WithoutMailbox::kLeaveOut) {}
 
   Untold find() {
@@ -60,8 +61,7 @@ class Finder {
     for (const Given& key : slave_.user_cpu.given)
       if (is_for_the_program(key.key)) setting(key, key.key, true);
     found_.notes.push_back(
-        fmt::format("{} has no mailbox ({}): its counters and the outputs that it has fetched are not known", firmware_,
-                    DSDPV1_MAILBOX_SYMBOL));
+        fmt::format("{} {}: its counters and the outputs that it has fetched are not known", program_, because_));
     found_.notes.push_back("it is not told " + join(not_told_));
     for (const scenario::Action& each : scenario_.script) action(each);
     for (const scenario::Expectation& each : scenario_.expect)
@@ -75,13 +75,14 @@ class Finder {
     if (!only_for_the_program || leave_out_) return;
     const std::string what = fmt::format("{} is for the program of {}", name, slave_.name.text);
     if (!key.option.empty()) throw InputError(key.option, 0, refusal(what, "be told"));
-    if (elf_is_of_the_file()) throw InputError(scenario_.file, key.line, refusal(what, "be told"));
+    if (program_is_of_the_file()) throw InputError(scenario_.file, key.line, refusal(what, "be told"));
   }
 
-  bool elf_is_of_the_file() const {
+  bool program_is_of_the_file() const {
     const auto& given = slave_.user_cpu.given;
-    return std::any_of(given.begin(), given.end(),
-                       [](const Given& key) { return key.key == "elf" && key.option.empty(); });
+    return std::any_of(given.begin(), given.end(), [](const Given& key) {
+      return (key.key == "elf" || key.key == "program") && key.option.empty();
+    });
   }
 
   void action(const scenario::Action& action) {
@@ -99,16 +100,14 @@ class Finder {
   }
 
   std::string refusal(const std::string& what, const char* cannot) const {
-    return fmt::format(
-        "{}, and {}, which has no mailbox ({}), cannot {}; expected what chip and bus show, or user_cpu: "
-        "{{without_mailbox: "
-        "leave_out}}",
-        what, firmware_, DSDPV1_MAILBOX_SYMBOL, cannot);
+    const char* other = own(slave_.user_cpu).kind == CpuKind::kArm ? ", or user_cpu: {without_mailbox: leave_out}" : "";
+    return fmt::format("{}, and {}, which {}, cannot {}; expected what chip and bus show{}", what, program_, because_,
+                       cannot, other);
   }
 
   const scenario::Scenario& scenario_;
   const scenario::Slave& slave_;
-  std::string firmware_;
+  std::string program_, because_;
   bool leave_out_;
   std::vector<std::string> not_told_;
   Untold found_;
@@ -116,8 +115,9 @@ class Finder {
 
 }  // namespace
 
-Untold untold(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& firmware) {
-  return Finder(scenario, slave, firmware).find();
+Untold untold(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& path,
+              const std::string& because) {
+  return Finder(scenario, slave, path, because).find();
 }
 
 }  // namespace dsdpv1::tb

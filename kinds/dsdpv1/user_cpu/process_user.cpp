@@ -1,0 +1,146 @@
+#include "kinds/dsdpv1/user_cpu/process_user.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace dsdpv1::user_cpu {
+namespace {
+
+constexpr std::uint32_t kCells = 0x800, kLongest = 1024;
+
+/// `ticks` from now on, at most the end of time.
+Tick end_of(Tick now, std::uint64_t ticks) {
+  return now + static_cast<Tick>(std::min<std::uint64_t>(ticks, static_cast<std::uint64_t>(bus::kNever - now)));
+}
+
+}  // namespace
+
+ProcessUser::ProcessUser(HostBus& bus, const CpuTiming& timing, ProcessOptions options, Tick start,
+                         const HostPort& port)
+    : options_(std::move(options)),
+      port_(port),
+      cpu_(
+          bus, timing, [this](Cpu& cpu) { serve(cpu); }, start) {
+  cpu_.on_announce = [this] {
+    announce();
+    if (on_plan) on_plan();
+  };
+}
+
+UserCounters ProcessUser::counters() const {
+  return {serial_ ? serial_->counters() : handshake_.counters(), std::nullopt, cpu_.counters()};
+}
+
+void ProcessUser::serve(Cpu& cpu) {
+  try {
+    child_ = std::make_unique<ChildProcess>(options_.arguments, DSDPV1_BENCH_VARIABLE);
+  } catch (const std::system_error& error) {
+    return fail(fmt::format("cannot be started: {}", error.code().message()));
+  }
+  if (!std::holds_alternative<std::monostate>(port_.port)) serial_ = std::make_unique<SerialPort>(cpu, port_);
+  while (serve_one(cpu)) {
+  }
+}
+
+/// The reason why the program cannot go on ends the run.
+void ProcessUser::fail(const std::string& why) {
+  const std::string name = std::filesystem::path(options_.arguments[0]).filename().string();
+  if (on_failure) on_failure(cpu_.now(), fmt::format("{} {}", name, why), "");
+}
+
+/// Returns false at the program's end.
+bool ProcessUser::serve_one(Cpu& cpu) {
+  Request request{};
+  if (!receive(&request, sizeof request)) return false;
+  bytes_.resize(std::min(request.length, kLongest));
+  if (!bytes_.empty() && !receive(bytes_.data(), bytes_.size())) return false;
+  Answer answer{};
+  if (!carry_out(cpu, request, answer)) {
+    fail(fmt::format("has made a request that this port does not have ({}, address {:X}, length {})", request.what,
+                     request.address, request.length));
+    return false;
+  }
+  answer.intr0 = answer.intr0 != 0 || cpu.wait_intr0(cpu.now()) ? 1 : 0;
+  if (answer.intr0 != 0) cpu.wait(cpu.timing().interrupt_latency);
+  answer.now = static_cast<std::uint64_t>(cpu.now());
+  child_->send(&answer, sizeof answer);
+  if (answer.length != 0) child_->send(bytes_.data(), answer.length);
+  return true;
+}
+
+bool ProcessUser::receive(void* bytes, std::size_t n) {
+  const ChildProcess::Got got = child_->receive(bytes, n, options_.patience_ms);
+  child_->lines([this](const std::string& line) {
+    if (on_text) on_text(cpu_.now(), line);
+  });
+  if (got == ChildProcess::Got::kAll) return true;
+  if (got == ChildProcess::Got::kLate)
+    fail(
+        fmt::format("has not called its port for {} s of the host's time: a loop without a call of it? "
+                    "(user_cpu: {{patience: ...}})",
+                    options_.patience_ms / 1000));
+  if (got == ChildProcess::Got::kEnd)
+    if (const std::string why = child_->ending(); !why.empty()) fail(why);
+  return false;
+}
+
+/// False: a request that does not exist, or not with this port.
+bool ProcessUser::carry_out(Cpu& cpu, const Request& request, Answer& answer) {
+  const bool level = request.value != 0;
+  if (request.address >= kCells || request.length > kLongest) return false;
+  switch (request.what) {
+    case DSDPV1_BENCH_HELLO: return request.value == DSDPV1_BENCH_VERSION;
+    case DSDPV1_BENCH_READ: answer.value = cpu.read(static_cast<std::uint16_t>(request.address)); return true;
+    case DSDPV1_BENCH_WRITE:
+      cpu.write(static_cast<std::uint16_t>(request.address), static_cast<std::uint8_t>(request.value));
+      return true;
+    case DSDPV1_BENCH_R_REQ:
+      handshake_.r_req(cpu.now(), level);
+      cpu.set_r_req(level);
+      return true;
+    case DSDPV1_BENCH_R_STA:
+      handshake_.r_sta(cpu.now(), level);
+      cpu.set_r_sta(level);
+      return true;
+    case DSDPV1_BENCH_L_REQ: answer.value = cpu.l_req() ? 1 : 0; return true;
+    case DSDPV1_BENCH_L_STA: answer.value = cpu.l_sta() ? 1 : 0; return true;
+    case DSDPV1_BENCH_WAIT: {
+      const Tick until = end_of(cpu.now(), request.ticks);
+      if (level)
+        answer.intr0 = cpu.wait_intr0(until) ? 1 : 0;
+      else
+        cpu.wait_until(until);
+      return true;
+    }
+    default: return serial_ && transfer(request, answer);
+  }
+}
+
+bool ProcessUser::transfer(const Request& request, Answer& answer) {
+  const bool spi = std::holds_alternative<SpiPort>(port_.port);
+  switch (request.what) {
+    case DSDPV1_BENCH_EXCHANGE:
+      if (!spi || bytes_.empty()) return false;
+      serial_->frame(bytes_.data(), bytes_.data(), bytes_.size());
+      answer.length = request.length;
+      return true;
+    case DSDPV1_BENCH_SEND:
+      if (spi || bytes_.empty()) return false;
+      serial_->send(bytes_.data(), bytes_.size());
+      return true;
+    case DSDPV1_BENCH_RECEIVE: {
+      if (spi || request.value > kLongest) return false;
+      bytes_.resize(request.value);
+      const auto timeout_us = static_cast<std::uint32_t>(request.ticks / static_cast<std::uint64_t>(bus::kTicksPerUs));
+      answer.length = serial_->receive(bytes_.data(), bytes_.size(), timeout_us);
+      return true;
+    }
+    default: return false;
+  }
+}
+
+}  // namespace dsdpv1::user_cpu

@@ -1,0 +1,71 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * device PORT [FAULT]: a device that sends its two bytes of outputs back as inputs, over the port "parallel", "spi" or
+ * "uart". Faults: "ends" and "crashes" after a hundred turns, "hangs" then without a call of its port, "hasty" raises
+ * R_STA without a look at the chip's lines, "polls" instead of a handler of INTR0.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "driver/host/dsdpv1_bench.h"
+
+static dsdpv1_device chip;
+static dsdpv1_port port;
+static dsdpv1_spi spi = {.exchange = dsdpv1_bench_exchange, .pause = dsdpv1_bench_pause, .address = 1};
+static dsdpv1_uart uart = {
+    .send = dsdpv1_bench_send, .receive = dsdpv1_bench_receive, .pause = dsdpv1_bench_pause, .address = 1, .baud = 1843200};
+static uint8_t process[2];
+static const char* fault = "";
+
+static bool is(const char* name) { return strcmp(fault, name) == 0; }
+
+static void on_intr0(void) {
+  static int falls;
+  if (falls++ < 3) printf("INTR0 at %llu us\n", (unsigned long long)(dsdpv1_bench_now_ns() / 1000u));
+  dsdpv1_service(&chip);
+}
+
+static bool low(void* ctx) {
+  (void)ctx;
+  return false;
+}
+
+static dsdpv1_error open_port(const char* name) {
+  port = dsdpv1_bench_port;
+  if (is("hasty")) port.get_l_req = port.get_l_sta = low;
+  if (is("hasty")) port.pause = NULL;
+  if (strcmp(name, "spi") == 0) return dsdpv1_open_spi(&chip, &spi, NULL);
+  if (strcmp(name, "uart") == 0) return dsdpv1_open_uart(&chip, &uart, NULL);
+  return dsdpv1_open(&chip, &port, NULL);
+}
+
+static void fail_as_wanted(void) {
+  if (is("ends")) exit(3);
+  if (is("crashes")) abort();
+  if (is("hangs"))
+    for (;;) {
+    }
+}
+
+int main(int count, char** arguments) {
+  static const uint8_t cfg[] = {0x31};
+  const dsdpv1_config config = {.address = 5, .ident = 0x0CC9, .max_input = 2, .max_output = 2, .max_prm = 32,
+                                .max_cfg = 1, .prm_mode = 2, .cfg_mode = 2, .cfg = cfg, .cfg_length = 1};
+  if (count > 2) fault = arguments[2];
+  open_port(arguments[1]);
+  while (dsdpv1_wait_ready(&chip) != DSDPV1_OK || dsdpv1_initialise(&chip, &config) != DSDPV1_OK) {
+  }
+  printf("initialised\n");
+  if (!is("polls")) dsdpv1_bench_on_intr0(on_intr0);
+  dsdpv1_service(&chip);
+  for (int turn = 0;; ++turn) {
+    dsdpv1_exchange_result result = {.outputs = process, .capacity = sizeof process};
+    if (is("polls") && dsdpv1_bench_wait_intr0(0)) dsdpv1_on_intr0(&chip);
+    if (dsdpv1_intr0_pending(&chip)) dsdpv1_service(&chip);
+    dsdpv1_exchange(&chip, DSDPV1_INPUT_NEWEST, process, sizeof process, &result);
+    dsdpv1_bench_wait_ns(100000);
+    if (turn == 100) fail_as_wanted();
+  }
+}

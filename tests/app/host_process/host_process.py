@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Firmware compiled for the host as a user CPU: what it does reaches chip and log, and what goes wrong is said.
+
+    host_process.py SIM CC SOURCE_FOLDER
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SIM, CC, TREE = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+HERE = pathlib.Path(__file__).resolve().parent
+SCENARIO = """name: host process
+baud: 1.5M
+end: 40ms
+chip: {chip}
+slaves:
+  - name: device
+    address: 5
+    init: {{ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: "31"}}
+    user_cpu: {{kind: process, program: {program}, arguments: [{arguments}]{more}}}
+masters:
+  - {{name: plc, address: 2, start: 1ms, slaves: [{{slave: device, outputs: "01 02"}}]}}
+script:
+  - {{at: 25ms, do: set_outputs, slave: device, bytes: "A5 5A"}}
+expect:
+  - {{slave: device, dp_state: data_exch, inputs: "A5 5A"}}
+"""
+PORTS = {"parallel": "{search_window_ms: 1}",
+         "spi": "{kind: dsdpv1_rsu, mode: spi, search_window_ms: 1}",
+         "uart": "{kind: dsdpv1_rsu, mode: uart, uart_rate: 1.8432M, search_window_ms: 1}"}
+
+
+def build(program):
+    sources = [*sorted((TREE / "driver").glob("dsdpv1*.c")), TREE / "driver/host/dsdpv1_bench.c", HERE / "device.c"]
+    subprocess.run([CC, "-std=c99", "-g", "-O1", "-Wall", "-Wextra", "-pedantic", "-Werror", "-I", TREE, *sources, "-o", program], check=True)
+
+
+class HostProcess(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.place = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.place.name)
+        build(cls.folder / "device")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.place.cleanup()
+
+    def run_it(self, *options, port="parallel", fault="", more="", program="./device", command="run"):
+        arguments = ", ".join(word for word in (port, fault) if word)
+        scenario = self.folder / "scenario.yaml"
+        scenario.write_text(SCENARIO.format(chip=PORTS[port], program=program, arguments=arguments, more=more))
+        return subprocess.run([SIM, command, scenario, *options], capture_output=True, text=True, check=False, timeout=300, cwd=self.folder)
+
+    def log(self, *options, **more):
+        done = self.run_it("--log", "log.jsonl", *options, **more)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return (self.folder / "log.jsonl").read_text()
+
+    def test_each_port_comes_to_data_exchange_and_fetches_outputs(self):
+        for port in PORTS:
+            for fault in ("", "polls"):
+                with self.subTest(port=port, fault=fault):
+                    done = self.run_it(port=port, fault=fault)
+                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_every_engine_gives_the_same_log_and_a_second_run_too(self):
+        for port in PORTS:
+            with self.subTest(port=port):
+                skip = self.log(port=port)
+                self.assertEqual(skip, self.log(port=port))
+                self.assertEqual(skip, self.log("--engine", "step", port=port))
+
+    def test_transactions_bring_it_to_data_exchange(self):
+        done = self.run_it("--view", "tlm")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_what_it_prints_is_in_the_log_with_its_time(self):
+        events = [json.loads(line) for line in self.log().splitlines()]
+        texts = [event for event in events if "initialised" in event.get("text", "") and event.get("kind") == "program"]
+        self.assertEqual(len(texts), 1, [event for event in events if "INTR0 at" in str(event)][:3])
+
+    def test_the_handler_follows_the_fall_within_an_access(self):
+        events = [json.loads(line) for line in self.log().splitlines()]
+        falls = [event["at_ns"] for event in events if event.get("code") == "PRM_TO_USER"]
+        said = [event for event in events if "INTR0 at" in event.get("text", "")]
+        self.assertGreaterEqual(len(said), 1)
+        self.assertLess(said[0]["at_ns"] - falls[0], 5000)
+
+    def test_its_mistakes_are_violations(self):
+        done = self.run_it(fault="hasty")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("OWNERSHIP_SYNC_WINDOW", done.stdout)
+
+    def test_its_end_ends_the_run(self):
+        done = self.run_it(fault="ends")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("device has ended with exit code 3", done.stdout)
+        done = self.run_it(fault="crashes")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("device was ended by signal 6, Aborted", done.stdout)
+
+    def test_a_loop_without_a_call_is_found(self):
+        done = self.run_it(fault="hangs", more=", patience: 1s")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("device has not called its port for 1 s of the host's time", done.stdout)
+
+    def test_a_run_goes_on_where_it_was_saved(self):
+        whole = self.log("--save-at", "20ms", "saved.run")
+        done = subprocess.run([SIM, "run", "--restore", "saved.run", "--log", "rest.jsonl"], capture_output=True, text=True, check=False,
+                              timeout=300, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        rest = (self.folder / "rest.jsonl").read_text()
+        self.assertTrue(rest and whole.endswith(rest))
+
+    def test_what_cannot_be_is_one_line(self):
+        for options, more, program, words in (
+                ((), "", "./missing", "program is"),
+                ((), "", "./scenario.yaml", "which is no program"),
+                ((), ", elf: a.elf", "./device", "elf without kind: arm"),
+                ((), ", without_mailbox: leave_out", "./device", "without_mailbox is that of kind: arm"),
+                ((), ", behaviour: count", "./device", "behaviour is for the program of device"),
+                (("--rewind-on", "DP_STATE", "1ms", "--wave", "a.vcd"), "", "./device", "cannot be rewound"),
+                (("--set", "user_cpu.kind=native"), "", "./device", "program without kind: process")):
+            with self.subTest(words=words):
+                done = self.run_it(*options, more=more, program=program)
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                self.assertIn(words, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_alone_it_says_who_starts_it(self):
+        done = subprocess.run([self.folder / "device", "parallel"], capture_output=True, text=True, check=False, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is started by dsdpv1-sim", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
