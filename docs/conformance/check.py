@@ -5,7 +5,7 @@ import data as source
 from known_tests import KnownTests, named_in
 
 # The pages with rulings, and the letters with which theirs begin.
-PAGES = {"docs/chip.md": "P H D S V", "docs/chip_rsu.md": "R SP UA"}
+PAGES = {"docs/chip.md": "P H D S V U", "docs/chip_rsu.md": "R SP UA"}
 ROOTS = {"model": ["", "model/"], "rtl": ["", "rtl_ref/"]}
 
 

@@ -13,6 +13,7 @@ constexpr std::uint32_t kWriteStrobe = mask(Pin::kCsr) | mask(Pin::kWr) | mask(P
 constexpr std::uint32_t kReadStrobe = mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kA);
 constexpr std::uint32_t kUserPort = kUserHandshake | mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kWr);
 constexpr std::uint32_t kInterruptPins = kUserHandshake | mask(Pin::kIntr0);
+constexpr std::uint32_t kServicePins = kInterruptPins | mask(Pin::kPbrts);
 constexpr std::uint32_t kSpiClock = mask(Pin::kXss) | mask(Pin::kSck);
 constexpr std::uint32_t kSpiData = mask(Pin::kSck) | mask(Pin::kMosi);
 constexpr std::uint32_t kSpiReply = mask(Pin::kXss) | mask(Pin::kSck) | mask(Pin::kMiso);

@@ -19,6 +19,8 @@ constexpr Check kAllChecks[] = {
 #undef X
 };
 
+/// The first check of any host port; the checks before it are about the parallel one.
+constexpr Check kFirstCommonCheck = Check::kBlockServed;
 /// The first checks about SPI and UART, which only the DSDPV1-RSU has; SPI first.
 constexpr Check kFirstSpiCheck = Check::kSckHigh, kFirstUartCheck = Check::kRxdCharacterGap;
 

@@ -10,6 +10,10 @@ void Checks::pin(Tick at, Pin pin, Level level) {
   if (strap(pin, level)) return;
   if (pin == Pin::kReset)
     reset_pin(at, level != 0);
+  else if (pin == Pin::kIntr0)
+    intr0_pin(at, level != 0);
+  else if (pin == Pin::kPbrts)
+    station_.pbrts(at, level != 0);
   else if (!serial())
     parallel_pin(at, pin, level);
   else if (settings_.mode == kUart)
@@ -29,8 +33,16 @@ bool Checks::strap(Pin pin, Level level) {
 }
 
 bool Checks::applies(CheckId check) const {
-  if (check.index < CheckId(kFirstSpiCheck).index) return !serial();
+  if (check.index < CheckId(kFirstCommonCheck).index) return !serial();
+  if (check.index < CheckId(kFirstSpiCheck).index) return true;
   return settings_.mode == (check.index < CheckId(kFirstUartCheck).index ? kSpi : kUart);
+}
+
+void Checks::intr0_pin(Tick at, bool level) {
+  if (in_reset_) return;
+  if (!serial()) end_hold_before(at);
+  service_.intr0(at, level);
+  duties_.intr0(at, level);
 }
 
 void Checks::spi_pin(Tick at, Pin pin, Level level) {
@@ -44,8 +56,6 @@ void Checks::parallel_pin(Tick at, Pin pin, Level level) {
     case Pin::kRReq:
     case Pin::kRSta: return handshake(at, pin, level != 0);
     case Pin::kLSta: return ownership_.l_sta(at, level != 0);
-    case Pin::kIntr0: return service_.intr0(at, level != 0);
-    case Pin::kPbrts: return service_.pbrts(at, level != 0);
     case Pin::kCsr:
     case Pin::kRd:
     case Pin::kWr:
@@ -64,7 +74,9 @@ void Checks::reset_pin(Tick at, bool level) {
   ownership_.reset(at, in_reset_);
   port_.reset();
   cells_.reset();
+  station_.reset();
   service_.reset();
+  duties_.reset();
   spi_.reset();
   frames_.reset();
   uart_.reset(at, in_reset_);
@@ -74,7 +86,10 @@ void Checks::handshake(Tick at, Pin pin, bool level) {
   const std::optional<Tick> since = ownership_.held_off_since();
   pin == Pin::kRReq ? ownership_.r_req(at, level) : ownership_.r_sta(at, level);
   if (in_reset_) return;
-  if (pin == Pin::kRSta && level && !std::exchange(holding_, true)) cells_.hold_began();
+  if (pin == Pin::kRSta && level && !std::exchange(holding_, true)) {
+    cells_.hold_began();
+    duties_.hold_began(at);
+  }
   if (ownership_.held_off_since()) {
     hold_end_.reset();  // a release of zero length does not count
   } else {
@@ -86,6 +101,7 @@ void Checks::handshake(Tick at, Pin pin, bool level) {
 void Checks::end_hold_before(Tick at) {
   if (!hold_end_ || *hold_end_ >= at) return;
   cells_.hold_ended(*hold_end_);
+  duties_.hold_ended(*hold_end_, HoldOf::kDpram);
   hold_end_.reset();
   holding_ = false;
 }
@@ -102,19 +118,29 @@ void Checks::accessed(const Access& access) {
   if (in_reset_) return;
   cells_.accessed(access);
   service_.accessed(access);
+  duties_.accessed(access);
 }
 
 void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
   recorder_.now(now);
+  station_.telegram(telegram);
   if (settings_.mode == kSpi && !in_reset_) frames_.telegram(now, telegram);
-  if (serial()) return;
-  end_hold_before(now);
-  service_.telegram(now, telegram, ownership_.held_off_since());
+  if (settings_.mode == kUart) uart_.pass(now);
+  if (!serial()) {
+    end_hold_before(now);
+    service_.telegram(now, telegram, ownership_.held_off_since());
+  }
+  if (!in_reset_) duties_.telegram(now, telegram);
 }
 
 void Checks::finish(Tick end) {
   recorder_.now(end);
   if (in_reset_) return;
+  finish_port(end);
+  duties_.finish(end);
+}
+
+void Checks::finish_port(Tick end) {
   if (settings_.mode == kUart) return uart_.finish(end);
   if (settings_.mode == kSpi) {
     spi_.finish(end);

@@ -15,6 +15,7 @@
 
 #include "kinds/dsdpv1/checks/cell_rules.hpp"
 #include "kinds/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/own_station.hpp"
 #include "kinds/dsdpv1/checks/ownership.hpp"
 #include "kinds/dsdpv1/checks/port_timing.hpp"
 #include "kinds/dsdpv1/checks/serial_settings.hpp"
@@ -22,6 +23,7 @@
 #include "kinds/dsdpv1/checks/spi_frames.hpp"
 #include "kinds/dsdpv1/checks/spi_timing.hpp"
 #include "kinds/dsdpv1/checks/uart_frames.hpp"
+#include "kinds/dsdpv1/checks/user_duties.hpp"
 #include "kinds/dsdpv1/pins/pin_table.hpp"
 #include "tb/chip/checks/chip_checks.hpp"
 #include "tb/chip/checks/recorder.hpp"
@@ -50,10 +52,11 @@ class Checks : public ChipChecks, private AccessSink {
         ownership_(recorder_),
         port_(recorder_, *this),
         cells_(recorder_),
-        service_(recorder_),
+        service_(recorder_, station_),
+        duties_(recorder_, station_),
         spi_(recorder_, settings_),
-        frames_(recorder_, settings_),
-        uart_(recorder_, settings_) {}
+        frames_(recorder_, settings_, station_, duties_),
+        uart_(recorder_, settings_, duties_) {}
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
@@ -78,7 +81,9 @@ class Checks : public ChipChecks, private AccessSink {
   bool strap(dsdpv1::Pin pin, Level level);
   void parallel_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void spi_pin(Tick at, dsdpv1::Pin pin, Level level);
+  void intr0_pin(Tick at, bool level);
   void reset_pin(Tick at, bool level);
+  void finish_port(Tick end);
   void end_hold_before(Tick at);
   void handshake(Tick at, dsdpv1::Pin pin, bool level);
   void access_began(Tick at) override;
@@ -92,7 +97,9 @@ class Checks : public ChipChecks, private AccessSink {
   Ownership ownership_;
   PortTiming port_;
   CellRules cells_;
+  OwnStation station_;
   Service service_;
+  UserDuties duties_;
   SpiTiming spi_;
   SpiFrames frames_;
   UartFrames uart_;

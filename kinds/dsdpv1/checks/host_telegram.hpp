@@ -5,6 +5,7 @@
 namespace dsdpv1::checks {
 
 using HostTelegram = tb::HostRequest;
+using tb::HostReply;
 using SerialPort = tb::HostLink;
 using tb::TelegramKind;
 

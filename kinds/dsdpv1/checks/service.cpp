@@ -11,11 +11,9 @@ namespace dsdpv1::checks {
 
 void Service::reset() {
   intr0_fell_.reset();
-  address_.reset();
   due_exchange_.reset();
   last_exchange_.reset();
   longest_part_ = 0;
-  sending_ = false;
 }
 
 // --- INTR0 -----------------------------------------------------------------------------------------------------------
@@ -45,11 +43,6 @@ void Service::finish(Tick at, std::optional<Tick> held_off_since) {
 
 // --- the bus cycle ---------------------------------------------------------------------------------------------------
 
-void Service::pbrts(Tick at, bool level) {
-  sending_ = level;
-  (level ? pbrts_rose_ : pbrts_fell_) = at;
-}
-
 void Service::held_off(Tick since, Tick at) {
   pass(at, since);
   add_part(since, at);
@@ -68,23 +61,9 @@ void Service::pass(Tick at, std::optional<Tick> held_off_since) {
   due_exchange_.reset();
 }
 
-/// The station's address is learnt from its answers: while PBRTS is high only the chip drives the line.
-bool Service::is_own_answer(const bus::WireTelegram& telegram) const {
-  return telegram.tsdr && pbrts_rose_ <= telegram.start && (sending_ || pbrts_fell_ >= telegram.end) &&
-         pbrts_rose_ != 0;
-}
-
-bool Service::is_exchange(const bus::WireTelegram& telegram) const {
-  if (!telegram.right() || !address_) return false;
-  const bus::Telegram& request = telegram.decoded.telegram;
-  const bool srd = request.function() == bus::fc::kSrdLow || request.function() == bus::fc::kSrdHigh;
-  return request.is_request() && srd && request.da == *address_ && !request.dsap;
-}
-
 void Service::telegram(Tick now, const bus::WireTelegram& telegram, std::optional<Tick> held_off_since) {
   pass(now, held_off_since);
-  if (is_own_answer(telegram)) address_ = telegram.station;
-  if (is_exchange(telegram)) due_exchange_ = telegram.end + bus::baud(telegram.baud).bit;
+  if (station_.is_exchange(telegram)) due_exchange_ = telegram.end + bus::baud(telegram.baud).bit;
 }
 
 void Service::exchange(Tick at) {

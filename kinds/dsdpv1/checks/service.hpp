@@ -4,6 +4,7 @@
 
 #include "bus/monitor/monitor.hpp"
 #include "kinds/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/own_station.hpp"
 #include "kinds/dsdpv1/checks/port_timing.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
@@ -11,14 +12,13 @@ namespace dsdpv1::checks {
 
 class Service {
  public:
-  /// `interval`: the check that compares holds with the bus cycle.
-  explicit Service(Recorder& recorder, Check interval = Check::kHoldInterval)
-      : recorder_(recorder), interval_(interval) {}
+  /// `station` must outlive it. `interval`: the check that compares holds with the bus cycle.
+  Service(Recorder& recorder, const OwnStation& station, Check interval = Check::kHoldInterval)
+      : recorder_(recorder), station_(station), interval_(interval) {}
 
-  /// RESET is low. The station's address must be learnt again.
+  /// RESET is low.
   void reset();
   void intr0(Tick at, bool level);
-  void pbrts(Tick at, bool level);
   void accessed(const Access& access);
   /// The user held the chip off from `since` to `at`.
   void held_off(Tick since, Tick at);
@@ -28,18 +28,14 @@ class Service {
   void finish(Tick at, std::optional<Tick> held_off_since);
 
  private:
-  bool is_own_answer(const bus::WireTelegram& telegram) const;
-  bool is_exchange(const bus::WireTelegram& telegram) const;
   void pass(Tick at, std::optional<Tick> held_off_since);
   void add_part(Tick since, Tick at);
   void exchange(Tick at);
 
   Recorder& recorder_;
+  const OwnStation& station_;
   Check interval_;
   std::optional<Tick> intr0_fell_;  ///< and has not been served
-  std::optional<std::uint8_t> address_;
-  bool sending_ = false;
-  Tick pbrts_rose_ = 0, pbrts_fell_ = 0;
   // A Data_Exchange counts from its execution, a bit time after its end (docs/microarchitecture.md, section 7):
   // intervals run between these.
   std::optional<Tick> due_exchange_;   ///< has been received

@@ -15,16 +15,12 @@ constexpr std::size_t kReplyHeader = 2;
 
 void SpiFrames::reset() {
   service_.reset();
+  accesses_.reset();
   forget_frame();
   last_write_.reset();
   owned_since_.reset();
   exclusive_since_.reset();
   effect_ = Effect::kNone;
-}
-
-void SpiFrames::pin(Tick at, Pin pin, Level level) {
-  read(at, pin, level);
-  if (pin == Pin::kPbrts) service_.pbrts(at, level != 0);
 }
 
 // --- frames ----------------------------------------------------------------------------------------------------------
@@ -33,8 +29,8 @@ void SpiFrames::frame_began(Tick at) {
   judge_gap(at);
   heard_ = heard(at);
   request_.clear();
-  reply_bytes_ = 0;
-  for_card_ = complete_ = false;
+  reply_.clear();
+  for_card_ = complete_ = replied_ = false;
 }
 
 void SpiFrames::frame_ended(Tick at) {
@@ -81,17 +77,25 @@ void SpiFrames::request_complete(Tick at) {
 }
 
 void SpiFrames::reply_byte(Tick at, std::uint8_t byte) {
-  if (reply_bytes_ == 0) judge_reply(at, byte != kIdle);
-  if (reply_bytes_ == 0 && byte == kIdle) return;
-  if (++reply_bytes_ == 1) {
+  if (replied_) return;
+  if (reply_.empty()) judge_reply(at, byte != kIdle);
+  if (reply_.empty() && byte == kIdle) return;
+  reply_.add(byte);
+  if (reply_.bytes().size() == 1) {
     if (byte >> 5 == kErrorReply) effect_ = Effect::kNone;
     settle();
   }
-  // Ownership not released by the host has ended by U_Timer (SP17).
-  const bool read = request_.kind() == TelegramKind::kRead && request_.right() && request_.covers(kOwnershipCell);
-  if (read && owned_since_ && reply_bytes_ == kReplyHeader + kOwnershipCell - request_.address() + 1 &&
-      (byte & kOwner) == 0)
-    release(at);
+  replied_ = reply_.complete(request_);
+  if (!replied_) return;
+  accesses_.replied(request_, reply_, asked_, at);
+  if (found_released()) release(at);
+}
+
+/// Ownership not released by the host has ended by U_Timer (SP17).
+bool SpiFrames::found_released() const {
+  if (!owned_since_ || request_.kind() != TelegramKind::kRead || !request_.right() || !request_.covers(kOwnershipCell))
+    return false;
+  return (reply_.bytes()[kReplyHeader + kOwnershipCell - request_.address()] & kOwner) == 0;
 }
 
 /// Once per telegram, when its reply begins or must begin (SP6).
@@ -106,7 +110,10 @@ void SpiFrames::judge_reply(Tick at, bool begins) {
 /// The telegram was not refused: it takes effect from its last bit.
 void SpiFrames::settle() {
   const Effect effect = std::exchange(effect_, Effect::kNone);
-  if (effect == Effect::kClaim && !owned_since_) owned_since_ = asked_;
+  if (effect == Effect::kClaim && !owned_since_) {
+    owned_since_ = asked_;
+    accesses_.claimed(asked_);
+  }
   if (effect == Effect::kReadAndWrite) exclusive_since_ = asked_;
   if (effect == Effect::kRelease && owned_since_) release(asked_);
 }
@@ -115,6 +122,7 @@ void SpiFrames::settle() {
 
 void SpiFrames::release(Tick at) {
   const Tick since = *std::exchange(owned_since_, std::nullopt);
+  accesses_.released(at);
   recorder_.value(Check::kOwned, at, at - since, [since] { return "owned since " + ns_text(since); });
   owner_gone(since, at);
 }

@@ -5,6 +5,7 @@
 
 #include "kinds/dsdpv1/checks/check.hpp"
 #include "kinds/dsdpv1/checks/host_telegram.hpp"
+#include "kinds/dsdpv1/checks/serial_accesses.hpp"
 #include "kinds/dsdpv1/checks/serial_settings.hpp"
 #include "kinds/dsdpv1/checks/service.hpp"
 #include "kinds/dsdpv1/port/spi_frame_reader.hpp"
@@ -14,13 +15,16 @@ namespace dsdpv1::checks {
 
 class SpiFrames : private tb::SpiFrameReader {
  public:
-  /// `settings` must outlive it.
-  SpiFrames(Recorder& recorder, const SerialSettings& settings)
-      : recorder_(recorder), settings_(settings), service_(recorder, Check::kOwnerInterval) {}
+  /// `settings`, `station` and `duties` must outlive it.
+  SpiFrames(Recorder& recorder, const SerialSettings& settings, const OwnStation& station, UserDuties& duties)
+      : recorder_(recorder),
+        settings_(settings),
+        service_(recorder, station, Check::kOwnerInterval),
+        accesses_(duties) {}
 
   void reset();
-  /// A change of XSS, SCK, MOSI, MISO or PBRTS, not in reset.
-  void pin(Tick at, Pin pin, Level level);
+  /// A change of XSS, SCK, MOSI or MISO, not in reset.
+  void pin(Tick at, Pin pin, Level level) { read(at, pin, level); }
   /// A telegram of the bus.
   void telegram(Tick now, const bus::WireTelegram& telegram);
   void finish(Tick end);
@@ -38,6 +42,7 @@ class SpiFrames : private tb::SpiFrameReader {
   void request_complete(Tick at);
   void reply_byte(Tick at, std::uint8_t byte);
   void judge_reply(Tick at, bool begins);
+  bool found_released() const;
   void settle();
   void release(Tick at);
   void owner_gone(Tick since, Tick at);
@@ -47,11 +52,13 @@ class SpiFrames : private tb::SpiFrameReader {
   Recorder& recorder_;
   const SerialSettings& settings_;
   Service service_;
+  SerialAccesses accesses_;
   bool heard_ = false;  ///< the chip receives the frame
   HostTelegram request_{SerialPort::kSpi};
   bool for_card_ = false, complete_ = false;
   unsigned idle_bytes_ = 0;                            ///< bytes of FF after the request
-  std::size_t reply_bytes_ = 0;                        ///< counted from the first byte that is not FF
+  HostReply reply_;                                    ///< from the first byte that is not FF
+  bool replied_ = false;                               ///< it is complete
   Effect effect_ = Effect::kNone;                      ///< effect of this telegram, until its reply shows a refusal
   Tick asked_ = 0;                                     ///< last bit of the request
   std::optional<Tick> last_write_;                     ///< last bit of a write or read-and-write telegram

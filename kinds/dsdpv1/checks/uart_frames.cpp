@@ -12,6 +12,11 @@ constexpr Tick kSynchroniser = 2 * kTicksPerCycle;  // P9
 
 }  // namespace
 
+UartFrames::UartFrames(Recorder& recorder, const SerialSettings& settings, UserDuties& duties)
+    : recorder_(recorder), settings_(settings), accesses_(duties) {
+  from_chip_.on_character = [this](const bus::ReceivedCharacter& each) { replied(each); };
+}
+
 /// Shows the margin in bit times beside that in ns.
 void UartFrames::value(Check check, Tick at, Tick measured, const std::string& what) {
   recorder_.value(
@@ -28,16 +33,16 @@ void UartFrames::reset(Tick at, bool in_reset) {
   interval_cell_ = tsdr_cell_ = 0;
   stop_bit_.reset();
   free_.reset();
+  from_chip_.reset(true);
   if (!in_reset) sampler_.restart(rxd_, 0, bit());
 }
 
 void UartFrames::pin(Tick at, Pin pin, Level level) {
   if (pin != Pin::kRxd && pin != Pin::kTxd) return;
   advance(at);
-  if (pin == Pin::kRxd)
-    note_rxd(at, level != 0);
-  else if (level == 0)
-    txd_fell(at);
+  if (pin == Pin::kRxd) return note_rxd(at, level != 0);
+  from_chip_.line_changed(at, level != 0);
+  if (level == 0) txd_fell(at);
 }
 
 /// A pulse between two edges of CLK is not a change (P9).
@@ -50,6 +55,7 @@ void UartFrames::note_rxd(Tick at, bool level) {
 }
 
 void UartFrames::advance(Tick at) {
+  from_chip_.run(at);
   if (unseen_ && edge_seeing(unseen_->at) * kTicksPerCycle <= at) {
     const Edge edge = *std::exchange(unseen_, std::nullopt);
     rxd(edge.at, edge.level);
@@ -141,6 +147,8 @@ void UartFrames::request_complete(const RxdCharacter& last) {
   if (!settings_.is_own(request_.card())) return;
   state_ = State::kReply;
   asked_ = last.fell + kBitsPerCharacter * bit_ticks();
+  from_chip_.set_bit(bit_ticks());
+  reply_.clear();
   tsdr_ = std::max<Tick>(settings_.uart_min_tsdr, tsdr_cell_);
   reply_end_.reset();
   talked_.reset();
@@ -161,6 +169,13 @@ void UartFrames::txd_fell(Tick at) {
     value(Check::kTxdReplyTime, at, at - asked_, "after the request");
   }
   if (!reply_end_ || at > *reply_end_ - bit_ticks() / 2) reply_end_ = at + kBitsPerCharacter * bit_ticks();
+}
+
+/// The last character's stop bit is sampled before the reply's end, so `request_` is still the one replied to.
+void UartFrames::replied(const bus::ReceivedCharacter& character) {
+  if (state_ != State::kReply || !request_.complete()) return;
+  reply_.add(character.byte);
+  if (reply_.complete(request_)) accesses_.replied(request_, reply_, asked_, character.end);
 }
 
 /// The chip receives a start bit that it sees after its last stop bit: one that comes after its synchroniser's delay.

@@ -4,9 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "bus/wire/uart.hpp"
 #include "kinds/dsdpv1/checks/check.hpp"
 #include "kinds/dsdpv1/checks/host_telegram.hpp"
 #include "kinds/dsdpv1/checks/rxd_sampler.hpp"
+#include "kinds/dsdpv1/checks/serial_accesses.hpp"
 #include "kinds/dsdpv1/checks/serial_settings.hpp"
 #include "model/dsdpv1/pins.hpp"
 #include "tb/chip/checks/recorder.hpp"
@@ -16,12 +18,14 @@ namespace dsdpv1::checks {
 /// RXD and TXD may change at the same tick in any order.
 class UartFrames {
  public:
-  /// `settings` must outlive it.
-  UartFrames(Recorder& recorder, const SerialSettings& settings) : recorder_(recorder), settings_(settings) {}
+  /// `settings` and `duties` must outlive it.
+  UartFrames(Recorder& recorder, const SerialSettings& settings, UserDuties& duties);
 
   void reset(Tick at, bool in_reset);
   /// A change of a pin, in reset too.
   void pin(Tick at, Pin pin, Level level);
+  /// Time advances to `at` without a change.
+  void pass(Tick at) { advance(at); }
   void finish(Tick end);
   /// A bit in ticks, by UBR.
   Tick bit_ticks() const { return bit() * kTicksPerCycle; }
@@ -64,12 +68,14 @@ class UartFrames {
   /// First tick at which a start bit is too late for the telegram, if silence counts from edge `idle_since`.
   Tick silence_after(Tick idle_since) const { return (idle_since + gap_ + 1) * kTicksPerCycle; }
   void end_reply(Tick reply_end);
+  void replied(const bus::ReceivedCharacter& character);
 
   void judge_stop(Tick next_edge);
   void value(Check check, Tick at, Tick measured, const std::string& what);
 
   Recorder& recorder_;
   const SerialSettings& settings_;
+  SerialAccesses accesses_;
   State state_ = State::kOff;
   bool rxd_ = true;             ///< as seen by CLK
   std::optional<Edge> unseen_;  ///< since the last edge of CLK
@@ -81,6 +87,8 @@ class UartFrames {
   Tick gap_ = 0;                                    ///< the interval in cycles
   std::uint8_t interval_cell_ = 0, tsdr_cell_ = 0;  ///< B019, B01A
   // kReply
+  bus::UartReceiver from_chip_;
+  HostReply reply_;
   Tick asked_ = 0;                 ///< end of the request's last stop bit
   Tick tsdr_ = 0;                  ///< bit times
   std::optional<Tick> reply_end_;  ///< of the characters that have begun

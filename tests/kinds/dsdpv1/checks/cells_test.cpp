@@ -67,6 +67,29 @@ void fetch_parameters(Board& board, unsigned others = 0) {
   board.write(0x00E, others);
 }
 
+/// Outputs of 70 bytes, of which `count` are read.
+void long_outputs(Board& board, unsigned count) {
+  board.read(0x00E, 0x01);
+  board.read(0x319, 70);
+  for (unsigned i = 0; i < count; ++i) board.read(0x31A + i, i);
+  board.read(0x40E, 0x12);
+  board.read(0x40F, 0x34);
+  board.write(0x00E, 0x00);
+}
+
+/// A C1 request with length 1, of whose data `count` bytes are read.
+void request(Board& board, unsigned function, unsigned count) {
+  board.read(0x00F, 0x01);
+  board.read(0x5D0, function);
+  board.read(0x5D1, 0x01);
+  board.read(0x5D2, 0x02);
+  board.read(0x5D3, 0x01);
+  for (unsigned i = 0; i < count; ++i) board.read(0x5D4 + i, 0x77);
+  board.read(0x6C4, 0x12);
+  board.read(0x6C5, 0x34);
+  board.write(0x00F, 0x00);
+}
+
 const Case kCases[] = {
     {"CountByChip", Check::kCountByChip, [](Board&) {},
      [](Board& board) {
@@ -168,7 +191,7 @@ const Case kCases[] = {
      [](Board& board) {
        board.read(0x00F, 0x02);
        board.write(0x00F, 0x00);
-       board.write(0x00F, 0x01);
+       board.write(0x00F, 0x03);
      }},
     {"FlagByChipSetsTheUsers", Check::kFlagByChip, [](Board& board) { board.read(0x010, 0x00); },
      [](Board& board) { board.read(0x010, 0x01); }},
@@ -264,6 +287,55 @@ const Case kCases[] = {
        next_hold(board);
        board.read(0x00E, 0x02);
        board.write(0x010, 0x80);
+     }},
+    {"BlockWholeOutputs", Check::kBlockWhole,
+     [](Board& board) {
+       board.read(0x00E, 0x01);
+       outputs(board, true);
+       board.write(0x00E, 0x00);
+     },
+     [](Board& board) {
+       board.read(0x00E, 0x01);
+       board.write(0x00E, 0x00);
+     }},
+    {"BlockWholeInOneHold", Check::kBlockWhole,
+     [](Board& board) {
+       board.read(0x00E, 0x01);
+       next_hold(board);
+       outputs(board, true);
+       board.write(0x00E, 0x00);
+     },
+     [](Board& board) {
+       board.read(0x00E, 0x01);
+       outputs(board, true);
+       next_hold(board);
+       board.write(0x00E, 0x00);
+     }},
+    {"BlockWholeEachByteThatTheLengthCounts", Check::kBlockWhole, [](Board& board) { long_outputs(board, 70); },
+     [](Board& board) { long_outputs(board, 69); }},
+    {"BlockWholeRequestToWrite", Check::kBlockWhole, [](Board& board) { request(board, 0x5F, 1); },
+     [](Board& board) { request(board, 0x5F, 0); }},
+    {"BlockWholeRequestToReadHasNoBytes", Check::kBlockWhole,  // D3
+     [](Board& board) { request(board, 0x5E, 0); },
+     [](Board& board) {
+       board.read(0x00F, 0x02);
+       board.write(0x00F, 0x00);
+     }},
+    {"BlockWholeSetAsideByAnInitialisation", Check::kBlockWhole,  // D11
+     [](Board& board) {
+       board.read(0x00E, 0x01);
+       board.write(0x0F7, 0x40);
+       board.write(0x0F8, 0xBF);
+       board.write(0x00E, 0x00);
+       board.write(0x010, 0x04);
+     },
+     [](Board& board) {
+       board.read(0x00E, 0x01);
+       board.write(0x00E, 0x00);
+       next_hold(board);
+       board.write(0x0F7, 0x40);
+       board.write(0x0F8, 0xBF);
+       board.write(0x010, 0x04);
      }},
     {"CellOfChip", Check::kCellOfChip, [](Board& board) { board.write(0x014, 0x01); },
      [](Board& board) { board.write(0x012, 0x01); }},

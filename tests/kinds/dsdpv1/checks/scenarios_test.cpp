@@ -106,7 +106,27 @@ const Case kCases[] = {
     {"FlagByUser", {"FLAG_BY_USER"}, RUDE("flag_by_user"), kNone, kNone, {}},
     {"CrcFetched", {"CRC_FETCHED"}, RUDE("crc_fetched"), kNone, kNone, {}},
     {"VerdictUnfetched", {"VERDICT_UNFETCHED"}, RUDE("verdict_unfetched"), kNone, kNone, {}},
+    {"BlockWhole", {"BLOCK_WHOLE"}, RUDE("block_whole"), kNone, kNone, {}},
 #endif
+    {"BlockServed",
+     {"BLOCK_SERVED"},
+     "judge_in_handler: false",
+     "{at: 1100us, do: pause_user, slave: demo, for: 3ms}",
+     "BLOCK_SERVED: {max: 1ms}",
+     {}},
+    {"VerdictGiven", {"VERDICT_GIVEN"}, "judge_prm: never", kNone, "VERDICT_GIVEN: {max: 1ms}", {}},
+    {"OutputsFetched",
+     {"OUTPUTS_FETCHED"},
+     kNone,
+     "{at: 10ms, do: pause_user, slave: demo, for: 3ms}",
+     "OUTPUTS_FETCHED: {max: 2ms}",
+     {}},
+    {"InputsRenewed",
+     {"INPUTS_RENEWED"},
+     kNone,
+     "{at: 10ms, do: pause_user, slave: demo, for: 3ms}",
+     "INPUTS_RENEWED: {max: 2ms}",
+     {}},
     {"CrcWritten", {"CRC_WRITTEN"}, kNone, "{at: 10ms, do: wrong_crc, slave: demo, area: inputs}", kNone, {}},
 };
 
@@ -250,7 +270,7 @@ TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
     EXPECT_GT(violations(result, check), 0U) << event;
     EXPECT_EQ(violations(result, check), events(result, event)) << event;
   }
-  EXPECT_EQ(result.checks.size(), 13U) << "those of SPI, no other";
+  EXPECT_EQ(result.checks.size(), 18U) << "those of SPI and of any port, no other";
 }
 
 tb::RunResult run_uart(const std::string& uart, const std::string& script) {
@@ -269,6 +289,30 @@ const tb::CheckResult& found(const tb::RunResult& result, checks::Check check) {
       result.checks.begin(), result.checks.end(),
       [check](const tb::CheckResult& each) { return std::string(each.rule->id) == checks::rule(check).id; });
 }
+
+/// The telegrams are read as accesses to cells.
+void expect_duties(const tb::RunResult& quiet, const tb::RunResult& paused) {
+  for (const auto check : {checks::Check::kBlockServed, checks::Check::kOutputsFetched, checks::Check::kInputsRenewed})
+    EXPECT_GE(found(quiet, check).record.count, 2U) << checks::rule(check).id;
+  for (const auto check : {checks::Check::kOutputsFetched, checks::Check::kInputsRenewed}) {
+    EXPECT_EQ(found(quiet, check).record.violations, 0U) << checks::rule(check).id;
+    EXPECT_EQ(found(paused, check).record.violations, 1U) << checks::rule(check).id;
+  }
+}
+
+const char* const kPause =
+    "script: [{at: 10ms, do: pause_user, slave: demo, for: 5ms}]\n"
+    "checks: {OUTPUTS_FETCHED: {max: 4ms}, INPUTS_RENEWED: {max: 4ms}}\n";
+
+TEST(SerialDuties, OverSpi) {
+  const std::string plc =
+      "masters: [{name: plc, address: 2, start: 1ms, slaves: [{slave: demo, outputs: \"01 02\"}]}]\n";
+  const tb::RunResult quiet = run_spi("20ms", "clock: 9000", plc.c_str());
+  expect_duties(quiet, run_spi("20ms", "clock: 9000", (plc + kPause).c_str()));
+  EXPECT_GE(found(quiet, checks::Check::kBlockWhole).record.count, 2U);
+}
+
+TEST(SerialDuties, OverTheUart) { expect_duties(run_uart("", ""), run_uart("", kPause)); }
 
 /// A mistake of the host's, found at the pins and by the chip.
 struct UartCase {
@@ -330,7 +374,7 @@ TEST(ChecksAndCore, FindTheSameOverTheUartWhoseRateIsWrong) {
     EXPECT_EQ(violations(result, checks::Check::kRxdParity), events(result, "UART_PARITY")) << uart;
     EXPECT_EQ(violations(result, checks::Check::kRxdCharacterGap), events(result, "TELEGRAM_CUT")) << uart;
     EXPECT_FALSE(broken(result).empty()) << uart;
-    EXPECT_EQ(result.checks.size(), 8U) << "those of the UART, no other";
+    EXPECT_EQ(result.checks.size(), 13U) << "those of the UART and of any port, no other";
   }
 }
 

@@ -63,8 +63,10 @@ static bool fetch_parameters(void) {
   }
 #else
   if (there) {
+#ifndef RUDE_BLOCK_WHOLE
     const uint8_t length = port_dpram_read(DSDPV1_REG_PRM_LENGTH);
     for (uint16_t i = 0; i < length; ++i) (void)port_dpram_read((uint16_t)(DSDPV1_REG_PRM_LENGTH + 1u + i));
+#endif
 #ifndef RUDE_CRC_FETCHED
     (void)port_dpram_read(DSDPV1_REG_PRM_CRC);
     (void)port_dpram_read(DSDPV1_REG_PRM_CRC + 1u);

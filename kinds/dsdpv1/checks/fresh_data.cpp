@@ -1,0 +1,168 @@
+#include "kinds/dsdpv1/checks/fresh_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bus/baud.hpp"
+
+namespace dsdpv1::checks {
+namespace {
+
+constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40, kWatchdogOn = 0x08, kBase1Ms = 0x04;  // tables 19 to 21
+constexpr std::size_t kStatus = 0, kFactor1 = 1, kFactor2 = 2, kDpv1Status = 7;            ///< bytes of Set_Prm
+constexpr std::size_t kShortestPrm = 7;
+
+/// S1.
+Tick watchdog_of(const bus::Bytes& prm) {
+  if ((prm[kStatus] & kWatchdogOn) == 0) return 0;
+  const bool base_1ms = prm.size() > kDpv1Status && (prm[kDpv1Status] & kBase1Ms) != 0;
+  return Tick{prm[kFactor1]} * prm[kFactor2] * (base_1ms ? 1 : 10) * bus::kTicksPerMs;
+}
+
+/// A Set_Prm that is to parameterise (table 20).
+bool parameterises(const bus::Bytes& prm) {
+  return prm.size() >= kShortestPrm && (prm[kStatus] & (kLock | kUnlock)) == kLock;
+}
+
+bool has_usual_limit(const Recorder& recorder, Check check) { return recorder.limit(check).value == rule(check).limit; }
+
+}  // namespace
+
+FreshData::FreshData(Recorder& recorder, const OwnStation& station)
+    : recorder_(recorder),
+      station_(station),
+      outputs_follow_(has_usual_limit(recorder, Check::kOutputsFetched)),
+      inputs_follow_(has_usual_limit(recorder, Check::kInputsRenewed)) {}
+
+void FreshData::reset() {
+  last_.reset();
+  open_ = false;
+  leave();
+  limit(0);
+}
+
+// --- telegrams -------------------------------------------------------------------------------------------------------
+
+bool FreshData::Request::repeats(const Request& earlier) const {
+  return (fc & bus::fc::kFcv) != 0 && sa == earlier.sa && fc == earlier.fc && check == earlier.check &&
+         size == earlier.size;
+}
+
+FreshData::Request FreshData::request_of(const bus::WireTelegram& telegram, bool is_exchange) {
+  const bus::Telegram& asked = telegram.decoded.telegram;
+  const bus::Bytes& bytes = telegram.decoded.bytes;
+  Request request;
+  request.sa = asked.sa;
+  request.fc = asked.fc;
+  request.size = bytes.size();
+  request.check = bytes.size() < 2 ? std::uint8_t{0} : bytes[bytes.size() - 2];
+  request.executed = telegram.end + bus::baud(telegram.baud).bit;
+  request.outputs = !asked.data.empty();
+  if (is_exchange) {
+    request.service = Service::kExchange;
+  } else if (asked.dsap == bus::sap::kSetPrm && parameterises(asked.data)) {
+    request.service = Service::kSetPrm;
+    request.watchdog = watchdog_of(asked.data);
+  }
+  return request;
+}
+
+void FreshData::telegram(const bus::WireTelegram& telegram) {
+  if (station_.is_asked(telegram)) {
+    const Request request = request_of(telegram, station_.is_exchange(telegram));
+    open_ = !(last_ && request.repeats(*last_));
+    if (open_) last_ = request;
+  } else if (open_ && station_.answers(telegram)) {
+    open_ = false;
+    answered(telegram.decoded.telegram);
+  }
+}
+
+/// Refusals are SD1 with another function code (S20); an answer without inputs is SC or SD1 (S19).
+void FreshData::answered(const bus::Telegram& answer) {
+  const bool sc = answer.kind == bus::TelegramKind::kSc;
+  if (last_->service == Service::kSetPrm && sc) {
+    leave();
+    limit(last_->watchdog);
+  }
+  if (last_->service != Service::kExchange) return;
+  const bool data = answer.function() == bus::fc::kDl || answer.function() == bus::fc::kDh;
+  if (sc || data) exchanged(*last_, !sc && !answer.data.empty());
+}
+
+// --- data exchange ---------------------------------------------------------------------------------------------------
+
+/// The limit of both: the time for which the master may be silent (U4).
+void FreshData::limit(Tick watchdog) {
+  const Tick usual = watchdog != 0 ? watchdog : rule(Check::kOutputsFetched).limit;
+  if (outputs_follow_) const_cast<Limit&>(recorder_.limit(Check::kOutputsFetched)).value = usual;
+  if (inputs_follow_) const_cast<Limit&>(recorder_.limit(Check::kInputsRenewed)).value = usual;
+}
+
+void FreshData::leave() {
+  exchange_.reset();
+  interval_.reset();
+  outputs_.ends();
+  inputs_.ends();
+  overwritten_ = 0;
+}
+
+/// After a long silence data exchange has begun again.
+void FreshData::exchanged(const Request& request, bool inputs) {
+  const Tick at = request.executed;
+  if (exchange_ && at - *exchange_ > recorder_.limit(Check::kOutputsFetched).value) leave();
+  if (exchange_) interval_ = at - *exchange_;
+  exchange_ = at;
+  if (request.outputs) {
+    overwritten_ += outputs_.since() ? 1 : 0;
+    outputs_.begins(at);
+  }
+  if (inputs) inputs_.begins(at);
+  pass(at);
+}
+
+/// `at`, or the end of data exchange if that was sooner: one may be lost on the line. Absent if only one Data_Exchange was heard.
+std::optional<Tick> FreshData::exchanging_at(Tick at) const {
+  return interval_ ? std::optional(std::min(at, *exchange_ + 2 * *interval_)) : std::nullopt;
+}
+
+void FreshData::pass(Tick now) {
+  const std::optional<Tick> at = exchanging_at(now);
+  if (!at) return;
+  outputs_.pass(
+      recorder_, Check::kOutputsFetched, *at,
+      [this] { return fmt::format("B00E.0, outputs: not cleared, {} newer ones have come", overwritten_); });
+  inputs_.pass(recorder_, Check::kInputsRenewed, *at, [] { return std::string("B010.0 was not set"); });
+}
+
+/// Without data exchange the duty is void.
+void FreshData::met(Duty& duty, Check check, Tick at, const char* what) {
+  const std::optional<Tick> until = exchanging_at(at);
+  if (!until || !duty.since() || *until < *duty.since()) return duty.ends();
+  duty.met(recorder_, check, *until, [what] { return std::string(what); });
+}
+
+void FreshData::hold(const UserHold& hold) {
+  outputs_in(hold);
+  if (!hold.user_1.written || (hold.user_1.after & regs::kUserCommand1Input) == 0) return;
+  met(inputs_, Check::kInputsRenewed, hold.ended, "B010.0 set again");
+  if (exchange_) inputs_.begins(hold.ended);
+}
+
+/// A look that finds B00E.0 clear shows that nothing has come for the user, as in Sync mode (S4).
+void FreshData::outputs_in(const UserHold& hold) {
+  const FlagsInHold& flags = hold.chip_1;
+  const bool cleared = ((flags.cleared() | flags.taken) & regs::kChipCommand1Output) != 0;
+  const bool found_clear = (flags.read || flags.written) && (flags.after & regs::kChipCommand1Output) == 0 &&
+                           outputs_.since() && hold.began > *outputs_.since();
+  if (cleared)
+    met(outputs_, Check::kOutputsFetched, hold.ended, "B00E.0 cleared");
+  else if (found_clear)
+    outputs_.ends();
+  if (cleared || found_clear) overwritten_ = 0;
+}
+
+void FreshData::finish(Tick end) { pass(end); }
+
+}  // namespace dsdpv1::checks

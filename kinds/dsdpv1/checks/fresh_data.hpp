@@ -1,0 +1,62 @@
+#pragma once
+// In data exchange the user fetches outputs and renews inputs in time (U4, U5).
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "bus/monitor/monitor.hpp"
+#include "kinds/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/duty.hpp"
+#include "kinds/dsdpv1/checks/own_station.hpp"
+#include "kinds/dsdpv1/checks/user_hold.hpp"
+#include "tb/chip/checks/recorder.hpp"
+
+namespace dsdpv1::checks {
+
+class FreshData {
+ public:
+  /// `station` must outlive it.
+  FreshData(Recorder& recorder, const OwnStation& station);
+
+  /// RESET is low: no data are exchanged.
+  void reset();
+  void hold(const UserHold& hold);
+  /// A telegram on the line.
+  void telegram(const bus::WireTelegram& telegram);
+  void finish(Tick end);
+
+ private:
+  enum class Service : std::uint8_t { kOther, kExchange, kSetPrm };
+  /// A request to the station; the same again is a repetition, which is not executed (S26).
+  struct Request {
+    Service service = Service::kOther;
+    std::uint8_t sa = 0, fc = 0, check = 0;
+    std::size_t size = 0;
+    Tick executed = 0;
+    bool outputs = false;
+    Tick watchdog = 0;  ///< Set_Prm; 0: off
+
+    bool repeats(const Request& earlier) const;
+  };
+
+  static Request request_of(const bus::WireTelegram& telegram, bool is_exchange);
+  void answered(const bus::Telegram& answer);
+  void exchanged(const Request& request, bool inputs);
+  void leave();
+  void limit(Tick watchdog);
+  void pass(Tick now);
+  std::optional<Tick> exchanging_at(Tick at) const;
+  void met(Duty& duty, Check check, Tick at, const char* what);
+  void outputs_in(const UserHold& hold);
+
+  Recorder& recorder_;
+  const OwnStation& station_;
+  const bool outputs_follow_, inputs_follow_;  ///< the limit is the watchdog's, unless the scenario has one
+  std::optional<Request> last_;                ///< of the station
+  bool open_ = false;                          ///< and it has not been answered yet
+  std::optional<Tick> exchange_, interval_;    ///< the last executed Data_Exchange, time between the last two
+  Duty outputs_, inputs_;
+  unsigned overwritten_ = 0;  ///< outputs that came while earlier ones waited
+};
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,28 @@
+#include "kinds/dsdpv1/checks/user_duties.hpp"
+
+namespace dsdpv1::checks {
+
+void UserDuties::reset() {
+  holds_.reset();
+  served_.reset();
+  fresh_.reset();
+}
+
+void UserDuties::hold_ended(Tick at, HoldOf what) {
+  const UserHold& hold = holds_.ended(at, what);
+  served_.hold(hold, holds_);
+  fresh_.hold(hold);
+  holds_.forget_reads();
+}
+
+void UserDuties::telegram(Tick now, const bus::WireTelegram& telegram) {
+  served_.pass(now);
+  fresh_.telegram(telegram);
+}
+
+void UserDuties::finish(Tick end) {
+  served_.pass(end);
+  fresh_.finish(end);
+}
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,40 @@
+#pragma once
+// What the user owes to chip and master, over any host port: its holds, summed up, and the rules about them.
+#include "bus/monitor/monitor.hpp"
+#include "kinds/dsdpv1/checks/fresh_data.hpp"
+#include "kinds/dsdpv1/checks/own_station.hpp"
+#include "kinds/dsdpv1/checks/served_blocks.hpp"
+#include "kinds/dsdpv1/checks/user_hold.hpp"
+#include "tb/chip/checks/recorder.hpp"
+
+namespace dsdpv1::checks {
+
+class UserDuties {
+ public:
+  /// `station` must outlive it.
+  UserDuties(Recorder& recorder, const OwnStation& station) : served_(recorder), fresh_(recorder, station) {}
+
+  /// RESET is low.
+  void reset();
+  void intr0(Tick at, bool level) {
+    if (!level) served_.intr0_fell(at);
+  }
+  /// A telegram on the line, at `now`.
+  void telegram(Tick now, const bus::WireTelegram& telegram);
+  void finish(Tick end);
+
+  // A hold of the parallel port, by B014, or of one telegram.
+  void hold_began(Tick at) { holds_.began(at); }
+  void accessed(const Access& access) { holds_.accessed(access); }
+  /// The chip clears or sets a flag as part of the user's telegram.
+  void taken(Address command, std::uint8_t flag) { holds_.taken(command, flag); }
+  void announced(Address command, std::uint8_t flag) { holds_.announced(command, flag); }
+  void hold_ended(Tick at, HoldOf what);
+
+ private:
+  UserHolds holds_;
+  ServedBlocks served_;
+  FreshData fresh_;
+};
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,74 @@
+#pragma once
+// The user's accesses to the DPRAM between taking and releasing it, summed up: flags seen, cleared and set, blocks
+// read. Over the UART, which has no ownership, each telegram is a hold.
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <optional>
+
+#include "kinds/dsdpv1/checks/blocks.hpp"
+#include "kinds/dsdpv1/checks/port_timing.hpp"
+
+namespace dsdpv1::checks {
+
+/// A byte of flags in a hold.
+struct FlagsInHold {
+  std::optional<std::uint8_t> read;  ///< as the user first read it
+  std::uint8_t before = 0;           ///< B00E, B00F: flags certainly set before; the user alone clears them
+  std::uint8_t after = 0;            ///< as last read or written
+  std::uint8_t taken = 0;            ///< cleared by the chip for the user, set or not (SP16, UA11)
+  bool written = false;
+
+  /// B00E, B00F: flags that the user cleared.
+  std::uint8_t cleared() const { return static_cast<std::uint8_t>(before & ~after); }
+  /// B010, B011: flags that the user set, certainly.
+  std::uint8_t set() const { return written ? static_cast<std::uint8_t>(after & ~read.value_or(0)) : std::uint8_t{0}; }
+};
+
+/// Telegrams without ownership (SP14, UA6) may fetch a block before or after they clear its flag.
+enum class HoldOf : std::uint8_t { kDpram, kTelegram };
+
+struct UserHold {
+  HoldOf what = HoldOf::kDpram;
+  Tick began = 0, ended = 0;
+  FlagsInHold chip_1, chip_2, user_1, user_2;  ///< B00E, B00F, B010, B011
+  std::optional<bool> initialised;             ///< B00A.0 as read
+
+  bool initialises() const { return user_1.written && (user_1.after & regs::kUserCommand1Init) != 0; }
+  const FlagsInHold& chip(const Block& block) const { return block.command == regs::kChipCommand1 ? chip_1 : chip_2; }
+};
+
+class UserHolds {
+ public:
+  /// RESET is low: all cells are 0 (H6).
+  void reset() { *this = UserHolds(); }
+  void began(Tick at);
+  void accessed(const Access& access);
+  /// The chip clears or sets a flag as part of the user's telegram.
+  void taken(Address command, std::uint8_t flag);
+  void announced(Address command, std::uint8_t flag);
+  const UserHold& ended(Tick at, HoldOf what);
+
+  /// Whether the user has read length and bytes of a block since `forget_reads`; absent if a value was uncertain.
+  std::optional<bool> read_all(const Block& block) const;
+  void forget_reads();
+  /// B02B, B02D as last written: the judging modes (D8).
+  std::uint8_t prm_mode() const { return prm_mode_; }
+  std::uint8_t cfg_mode() const { return cfg_mode_; }
+
+ private:
+  static constexpr Address kFirst = regs::kOutput;  ///< the chip's blocks are behind it
+
+  FlagsInHold* flags(Address address);
+  void read(const Access& access);
+  void wrote(const Access& access);
+  bool has_read(unsigned first, unsigned count) const;
+
+  UserHold hold_;
+  std::array<std::uint8_t, regs::kDpramSize> values_{};  ///< read ones
+  std::array<std::uint64_t, regs::kDpramSize / 64> read_{};
+  bool any_read_ = false, uncertain_ = false;
+  std::uint8_t prm_mode_ = 0, cfg_mode_ = 0;
+};
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,342 @@
+// What the user owes: blocks served, verdicts given, outputs fetched and inputs renewed in time, by accesses at the
+// pins, INTR0 and telegrams, to the tick.
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "tests/kinds/dsdpv1/checks/board.hpp"
+#include "tests/kinds/dsdpv1/checks/telegrams.hpp"
+
+namespace dsdpv1 {
+namespace {
+
+using bus::Tick;
+using checks::Check;
+using checks_test::Board;
+using checks_test::Exchanges;
+
+constexpr std::uint8_t kStation = 5;
+constexpr Tick kLimit = 100 * bus::kTicksPerMs;
+
+std::uint64_t violations(Board& board, Check check) { return board.checks().record(check).violations; }
+
+/// A hold with the test's accesses; returns its end.
+template <class Act>
+Tick hold(Board& board, const Act& act) {
+  board.ask();
+  board.count();
+  act();
+  board.release();
+  return board.now() - 5000;  // as Board::release waits
+}
+
+Tick look(Board& board, unsigned flags) {
+  return hold(
+      board, [&board, flags] { board.read(0x00E, flags); });
+}
+
+/// Parameters without user bytes.
+Tick fetch_parameters(Board& board) {
+  return hold(
+      board,
+      [&board] {
+        board.read(0x00E, 0x02);
+        board.read(0x410, 0x00);
+        board.read(0x4FE, 0x40);
+        board.read(0x4FF, 0xBF);
+        board.write(0x00E, 0x00);
+      });
+}
+
+Tick fetch_outputs(Board& board) {
+  return hold(
+      board,
+      [&board] {
+        board.read(0x00E, 0x01);
+        board.read(0x319, 0x01);
+        board.read(0x31A, 0x11);
+        board.read(0x40E, 0x12);
+        board.read(0x40F, 0x34);
+        board.write(0x00E, 0x00);
+      });
+}
+
+/// An empty block with its CRC.
+Tick hand_over_inputs(Board& board) {
+  return hold(
+      board,
+      [&board] {
+        board.write(0x130, 0x00);
+        board.write(0x225, 0x40);
+        board.write(0x226, 0xBF);
+        board.read(0x010, 0x00);
+        board.write(0x010, 0x01);
+      });
+}
+
+/// Of the length byte alone, which the chip would refuse (D12): only the modes matter.
+void initialise(Board& board, unsigned prm_mode, unsigned accepted) {
+  hold(board, [&board, prm_mode] {
+    board.write(0x02B, prm_mode);
+    board.write(0x0F7, 0x40);
+    board.write(0x0F8, 0xBF);
+    board.write(0x00A, 0x00);
+    board.read(0x010, 0x00);
+    board.write(0x010, 0x04);
+  });
+  hold(board, [&board, accepted] {
+    board.read(0x010, 0x00);
+    board.read(0x00A, accepted);
+  });
+}
+
+Tick news(Board& board) {
+  const Tick fell = board.now();
+  board.set(Pin::kIntr0, 0);
+  board.wait(16'000);
+  board.set(Pin::kIntr0, 1);
+  board.wait(16'000);
+  return fell;
+}
+
+/// Ends the run so long after `since`.
+void finish(Board& board, Tick since, Tick after) { board.checks().finish(since + after); }
+
+// --- BLOCK_SERVED ----------------------------------------------------------------------------------------------------
+
+TEST(BlockServed, CountsFromIntr0ToTheEndOfTheHoldThatClearsTheFlag) {
+  Board board;
+  const Tick fell = news(board);
+  const Tick served = fetch_parameters(board);
+  board.wait(2 * kLimit);
+  look(board, 0x00);
+  EXPECT_EQ(board.checks().record(Check::kBlockServed).worst_value, served - fell);
+  EXPECT_EQ(board.checks().record(Check::kBlockServed).at, fell);
+  EXPECT_EQ(violations(board, Check::kBlockServed), 0U);
+}
+
+TEST(BlockServed, IsViolatedOnceOnlyWhenTheRunLastsLongerThanTheLimit) {
+  for (const Tick beyond : {Tick{0}, Tick{1}}) {
+    Board board;
+    finish(board, news(board), kLimit + beyond);
+    EXPECT_EQ(violations(board, Check::kBlockServed), beyond == 0 ? 0U : 1U);
+  }
+  Board board;
+  const Tick fell = news(board);
+  board.wait(2 * kLimit);
+  look(board, 0x02);
+  look(board, 0x02);
+  fetch_parameters(board);
+  look(board, 0x00);
+  EXPECT_EQ(violations(board, Check::kBlockServed), 2U) << "not looked, and the flag late";
+  EXPECT_EQ(board.violations.front().at, fell);
+}
+
+TEST(BlockServed, HoldWithoutALookDoesNotEndIt) {
+  Board board;
+  const Tick fell = news(board);
+  hold(board, [&board] { board.read(0x012, 0x0C); });
+  finish(board, fell, 2 * kLimit);
+  EXPECT_EQ(violations(board, Check::kBlockServed), 1U);
+}
+
+TEST(BlockServed, LookThatFindsNothingEndsIt) {
+  Board board;
+  const Tick fell = news(board);
+  look(board, 0x00);
+  finish(board, fell, 2 * kLimit);
+  EXPECT_EQ(violations(board, Check::kBlockServed), 0U);
+}
+
+TEST(BlockServed, FlagThatIsSeenAndLeftIsFoundWithoutIntr0) {
+  Board board;
+  const Tick seen = hold(board, [&board] { board.read(0x00F, 0x02); });
+  finish(board, seen, 2 * kLimit);
+  EXPECT_EQ(violations(board, Check::kBlockServed), 1U);
+  EXPECT_NE(board.violations.at(0).text.find("B00F.1, C2 request"), std::string::npos) << board.violations[0].text;
+}
+
+TEST(BlockServed, ResetAndInitialisationEndIt) {
+  Board reset;
+  news(reset);
+  look(reset, 0x02);
+  reset.set(Pin::kReset, 0);
+  reset.wait(1000);
+  reset.set(Pin::kReset, 1);
+  finish(reset, reset.now(), 2 * kLimit);
+  EXPECT_EQ(violations(reset, Check::kBlockServed), 0U);
+
+  Board again;
+  news(again);
+  look(again, 0x02);
+  initialise(again, 0, 1);
+  finish(again, again.now(), 2 * kLimit);
+  EXPECT_EQ(violations(again, Check::kBlockServed), 0U);
+}
+
+// --- VERDICT_GIVEN ---------------------------------------------------------------------------------------------------
+
+TEST(VerdictGiven, CountsFromTheFetchToTheVerdict) {
+  Board board;
+  initialise(board, 2, 1);
+  const Tick fetched = fetch_parameters(board);
+  board.wait(50'000);
+  const Tick given = hold(board, [&board] {
+    board.read(0x00E, 0x00);
+    board.read(0x010, 0x00);
+    board.write(0x010, 0x80);
+  });
+  look(board, 0x00);
+  EXPECT_EQ(board.checks().record(Check::kVerdictGiven).worst_value, given - fetched);
+  finish(board, given, 2 * kLimit);
+  EXPECT_EQ(violations(board, Check::kVerdictGiven), 0U);
+}
+
+TEST(VerdictGiven, IsMissedAfterTheLimitFromTheFirstOfSeveralFetches) {
+  for (const Tick beyond : {Tick{0}, Tick{1}}) {
+    Board board;
+    initialise(board, 2, 1);
+    const Tick first = fetch_parameters(board);
+    board.wait(kLimit / 2);
+    fetch_parameters(board);
+    finish(board, first, kLimit + beyond);
+    EXPECT_EQ(violations(board, Check::kVerdictGiven), beyond == 0 ? 0U : 1U);
+  }
+}
+
+TEST(VerdictGiven, IsOwedOnlyInTheModeThatTheChipHasAccepted) {
+  struct Setup {
+    unsigned mode, accepted;
+    std::uint64_t violations;
+  };
+  for (const Setup& each : {Setup{0, 1, 0}, Setup{1, 1, 0}, Setup{2, 1, 1}, Setup{2, 0, 0}}) {
+    Board board;
+    initialise(board, each.mode, each.accepted);
+    finish(board, fetch_parameters(board), 2 * kLimit);
+    EXPECT_EQ(violations(board, Check::kVerdictGiven), each.violations) << each.mode << each.accepted;
+  }
+}
+
+// --- OUTPUTS_FETCHED, INPUTS_RENEWED ---------------------------------------------------------------------------------
+
+/// A board whose station has answered, so that its address is known.
+struct Slave {
+  Board board;
+  Exchanges bus{board, kStation};
+
+  Slave() { bus.answered(board); }
+  /// So many Data_Exchange, one each millisecond; returns the execution of the first.
+  Tick exchanges(int count) {
+    Tick first = 0;
+    for (int i = 0; i < count; ++i) {
+      const Tick begun = board.now(), executed = bus.exchange(board);
+      if (i == 0) first = executed;
+      board.wait(begun + bus::kTicksPerMs - board.now());
+    }
+    return first;
+  }
+  void parameterise(const bus::Bytes& data) {
+    bus.request(board, bus::make_telegram(kStation, 2, bus::fc::kRequest | bus::fc::kSrdHigh, data, bus::sap::kSetPrm,
+                                          bus::sap::kMaster));
+    board.wait(1000);
+    bus.answered(board);
+  }
+};
+
+TEST(OutputsFetched, CountsFromTheFirstUnfetchedDataExchange) {
+  Slave slave;
+  slave.exchanges(1);
+  fetch_outputs(slave.board);
+  const Tick first = slave.exchanges(3);
+  const Tick fetched = fetch_outputs(slave.board);
+  look(slave.board, 0x00);
+  EXPECT_EQ(slave.board.checks().record(Check::kOutputsFetched).worst_value, fetched - first);
+  EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), 0U);
+}
+
+TEST(OutputsFetched, UserThatNeverLooksIsFoundAfterTheLimitWithTheNumberThatIsLost) {
+  Slave slave;
+  slave.exchanges(101);
+  EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), 0U);
+  slave.exchanges(40);
+  EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), 1U);
+  EXPECT_NE(slave.board.violations.at(0).text.find("101 newer"), std::string::npos) << slave.board.violations[0].text;
+}
+
+TEST(OutputsFetched, UserThatLooksAndLeavesThemIsFound) {
+  Slave slave;
+  for (int i = 0; i < 30; ++i) {
+    slave.exchanges(5);
+    look(slave.board, 0x01);
+  }
+  EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), 1U);
+}
+
+TEST(OutputsFetched, LookThatFindsNothingEndsItAsInSyncMode) {
+  Slave slave;
+  for (int i = 0; i < 30; ++i) {
+    slave.exchanges(5);
+    look(slave.board, 0x00);
+  }
+  EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), 0U);
+}
+
+TEST(OutputsFetched, BusThatFallsSilentEndsIt) {
+  Slave slave;
+  slave.exchanges(50);
+  slave.board.wait(2 * kLimit);
+  slave.exchanges(50);
+  fetch_outputs(slave.board);
+  look(slave.board, 0x00);
+  finish(slave.board, slave.board.now(), 2 * kLimit);
+  EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), 0U);
+}
+
+TEST(OutputsFetched, LimitIsTheWatchdogOfTheSetPrmInForce) {
+  Slave slave;
+  slave.parameterise({0x88, 2, 1, 11, 0x12, 0x34, 0});  // 20 ms
+  slave.exchanges(22);
+  EXPECT_EQ(slave.board.checks().limit(Check::kOutputsFetched).value, 20 * bus::kTicksPerMs);
+  EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), 1U);
+  slave.parameterise({0x88, 20, 1, 11, 0x12, 0x34, 0, 0x04});  // WD_Base: 20 ms again
+  EXPECT_EQ(slave.board.checks().limit(Check::kInputsRenewed).value, 20 * bus::kTicksPerMs);
+  slave.parameterise({0x80, 2, 1, 11, 0x12, 0x34, 0});  // off
+  EXPECT_EQ(slave.board.checks().limit(Check::kOutputsFetched).value, kLimit);
+}
+
+TEST(OutputsFetched, LimitOfTheScenarioGoesFirst) {
+  checks::Limits limits(checks::rules());
+  limits[Check::kOutputsFetched].value = bus::kTicksPerMs;
+  checks::Checks checks(limits);
+  EXPECT_EQ(checks.limit(Check::kOutputsFetched).value, bus::kTicksPerMs);
+}
+
+TEST(InputsRenewed, CountsFromOneAnnouncementToTheNext) {
+  Slave slave;
+  slave.exchanges(2);
+  const Tick one = hand_over_inputs(slave.board);
+  slave.exchanges(3);
+  const Tick two = hand_over_inputs(slave.board);
+  look(slave.board, 0x01);
+  EXPECT_EQ(slave.board.checks().record(Check::kInputsRenewed).worst_value, two - one);
+}
+
+TEST(InputsRenewed, UserThatStopsIsFoundAndOneWithoutDataExchangeIsNot) {
+  Slave slave;
+  slave.exchanges(2);
+  hand_over_inputs(slave.board);
+  for (int i = 0; i < 12; ++i) {
+    slave.exchanges(10);
+    fetch_outputs(slave.board);
+  }
+  EXPECT_EQ(violations(slave.board, Check::kInputsRenewed), 1U);
+
+  Slave quiet;
+  quiet.exchanges(2);
+  hand_over_inputs(quiet.board);
+  finish(quiet.board, quiet.board.now(), 2 * kLimit);
+  EXPECT_EQ(violations(quiet.board, Check::kInputsRenewed), 0U);
+}
+
+}  // namespace
+}  // namespace dsdpv1
