@@ -96,8 +96,8 @@ void FreshData::answered(const bus::Telegram& answer) {
 /// The limit of both: the time for which the master may be silent (U4).
 void FreshData::limit(Tick watchdog) {
   const Tick usual = watchdog != 0 ? watchdog : rule(Check::kOutputsFetched).limit;
-  if (outputs_follow_) const_cast<Limit&>(recorder_.limit(Check::kOutputsFetched)).value = usual;
-  if (inputs_follow_) const_cast<Limit&>(recorder_.limit(Check::kInputsRenewed)).value = usual;
+  if (outputs_follow_) recorder_.set_limit(Check::kOutputsFetched, usual);
+  if (inputs_follow_) recorder_.set_limit(Check::kInputsRenewed, usual);
 }
 
 void FreshData::leave() {
@@ -122,7 +122,8 @@ void FreshData::exchanged(const Request& request, bool inputs) {
   pass(at);
 }
 
-/// `at`, or the end of data exchange if that was sooner: one may be lost on the line. Absent if only one Data_Exchange was heard.
+/// `at`, or the end of data exchange if that was sooner: one may be lost on the line. Absent if only one Data_Exchange
+/// was heard.
 std::optional<Tick> FreshData::exchanging_at(Tick at) const {
   return interval_ ? std::optional(std::min(at, *exchange_ + 2 * *interval_)) : std::nullopt;
 }
