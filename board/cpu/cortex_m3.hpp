@@ -101,6 +101,8 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   std::uint64_t instructions() const override { return engine_.instructions(); }
   /// The address of the instruction at work; between two, of the next one.
   std::uint32_t pc() const { return engine_.read(Register::kPc); }
+  /// The same, but during the return from an exception the instruction that returned.
+  std::uint32_t place() const { return pc() < 0xF000'0000 ? pc() : engine_.returned_at(); }
 
   /// External interrupt 0 to 67 becomes pending.
   void set_interrupt(unsigned irq);

@@ -23,9 +23,10 @@ std::uint32_t Watchdog::read(std::uint32_t offset, Tick now) const {
 /// Any other key than 5555 closes PR and RLR (19.3.2).
 void Watchdog::write(std::uint32_t offset, std::uint32_t value, Tick now) {
   if (offset == kKr) {
-    open_ = value == kOpen;
-    if (value == kReload) load(words_[kRlr], now);
-    if (value == kStart && !runs_) {
+    const std::uint32_t key = value & 0xFFFFU;
+    open_ = key == kOpen;
+    if (key == kReload) load(words_[kRlr], now);
+    if (key == kStart && !runs_) {
       runs_ = true;
       load(count_, now);
     }

@@ -17,7 +17,9 @@
 #include "board/stm32/rcc.hpp"
 #include "board/stm32/spi.hpp"
 #include "board/stm32/terminal.hpp"
+#include "board/stm32/timer.hpp"
 #include "board/stm32/usart.hpp"
+#include "board/stm32/watchdog.hpp"
 
 namespace dsdpv1::arm {
 namespace {
@@ -204,6 +206,50 @@ TEST(Registers, OfFsmc) {
   EXPECT_EQ(Fsmc::kRegisters.asked(0x00, 0xDFFF).size(), Fsmc::kRegisters.asked(0x00, 0xFFFF).size() - 1);
   ASSERT_EQ(Fsmc::kRegisters.asked(0x00, 0x2100).size(), 2U);
   EXPECT_STREQ(Fsmc::kRegisters.asked(0x00, 0x2100)[1]->name, "WAITEN");
+}
+
+TEST(Registers, OfTimers) {
+  const Read<Timer> read = [](Timer& timer, Offset offset) { return timer.read(offset, 0); };
+  const Write<Timer> write = [](Timer& timer, Offset offset, Word value) { timer.write(offset, value, 0); };
+  const auto plain = [](const char* name) { return Reads{name, 0, 0xFFFF, 0}; };
+  expect_registers<Timer>(Timer::kRegisters,
+                          {{0x00, {"CR1", 0, 0x3FF, 0}},
+                           {0x04, {"CR2", 0, 0xF8, 0}},
+                           {0x08, {"SMCR", 0, 0xFFF7, 0}},
+                           {0x0C, {"DIER", 0, 0x5F5F, 0}},
+                           {0x10, {"SR", 0, 0, 0}},
+                           {0x14, {"EGR", 0, 0, 0}},
+                           {0x18, plain("CCMR1")},
+                           {0x1C, plain("CCMR2")},
+                           {0x20, {"CCER", 0, 0x3333, 0}},
+                           {0x24, plain("CNT")},
+                           {0x28, plain("PSC")},
+                           {0x2C, {"ARR", 0xFFFF, 0xFFFF, 0}},
+                           {0x34, plain("CCR1")},
+                           {0x38, plain("CCR2")},
+                           {0x3C, plain("CCR3")},
+                           {0x40, plain("CCR4")},
+                           {0x48, {"DCR", 0, 0x1F1F, 0}},
+                           {0x4C, plain("DMAR")}},
+                          read, write);
+  expect_tags(Timer::kRegisters, {{0x00, {{{"DIR", 0x10}, {"CMS", 0x60}}}},
+                                  {0x04, {{{"MMS", 0x70}, {"TI1S", 0x80}}}},
+                                  {0x08, {{{"SMS", 0x7}, {"ECE", 0x4000}}}},
+                                  {0x0C, {{{"CC[4:1]IE", 0x1E}, {"TIE", 0x40}, {"DMA", 0x7F00}}}},
+                                  {0x14, {{{"CC[4:1]G", 0x1E}, {"TG", 0x40}}}},
+                                  {0x20, {{{"CC1E", 0x1}, {"CC2E", 0x10}, {"CC3E", 0x100}, {"CC4E", 0x1000}}}}});
+}
+
+TEST(Registers, OfTheWatchdog) {
+  const Read<Watchdog> read = [](Watchdog& dog, Offset offset) { return dog.read(offset, 0); };
+  const Write<Watchdog> write = [](Watchdog& dog, Offset offset, Word value) { dog.write(offset, value, 0); };
+  expect_registers<Watchdog>(Watchdog::kRegisters,
+                             {{0x00, {"KR", 0, 0, 0}},
+                              {0x04, {"PR", 0, 0, 0}},  // both are closed
+                              {0x08, {"RLR", 0xFFF, 0xFFF, 0xFFF}},
+                              {0x0C, {"SR", 0, 0, 0}}},
+                             read, write, Watchdog(10));
+  expect_tags(Watchdog::kRegisters, {});
 }
 
 TEST(Registers, OfSpi) {

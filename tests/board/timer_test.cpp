@@ -10,7 +10,7 @@ namespace {
 
 enum : std::uint32_t { kCen = 1, kUdis = 2, kUrs = 4, kOpm = 8, kArpe = 0x80 };
 
-Timer started(std::uint32_t psc, std::uint32_t arr, std::uint32_t control = kCen) {
+Timer counting(std::uint32_t psc, std::uint32_t arr, std::uint32_t control = kCen) {
   Timer timer;
   timer.write(Timer::kPsc, psc, 0);
   timer.write(Timer::kArr, arr, 0);
@@ -22,7 +22,7 @@ Timer started(std::uint32_t psc, std::uint32_t arr, std::uint32_t control = kCen
 }
 
 TEST(TimerBlock, CountsFromZeroToArrAndSetsUif) {
-  Timer timer = started(9, 4);
+  Timer timer = counting(9, 4);
   EXPECT_EQ(timer.next(), 150U);
   EXPECT_EQ(timer.read(Timer::kCnt, 109), 0U);
   EXPECT_EQ(timer.read(Timer::kCnt, 110), 1U);
@@ -39,13 +39,13 @@ TEST(TimerBlock, CountsFromZeroToArrAndSetsUif) {
 }
 
 TEST(TimerBlock, PscIsTakenWithTheNextUpdateAndArrAtOnceWithoutArpe) {
-  Timer timer = started(0, 9);
+  Timer timer = counting(0, 9);
   timer.write(Timer::kPsc, 1, 102);
   EXPECT_EQ(timer.next(), 110U);
   timer.write(Timer::kArr, 19, 103);
   EXPECT_EQ(timer.next(), 120U);
   EXPECT_EQ(timer.read(Timer::kCnt, 125), 2U);
-  Timer buffered = started(0, 9, kCen | kArpe);
+  Timer buffered = counting(0, 9, kCen | kArpe);
   buffered.write(Timer::kArr, 19, 103);
   EXPECT_EQ(buffered.next(), 110U);
   buffered.write(Timer::kSr, 0, 111);
@@ -53,7 +53,7 @@ TEST(TimerBlock, PscIsTakenWithTheNextUpdateAndArrAtOnceWithoutArpe) {
 }
 
 TEST(TimerBlock, UgBeginsAgainAndSetsUifUnlessUrsOrUdis) {
-  Timer timer = started(0, 99);
+  Timer timer = counting(0, 99);
   timer.write(Timer::kEgr, 1, 149);
   EXPECT_TRUE(timer.asks());
   timer.write(Timer::kSr, 0, 149);
@@ -69,7 +69,7 @@ TEST(TimerBlock, UgBeginsAgainAndSetsUifUnlessUrsOrUdis) {
 }
 
 TEST(TimerBlock, OpmStopsItAndCntIsWritten) {
-  Timer timer = started(0, 9, kCen | kOpm);
+  Timer timer = counting(0, 9, kCen | kOpm);
   timer.write(Timer::kCnt, 8, 101);
   EXPECT_EQ(timer.read(Timer::kSr, 104), 1U);
   EXPECT_EQ(timer.read(Timer::kCr1, 104), kOpm);
@@ -77,7 +77,7 @@ TEST(TimerBlock, OpmStopsItAndCntIsWritten) {
 }
 
 TEST(TimerBlock, StandsStillWithoutItsClockAndFollowsItsDivider) {
-  Timer timer = started(0, 99);
+  Timer timer = counting(0, 99);
   timer.follow(4, true, 120);
   EXPECT_EQ(timer.read(Timer::kCnt, 160), 20U + 9);  // from 124 on
   timer.follow(4, false, 160);

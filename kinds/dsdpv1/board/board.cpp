@@ -145,13 +145,16 @@ void Board::look_for_overruns() {
   }
 }
 
-/// Delays before the first access to the chip, and with the chip in reset, do no harm.
+/// Delays before the first access to the chip, and with the chip in reset, do no harm. Of a loop that polls, passes are
+/// left out.
 void Board::look_if_stuck() {
   constexpr Tick kMost = 100 * bus::kTicksPerMs;
-  if (touches_ == touches_seen_ && in_service_ && chip_reset_)
+  if (std::exchange(polls_, false) || !in_service_ || !chip_reset_) touched_at_ = core_.cycles();
+  if (tick_of(touched_at_) + kMost <= now()) {
     misused(tb::board_code::kStuck, "100 ms without an access or sleep");
-  touches_seen_ = touches_;
-  look_at_ = cycle_of(now() + kMost);
+    touched_at_ = core_.cycles();
+  }
+  look_at_ = cycle_of(tick_of(touched_at_) + kMost);
 }
 
 void Board::storm(unsigned irq, std::uint32_t pc) {
@@ -313,10 +316,10 @@ bool Board::turn_goes_on(Tick tick) {
 void Board::sleep(std::uint64_t until) {
   const Tick end = until == kNever ? bus::kNever : tick_of(until);
   pins_->wait_until(now());
-  ++touches_;
   bool woken = false;
   while (!take_intr0_edges() && !woken && pins_->now() < end) woken = pins_->wait_for_wake(end);
   core_.advance_to(std::max(core_.cycles(), cycle_of(pins_->now())));
+  touched_at_ = core_.cycles();
 }
 
 void Board::reset() {

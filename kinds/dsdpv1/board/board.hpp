@@ -223,10 +223,11 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Fsmc fsmc_;
   MemoryBus memory_bus_;
   std::vector<Wire> wires_;
-  std::uint64_t touches_ = 0, touches_seen_ = 0;  ///< accesses and sleeps; when look_at_ was set
-  std::uint64_t look_at_ = 0;                     ///< the cycle at which firmware without one since is stuck
-  bool in_service_ = false;                       ///< the chip has been accessed
-  bool slow_flash_ = false, fast_ = false;        ///< the clocks are wrong, and that has been told
+  std::uint64_t touched_at_ = 0;            ///< the cycle of the last access or wake-up
+  bool polls_ = false;                      ///< that was a read of a register that stays
+  std::uint64_t look_at_ = 0;               ///< the cycle at which it is looked whether the firmware is stuck
+  bool in_service_ = false;                 ///< the chip has been accessed
+  bool slow_flash_ = false, fast_ = false;  ///< the clocks are wrong, and that has been told
   OtherRegisters others_;
   std::deque<Intr0Edge> intr0_edges_;  ///< not yet reached by the processor
   bool intr0_ = true;

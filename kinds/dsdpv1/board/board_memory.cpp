@@ -92,14 +92,16 @@ const Peripheral* peripheral_at(std::uint32_t address) {
 // ------------------------------------------------------------------------------------------------- loads and stores
 
 std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
-  ++touches_;
+  touched_at_ = core_.cycles();
+  polls_ = false;
   if (address >= kBank1 && address < kBank1End) return load_chip(address, bytes);
   const std::uint32_t word = load_word(address & ~3U) >> (address % 4 * 8);
   return bytes == 4 ? word : word & ((1U << bytes * 8) - 1);
 }
 
 void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
-  ++touches_;
+  touched_at_ = core_.cycles();
+  polls_ = false;
   if (address >= kBank1 && address < kBank1End) return store_chip(address, bytes, value);
   if (bytes == 4) return store_word(address, value);
   // The bridge to APB writes whole words only, so the rest of the register is kept.
@@ -197,7 +199,10 @@ std::uint32_t Board::load_word(std::uint32_t address) {
   if (!answers(*here)) return 0;
   look_at(*here, address - here->base, {});
   const std::uint32_t value = load_register(*here, address - here->base);
-  if (stays(*here)) core_.stays(next_due());
+  if (stays(*here)) {
+    polls_ = true;
+    core_.stays(next_due());
+  }
   return value;
 }
 
@@ -524,7 +529,7 @@ void Board::misused(const tb::BoardCode& code, const std::string& text) {
 
 void Board::tell(const tb::BoardCode& code, const std::string& text, std::optional<std::uint32_t> pc) {
   if (!on_error) return;
-  on_error({now(), code.code, fmt::format("{}, in {}", text, options_.firmware->lines.at(pc.value_or(core_.pc())))});
+  on_error({now(), code.code, fmt::format("{}, in {}", text, options_.firmware->lines.at(pc.value_or(core_.place())))});
 }
 
 // ------------------------------------------------------------------------------------------------- notes
