@@ -1,5 +1,6 @@
 #include "board/firmware/source_lines.hpp"
 
+#include <dwarf.h>
 #include <elfutils/libdw.h>
 #include <fmt/format.h>
 #include <libelf.h>
@@ -38,20 +39,58 @@ bool read_row(Dwarf_Line* from, Row& row) {
   return row.source != nullptr;
 }
 
+template <typename Take>
+void for_each_unit(Dwarf* dwarf, const Take& take) {
+  Dwarf_CU* unit = nullptr;
+  Dwarf_Die die;
+  while (::dwarf_get_units(dwarf, unit, &unit, nullptr, nullptr, &die, nullptr) == 0) take(die);
+}
+
 /// Calls `take` for every row of every unit that can be read.
 template <typename Take>
 void for_each_row(Dwarf* dwarf, Take take) {
-  Dwarf_CU* unit = nullptr;
+  for_each_unit(
+      dwarf,
+      [&take](Dwarf_Die& die) {
+        Dwarf_Lines* lines = nullptr;
+        std::size_t count = 0;
+        if (::dwarf_getsrclines(&die, &lines, &count) != 0) return;
+        for (std::size_t i = 0; i < count; ++i) {
+          Row row{};
+          if (read_row(::dwarf_onesrcline(lines, i), row)) take(row);
+        }
+      });
+}
+
+constexpr int kDeepest = 100;  // nested blocks and functions
+
+/// Calls `take` for every function inlined in `parent`, before those inlined in it. Damaged entries that lead back are
+/// not followed.
+template <typename Take>
+void for_each_inlined(Dwarf_Die* parent, const Take& take, int depth = 0) {
   Dwarf_Die die;
-  while (::dwarf_get_units(dwarf, unit, &unit, nullptr, nullptr, &die, nullptr) == 0) {
-    Dwarf_Lines* lines = nullptr;
-    std::size_t count = 0;
-    if (::dwarf_getsrclines(&die, &lines, &count) != 0) continue;
-    for (std::size_t i = 0; i < count; ++i) {
-      Row row{};
-      if (read_row(::dwarf_onesrcline(lines, i), row)) take(row);
-    }
+  if (depth == kDeepest || ::dwarf_child(parent, &die) != 0) return;
+  for (Dwarf_Off last = ::dwarf_dieoffset(parent); ::dwarf_dieoffset(&die) > last;) {
+    last = ::dwarf_dieoffset(&die);
+    const int tag = ::dwarf_tag(&die);
+    if (tag == DW_TAG_inlined_subroutine) take(die);
+    if (tag == DW_TAG_inlined_subroutine || tag == DW_TAG_subprogram || tag == DW_TAG_lexical_block)
+      for_each_inlined(&die, take, depth + 1);
+    if (::dwarf_siblingof(&die, &die) != 0) return;
   }
+}
+
+const char* name_of(Dwarf_Die* die) {
+  Dwarf_Attribute attribute;
+  return ::dwarf_formstring(::dwarf_attr_integrate(die, DW_AT_name, &attribute));
+}
+
+/// Calls `take(begin, end)` for every part of its code.
+template <typename Take>
+void for_each_part(Dwarf_Die* die, const Take& take) {
+  Dwarf_Addr base = 0, begin = 0, end = 0;
+  for (std::ptrdiff_t at = 0; (at = ::dwarf_ranges(die, at, &base, &begin, &end)) > 0;)
+    take(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
 }
 
 std::string_view without_folders(std::string_view path) { return path.substr(path.find_last_of('/') + 1); }
@@ -81,11 +120,20 @@ SourceLines::Table SourceLines::read_table(std::vector<std::uint8_t> file) {
   const std::unique_ptr<Dwarf, EndDwarf> dwarf(::dwarf_begin_elf(elf.get(), DWARF_C_READ, nullptr));
   if (!dwarf) return table;
   std::unordered_map<std::string, std::uint32_t> numbers;
-  for_each_row(dwarf.get(), [&](const Row& row) {
-    const auto [number, is_new] =
-        numbers.try_emplace(std::string(without_folders(row.source)), static_cast<std::uint32_t>(table.files.size()));
-    if (is_new) table.files.push_back(number->first);
-    table.lines.push_back({row.address, number->second, row.line});
+  for_each_row(
+      dwarf.get(),
+      [&](const Row& row) {
+        const auto [number, is_new] = numbers.try_emplace(std::string(without_folders(row.source)),
+                                                          static_cast<std::uint32_t>(table.files.size()));
+        if (is_new) table.files.push_back(number->first);
+        table.lines.push_back({row.address, number->second, row.line});
+      });
+  for_each_unit(dwarf.get(), [&table](Dwarf_Die& unit) {
+    for_each_inlined(&unit, [&table](Dwarf_Die& die) {
+      const char* const name = name_of(&die);
+      if (name == nullptr) return;
+      for_each_part(&die, [&](std::uint32_t begin, std::uint32_t end) { table.inlined.push_back({begin, end, name}); });
+    });
   });
   // Another sequence may begin where one ends: its line counts. The last of several rows for an address counts, as in
   // gdb.
@@ -116,6 +164,28 @@ const SourceLines::Function* SourceLines::function_at(std::uint32_t address) con
 const SourceLines::Line* SourceLines::line_at(std::uint32_t address) const {
   const Line* const found = last_until(table().lines, address);
   return found != nullptr && found->line > 0 ? found : nullptr;
+}
+
+/// The last one: it is inside the others.
+const SourceLines::Inlined* SourceLines::inlined_at(std::uint32_t address) const {
+  const std::vector<Inlined>& all = table().inlined;
+  const auto found = std::find_if(
+      all.rbegin(), all.rend(), [address](const Inlined& each) { return each.begin <= address && address < each.end; });
+  return found == all.rend() ? nullptr : &*found;
+}
+
+SourceLine SourceLines::line_of(std::uint32_t address) const {
+  SourceLine found;
+  address &= ~1U;
+  if (const Inlined* const inlined = inlined_at(address))
+    found.function = inlined->name;
+  else if (const Function* const function = function_at(address))
+    found.function = function->name;
+  if (const Line* const line = line_at(address)) {
+    found.file = table().files[line->file];
+    found.line = line->line;
+  }
+  return found;
 }
 
 std::string SourceLines::at(std::uint32_t address) const {

@@ -10,6 +10,13 @@
 
 namespace dsdpv1::arm {
 
+/// A line of the source.
+struct SourceLine {
+  std::string file;  ///< without folders; empty: there is none
+  int line = 0;
+  std::string function;  ///< empty: no symbol
+};
+
 /// Lines are read when the first one is asked for, most runs need none; a look-up is two binary searches. For one
 /// thread.
 class SourceLines {
@@ -21,6 +28,9 @@ class SourceLines {
   /// "main at main.c:42"; without a line "main+0x12"; without a symbol "0x08000124". Bit 0 (Thumb) of the address is
   /// ignored.
   std::string at(std::uint32_t address) const;
+
+  /// The same in parts. `function`: the innermost one, also one that is inlined.
+  SourceLine line_of(std::uint32_t address) const;
 
   /// There is at least one line.
   bool has_lines() const { return !table().lines.empty(); }
@@ -36,9 +46,16 @@ class SourceLines {
     std::string name;
   };
 
+  /// A part of a function that was inlined into another one.
+  struct Inlined {
+    std::uint32_t begin, end;
+    std::string name;
+  };
+
   struct Table {
     std::vector<std::string> files;  ///< without folders
     std::vector<Line> lines;         ///< by address
+    std::vector<Inlined> inlined;    ///< those inside others later
   };
 
   const Table& table() const;
@@ -46,6 +63,7 @@ class SourceLines {
   void read_functions(const ElfImage& image);
   const Function* function_at(std::uint32_t address) const;
   const Line* line_at(std::uint32_t address) const;
+  const Inlined* inlined_at(std::uint32_t address) const;
 
   std::vector<Function> functions_;  ///< by address
   mutable std::vector<std::uint8_t> file_;

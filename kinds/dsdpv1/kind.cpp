@@ -16,6 +16,7 @@
 #include "kinds/dsdpv1/claims/rulings.hpp"
 #include "kinds/dsdpv1/keys/codes.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/keys/user_act.hpp"
 #include "kinds/dsdpv1/pins/diagrams.hpp"
 #include "kinds/dsdpv1/pins/inside_watch.hpp"
 #include "kinds/dsdpv1/pins/pin_table.hpp"
@@ -91,6 +92,7 @@ class Dsdpv1Kind : public ChipKind {
     const std::string_view text = event.reason.row().text;
     return text.find("B{a:3x}") != std::string_view::npos ? fmt::format("B{:03X}", event.a) : "";
   }
+  std::optional<user_cpu::Act> act_of(const profibus::Event& event) const override { return user_act_of(event); }
   std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<LastAccess>(); }
   std::unique_ptr<HostReader> make_host_reader(const OwnSettings& chip) const override {
     return host_reader_of(static_cast<const Dsdpv1Settings&>(chip));

@@ -58,6 +58,9 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty(), observers_),
       journal_(scenario, observers_, log_form(options.log, options.log_whole, options.open_ended, options.from)) {
   add_marks();
+  observers_.where = [this](std::size_t slave, const user_cpu::Act& act) {
+    return stations_.slaves[slave]->where(act);
+  };
   replies_.on_change = [this](const auto&, auto, const auto&) { observers_.changed(); };
   if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline(), kind_);
   for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);

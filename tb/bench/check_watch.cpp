@@ -43,6 +43,7 @@ void CheckWatch::add(const std::string& slave, ChipView& chip) {
   const std::size_t rules = scenario_.kind->rules().size();
   slaves_.push_back(std::make_unique<Slave>());
   Slave& entry = *slaves_.back();
+  entry.number = slaves_.size() - 1;
   entry.name = slave;
   entry.chip = &chip;
   entry.checks = scenario_.kind->make_checks(scenario_.checks, scenario_.chip.get());
@@ -59,7 +60,8 @@ void CheckWatch::finish(Tick end) {
   for (const auto& slave : slaves_) slave->checks->finish(end);
 }
 
-void CheckWatch::keep(Slave& slave, const checks::Violation& violation) {
+void CheckWatch::keep(Slave& slave, checks::Violation violation) {
+  violation.where = observers_.where(slave.number, violation.act);
   const std::size_t check = violation.check.index;
   const bool allowed = scenario::allows(scenario_, scenario_.kind->rules()[check].id, slave.name);
   if (allowed) ++slave.allowed.at(check);

@@ -44,6 +44,7 @@ class CheckWatch : public Observer {
 
  private:
   struct Slave {
+    std::size_t number = 0;
     std::string name;
     ChipView* chip = nullptr;
     std::unique_ptr<checks::ChipChecks> checks;
@@ -51,7 +52,7 @@ class CheckWatch : public Observer {
     std::vector<std::uint64_t> allowed;  ///< by check
     std::vector<std::size_t> listed_of;
   };
-  void keep(Slave& slave, const checks::Violation& violation);
+  void keep(Slave& slave, checks::Violation violation);
 
   const scenario::Scenario& scenario_;
   ChecksMode mode_;

@@ -58,14 +58,19 @@ const Journal::Tally& Journal::tally(std::size_t slave, const profibus::Event& e
   return kept->tally;
 }
 
-void Journal::happened(const Tally& tally, Tick at, const std::string& words, const profibus::Event* event) {
+void Journal::happened(const Tally& tally, Tick at, const std::string& words, const profibus::Event* event,
+                       const std::optional<user_cpu::Place>& where) {
   const auto text = [&] { return event != nullptr ? scenario_.kind->describe(*event) : words; };
   const Occurrence& sample = tally.sample;
   const bool violation = sample.severity == profibus::Severity::kViolation;
   observers_.tell(&Observer::counted, at, sample.station, sample.code, violation, ++*tally.count);
   if (violation) ++(sample.allowed ? allowed_ : violations_);
-  if (tally.repeated != nullptr) tally.repeated->add(at, text);
-  if (log_) log({at, sample.station, sample.allowed ? "allowed" : name(sample.severity), text(), sample.code});
+  if (tally.repeated != nullptr) tally.repeated->add(at, text, where);
+  if (log_) {
+    LogEntry entry{at, sample.station, sample.allowed ? "allowed" : name(sample.severity), text(), sample.code};
+    entry.where = where;
+    log(entry);
+  }
   if (kept_.size() == RunResult::kKept) {
     ++occurrences_dropped_;
     return;
@@ -73,20 +78,25 @@ void Journal::happened(const Tally& tally, Tick at, const std::string& words, co
   kept_.push_back({sample, event != nullptr ? std::optional(*event) : std::nullopt});
   kept_.back().occurrence.at = at;
   kept_.back().occurrence.text = words;
+  kept_.back().occurrence.where = where;
 }
 
 void Journal::violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
   const std::string id = scenario_.kind->rules()[violation.check.index].id;
   observers_.tell(&Observer::counted, violation.found, slave, id, true, ++counts_[slave][id]);
   if (!log_) return;
-  log_->finding(
-      {std::max(violation.found, observers_.now()), slave, kind,
-       fmt::format("at {} ns: {}  [{}]", nanoseconds(violation.at), violation.text, checks::history_text(violation)),
-       id});
+  LogEntry entry{
+      std::max(violation.found, observers_.now()), slave, kind,
+      fmt::format("at {} ns: {}  [{}]", nanoseconds(violation.at), violation.text, checks::history_text(violation)),
+      id};
+  entry.where = violation.where;
+  log_->finding(entry);
 }
 
 void Journal::event(std::size_t slave, const profibus::Event& event) {
-  happened(tally(slave, event), event.at, {}, &event);
+  const bool done_by_user = profibus::severity(event.reason) != profibus::Severity::kInfo;
+  const std::optional<user_cpu::Act> act = done_by_user ? scenario_.kind->act_of(event) : std::nullopt;
+  happened(tally(slave, event), event.at, {}, &event, act ? observers_.where(slave, *act) : std::nullopt);
 }
 
 void Journal::telegram(const HeardTelegram& telegram) {

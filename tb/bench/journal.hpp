@@ -69,7 +69,8 @@ class Journal : public Observer {
               const std::string& place = {});
   const Tally& tally(std::size_t slave, const profibus::Event& event);
   /// An error of the program, a flag of the monitor; or `event`, one of the chip, whose text is made on demand.
-  void happened(const Tally& tally, Tick at, const std::string& text, const profibus::Event* event = nullptr);
+  void happened(const Tally& tally, Tick at, const std::string& text, const profibus::Event* event = nullptr,
+                const std::optional<user_cpu::Place>& where = std::nullopt);
 
   const scenario::Scenario& scenario_;
   const Observers& observers_;

@@ -2,6 +2,7 @@
 // Observers receive the events of a run at chips, on the line, of user programs and masters: log, waves, checks, trace,
 // script, the bench itself. All receive the same events, in the order in which they were added.
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -94,6 +95,10 @@ class Observers : public ChipListener {
   /// Tells Observer::changed; in the TLM view chips act before the timeline has come to their tick.
   void changed(Tick at = 0) const { tell(&Observer::changed, std::max(at, timeline_.now())); }
   Tick now() const { return timeline_.now(); }
+
+  /// Where the program of a slave's user CPU did something; set by the bench.
+  std::function<std::optional<user_cpu::Place>(std::size_t slave, const user_cpu::Act& act)> where =
+      [](std::size_t, const user_cpu::Act&) { return std::nullopt; };
 
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     for (Observer* each : of_pins_) each->pin(slave, at, pin, level);

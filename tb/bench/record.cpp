@@ -1,8 +1,11 @@
 #include "tb/bench/record.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "bus/baud.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb {
 
@@ -56,6 +59,19 @@ void Tsdr::add(double bits) {
 
 double RunResult::real_time_factor() const {
   return wall_s > 0 ? static_cast<double>(simulated) / static_cast<double>(bus::kTicksPerSecond) / wall_s : 0;
+}
+
+std::string place_text(const user_cpu::Place& place) {
+  const std::string line =
+      place.file.empty() ? fmt::format("at 0x{:08X}", place.pc) : fmt::format("at {}:{}", place.file, place.line);
+  const std::string function = place.function.empty() ? "" : fmt::format("in {}()", place.function);
+  const std::string joint = function.empty() ? "" : " ";
+  if (!place.stayed) return line + joint + function;
+  return fmt::format("{}{}{} for {}", function, joint, line, short_time(*place.stayed));
+}
+
+std::string with_place(const std::string& text, const std::optional<user_cpu::Place>& place) {
+  return place ? text + ", " + place_text(*place) : text;
 }
 
 std::string baud_text(std::optional<int> baud) { return baud ? std::string(bus::baud(*baud).name) : "searching"; }

@@ -13,6 +13,7 @@
 #include "model/profibus/dp_state.hpp"
 #include "tb/chip/checks/recorder.hpp"
 #include "tb/chip/chip_view.hpp"
+#include "tb/chip/user_cpu/place.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -27,8 +28,9 @@ struct Occurrence {
   std::string code;     ///< stable: "PRM_IDENT", "DSDPV1_ERR_INIT_CRC", "BUS_COLLISION"
   profibus::Severity severity = profibus::Severity::kInfo;
   std::string text;
-  std::string place = {};  ///< the cell concerned, as written in the chip's documents; empty: none
-  bool allowed = false;    ///< a violation that the scenario lists
+  std::string place = {};                     ///< the cell concerned, as written in the chip's documents; empty: none
+  bool allowed = false;                       ///< a violation that the scenario lists
+  std::optional<user_cpu::Place> where = {};  ///< of the user's act that caused it
 };
 
 /// "info", "refusal", "violation".
@@ -41,12 +43,14 @@ struct Repeated {
   Tick first = 0, last = 0;
   std::uint64_t count = 0;
   bool allowed = false;
+  std::optional<user_cpu::Place> where = {};  ///< of the first
 
   /// `words` writes the text of the first time.
   template <class Words>
-  void add(Tick at, const Words& words) {
+  void add(Tick at, const Words& words, const std::optional<user_cpu::Place>& first_where = std::nullopt) {
     if (count++ == 0) {
       text = words();
+      where = first_where;
       first = last = at;
     }
     last = std::max(last, at);
@@ -180,6 +184,10 @@ struct RunResult {
   double real_time_factor() const;
 };
 
+/// "at port.c:41 in wait()"; of an omission "in wait() at port.c:41 for 5.800 ms"; without a line "at 0x08000124".
+std::string place_text(const user_cpu::Place& place);
+/// The text, and the place if there is one: "WR was low for 0 ns, at port.c:41 in wait()".
+std::string with_place(const std::string& text, const std::optional<user_cpu::Place>& place);
 /// The word for a baud index of Status: "12M" ... "9.6k", "searching".
 std::string baud_text(std::optional<int> baud);
 /// "fail", "report", "off", as in scenarios and options.

@@ -7,6 +7,7 @@
 
 #include "bus/printable.hpp"
 #include "io/input/units.hpp"
+#include "tb/bench/record.hpp"
 
 namespace dsdpv1::tb {
 namespace {
@@ -20,6 +21,7 @@ std::string text_line(const LogEntry& entry, const LogForm& form, const char* jo
   std::string text = entry.code.empty() ? entry.text : entry.code + joint + entry.text;
   if (entry.tsdr_bits) text += fmt::format("  [TSDR {:.2f}]", *entry.tsdr_bits);
   if (!entry.wrong.empty()) text += fmt::format("  [wrong: {}]", entry.wrong);
+  if (entry.where) text += fmt::format("  [{}]", place_text(*entry.where));
   if (entry.bytes) text += gap_before_bytes(entry.kind) + bytes_text(*entry.bytes, form.most_bytes());
   return fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(entry.at), entry.station, entry.kind,
                      bus::printable(text));
@@ -34,6 +36,14 @@ std::string json_line(const LogEntry& entry) {
   json["text"] = entry.text;
   if (entry.tsdr_bits) json["tsdr_bits"] = *entry.tsdr_bits;
   if (!entry.wrong.empty()) json["wrong"] = entry.wrong;
+  if (const auto& where = entry.where) {
+    nlohmann::ordered_json& place = json["where"];
+    place = {{"file", where->file},
+             {"line", where->line},
+             {"function", where->function},
+             {"pc", fmt::format("0x{:08X}", where->pc)}};
+    if (where->stayed) place["stayed_ns"] = std::stod(nanoseconds(*where->stayed));
+  }
   if (entry.bytes) json["bytes"] = bytes_text(*entry.bytes, entry.bytes->size());
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

@@ -10,6 +10,7 @@
 #include "bus/monitor/monitor.hpp"
 #include "bus/time.hpp"
 #include "io/output/output_file.hpp"
+#include "tb/chip/user_cpu/place.hpp"
 
 namespace dsdpv1::tb {
 
@@ -18,10 +19,11 @@ struct LogEntry {
   bus::Tick at =
       0;  ///< may lie slightly ahead of the present (the end of a telegram that is known before its last half bit)
   std::string station, kind, text;
-  std::string code = {};                 ///< for events and checks
-  std::optional<bus::Bytes> bytes = {};  ///< of a telegram, or data
-  std::optional<double> tsdr_bits = {};  ///< for an answer
-  std::string wrong = {};                ///< the fault of a telegram
+  std::string code = {};                      ///< for events and checks
+  std::optional<bus::Bytes> bytes = {};       ///< of a telegram, or data
+  std::optional<double> tsdr_bits = {};       ///< for an answer
+  std::string wrong = {};                     ///< the fault of a telegram
+  std::optional<user_cpu::Place> where = {};  ///< of the user's act that caused it
 };
 
 /// `words`: the telegram as text.

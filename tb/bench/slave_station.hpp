@@ -41,6 +41,10 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   Tick next() const override { return user_ ? user_->next() : bus::kNever; }
   void run(Tick now) override;
 
+  /// As StationCpu::where; absent during a reset.
+  std::optional<user_cpu::Place> where(const user_cpu::Act& act) const {
+    return user_ ? user_->where(act) : std::nullopt;
+  }
   /// The outputs that the user CPU fetched last.
   const bus::Bytes& outputs() const { return outputs_; }
   Tsdr& tsdr() { return tsdr_; }

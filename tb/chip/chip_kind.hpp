@@ -188,6 +188,8 @@ class ChipKind {
   virtual std::string describe(const profibus::Event& event) const = 0;
   /// The cell concerned, as written in its documents; empty: none.
   virtual std::string cell_of(const profibus::Event& /*event*/) const { return ""; }
+  /// The user's act that caused an event; absent by default: nothing that the user did.
+  virtual std::optional<user_cpu::Act> act_of(const profibus::Event& /*event*/) const { return std::nullopt; }
   /// Default null: no text for its accesses.
   virtual std::unique_ptr<AccessReader> make_access_reader() const { return nullptr; }
   /// Null by default, and if the chip's user has no serial port. `chip`: its settings.

@@ -121,7 +121,7 @@ std::string pins_of(const checks::Violation& violation) {
 std::string first_violation(const RunResult& result, const CheckResult& check) {
   const checks::Violation& first = check.listed.front();
   std::string text = "\n" + line_of(fmt::format("{} at {}{}: {}", check.rule->id, moment_text(first.at),
-                                                at_slave(result, check), first.text));
+                                                at_slave(result, check), with_place(first.text, first.where)));
   text += named_line("", check.rule->rule, 0) + pins_of(first);
   if (check.record.violations > 1)
     text += named_line("", fmt::format("... and {} more, see --log and --result", check.record.violations - 1), 0);

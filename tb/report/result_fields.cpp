@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <vector>
 
 #include "io/input/units.hpp"
@@ -13,7 +12,7 @@ namespace dsdpv1::tb {
 namespace {
 
 constexpr const char* kSchema = "dsdpv1-sim result";  // the member "schema"
-constexpr const char* kVersion = "1.2";               // "version": when it changes says docs/result.md
+constexpr const char* kVersion = "1.3";               // "version": when it changes says docs/result.md
 
 void pacing_fields(Fields& out, const Pacing& pacing) {
   const auto& [port, line, pace] = pacing;
@@ -178,11 +177,22 @@ void change_fields(Fields& out, const checks::PinChange& change) {
   out.field("level", level_text(pin, change.level), "its new level");
 }
 
+void place_fields(Fields& out, const user_cpu::Place& place) {
+  out.field("file", place.file, "of the source, without folders; empty: not known");
+  out.field("line", place.line, "of the file; 0: not known");
+  out.field("function", place.function, "its name; empty: not known");
+  out.field("pc", fmt::format("0x{:08X}", place.pc), "address of the instruction");
+  out.time("stayed_ns", place.stayed, "of an omission: how long the program was in the function meanwhile; else null");
+}
+
+constexpr const char* kWhere = "the user's act that caused it, in its program; null: not known";
+
 void violation_fields(Fields& out, const checks::Violation& violation) {
   out.time("at_ns", violation.at, "when");
   out.time("margin_ns", violation.margin, "negative: distance beyond the limit");
   out.field("text", violation.text, "in words");
   out.list("history", violation.history, change_fields, "a change of a pin", "the pins before it");
+  out.object_or_null("where", violation.where, place_fields, kWhere);
 }
 
 void check_fields(Fields& out, const CheckResult& check) {
@@ -211,6 +221,7 @@ void refused_fields(Fields& out, const Repeated& refused) {
   out.time("first_ns", refused.first, "the first time");
   out.time("last_ns", refused.last, "the last time");
   out.field("text", refused.text, "in words, of the first time");
+  out.object_or_null("where", refused.where, place_fields, "of the first time: as `checks[].listed[].where`");
 }
 
 void violated_fields(Fields& out, const Repeated& violated) {
@@ -226,6 +237,7 @@ void event_fields(Fields& out, const Occurrence& event) {
   out.word("severity", name(event.severity), {"info", "refusal", "violation"}, "kind of event");
   out.field("allowed", event.allowed, "a violation that the scenario allows");
   out.field("text", event.text, "in words");
+  out.object_or_null("where", event.where, place_fields, kWhere);
 }
 
 void run_fields(Fields& out, const RunResult& result) {

@@ -24,7 +24,8 @@ std::string violations_text(const RunResult& result) {
   for (const Repeated& each : result.violated)
     if (!each.allowed)
       text += fmt::format("{} times {} {}{}{}, first at {}: {}\n", each.count, each.station, each.code,
-                          each.place.empty() ? "" : " at ", each.place, moment_text(each.first), each.text);
+                          each.place.empty() ? "" : " at ", each.place, moment_text(each.first),
+                          with_place(each.text, each.where));
   return text;
 }
 
@@ -41,7 +42,7 @@ JunitCase case_of(const RunResult& result, const CheckResult& check) {
   if (count == 0) return made;
   const std::string text =
       fmt::format("violated {} times, first at {}: {}\n{}\n", count, moment_text(check.listed.front().at),
-                  check.listed.front().text, check.rule->rule);
+                  with_place(check.listed.front().text, check.listed.front().where), check.rule->rule);
   (result.checks_mode == ChecksMode::kFail ? made.failure.emplace() : made.output) = text;
   return made;
 }

@@ -81,7 +81,8 @@ std::string repeated(const char* head, const std::vector<Repeated>& all) {
   TextTable table({head, "reason", "times", "first", "last", "what, the first time"});
   for (const Group& group : grouped(all))
     table.add({group.first->station, group.first->code + place_of(group), times_of(group),
-               moment_text(group.first->first), moment_text(group.last), group.first->text});
+               moment_text(group.first->first), moment_text(group.last),
+               with_place(group.first->text, group.first->where)});
   return table.text() + "  dsdpv1-sim reasons REASON says what to do\n\n";
 }
 

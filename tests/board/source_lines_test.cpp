@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 #include <string>
 
 namespace dsdpv1::arm {
@@ -38,6 +39,15 @@ TEST(SourceLines, NameFunctionFileAndLine) {
   for (std::uint32_t address = firmware.address_of("run"); address < last_of_run; address += 2)
     seen += firmware.lines.at(address) + "\n";
   EXPECT_THAT(seen, testing::HasSubstr("run at counter.c:" + std::to_string(line_marked("run"))));
+}
+
+TEST(SourceLines, InlinedFunctionHasItsOwnName) {
+  const Firmware firmware(PROGRAMS "/foreign.elf");
+  const Symbol& run = firmware.image.symbols.at("run");
+  std::set<std::string> functions;
+  for (std::uint32_t address = run.address; address < run.address + run.size; address += 2)
+    functions.insert(firmware.lines.line_of(address).function);
+  EXPECT_THAT(functions, testing::IsSupersetOf({"run", "start_72_mhz", "start_pins", "pause"}));
 }
 
 TEST(SourceLines, ThumbBitOfAnAddressIsIgnored) {

@@ -14,6 +14,8 @@ namespace {
 // The board's wiring.
 constexpr unsigned kRReqPin = 6, kRStaPin = 7;
 
+constexpr std::uint32_t kWfiBytes = 2;  // also of WFE
+
 /// Of SerialSide, then TIM2 to TIM5.
 constexpr std::array<unsigned, 7> kDeviceIrq = {35, 36, 38, 28, 29, 30, 50};
 
@@ -51,10 +53,11 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
     : options_(std::move(options)),
       bus_(bus),
       set_chip_reset_(std::move(set_chip_reset)),
-      intr0_pin_(options_.card == 2 ? Place{kD, 12} : Place{kG, 6}),
-      reset_pin_(options_.card == 2 ? Place{kE, 5} : Place{kE, 4}),
+      intr0_pin_(options_.card == 2 ? PortPin{kD, 12} : PortPin{kG, 6}),
+      reset_pin_(options_.card == 2 ? PortPin{kE, 5} : PortPin{kE, 4}),
       since_(start),
-      serial_(ports_, options_.serial ? options_.card : 0),
+      acts_(start),
+      serial_(ports_, options_.serial ? options_.card : 0, acts_),
       fsmc_(options_.fsmc),
       wires_(wires()),
       notes_(options_.notes),
@@ -216,6 +219,25 @@ std::optional<user_cpu::BoardReport> Board::board() const {
   return report;
 }
 
+/// An omission that was too short for a sample is where the firmware acted next, or last.
+std::optional<user_cpu::Place> Board::where(const user_cpu::Act& act) const {
+  if (act.since) {
+    const auto function_of = [this](std::uint32_t pc) { return options_.firmware->lines.line_of(pc).function; };
+    if (const auto stay = acts_.longest_stay(*act.since, act.at, function_of)) {
+      user_cpu::Place place = place_of(stay->pc);
+      place.stayed = stay->time;
+      return place;
+    }
+  }
+  const std::optional<std::uint32_t> pc = acts_.instruction(act);
+  return pc ? std::optional(place_of(*pc)) : std::nullopt;
+}
+
+user_cpu::Place Board::place_of(std::uint32_t pc) const {
+  const SourceLine line = options_.firmware->lines.line_of(pc);
+  return {line.file, line.line, line.function, pc};
+}
+
 // ------------------------------------------------------------------------------------------------- the firmware's side
 
 void Board::run_firmware(user_cpu::Cpu& cpu) {
@@ -286,6 +308,7 @@ void Board::meet_devices() {
 
 /// The processor may stay ahead of the other agents as long as none of them is due.
 std::uint64_t Board::keep_up() {
+  acts_.sample(now(), core_.pc());
   if (has_news() || stays_until() <= now()) come_up();
   if (core_.cycles() >= look_at_) look_if_stuck();
   return next_due();
@@ -293,8 +316,7 @@ std::uint64_t Board::keep_up() {
 
 /// The cycle up to which the processor may stay ahead.
 std::uint64_t Board::next_due() {
-  const Tick next = stays_until();
-  return next == bus::kNever ? look_at_ : std::min(look_at_, cycle_of(std::max(next, now())));
+  return std::min(look_at_, cycle_of(std::max(std::min(stays_until(), acts_.sample_at()), now())));
 }
 
 /// A chip that runs ahead reports its edges before their time.
@@ -320,6 +342,7 @@ void Board::sleep(std::uint64_t until) {
   while (!take_intr0_edges() && !woken && pins_->now() < end) woken = pins_->wait_for_wake(end);
   core_.advance_to(std::max(core_.cycles(), cycle_of(pins_->now())));
   touched_at_ = core_.cycles();
+  acts_.sample(now(), core_.pc() - kWfiBytes);
 }
 
 void Board::reset() {
@@ -372,14 +395,17 @@ void Board::update_pins() {
   const Gpio& handshake = ports_[kC];
   if (const bool level = handshake.level(kRReqPin, false); std::exchange(r_req_, level) != level) {
     handshake_.r_req(pins_->now(), level);
+    acts_.pins(pins_->now(), core_.pc(), !level);
     pins_->set_r_req(level);
   }
   if (const bool level = handshake.level(kRStaPin, false); std::exchange(r_sta_, level) != level) {
     handshake_.r_sta(pins_->now(), level);
+    acts_.pins(pins_->now(), core_.pc(), !level);
     pins_->set_r_sta(level);
   }
   if (const bool level = ports_.at(reset_pin_.port).level(reset_pin_.pin, true);
       std::exchange(chip_reset_, level) != level) {
+    acts_.pins(pins_->now(), core_.pc(), false);
     chip_reset_due_ = true;
     pins_->wait(1);  // the bench moves the pin before the firmware continues
   }
@@ -388,6 +414,7 @@ void Board::update_pins() {
 void Board::update_serial_pins() {
   if (!serial_.moved()) return;
   come_up();
+  acts_.pins(pins_->now(), core_.pc(), false);
   on_bus([this](Tick at) { serial_.move(at, bus_); });
 }
 

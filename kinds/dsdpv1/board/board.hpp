@@ -32,6 +32,7 @@
 #include "board/stm32/terminal.hpp"
 #include "board/stm32/timer.hpp"
 #include "board/stm32/watchdog.hpp"
+#include "kinds/dsdpv1/board/act_log.hpp"
 #include "kinds/dsdpv1/board/mailbox_link.hpp"
 #include "kinds/dsdpv1/board/memory_bus.hpp"
 #include "kinds/dsdpv1/board/serial_side.hpp"
@@ -83,18 +84,19 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::uint64_t outputs_received() const override { return mailbox_ ? mailbox_->outputs_received() : 0; }
   const std::vector<std::uint8_t>& outputs() const override { return mailbox_ ? mailbox_->outputs() : no_outputs_; }
   std::optional<user_cpu::BoardReport> board() const override;
+  std::optional<user_cpu::Place> where(const user_cpu::Act& act) const override;
 
  private:
   struct Intr0Edge {
     Tick at;
     bool level;
   };
-  struct Place {
+  struct PortPin {
     unsigned port, pin;
   };
   /// A line between the chip and a pin of a port.
   struct Wire {
-    Place at;
+    PortPin at;
     const char* name;
     bool from_chip = false;
     bool pushed = false;   ///< pulled low, so that an open drain cannot raise it
@@ -126,6 +128,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   bool has_news() const { return mailbox_ && mailbox_->has_news(); }
   void look_at_mailbox(Tick now);
   void run_firmware(user_cpu::Cpu& cpu);
+  user_cpu::Place place_of(std::uint32_t pc) const;
   Tick serial_tick() const { return serial_.next() == SerialSide::kNever ? bus::kNever : tick_of(serial_.next()); }
   bool turn_goes_on(Tick tick);
   Tick timer_tick() const { return timers_at_ == Timer::kNever ? bus::kNever : tick_of(timers_at_); }
@@ -205,10 +208,11 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   BoardOptions options_;
   user_cpu::HostBus& bus_;
   std::function<void(Tick at, bool level)> set_chip_reset_;
-  Place intr0_pin_, reset_pin_;
+  PortPin intr0_pin_, reset_pin_;
   // `since_` is the tick of cycle `since_cycle_`; from there a cycle takes `cycle_ticks_` / `cycle_parts_` ticks.
   Tick since_, cycle_ticks_ = 1, cycle_parts_ = 1;
   std::uint64_t since_cycle_ = 0;
+  ActLog acts_;
   SerialSide::Ports ports_;
   SerialSide serial_;
   Exti exti_;

@@ -114,6 +114,7 @@ void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
 std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
   if (!may_access(address, false)) return 0;
   come_up();
+  acts_.access(pins_->now(), core_.pc(), address & kChipMask, bytes, false);
   if (!memory_bus_.is_right()) return load_by_wrong_bus(address, bytes);
   std::uint32_t value = 0;
   for (unsigned i = 0; i < bytes; ++i)
@@ -125,6 +126,7 @@ std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
 void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   if (!may_access(address, true)) return;
   come_up();
+  acts_.access(pins_->now(), core_.pc(), address & kChipMask, bytes, true);
   if (!memory_bus_.is_right()) return store_by_wrong_bus(address, bytes, value);
   for (unsigned i = 0; i < bytes; ++i)
     pins_->write(static_cast<std::uint16_t>((address + i) & kChipMask), static_cast<std::uint8_t>(value >> i * 8));
@@ -430,7 +432,7 @@ void Board::check_clock() {
 void Board::store_serial(SerialSide::Block block, std::uint32_t offset, std::uint32_t value) {
   meet_devices();
   if (offset == kSerialDr.at(block)) look_at_serial_pins(block);
-  serial_.write(block, offset, value, core_.cycles());
+  serial_.write(block, offset, value, core_.cycles(), core_.pc());
   update_serial_pins();
   update_interrupts();
 }
@@ -462,7 +464,7 @@ bool Board::answers(const Peripheral& of) {
 /// Lines that the chip drives, and those that firmware moves by a port.
 std::vector<Board::Wire> Board::wires() const {
   std::vector<Wire> all = {{intr0_pin_, "INTR0", true}, {reset_pin_, "RESET"}};
-  const Place first_of_spi = options_.card == 2 ? Place{kB, 12} : Place{kA, 4};
+  const PortPin first_of_spi = options_.card == 2 ? PortPin{kB, 12} : PortPin{kA, 4};
   switch (options_.mode) {
     case HostMode::kParallel:
       all.insert(all.end(), {{{kC, kRReqPin}, "R_REQ", false, true},

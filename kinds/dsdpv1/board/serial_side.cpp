@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::uint32_t kSpi1Remap = 1U << 0U, kUsart2Remap = 1U << 3U;
 
+// By block: the status register, and its flag of an empty buffer.
+constexpr std::array<std::uint32_t, 3> kStatus = {Spi::kSr, Spi::kSr, Usart::kSr},
+                                       kTxe = {1U << 1U, 1U << 1U, 1U << 7U};
+
 constexpr unsigned kPortA = 0;
 constexpr unsigned kRtsPin = 1, kTxPin = 2, kRxPin = 3;
 enum : unsigned { kNss, kSck, kMiso, kMosi };           // pins of an SPI, counted from its first one
@@ -35,7 +39,8 @@ std::uint32_t SerialSide::read(Block block, std::uint32_t offset) {
   return value;
 }
 
-void SerialSide::write(Block block, std::uint32_t offset, std::uint32_t value, std::uint64_t now) {
+void SerialSide::write(Block block, std::uint32_t offset, std::uint32_t value, std::uint64_t now, std::uint32_t pc) {
+  if (offset == (block == kUsart2 ? Usart::kDr : Spi::kDr)) waiting_.at(block) = pc;
   if (block == kUsart2)
     usart_.write(offset, value, now);
   else
@@ -69,8 +74,19 @@ void SerialSide::run(Tick at, user_cpu::SerialPins& chip) {
   for (unsigned i = 0; i < spi_.size(); ++i)
     if (spi_.at(i).next() == now) spi_.at(i).run(!has_miso(i) || chip.miso(at));
   if (usart_.next() == now) usart_.run();
+  note_bytes(at);
   if (moved()) move(at, chip);
   plan();
+}
+
+/// A byte leaves its buffer (TXE): from now on the pins are those of its store.
+void SerialSide::note_bytes(Tick at) {
+  for (unsigned block = 0; block < waiting_.size(); ++block) {
+    std::optional<std::uint32_t>& store = waiting_.at(block);
+    if (!store || (peek(static_cast<Block>(block), kStatus.at(block)) & kTxe.at(block)) == 0) continue;
+    acts_.pins(at, *store, false);
+    store.reset();
+  }
 }
 
 void SerialSide::txd_changed(std::uint64_t cycle, bool level) {

@@ -9,6 +9,7 @@
 // function, by the peripheral; remapped ones (AFIO_MAPR) are no longer on these pins.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "board/stm32/rcc.hpp"
 #include "board/stm32/spi.hpp"
 #include "board/stm32/usart.hpp"
+#include "kinds/dsdpv1/board/act_log.hpp"
 #include "kinds/dsdpv1/user_cpu/claim_counters.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_pins.hpp"
 
@@ -32,13 +34,14 @@ class SerialSide {
   static constexpr std::uint64_t kNever = Spi::kNever;
   enum Block : unsigned { kSpi1, kSpi2, kUsart2 };
 
-  /// `card`: 1 or 2; 0: a chip without serial pins. `ports` outlive it.
-  SerialSide(const Ports& ports, unsigned card) : ports_(ports), card_(card) {}
+  /// `card`: 1 or 2; 0: a chip without serial pins. `ports` and `acts`, which learns of each byte sent, outlive it.
+  SerialSide(const Ports& ports, unsigned card, ActLog& acts) : ports_(ports), card_(card), acts_(acts) {}
 
   /// A register at `offset` of a block.
   std::uint32_t peek(Block block, std::uint32_t offset) const;
   std::uint32_t read(Block block, std::uint32_t offset);
-  void write(Block block, std::uint32_t offset, std::uint32_t value, std::uint64_t now);
+  /// `pc`: of the store.
+  void write(Block block, std::uint32_t offset, std::uint32_t value, std::uint64_t now, std::uint32_t pc);
   /// Applies RCC: clocks, and peripherals in reset.
   void follow(const Rcc& rcc);
   /// AFIO_MAPR.
@@ -90,6 +93,7 @@ class SerialSide {
     bool drives, level;
   };
   void plan();
+  void note_bytes(Tick at);
   std::array<Alternate, 8> alternates() const;
   bool level(const Alternate& alternate, bool floating) const;
   Levels wanted() const;
@@ -97,10 +101,12 @@ class SerialSide {
 
   const Ports& ports_;
   unsigned card_;
+  ActLog& acts_;
   std::uint32_t mapr_ = 0;
   std::array<Spi, 2> spi_;
   Usart usart_;
-  std::uint64_t next_ = kNever;  ///< of all three
+  std::array<std::optional<std::uint32_t>, 3> waiting_;  ///< by block: the store of the byte in its buffer
+  std::uint64_t next_ = kNever;                          ///< of all three
   Levels levels_;
   std::vector<std::uint8_t> out_, in_;  ///< of the frame, both ways; the last one holds the bits of an unfinished byte
   unsigned frame_bits_ = 0;

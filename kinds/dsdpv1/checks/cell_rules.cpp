@@ -214,10 +214,14 @@ void CellRules::note_announcements(const Access& access, std::optional<std::uint
 
 void CellRules::check_count(Tick at) {
   if (hold_.counted_unknown) return;
-  recorder_.kept(Check::kCountByUser, at, hold_.increments == 1 && hold_.wrong_counts == 0, [this] {
-    if (hold_.wrong_counts != 0) return std::string("B006 was written with another value than the one read plus 1");
-    return fmt::format("B006 was incremented {} times in a hold of {} accesses", hold_.increments, hold_.accesses);
-  });
+  const bool counted = hold_.increments + hold_.wrong_counts != 0;
+  recorder_.kept(
+      Check::kCountByUser, at, hold_.increments == 1 && hold_.wrong_counts == 0,
+      [this] {
+        if (hold_.wrong_counts != 0) return std::string("B006 was written with another value than the one read plus 1");
+        return fmt::format("B006 was incremented {} times in a hold of {} accesses", hold_.increments, hold_.accesses);
+      },
+      counted ? Act::written(regs::kAccessCount, at) : Act::done(at));
 }
 
 void CellRules::check_crcs_written(Tick at) {
@@ -232,10 +236,15 @@ void CellRules::check_crc_written(const Block& block, Tick at) {
   const auto high = look(block.crc), low = look(static_cast<Address>(block.crc + 1));
   if (!right || !high || !low) return;
   const auto written = static_cast<std::uint16_t>(*high << 8 | *low);
-  recorder_.kept(Check::kCrcWritten, at, written == *right, [&] {
-    return fmt::format("{}: CRC {:04X} in B{:03X}, {:04X} is right for {} bytes from B{:03X}", block.name, written,
-                       block.crc, *right, *count, block.first);
-  });
+  const bool exchanged = written == static_cast<std::uint16_t>(*right << 8 | *right >> 8);
+  recorder_.kept(
+      Check::kCrcWritten, at, written == *right,
+      [&] {
+        return fmt::format("{}: CRC {:04X} in B{:03X}, {:04X} is right for {} bytes from B{:03X}{}", block.name,
+                           written, block.crc, *right, *count, block.first,
+                           exchanged ? ": its bytes are exchanged" : "");
+      },
+      Act::written(block.command, at));
 }
 
 /// Reading only the length is not a fetch, unless the flag is cleared with it.
@@ -243,9 +252,11 @@ void CellRules::check_crcs_fetched(Tick at) {
   for (std::size_t i = 0; i < kChipBlocks.size(); ++i) {
     const bool fetched = hold_.data_read[i] || (hold_.header_read[i] && hold_.flag_cleared[i]);
     if (!fetched) continue;
-    recorder_.kept(Check::kCrcFetched, at, hold_.crc_high_read[i] && hold_.crc_low_read[i], [i] {
-      return fmt::format("{} fetched without the CRC in B{:03X}", kChipBlocks.at(i).name, kChipBlocks.at(i).crc);
-    });
+    const Block& block = kChipBlocks.at(i);
+    recorder_.kept(
+        Check::kCrcFetched, at, hold_.crc_high_read[i] && hold_.crc_low_read[i],
+        [&block] { return fmt::format("{} fetched without the CRC in B{:03X}", block.name, block.crc); },
+        hold_.flag_cleared[i] ? Act::written(block.command, at) : Act::done(at));
   }
 }
 
@@ -282,12 +293,15 @@ void CellRules::check_verdicts(Tick at) {
     if (!hold_.verdicts[i]) continue;
     const Verdict& verdict = kVerdicts.at(i);
     if (const std::optional<bool> stands = stands_unfetched(i))
-      recorder_.kept(Check::kVerdictUnfetched, at, !*stands, [this, &verdict] {
-        const bool seen = (flags_left_.at(regs::kChipCommand1 - kFirstFlags) & verdict.block) != 0;
-        return fmt::format("verdict on the {}, {}", verdict.name,
-                           seen ? fmt::format("whose flag {} still stands", verdict.flag)
-                                : fmt::format("and {} was not cleared since the last one", verdict.flag));
-      });
+      recorder_.kept(
+          Check::kVerdictUnfetched, at, !*stands,
+          [this, &verdict] {
+            const bool seen = (flags_left_.at(regs::kChipCommand1 - kFirstFlags) & verdict.block) != 0;
+            return fmt::format("verdict on the {}, {}", verdict.name,
+                               seen ? fmt::format("whose flag {} still stands", verdict.flag)
+                                    : fmt::format("and {} was not cleared since the last one", verdict.flag));
+          },
+          Act::written(regs::kUserCommand1, at));
     fetched_.reset(i);
   }
 }

@@ -48,7 +48,7 @@ For each check and slave: the number of evaluations (`count`) and violations (`v
 its time, and a histogram of all margins. The histogram has a bin below 0, then bins 1, 2, 5, 10 ... from 1 ns to 1 s. A margin is the distance of the measured value
 to the limit, positive when kept; times are exact to 1/12 ns. Without a limit the greatest value is kept instead. Checks without a value have no
 margin; their time is that of the first violation. The result file has the first 20 violations of a check (`checks[].listed`), each
-with the last four changes of each pin involved; all are in the log.
+with the last four changes of each pin involved and, with firmware on the ARM board, its line ([arm_board.md](arm_board.md#lines-of-the-firmware)); all are in the log.
 
 | field of `checks[]` | meaning |
 |---|---|
@@ -57,7 +57,7 @@ with the last four changes of each pin involved; all are in the log.
 | `count`, `violations`, `allowed` | as above |
 | `worst_margin_ns`, `worst_value_ns`, `at_ns` | the worst margin, the value measured then, and when; `null` when not evaluated |
 | `histogram` | bins that are not empty: `from_ns` (`null`: violated), `to_ns`, `count` |
-| `listed` | `at_ns`, `margin_ns`, `text`, `history` (`at_ns`, `pin`, `level`) |
+| `listed` | `at_ns`, `margin_ns`, `text`, `history` (`at_ns`, `pin`, `level`), `where` (`file`, `line`, `function`, `pc`, `stayed_ns`) |
 
 ## How they relate to the violations that the chip reports
 

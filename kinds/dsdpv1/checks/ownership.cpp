@@ -8,6 +8,9 @@ namespace {
 
 std::string no_context() { return {}; }
 
+/// An access so soon after a release is one that the compiler has moved behind it.
+constexpr Tick kSoon = 2 * bus::kTicksPerUs;
+
 }  // namespace
 
 void Ownership::reset(Tick at, bool low) {
@@ -20,8 +23,8 @@ void Ownership::reset(Tick at, bool low) {
   accessing_ = false;
 }
 
-void Ownership::record(Check check, Tick at, Tick measured) {
-  if (!in_reset_) recorder_.value(check, at, measured, no_context);
+void Ownership::record(Check check, Tick at, Tick measured, const std::optional<Act>& act) {
+  if (!in_reset_) recorder_.value(check, at, measured, no_context, act);
 }
 
 std::optional<Tick> Ownership::held_off_since() const {
@@ -79,7 +82,7 @@ void Ownership::holding_off_may_have_changed(Tick at, bool before) {
   }
   freed_ = at;
   const Tick since = std::max(held_off_since_, reset_changed_);
-  record(Check::kNeverReleased, since, at - since);
+  record(Check::kNeverReleased, since, at - since, Act::omitted(since, at));
 }
 
 void Ownership::l_sta(Tick at, bool level) {
@@ -139,15 +142,22 @@ void Ownership::access_ended(Tick at) {
 
 void Ownership::end_without_ownership(Tick at) {
   if (!not_owned_since_) return;
-  record(began_not_owned_ ? Check::kNotOwner : Check::kReleasedInAccess, *not_owned_since_, *not_owned_since_ - at);
-  not_owned_since_.reset();
+  const Tick since = *std::exchange(not_owned_since_, std::nullopt);
+  if (!began_not_owned_) return record(Check::kReleasedInAccess, since, since - at);
+  const Tick late = since - freed_;
+  if (!in_reset_)
+    recorder_.value(Check::kNotOwner, since, since - at, [this, late] {
+      const bool scattered = !holds_off() && freed_ >= 0 && late < kSoon;
+      return scattered ? ns_text(late) + " after the release: is the pointer volatile?" : std::string();
+    });
 }
 
 void Ownership::finish(Tick at) {
   end_both_own(at);
   end_alone(at);
   if (accessing_) end_without_ownership(at);
-  if (const std::optional<Tick> since = held_off_since()) record(Check::kNeverReleased, *since, at - *since);
+  if (const std::optional<Tick> since = held_off_since())
+    record(Check::kNeverReleased, *since, at - *since, Act::omitted(*since, at));
 }
 
 }  // namespace dsdpv1::checks

@@ -34,7 +34,7 @@ class Ownership {
  private:
   bool owns() const { return r_req_ && r_sta_; }
   bool holds_off() const { return r_req_ || r_sta_; }
-  void record(Check check, Tick at, Tick measured);
+  void record(Check check, Tick at, Tick measured, const std::optional<Act>& act = {});
   void r_sta_rose(Tick at);
   void holding_off_may_have_changed(Tick at, bool before);
   void ownership_may_have_changed(Tick at);

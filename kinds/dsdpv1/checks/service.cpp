@@ -29,15 +29,19 @@ void Service::accessed(const Access& access) {
   constexpr unsigned kNews = regs::kChipCommand1Prm | regs::kChipCommand1Cfg;
   // Nothing in B00E: an earlier service has already fetched this block.
   if (in_areas || (*access.value & kNews) != 0)
-    recorder_.value(Check::kIntr0Service, *intr0_fell_, access.began - *intr0_fell_,
-                    [&access] { return fmt::format("served by the read of B{:03X}", access.address); });
+    recorder_.value(
+        Check::kIntr0Service, *intr0_fell_, access.began - *intr0_fell_,
+        [&access] { return fmt::format("served by the read of B{:03X}", access.address); },
+        Act::omitted(*intr0_fell_, access.began));
   intr0_fell_.reset();
 }
 
 void Service::finish(Tick at, std::optional<Tick> held_off_since) {
   pass(at, held_off_since);
   if (intr0_fell_)
-    recorder_.value(Check::kIntr0Service, *intr0_fell_, at - *intr0_fell_, [] { return std::string("not served"); });
+    recorder_.value(
+        Check::kIntr0Service, *intr0_fell_, at - *intr0_fell_, [] { return std::string("not served"); },
+        Act::omitted(*intr0_fell_, at));
   intr0_fell_.reset();
 }
 
@@ -50,7 +54,11 @@ void Service::held_off(Tick since, Tick at) {
 
 /// The time before the interval does not count.
 void Service::add_part(Tick since, Tick at) {
-  if (last_exchange_) longest_part_ = std::max(longest_part_, at - std::max(since, *last_exchange_));
+  if (!last_exchange_) return;
+  const Tick begin = std::max(since, *last_exchange_);
+  if (at - begin <= longest_part_) return;
+  longest_part_ = at - begin;
+  longest_since_ = begin;
 }
 
 /// Time has advanced to `at`.
@@ -69,10 +77,13 @@ void Service::telegram(Tick now, const bus::WireTelegram& telegram, std::optiona
 void Service::exchange(Tick at) {
   if (last_exchange_ && longest_part_ != 0) {
     const Tick interval = at - *last_exchange_;
-    recorder_.value(interval_, at, interval - longest_part_, [&] {
-      return fmt::format("the chip was held off for {} of the {} between two Data_Exchange", ns_text(longest_part_),
-                         ns_text(interval));
-    });
+    recorder_.value(
+        interval_, at, interval - longest_part_,
+        [&] {
+          return fmt::format("the chip was held off for {} of the {} between two Data_Exchange", ns_text(longest_part_),
+                             ns_text(interval));
+        },
+        Act::omitted(longest_since_, longest_since_ + longest_part_));
   }
   last_exchange_ = at;
   longest_part_ = 0;

@@ -40,7 +40,8 @@ class Service {
   // intervals run between these.
   std::optional<Tick> due_exchange_;   ///< has been received
   std::optional<Tick> last_exchange_;  ///< was executed
-  Tick longest_part_ = 0;  ///< longest part of the interval since then during which the user held the chip off
+  Tick longest_part_ = 0;   ///< longest part of the interval since then during which the user held the chip off
+  Tick longest_since_ = 0;  ///< its begin
 };
 
 }  // namespace dsdpv1::checks

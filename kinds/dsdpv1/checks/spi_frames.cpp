@@ -123,7 +123,8 @@ void SpiFrames::settle() {
 void SpiFrames::release(Tick at) {
   const Tick since = *std::exchange(owned_since_, std::nullopt);
   accesses_.released(at);
-  recorder_.value(Check::kOwned, at, at - since, [since] { return "owned since " + ns_text(since); });
+  recorder_.value(
+      Check::kOwned, at, at - since, [since] { return "owned since " + ns_text(since); }, Act::omitted(since, at));
   owner_gone(since, at);
 }
 

@@ -53,16 +53,16 @@ bool Recorder::add_outcome(CheckId check, Tick at, bool is_kept) {
   return false;
 }
 
-void Recorder::report_value(CheckId check, Tick at, Tick measured, const std::string& context) {
+void Recorder::report_value(CheckId check, Tick at, Tick measured, const std::string& context, const Act& act) {
   const Tick left = margin(check, measured);
   std::string text =
       fmt::format("{} of {} {}", ns_text(measured), rule(check).bound == Bound::kMin ? "at least" : "at most",
                   ns_text(limits_[check].value));
   if (!context.empty()) text += ", " + context;
-  report(check, at, left, std::move(text));
+  report(check, at, left, std::move(text), act);
 }
 
-void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::string text) {
+void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::string text, const Act& act) {
   if (!on_violation) return;
   const Tick found = std::max(now_, history_.now());
   std::vector<PinChange> history = history_.last(rule(check).pins);
@@ -70,7 +70,7 @@ void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::s
   // between views.
   const auto is_later = [&](const PinChange& change) { return at < found && change.at >= found; };
   history.erase(std::remove_if(history.begin(), history.end(), is_later), history.end());
-  on_violation({check, at, found, margin, std::move(text), std::move(history)});
+  on_violation({check, at, found, margin, std::move(text), std::move(history), act});
 }
 
 }  // namespace dsdpv1::checks

@@ -9,8 +9,11 @@
 #include "tb/chip/checks/check.hpp"
 #include "tb/chip/checks/histogram.hpp"
 #include "tb/chip/checks/pin_history.hpp"
+#include "tb/chip/user_cpu/place.hpp"
 
 namespace dsdpv1::checks {
+
+using user_cpu::Act;
 
 /// The results of a check so far. Values and margins are ticks of 1/12 ns.
 struct Record {
@@ -28,7 +31,9 @@ struct Violation {
   Tick found = 0;  ///< when that became visible, not before `at`
   std::optional<Tick> margin;
   std::string text;
-  std::vector<PinChange> history;  ///< the last changes of the pins that the check concerns
+  std::vector<PinChange> history;             ///< the last changes of the pins that the check concerns
+  Act act;                                    ///< the user's, by which it broke the rule, or its omission
+  std::optional<user_cpu::Place> where = {};  ///< of the act in the user's program, if that is known
 };
 
 /// "SCK=1 -62.500 ns, XSS=1 0.000 ns": the violation's history, with times relative to it.
@@ -44,14 +49,17 @@ class Recorder {
       : rules_(rules), limits_(std::move(limits)), history_(history), records_(rules.size()) {}
 
   /// A measured value of a check with Bound::kMin or kMax; `context()` describes the case, called only for a violation.
+  /// `act`: of the user, if not at `at`; Act::omitted if the user should have done something.
   template <class Context>
-  void value(CheckId check, Tick at, Tick measured, const Context& context) {
-    if (limits_[check].on && !add(check, at, measured)) report_value(check, at, measured, context());
+  void value(CheckId check, Tick at, Tick measured, const Context& context, const std::optional<Act>& act = {}) {
+    if (limits_[check].on && !add(check, at, measured))
+      report_value(check, at, measured, context(), act.value_or(Act::done(at)));
   }
-  /// The outcome of a check with Bound::kRule; `text()` describes the violation.
+  /// The outcome of a check with Bound::kRule; `text()` describes the violation. `act`: as above.
   template <class Text>
-  void kept(CheckId check, Tick at, bool is_kept, const Text& text) {
-    if (limits_[check].on && !add_outcome(check, at, is_kept)) report(check, at, std::nullopt, text());
+  void kept(CheckId check, Tick at, bool is_kept, const Text& text, const std::optional<Act>& act = {}) {
+    if (limits_[check].on && !add_outcome(check, at, is_kept))
+      report(check, at, std::nullopt, text(), act.value_or(Act::done(at)));
   }
 
   const Record& record(CheckId check) const { return records_.at(check.index); }
@@ -66,8 +74,8 @@ class Recorder {
  private:
   bool add(CheckId check, Tick at, Tick measured);
   bool add_outcome(CheckId check, Tick at, bool is_kept);
-  void report_value(CheckId check, Tick at, Tick measured, const std::string& context);
-  void report(CheckId check, Tick at, std::optional<Tick> margin, std::string text);
+  void report_value(CheckId check, Tick at, Tick measured, const std::string& context, const Act& act);
+  void report(CheckId check, Tick at, std::optional<Tick> margin, std::string text, const Act& act);
   Tick margin(CheckId check, Tick measured) const;
   const Rule& rule(CheckId check) const { return rules_.at(check.index); }
 

@@ -8,6 +8,7 @@
 
 #include "bus/timeline.hpp"
 #include "tb/chip/user_cpu/others.hpp"
+#include "tb/chip/user_cpu/place.hpp"
 #include "tb/chip/user_cpu/program.hpp"
 
 namespace dsdpv1::user_cpu {
@@ -37,6 +38,9 @@ class StationCpu : public bus::Agent {
   virtual const std::vector<std::uint8_t>& outputs() const = 0;
   /// Absent without such a board.
   virtual std::optional<BoardReport> board() const { return std::nullopt; }
+
+  /// Where its program did this; absent: not known. Only for the last acts, not for those before a reset.
+  virtual std::optional<Place> where(const Act& /*act*/) const { return std::nullopt; }
 
   /// Set it before the first turn; null, the default: nothing is known, each action has a separate turn.
   virtual void set_others(Others* others) { others_ = others; }

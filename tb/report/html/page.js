@@ -29,6 +29,14 @@ function cell(parent, content) {
   else parent.text(content);
 }
 
+// The text of a finding with its line in the firmware, as in the summary.
+function withPlace({text, where}) {
+  if (!where) return text;
+  const line = `at ${where.file ? `${where.file}:${where.line}` : where.pc}`, place = where.function ? `in ${where.function}()` : "";
+  if (where.stayed_ns === null) return `${text}, ${line} ${place}`.trim();
+  return `${text}, ${place} ${line} for ${timeText(where.stayed_ns * TICKS_PER_NS)}`;
+}
+
 // rows: a list of cells each, texts, numbers or {code}; heads that end in " #" are numbers.
 function table(parent, heads, rows, classOf = () => null) {
   const isNumber = heads.map(each => each.endsWith(" #"));
@@ -220,7 +228,7 @@ function repeatedTable(parent, all, head = null) {
   const optional = (group, what) => head ? [what(group)] : [];
   table(parent, ["station", "code", "count #", ...optional(null, () => head), "first #", "last #", "what, the first time"],
     groups.map(group => [group[0].slave, {code: group[0].code}, countText(d3.sum(group, each => each.count)), ...optional(group, each => countText(unexpected(each))),
-      momentText(group[0].first_ns * TICKS_PER_NS), momentText(d3.max(group, each => each.last_ns) * TICKS_PER_NS), group[0].text]),
+      momentText(group[0].first_ns * TICKS_PER_NS), momentText(d3.max(group, each => each.last_ns) * TICKS_PER_NS), withPlace(group[0])]),
     i => unexpected(groups[i]) ? "bad" : null).classed("wide", true);
 }
 
@@ -228,7 +236,7 @@ const MOST_EVENTS = 200;
 
 function eventTable(parent, events) {
   table(parent, ["time #", "station", "code", "severity", "what"],
-    events.slice(0, MOST_EVENTS).map(each => [momentText(each.at_ns * TICKS_PER_NS), each.slave, {code: each.code}, each.severity + (each.allowed ? ", expected" : ""), each.text]),
+    events.slice(0, MOST_EVENTS).map(each => [momentText(each.at_ns * TICKS_PER_NS), each.slave, {code: each.code}, each.severity + (each.allowed ? ", expected" : ""), withPlace(each)]),
     i => events[i].severity === "violation" && !events[i].allowed ? "bad" : null);
   if (events.length > MOST_EVENTS) parent.append("p").attr("class", "note").text(`The first ${MOST_EVENTS} of ${countText(events.length)}.`);
 }

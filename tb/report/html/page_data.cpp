@@ -133,7 +133,7 @@ Json violation_of(const scenario::Scenario& scenario, const ViolationPicture& pi
           {"rule", rule.rule},
           {"clause", rule.clause},
           {"advice", rule.advice},
-          {"text", picture.violation.text},
+          {"text", with_place(picture.violation.text, picture.violation.where)},
           {"at", picture.violation.at},
           {"found", picture.violation.found},
           {"margin", optional_of(picture.violation.margin)},

@@ -1,0 +1,91 @@
+#pragma once
+// What a processor did last at the pins of its chip, and where its program was meanwhile: enough to name the line that
+// broke a rule. Nothing of it is done for an instruction that touches neither.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "bus/time.hpp"
+#include "tb/chip/user_cpu/place.hpp"
+
+namespace dsdpv1::arm {
+
+using bus::Tick;
+
+class ActLog {
+ public:
+  /// A place of the program is kept this often: 100 us, for the last 100 ms.
+  static constexpr Tick kSamplePeriod = 100 * bus::kTicksPerUs;
+
+  explicit ActLog(Tick start) : sample_at_(start + kSamplePeriod) {}
+
+  /// An access to `count` cells from `cell` on begins, by the instruction at `pc`.
+  void access(Tick at, std::uint32_t pc, std::uint32_t cell, unsigned count, bool write) {
+    add({at, pc, cell, write ? count : 0, false});
+  }
+  /// Pins of the chip move; `releases`: R_REQ or R_STA falls.
+  void pins(Tick at, std::uint32_t pc, bool releases) { add({at, pc, 0, 0, releases}); }
+
+  /// When the next sample is due.
+  Tick sample_at() const { return sample_at_; }
+  /// The program has been at `pc` from the last sample's time until `now`, or was not asked.
+  void sample(Tick now, std::uint32_t pc) {
+    if (sample_at_ <= now) take_samples(now, pc);
+  }
+
+  /// The instruction of an act; absent if it is older than what is kept. Not for an omission.
+  std::optional<std::uint32_t> instruction(const user_cpu::Act& act) const;
+
+  /// Where the program was most of the time from `since` to `until`, by the samples.
+  struct Stay {
+    std::uint32_t pc = 0;  ///< the last one there
+    Tick time = 0;
+  };
+  /// `function_of(pc)`: a name. Absent without a sample.
+  template <class FunctionOf>
+  std::optional<Stay> longest_stay(Tick since, Tick until, const FunctionOf& function_of) const;
+
+ private:
+  struct Entry {
+    Tick at = bus::kNever;
+    std::uint32_t pc = 0, cell = 0;
+    unsigned written = 0;  ///< cells
+    bool releases = false;
+  };
+  struct Sample {
+    Tick at = bus::kNever;
+    std::uint32_t pc = 0;
+  };
+
+  void take_samples(Tick now, std::uint32_t pc);
+  void add(const Entry& entry) { entries_.at(count_++ % entries_.size()) = entry; }
+  template <class Is>
+  const Entry* last(Tick until, const Is& is) const;
+
+  std::array<Entry, 64> entries_{};
+  std::size_t count_ = 0;
+  std::array<Sample, 1000> samples_{};
+  std::size_t samples_taken_ = 0;
+  Tick sample_at_;
+};
+
+template <class FunctionOf>
+std::optional<ActLog::Stay> ActLog::longest_stay(Tick since, Tick until, const FunctionOf& function_of) const {
+  std::map<std::string, Stay> stays;
+  const std::size_t kept = std::min(samples_taken_, samples_.size());
+  for (std::size_t i = samples_taken_ - kept; i < samples_taken_; ++i) {
+    const Sample& sample = samples_.at(i % samples_.size());
+    if (sample.at <= since || sample.at > until) continue;
+    Stay& stay = stays[function_of(sample.pc)];
+    stay = {sample.pc, stay.time + kSamplePeriod};
+  }
+  const auto longest = std::max_element(stays.begin(), stays.end(),
+                                        [](const auto& a, const auto& b) { return a.second.time < b.second.time; });
+  if (longest == stays.end()) return std::nullopt;
+  return Stay{longest->second.pc, std::min(longest->second.time, until - since)};
+}
+
+}  // namespace dsdpv1::arm
