@@ -64,18 +64,18 @@ void for_each_row(Dwarf* dwarf, Take take) {
 
 constexpr int kDeepest = 100;  // nested blocks and functions
 
-/// Calls `take` for every function inlined in `parent`, before those inlined in it. Damaged entries that lead back are
+/// Calls `take` for every function in `parent`, before those inlined in it. Damaged entries that lead back are
 /// not followed.
 template <typename Take>
-void for_each_inlined(Dwarf_Die* parent, const Take& take, int depth = 0) {
+void for_each_function(Dwarf_Die* parent, const Take& take, int depth = 0) {
   Dwarf_Die die;
   if (depth == kDeepest || ::dwarf_child(parent, &die) != 0) return;
   for (Dwarf_Off last = ::dwarf_dieoffset(parent); ::dwarf_dieoffset(&die) > last;) {
     last = ::dwarf_dieoffset(&die);
     const int tag = ::dwarf_tag(&die);
-    if (tag == DW_TAG_inlined_subroutine) take(die);
-    if (tag == DW_TAG_inlined_subroutine || tag == DW_TAG_subprogram || tag == DW_TAG_lexical_block)
-      for_each_inlined(&die, take, depth + 1);
+    const bool is_function = tag == DW_TAG_inlined_subroutine || tag == DW_TAG_subprogram;
+    if (is_function) take(die);
+    if (is_function || tag == DW_TAG_lexical_block) for_each_function(&die, take, depth + 1);
     if (::dwarf_siblingof(&die, &die) != 0) return;
   }
 }
@@ -129,10 +129,10 @@ SourceLines::Table SourceLines::read_table(std::vector<std::uint8_t> file) {
         table.lines.push_back({row.address, number->second, row.line});
       });
   for_each_unit(dwarf.get(), [&table](Dwarf_Die& unit) {
-    for_each_inlined(&unit, [&table](Dwarf_Die& die) {
+    for_each_function(&unit, [&table](Dwarf_Die& die) {
       const char* const name = name_of(&die);
       if (name == nullptr) return;
-      for_each_part(&die, [&](std::uint32_t begin, std::uint32_t end) { table.inlined.push_back({begin, end, name}); });
+      for_each_part(&die, [&](std::uint32_t begin, std::uint32_t end) { table.parts.push_back({begin, end, name}); });
     });
   });
   // Another sequence may begin where one ends: its line counts. The last of several rows for an address counts, as in
@@ -167,18 +167,18 @@ const SourceLines::Line* SourceLines::line_at(std::uint32_t address) const {
 }
 
 /// The last one: it is inside the others.
-const SourceLines::Inlined* SourceLines::inlined_at(std::uint32_t address) const {
-  const std::vector<Inlined>& all = table().inlined;
-  const auto found = std::find_if(
-      all.rbegin(), all.rend(), [address](const Inlined& each) { return each.begin <= address && address < each.end; });
+const SourceLines::Part* SourceLines::part_at(std::uint32_t address) const {
+  const std::vector<Part>& all = table().parts;
+  const auto found = std::find_if(all.rbegin(), all.rend(),
+                                  [address](const Part& each) { return each.begin <= address && address < each.end; });
   return found == all.rend() ? nullptr : &*found;
 }
 
 SourceLine SourceLines::line_of(std::uint32_t address) const {
   SourceLine found;
   address &= ~1U;
-  if (const Inlined* const inlined = inlined_at(address))
-    found.function = inlined->name;
+  if (const Part* const part = part_at(address))
+    found.function = part->name;
   else if (const Function* const function = function_at(address))
     found.function = function->name;
   if (const Line* const line = line_at(address)) {

@@ -46,8 +46,9 @@ class SourceLines {
     std::string name;
   };
 
-  /// A part of a function that was inlined into another one.
-  struct Inlined {
+  /// A part of a function by the debug information, also of one that is inlined. It has each static function, the map
+  /// of symbols only one of a name.
+  struct Part {
     std::uint32_t begin, end;
     std::string name;
   };
@@ -55,7 +56,7 @@ class SourceLines {
   struct Table {
     std::vector<std::string> files;  ///< without folders
     std::vector<Line> lines;         ///< by address
-    std::vector<Inlined> inlined;    ///< those inside others later
+    std::vector<Part> parts;         ///< those inside others later
   };
 
   const Table& table() const;
@@ -63,7 +64,7 @@ class SourceLines {
   void read_functions(const ElfImage& image);
   const Function* function_at(std::uint32_t address) const;
   const Line* line_at(std::uint32_t address) const;
-  const Inlined* inlined_at(std::uint32_t address) const;
+  const Part* part_at(std::uint32_t address) const;
 
   std::vector<Function> functions_;  ///< by address
   mutable std::vector<std::uint8_t> file_;

@@ -186,7 +186,7 @@ struct RunResult {
 
 /// "at port.c:41 in wait()"; of an omission "in wait() at port.c:41 for 5.800 ms"; without a line "at 0x08000124".
 std::string place_text(const user_cpu::Place& place);
-/// The text, and the place if there is one: "WR was low for 0 ns, at port.c:41 in wait()".
+/// The text, and the place if there is one: "inputs refused, at port.c:41 in wait()".
 std::string with_place(const std::string& text, const std::optional<user_cpu::Place>& place);
 /// The word for a baud index of Status: "12M" ... "9.6k", "searching".
 std::string baud_text(std::optional<int> baud);

@@ -34,11 +34,11 @@ int line_with(const std::string& file, const std::string& words) {
 
 class FirmwareLines : public testing::Test {
  protected:
-  /// A slave at the port `chip`, with `script`, for 25 ms.
+  /// A slave at the port `chip`, with `script`, for 40 ms.
   void run(const std::string& chip, const std::string& script, const std::string& options = "",
            const std::string& elf = FIRMWARE_O2) {
     std::ofstream(folder_.file("s.yaml"))
-        << "name: lines\nbaud: 1.5M\nend: 40ms\n"
+        << "name: lines\nend: 40ms\n"
         << chip
         << "slaves:\n  - {name: board, address: 5, init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}, "
         << "user_cpu: {kind: arm, elf: \"" << elf << "\", cycle: 1ms}}\n"
@@ -66,9 +66,9 @@ class FirmwareLines : public testing::Test {
   Json result_;
 };
 
-const std::string kParallel = "chip: {search_window_ms: 2}\n",
-                  kSpi = "chip: {kind: dsdpv1_rsu, mode: spi, search_window_ms: 2}\n",
-                  kUart = "chip: {kind: dsdpv1_rsu, mode: uart, uart_rate: 1.8432M, search_window_ms: 2}\n";
+const std::string kFast = "baud: 12M\n", kParallel = "baud: 1.5M\nchip: {search_window_ms: 2}\n",
+                  kSpi = "baud: 1.5M\nchip: {kind: dsdpv1_rsu, mode: spi, search_window_ms: 2}\n",
+                  kUart = "baud: 1.5M\nchip: {kind: dsdpv1_rsu, mode: uart, uart_rate: 1.8432M, search_window_ms: 2}\n";
 
 void expect_line(const Json& where, const std::string& file, const std::string& words) {
   ASSERT_TRUE(where.is_object()) << where;
@@ -80,9 +80,10 @@ TEST_F(FirmwareLines, PinIsTheStoreThatMovedItInEveryEngineAndView) {
   Json first;
   std::string first_log;
   for (const std::string options : {"--engine skip", "--engine step", "--view tlm"}) {
-    run(kParallel, "", options, FIRMWARE_EARLY_R_STA);
-    expect_line(where("OWNERSHIP_SYNC_WINDOW"), "dsdpv1_port_stm32.c", "GPIOC->BSRR = level ? bit : bit << 16;");
-    EXPECT_TRUE(where("OWNERSHIP_SYNC_WINDOW").at("stayed_ns").is_null());
+    run(kFast, "", options + " --set user_cpu.cycle=40us --set masters.plc.bus.min_slave_interval=0",
+        FIRMWARE_EARLY_R_STA);
+    expect_line(where("OWNERSHIP_BOTH_OWN"), "dsdpv1_port_stm32.c", "GPIOC->BSRR = level ? bit : bit << 16;");
+    EXPECT_TRUE(where("OWNERSHIP_BOTH_OWN").at("stayed_ns").is_null());
     if (first.is_null()) first = result_.at("checks"), first_log = log();
     EXPECT_EQ(result_.at("checks"), first) << options;
     EXPECT_TRUE(log() == first_log) << options;
@@ -102,8 +103,8 @@ TEST_F(FirmwareLines, OmissionIsWhereTheFirmwareWasInstead) {
 
 TEST_F(FirmwareLines, BlockIsTheStoreOfItsFlag) {
   run(kParallel, "{at: 20ms, do: wrong_crc, slave: board, area: inputs}");
-  expect_line(where("CRC_WRITTEN"), "port.c", "= value;");
-  expect_line(where("INPUT_CRC"), "port.c", "= value;");
+  expect_line(where("CRC_WRITTEN"), "dsdpv1_port_stm32.h", "= value;");
+  expect_line(where("INPUT_CRC"), "dsdpv1_port_stm32.h", "= value;");
   EXPECT_EQ(where("CRC_WRITTEN"), where("INPUT_CRC"));
 }
 

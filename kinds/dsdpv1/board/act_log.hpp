@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "bus/time.hpp"
 #include "tb/chip/user_cpu/place.hpp"
 
 namespace dsdpv1::arm {
