@@ -112,7 +112,8 @@ void Journal::flag(const bus::Flag& flag) {
 }
 
 void Journal::error(std::size_t slave, const user_cpu::ProgramError& error) {
-  happened(tally(name_of(slave), error.code, severity_of(*scenario_.kind, error.code)), error.at, error.text);
+  happened(tally(name_of(slave), error.code, severity_of(*scenario_.kind, error.code)), error.at, error.text, nullptr,
+           error.where);
 }
 
 void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, bool changed) {

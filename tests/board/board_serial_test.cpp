@@ -1,5 +1,6 @@
 // The board's serial ports, observed at the chip's pins and by firmware: the actions are in
 // tests/board/firmware/serial.c.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -106,7 +107,10 @@ class BoardSerial : public testing::Test {
     options.mode = mode;
     board = std::make_unique<arm::Board>(
         host, std::move(options), [this](Tick at, bool level) { resets.emplace_back(at, level); }, kStart);
-    board->on_error = [this](const user_cpu::ProgramError& error) { misuses.push_back(error.text); };
+    board->on_error = [this](const user_cpu::ProgramError& error) {
+      misuses.push_back(
+          fmt::format("{}, in {} at {}:{}", error.text, error.where->function, error.where->file, error.where->line));
+    };
     board->on_failure = [](Tick, const std::string& why, const std::string&) { ADD_FAILURE() << why; };
   }
   void run_until(Tick end) {

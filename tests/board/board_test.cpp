@@ -2,6 +2,7 @@
 // checks the host bus.
 #include "kinds/dsdpv1/board/board.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -116,7 +117,8 @@ class BoardTest : public testing::Test {
     board->on_error = [this](const user_cpu::ProgramError& error) {
       EXPECT_GE(error.at, kStart);
       codes.push_back(error.code);
-      misuses.push_back(error.text);
+      misuses.push_back(
+          fmt::format("{}, in {} at {}:{}", error.text, error.where->function, error.where->file, error.where->line));
     };
     board->on_failure = [this](Tick, const std::string& why, const std::string& table) {
       failure = {why, table};

@@ -530,8 +530,7 @@ void Board::misused(const tb::BoardCode& code, const std::string& text) {
 }
 
 void Board::tell(const tb::BoardCode& code, const std::string& text, std::optional<std::uint32_t> pc) {
-  if (!on_error) return;
-  on_error({now(), code.code, fmt::format("{}, in {}", text, options_.firmware->lines.at(pc.value_or(core_.place())))});
+  if (on_error) on_error({now(), code.code, text, place_of(pc.value_or(core_.place()))});
 }
 
 // ------------------------------------------------------------------------------------------------- notes

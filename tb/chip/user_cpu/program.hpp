@@ -9,6 +9,7 @@
 
 #include "bus/time.hpp"
 #include "tb/chip/user_cpu/acyclic.hpp"
+#include "tb/chip/user_cpu/place.hpp"
 #include "tb/chip/user_cpu/station_config.hpp"
 
 namespace dsdpv1::user_cpu {
@@ -88,6 +89,7 @@ struct ProgramError {
   Tick at = 0;
   std::string code;  ///< stable: in scenarios, logs and result files
   std::string text;
+  std::optional<Place> where = {};  ///< in the program
 };
 
 struct ProgramCounters {
