@@ -308,7 +308,7 @@ void Board::meet_devices() {
 
 /// The processor may stay ahead of the other agents as long as none of them is due.
 std::uint64_t Board::keep_up() {
-  acts_.sample(now(), core_.pc());
+  acts_.sample(now(), core_.place());
   if (has_news() || stays_until() <= now()) come_up();
   if (core_.cycles() >= look_at_) look_if_stuck();
   return next_due();
