@@ -23,6 +23,8 @@ class Gpio {
   /// General purpose outputs; those that drive both levels.
   bool is_output(unsigned pin) const { return (outputs_ >> pin & 1U) != 0; }
   bool is_pushed(unsigned pin) const { return (pushed_ >> pin & 1U) != 0; }
+  /// An input whose Schmitt trigger is off: it reads 0.
+  bool is_analog(unsigned pin) const { return (analog_ >> pin & 1U) != 0; }
   /// Bits of ODR that a store to this register sets or clears, whether they change or not; of ODR itself: that change.
   std::uint32_t addressed(std::uint32_t offset, std::uint32_t value) const;
   /// The pin when the port drives it, else `floating`: what the board pulls it to.

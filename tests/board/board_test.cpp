@@ -518,6 +518,24 @@ TEST_F(BoardTest, LinesOfTheBusThatFloatCarryNothing) {
   EXPECT_THAT(misuses.at(4), HasSubstr("for it: PD7 (NE1), PF1 (A1), in"));
 }
 
+TEST(MemoryBus, NamesThePinsThatAreWrongForThePortInUse) {
+  constexpr std::uint32_t kLow = 0x00, kHigh = 0x04;
+  std::array<arm::Gpio, 7> ports;
+  for (const unsigned port : {3U, 4U, 5U, 6U})
+    for (const std::uint32_t half : {kLow, kHigh}) ports.at(port).write(half, 0xBBBB'BBBB);
+  const arm::Fsmc fsmc({});  // as after a reset
+  EXPECT_EQ(arm::memory_bus(ports, fsmc, false).wrong_pins, "");
+  EXPECT_EQ(arm::memory_bus(ports, fsmc, true).wrong_pins, "PC6 (R_REQ), PC7 (R_STA)");
+  ports.at(2).write(kLow, 0x3344'4444);
+  ports.at(2).write(kHigh, 0x4444'4404);  // PC9 is analog
+  EXPECT_EQ(arm::memory_bus(ports, fsmc, true).wrong_pins, "PC9 (L_STA)");
+  ports.at(3).write(kLow, 0xFBBB'BBBB);  // NE1 is open drain
+  const arm::MemoryBus bus = arm::memory_bus(ports, fsmc, false);
+  EXPECT_EQ(bus.wrong_pins, "PD7 (NE1)");
+  EXPECT_FALSE(bus.reads || bus.writes);
+  EXPECT_TRUE(bus.wide && bus.multiplexed);
+}
+
 TEST_F(BoardTest, PinsThatAreMovedAreOutputsAndThoseOfTheChipAreNot) {
   start(kWrongPins);
   run();

@@ -75,7 +75,6 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
   core_.attach(debugger_.get());
   follow_clock();
   follow_flash();
-  follow_memory_bus();
   core_.on_fault([this](const Fault& fault) { note_fault(fault); });
   terminal_.on_line = [this](const std::string& line) {
     if (on_text) on_text(now(), line);
@@ -116,17 +115,14 @@ void Board::catch_up_timers() {
   plan_timers();
 }
 
+/// After each call of a timer.
 void Board::plan_timers() {
   timers_at_ = Timer::kNever;
-  for (const Timer& each : timers_) timers_at_ = std::min(timers_at_, each.next());
-}
-
-/// Bits for kDeviceIrq.
-unsigned Board::device_requests() const {
-  unsigned asked = serial_.requests();
-  for (std::size_t i = 0; i < timers_.size(); ++i)
-    asked |= static_cast<unsigned>(timers_.at(i).asks()) << (kSerialIrq.size() + i);
-  return asked;
+  timer_requests_ = 0;
+  for (std::size_t i = 0; i < timers_.size(); ++i) {
+    timers_at_ = std::min(timers_at_, timers_.at(i).next());
+    timer_requests_ |= static_cast<unsigned>(timers_.at(i).asks()) << i;
+  }
 }
 
 /// The watchdog resets the processor before its next instruction.
@@ -352,14 +348,14 @@ void Board::reset() {
   rcc_.reset(std::exchange(bitten_, false));
   flash_ = {};
   timers_ = {};
-  timers_at_ = Timer::kNever;
+  plan_timers();
   watchdog_ = Watchdog(kLsi);
   follow_flash();
   terminal_.reset();
   serial_.reset();
   serial_.follow(rcc_);
   fsmc_ = Fsmc(options_.fsmc);
-  follow_memory_bus();
+  bus_changed_ = true;
   wires_ = wires();
   slow_flash_ = fast_ = in_service_ = false;
   follow_clock();

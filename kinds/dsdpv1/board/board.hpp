@@ -132,12 +132,13 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Tick serial_tick() const { return serial_.next() == SerialSide::kNever ? bus::kNever : tick_of(serial_.next()); }
   bool turn_goes_on(Tick tick);
   Tick timer_tick() const { return timers_at_ == Timer::kNever ? bus::kNever : tick_of(timers_at_); }
-  Tick device_tick() const { return std::min({serial_tick(), timer_tick(), watchdog_.next()}); }
+  Tick device_tick() const { return std::min(std::min(serial_tick(), timer_tick()), watchdog_.next()); }
   void run_devices(Tick now);
   void catch_up_timers();
   void plan_timers();
   void follow_timers();
-  unsigned device_requests() const;
+  /// Bits for kDeviceIrq.
+  unsigned device_requests() const { return serial_.requests() | timer_requests_ << kSerialIrq.size(); }
   void bite();
   void look_for_overruns();
   void look_if_stuck();
@@ -171,7 +172,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void end_accesses(unsigned count);
   void set_access_timing();
   bool may_access(std::uint32_t address, bool write);
-  void follow_memory_bus();
+  bool has_right_bus();
   void tell_wrong_bus();
   std::uint32_t load_by_wrong_bus(std::uint32_t address, unsigned bytes);
   void store_by_wrong_bus(std::uint32_t address, unsigned bytes, std::uint32_t value);
@@ -221,11 +222,13 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Terminal terminal_;
   std::array<Timer, 4> timers_;              ///< TIM2 to TIM5
   std::uint64_t timers_at_ = Timer::kNever;  ///< the next one's next()
+  unsigned timer_requests_ = 0;              ///< bit 0: TIM2
   Watchdog watchdog_{kLsi};
   std::array<std::uint64_t, 3> lost_{};  ///< SerialSide::lost, as told
   bool bitten_ = false;                  ///< the next reset is the watchdog's
   Fsmc fsmc_;
   MemoryBus memory_bus_;
+  bool bus_changed_ = true;  ///< since memory_bus_ was looked at
   std::vector<Wire> wires_;
   std::uint64_t touched_at_ = 0;            ///< the cycle of the last access or wake-up
   bool polls_ = false;                      ///< that was a read of a register that stays

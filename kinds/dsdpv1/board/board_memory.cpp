@@ -115,7 +115,7 @@ std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
   if (!may_access(address, false)) return 0;
   come_up();
   acts_.access(pins_->now(), core_.pc(), address & kChipMask, bytes, false);
-  if (!memory_bus_.is_right()) return load_by_wrong_bus(address, bytes);
+  if (!has_right_bus()) return load_by_wrong_bus(address, bytes);
   std::uint32_t value = 0;
   for (unsigned i = 0; i < bytes; ++i)
     value |= static_cast<std::uint32_t>(pins_->read(static_cast<std::uint16_t>((address + i) & kChipMask))) << i * 8;
@@ -127,7 +127,7 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
   if (!may_access(address, true)) return;
   come_up();
   acts_.access(pins_->now(), core_.pc(), address & kChipMask, bytes, true);
-  if (!memory_bus_.is_right()) return store_by_wrong_bus(address, bytes, value);
+  if (!has_right_bus()) return store_by_wrong_bus(address, bytes, value);
   for (unsigned i = 0; i < bytes; ++i)
     pins_->write(static_cast<std::uint16_t>((address + i) & kChipMask), static_cast<std::uint8_t>(value >> i * 8));
   end_accesses(bytes);
@@ -150,7 +150,11 @@ bool Board::may_access(std::uint32_t address, bool write) {
   return false;
 }
 
-void Board::follow_memory_bus() { memory_bus_ = memory_bus(ports_, fsmc_, options_.mode == HostMode::kParallel); }
+/// Looked at when the chip is accessed: firmware sets up many pins before that.
+bool Board::has_right_bus() {
+  if (std::exchange(bus_changed_, false)) memory_bus_ = memory_bus(ports_, fsmc_, options_.mode == HostMode::kParallel);
+  return memory_bus_.is_right();
+}
 
 void Board::tell_wrong_bus() {
   if (memory_bus_.wide || memory_bus_.multiplexed)
@@ -364,7 +368,7 @@ void Board::store_register(const Peripheral& of, std::uint32_t offset, std::uint
     case Peripheral::kWatchdog: watchdog_.write(offset, value, now()); break;
     case Peripheral::kFsmc:
       fsmc_.write(offset, value);
-      follow_memory_bus();
+      bus_changed_ = true;
       set_access_timing();
       break;
   }
@@ -376,7 +380,7 @@ void Board::store_gpio(unsigned port, std::uint32_t offset, std::uint32_t value)
   Gpio& gpio = ports_.at(port);
   const Gpio before = gpio;
   gpio.write(offset, value);
-  if (offset <= kGpioCrh) follow_memory_bus();
+  bus_changed_ = bus_changed_ || offset <= kGpioCrh;
   look_at_pins(port, before, before.addressed(offset, value));
   update_pins();
   update_serial_pins();
@@ -497,16 +501,13 @@ void Board::look_at_output(Wire& wire, std::uint32_t addressed) {
   const auto [port, pin] = wire.at;
   if ((addressed >> pin & 1U) == 0) return;
   const Gpio& gpio = ports_.at(port);
-  const std::string name = pin_name(port, pin);
-  if (gpio.is_output(pin)) {
-    wire.unheard = 0;
-    if (wire.pushed && !gpio.is_pushed(pin) && !gpio.drives(pin))
-      misused(tb::board_code::kPinMode,
-              fmt::format("{} ({}) is set while it is open drain: it stays low", name, wire.name));
-  } else if (++wire.unheard > 1) {
-    misused(tb::board_code::kPinMode,
-            fmt::format("{} ({}) is set or cleared while it is not an output", name, wire.name));
-  }
+  const bool is_output = gpio.is_output(pin);
+  wire.unheard = is_output ? 0 : wire.unheard + 1;
+  const bool stays_low = is_output && wire.pushed && !gpio.is_pushed(pin) && !gpio.drives(pin);
+  if (!stays_low && wire.unheard < 2) return;
+  misused(tb::board_code::kPinMode, fmt::format("{} ({}) is {}", pin_name(port, pin), wire.name,
+                                                stays_low ? "set while it is open drain: it stays low"
+                                                          : "set or cleared while it is not an output"));
 }
 
 bool Board::is_in_use(SerialSide::Block block) const {

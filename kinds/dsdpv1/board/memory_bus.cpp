@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace dsdpv1::arm {
 namespace {
 
@@ -11,7 +13,8 @@ struct Line {
   unsigned port, pin;
 };
 
-constexpr Line kNe1 = {kD, 7}, kNoe = {kD, 4}, kNwe = {kD, 5}, kRReq = {kC, 6}, kRSta = {kC, 7};
+constexpr Line kNe1 = {kD, 7}, kNoe = {kD, 4}, kNwe = {kD, 5}, kRReq = {kC, 6}, kRSta = {kC, 7}, kLReq = {kC, 8},
+               kLSta = {kC, 9};
 constexpr std::array<Line, 11> kAddress = {
     {{kF, 0}, {kF, 1}, {kF, 2}, {kF, 3}, {kF, 4}, {kF, 5}, {kF, 12}, {kF, 13}, {kF, 14}, {kF, 15}, {kG, 0}}};
 constexpr std::array<Line, 8> kData = {{{kD, 14}, {kD, 15}, {kD, 0}, {kD, 1}, {kE, 7}, {kE, 8}, {kE, 9}, {kE, 10}}};
@@ -40,8 +43,11 @@ MemoryBus memory_bus(const std::array<Gpio, 7>& ports, const Fsmc& fsmc, bool ha
     if (!passes(kAddress.at(i), fmt::format("A{}", i))) bus.address &= static_cast<std::uint16_t>(~(1U << i));
   for (unsigned i = 0; i < kData.size(); ++i)
     if (!passes(kData.at(i), fmt::format("D{}", i))) bus.data &= static_cast<std::uint8_t>(~(1U << i));
-  if (handshake && !ports.at(kRReq.port).is_pushed(kRReq.pin)) add(bus.wrong_pins, kRReq, "R_REQ");
-  if (handshake && !ports.at(kRSta.port).is_pushed(kRSta.pin)) add(bus.wrong_pins, kRSta, "R_STA");
+  if (!handshake) return bus;
+  for (const auto& [line, name] : {std::pair(kRReq, "R_REQ"), std::pair(kRSta, "R_STA")})
+    if (!ports.at(line.port).is_pushed(line.pin)) add(bus.wrong_pins, line, name);
+  for (const auto& [line, name] : {std::pair(kLReq, "L_REQ"), std::pair(kLSta, "L_STA")})
+    if (ports.at(line.port).is_analog(line.pin)) add(bus.wrong_pins, line, name);
   return bus;
 }
 

@@ -5,6 +5,7 @@
 //   PF0 to PF5, PF12 to PF15, PG0     A0 to A10
 //   PD7 NE1, PD4 NOE, PD5 NWE         CSR, RD, WR
 //   PC6, PC7                          R_REQ, R_STA: push-pull outputs, while the chip is accessed
+//   PC8, PC9                          L_REQ, L_STA: not analog
 #include <array>
 #include <cstdint>
 #include <string>

@@ -174,6 +174,7 @@ void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPin
 std::string SerialSide::wrong_pin(Block block) const {
   if (block == kUsart2) {
     const bool passes = (mapr_ & kUsart2Remap) == 0 && ports_.at(kPortA).is_alternate(kTxPin);
+    if (usart_.drives() && ports_.at(kPortA).is_analog(kRxPin)) return pin_name(kPortA, kRxPin) + " (RX)";
     return usart_.drives() && !passes ? pin_name(kPortA, kTxPin) + " (TX)" : "";
   }
   const bool here = block != kSpi1 || (mapr_ & kSpi1Remap) == 0;
@@ -182,7 +183,8 @@ std::string SerialSide::wrong_pin(Block block) const {
     if (spi_.at(block).drives() && !(here && ports_.at(block).is_pushed_alternate(at)))
       return pin_name(block, at) + name;
   }
-  return "";
+  const unsigned miso = kFirstPin.at(block) + kMiso;
+  return spi_.at(block).drives() && ports_.at(block).is_analog(miso) ? pin_name(block, miso) + " (MISO)" : "";
 }
 
 SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {

@@ -66,8 +66,7 @@ class SerialSide {
     std::uint16_t driven = 0, levels = 0;
   };
   Seen seen(unsigned port, bool miso) const;
-  /// A pin by which a block sends to the chip and which is not its alternate function here: "PA5 (SCK)"; empty: none,
-  /// or it sends nothing.
+  /// A pin between a block that sends and the chip that is not set up for it: "PA5 (SCK)"; empty: none.
   std::string wrong_pin(Block block) const;
   /// The port has a pin of the chip.
   bool concerns(unsigned port) const { return card_ != 0 && port < 2; }
