@@ -410,7 +410,7 @@ TEST(ArmBoard, WhatARealBoardWouldNotForgiveFailsTheRunUnlessItIsAllowed) {
     EXPECT_THAT(called.out, HasSubstr("FAILED: 4 violations"));
     EXPECT_THAT(called.out, testing::ContainsRegex("BOARD_CLOCK_OFF +4 "));
     EXPECT_THAT(read(folder.file(view)),
-                HasSubstr("GPIOB is used while its clock is off in RCC_APB2ENR, in run at careless.c:8"));
+                HasSubstr("GPIOB is used while its clock is off in RCC_APB2ENR  [at careless.c:8 in run()]"));
     const Json violated = Json::parse(read(folder.file("r.json"))).at("violated");
     ASSERT_EQ(violated.size(), 1U);
     EXPECT_EQ(violated.at(0).at("count"), 4);

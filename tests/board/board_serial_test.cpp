@@ -360,7 +360,7 @@ TEST_F(BoardSerial, OutputsMoveSpiByHand) {
 TEST_F(BoardSerial, APortThatSendsWithoutItsPinsIsTold) {
   start(kRemapped, 1, true, HostMode::kSpi);
   run();
-  EXPECT_THAT(misuses, ElementsAre(testing::MatchesRegex("SPI1 sends while PA5 \\(SCK\\) is not its pin, in spi1 at "
+  EXPECT_THAT(misuses, ElementsAre(testing::MatchesRegex("SPI1 sends while PA5 \\(SCK\\) is not its pin, in frame at "
                                                          "serial.c:[0-9]+")));
   host.restart();
   start(kUnsetUart, 1, true, HostMode::kUart);
