@@ -32,6 +32,9 @@ class CheckWatch : public Observer {
   void read(std::size_t slave, Tick sample) override {
     if (on()) slaves_[slave]->checks->read(sample);
   }
+  void event(std::size_t slave, const profibus::Event& event) override {
+    if (on()) slaves_[slave]->checks->event(event);
+  }
   void telegram(const HeardTelegram& telegram) override;
   void finish(Tick end);
 

@@ -133,6 +133,13 @@ void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
   if (!in_reset_) duties_.telegram(now, telegram);
 }
 
+void Checks::event(const profibus::Event& event) {
+  if (in_reset_) return;
+  duties_.event(event, settings_.mode == kSpi    ? Refusals::Port::kSpi
+                       : settings_.mode == kUart ? Refusals::Port::kUart
+                                                 : Refusals::Port::kParallel);
+}
+
 void Checks::finish(Tick end) {
   recorder_.now(end);
   if (in_reset_) return;

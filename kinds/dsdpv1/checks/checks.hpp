@@ -67,6 +67,7 @@ class Checks : public ChipChecks, private AccessSink {
   void read(Tick sample) override { port_.read(sample); }
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void finish(Tick end) override;
+  void event(const profibus::Event& event) override;
 
   /// With SPI and UART the parallel port and its handshake are unused (R14), and telegrams show the cells.
   bool applies(CheckId check) const override;

@@ -72,7 +72,7 @@ nothing is violated, and rules that no chip can see.
 ## Which apply
 
 A report has the checks of the port in use. With a DSDPV1, a DSDPV1-R, or a DSDPV1-RSU strapped to its parallel port these concern R_REQ, R_STA, CSR, RD and WR. With a DSDPV1-RSU
-strapped to SPI they are `TIMING_SCK_HIGH` to `B014_HOLD_INTERVAL`, strapped to its UART `RXD_CHARACTER_GAP` to `TXD_REPLY_TIME`. `BLOCK_SERVED` to `INPUTS_RENEWED` apply
+strapped to SPI they are `TIMING_SCK_HIGH` to `B014_HOLD_INTERVAL`, strapped to its UART `RXD_CHARACTER_GAP` to `TXD_REPLY_TIME`. `BLOCK_SERVED` to `READY_UNSEEN` apply
 to every port: telegrams of SPI and UART are read as accesses to cells. `BLOCK_WHOLE` judges holds by R_STA and B014, so nothing over the UART (U2). Rulings SP and UA are
 those of [chip_rsu.md](chip_rsu.md).
 
@@ -116,6 +116,7 @@ valid first byte the end is unknown. Violations show the margin in bit times too
 - What the user means to do later. BLOCK_SERVED, VERDICT_GIVEN, OUTPUTS_FETCHED and INPUTS_RENEWED report an omission when their time has passed, at the next hold or telegram, or at the end of the
   run; a shorter run shows nothing. A scenario with a user that is silent on purpose allows or disables them. The time of such a violation is that from which the action was owed.
 - Whether outputs came for the user. OUTPUTS_FETCHED takes each Data_Exchange of the station that was answered, not repeated and had outputs, until the user looks and finds B00E.0 clear.
+- What the chip refuses. USER_REFUSED takes it from the chip's events. RTL without a core beside it and the checker of the C API have none, so nothing is evaluated there.
 - The number of lost outputs. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one
   replaced before the user fetched them (cleared B00E.0). The chip may have been held off, or the user was slower than the master. The
   core counts them since the last reset; if RTL replaces the core, a core beside it counts on the same pins.

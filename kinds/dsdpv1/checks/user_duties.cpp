@@ -4,14 +4,17 @@ namespace dsdpv1::checks {
 
 void UserDuties::reset() {
   holds_.reset();
+  start_.reset();
   served_.reset();
   fresh_.reset();
+  refusals_.reset();
 }
 
 void UserDuties::hold_ended(Tick at, HoldOf what) {
   const UserHold& hold = holds_.ended(at, what);
   served_.hold(hold, holds_);
   fresh_.hold(hold);
+  refusals_.hold(hold);
   holds_.forget_reads();
 }
 

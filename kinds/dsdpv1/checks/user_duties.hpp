@@ -3,7 +3,9 @@
 #include "bus/monitor/monitor.hpp"
 #include "kinds/dsdpv1/checks/fresh_data.hpp"
 #include "kinds/dsdpv1/checks/own_station.hpp"
+#include "kinds/dsdpv1/checks/refusals.hpp"
 #include "kinds/dsdpv1/checks/served_blocks.hpp"
+#include "kinds/dsdpv1/checks/start_order.hpp"
 #include "kinds/dsdpv1/checks/user_hold.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
@@ -12,7 +14,8 @@ namespace dsdpv1::checks {
 class UserDuties {
  public:
   /// `station` must outlive it.
-  UserDuties(Recorder& recorder, const OwnStation& station) : served_(recorder), fresh_(recorder, station) {}
+  UserDuties(Recorder& recorder, const OwnStation& station)
+      : start_(recorder), served_(recorder), fresh_(recorder, station), refusals_(recorder) {}
 
   /// RESET is low.
   void reset();
@@ -21,11 +24,16 @@ class UserDuties {
   }
   /// A telegram on the line, at `now`.
   void telegram(Tick now, const bus::WireTelegram& telegram);
+  /// An event of the chip.
+  void event(const profibus::Event& event, Refusals::Port port) { refusals_.event(event, port); }
   void finish(Tick end);
 
   // A hold of the parallel port, by B014, or of one telegram.
   void hold_began(Tick at) { holds_.began(at); }
-  void accessed(const Access& access) { holds_.accessed(access); }
+  void accessed(const Access& access) {
+    start_.accessed(access);
+    holds_.accessed(access);
+  }
   /// The chip clears or sets a flag as part of the user's telegram.
   void taken(Address command, std::uint8_t flag) { holds_.taken(command, flag); }
   void announced(Address command, std::uint8_t flag) { holds_.announced(command, flag); }
@@ -33,8 +41,10 @@ class UserDuties {
 
  private:
   UserHolds holds_;
+  StartOrder start_;
   ServedBlocks served_;
   FreshData fresh_;
+  Refusals refusals_;
 };
 
 }  // namespace dsdpv1::checks

@@ -1,11 +1,15 @@
 #pragma once
-// The rules of one chip's user side, judged only from its pins and the telegrams on the line. So they apply equally to
-// every user CPU, every engine and foreign RTL.
+// The rules of one chip's user side, judged from its pins and the telegrams on the line. So they apply equally to every
+// user CPU, every engine and foreign RTL; only rules about what the chip refuses need its events.
 #include <functional>
 
 #include "bus/monitor/monitor.hpp"
 #include "tb/chip/checks/recorder.hpp"
 #include "tb/chip/pins/pins.hpp"
+
+namespace dsdpv1::profibus {
+struct Event;
+}
 
 namespace dsdpv1::checks {
 
@@ -29,6 +33,9 @@ class ChipChecks {
   virtual const Record& record(CheckId check) const = 0;
   virtual const Limit& limit(CheckId check) const = 0;
   virtual void on_violation(std::function<void(const Violation&)> sink) = 0;
+
+  /// An event of the chip, if there is a chip that tells; in order of time with the pins.
+  virtual void event(const profibus::Event& /*event*/) {}
 };
 
 }  // namespace dsdpv1::checks

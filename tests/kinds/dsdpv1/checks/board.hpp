@@ -22,7 +22,9 @@ struct Timing {
 
 class Board {
  public:
-  explicit Board(const checks::Limits& limits = checks::Limits(checks::rules())) : checks_(limits) {
+  /// `from_start`: the test has the user's start, too (READY_UNSEEN).
+  explicit Board(const checks::Limits& limits = checks::Limits(checks::rules()), bool from_start = false)
+      : checks_(with_start(limits, from_start)) {
     checks_.on_violation([this](const checks::Violation& violation) { violations.push_back(violation); });
     set(Pin::kA, 0x7FF);
     wait(5000);
@@ -89,6 +91,10 @@ class Board {
   std::vector<checks::Violation> violations;
 
  private:
+  static checks::Limits with_start(checks::Limits limits, bool judged) {
+    limits[Check::kReadyUnseen].on = judged;
+    return limits;
+  }
   void plan(Tick at, Pin pin, unsigned level) { plan_.emplace(at, std::pair(pin, static_cast<Level>(level))); }
   void carry_out() {
     for (const auto& [at, change] : plan_) {

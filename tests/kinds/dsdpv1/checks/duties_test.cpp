@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "model/dpram/reasons.hpp"
+#include "model/dsdpv1/reasons.hpp"
 #include "tests/kinds/dsdpv1/checks/board.hpp"
 #include "tests/kinds/dsdpv1/checks/telegrams.hpp"
 
@@ -336,6 +338,81 @@ TEST(InputsRenewed, UserThatStopsIsFoundAndOneWithoutDataExchangeIsNot) {
   hand_over_inputs(quiet.board);
   finish(quiet.board, quiet.board.now(), 2 * kLimit);
   EXPECT_EQ(violations(quiet.board, Check::kInputsRenewed), 0U);
+}
+
+// --- USER_REFUSED ----------------------------------------------------------------------------------------------------
+
+void refuse(Board& board, profibus::Reason reason, std::uint16_t a = 0) {
+  board.checks().event({board.now(), reason, a, 0, 0});
+}
+
+void give_verdict(Board& board) {
+  hold(
+      board,
+      [&board] {
+        board.read(0x010, 0x00);
+        board.write(0x010, 0x80);
+      });
+}
+
+TEST(UserRefused, IsWhatTheUserCanAvoidWithTheChipsText) {
+  Board board;
+  refuse(board, profibus::Reason::kDiagType, 0x55);
+  refuse(board, dpram::Reason::kInitAddress, 127);
+  refuse(board, profibus::Reason::kAcyclicAnswerDiffers);
+  refuse(board, profibus::Reason::kAcyclicNoRequest);  // withdrawn
+  refuse(board, profibus::Reason::kVerdictSuperseded);
+  refuse(board, dpram::Reason::kInputCrc);  // CRC_WRITTEN
+  EXPECT_EQ(violations(board, Check::kUserRefused), 3U);
+  EXPECT_NE(board.violations.at(0).text.find("type 55"), std::string::npos) << board.violations[0].text;
+}
+
+TEST(UserRefused, VerdictCountsOnlyWhenNoBlockWasFetchedForIt) {
+  Board board;
+  fetch_parameters(board);
+  give_verdict(board);
+  look(board, 0x00);
+  refuse(board, profibus::Reason::kVerdictUnexpected);  // the master has started again
+  EXPECT_EQ(violations(board, Check::kUserRefused), 0U);
+  give_verdict(board);
+  look(board, 0x00);
+  refuse(board, profibus::Reason::kVerdictUnexpected);
+  EXPECT_EQ(violations(board, Check::kUserRefused), 1U);
+}
+
+TEST(UserRefused, InputsOfAnotherLengthCountFromTheThirdSinceAConfigurationWasFetched) {
+  Board board;
+  for (int i = 0; i < 2; ++i) refuse(board, profibus::Reason::kInputLength, 3);
+  hold(board, [&board] {
+    board.read(0x00E, 0x04);
+    for (const unsigned cell : {0x500U, 0x501U, 0x502U, 0x5CBU, 0x5CCU}) board.read(cell, 0x00);
+    board.write(0x00E, 0x00);
+  });
+  look(board, 0x00);
+  for (int i = 0; i < 2; ++i) refuse(board, profibus::Reason::kInputLength, 3);
+  EXPECT_EQ(violations(board, Check::kUserRefused), 0U);
+  refuse(board, profibus::Reason::kInputLength, 3);
+  EXPECT_EQ(violations(board, Check::kUserRefused), 1U);
+}
+
+// --- READY_UNSEEN ----------------------------------------------------------------------------------------------------
+
+TEST(ReadyUnseen, IsJudgedOnceAfterEachReset) {
+  Board board(checks::Limits(checks::rules()), true);
+  const auto start = [&board](unsigned b004) {
+    hold(board, [&board, b004] { board.read(0x004, b004); });
+    hold(board, [&board] { board.write(0x005, 0x1D); });
+    hold(board, [&board] { board.write(0x005, 0x1D); });
+  };
+  start(0xC5);
+  EXPECT_EQ(board.checks().record(Check::kReadyUnseen).count, 1U);
+  EXPECT_EQ(violations(board, Check::kReadyUnseen), 0U);
+  board.set(Pin::kReset, 0);
+  board.wait(5000);
+  board.set(Pin::kReset, 1);
+  start(0x45);
+  EXPECT_EQ(violations(board, Check::kReadyUnseen), 1U);
+  EXPECT_NE(board.violations.at(0).text.find("B005"), std::string::npos) << board.violations[0].text;
 }
 
 }  // namespace

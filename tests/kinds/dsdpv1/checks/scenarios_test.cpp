@@ -107,6 +107,8 @@ const Case kCases[] = {
     {"CrcFetched", {"CRC_FETCHED"}, RUDE("crc_fetched"), kNone, kNone, {}},
     {"VerdictUnfetched", {"VERDICT_UNFETCHED"}, RUDE("verdict_unfetched"), kNone, kNone, {}},
     {"BlockWhole", {"BLOCK_WHOLE"}, RUDE("block_whole"), kNone, kNone, {}},
+    {"UserRefused", {"USER_REFUSED"}, RUDE("user_refused"), kNone, kNone, {}},
+    {"ReadyUnseen", {"READY_UNSEEN"}, RUDE("ready_unseen"), kNone, kNone, {}},
 #endif
     {"BlockServed",
      {"BLOCK_SERVED"},
@@ -270,7 +272,7 @@ TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
     EXPECT_GT(violations(result, check), 0U) << event;
     EXPECT_EQ(violations(result, check), events(result, event)) << event;
   }
-  EXPECT_EQ(result.checks.size(), 18U) << "those of SPI and of any port, no other";
+  EXPECT_EQ(result.checks.size(), 20U) << "those of SPI and of any port, no other";
 }
 
 tb::RunResult run_uart(const std::string& uart, const std::string& script) {
@@ -374,7 +376,7 @@ TEST(ChecksAndCore, FindTheSameOverTheUartWhoseRateIsWrong) {
     EXPECT_EQ(violations(result, checks::Check::kRxdParity), events(result, "UART_PARITY")) << uart;
     EXPECT_EQ(violations(result, checks::Check::kRxdCharacterGap), events(result, "TELEGRAM_CUT")) << uart;
     EXPECT_FALSE(broken(result).empty()) << uart;
-    EXPECT_EQ(result.checks.size(), 13U) << "those of the UART and of any port, no other";
+    EXPECT_EQ(result.checks.size(), 15U) << "those of the UART and of any port, no other";
   }
 }
 

@@ -48,6 +48,26 @@ static void break_a_rule(void) {
   const uint8_t flags = port_dpram_read(DSDPV1_REG_CHIP_COMMAND_2);
   port_dpram_write(DSDPV1_REG_CHIP_COMMAND_2, flags | DSDPV1_REG_CHIP_COMMAND_2_C1);
   release();
+#elif defined RUDE_USER_REFUSED
+  static const uint8_t diagnosis[] = {0x55, 0}; /* no type of table 22 */
+  const uint16_t crc = dsdpv1_crc(DSDPV1_CRC_START, diagnosis, sizeof diagnosis);
+  take();
+  port_dpram_write(DSDPV1_REG_DIAG, diagnosis[0]);
+  port_dpram_write(DSDPV1_REG_DIAG + 1u, diagnosis[1]);
+  port_dpram_write(DSDPV1_REG_DIAG_CRC, (uint8_t)(crc >> 8));
+  port_dpram_write(DSDPV1_REG_DIAG_CRC + 1u, (uint8_t)(crc & 0xFFu));
+  const uint8_t command = port_dpram_read(DSDPV1_REG_USER_COMMAND_1);
+  port_dpram_write(DSDPV1_REG_USER_COMMAND_1, command | DSDPV1_REG_USER_COMMAND_1_DIAG);
+  release();
+#endif
+}
+
+static void start_too_soon(void) {
+#if defined RUDE_READY_UNSEEN
+  board_wait(board_cycles(200000));
+  take();
+  port_dpram_write(DSDPV1_REG_DPV1_ENABLE, 0);
+  release();
 #endif
 }
 
@@ -91,6 +111,7 @@ int main(void) {
   board_start();
   board_release_chip();
   pins(false, false);
+  start_too_soon();
   if (dsdpv1_open(&chip, &port_stm32, NULL) != DSDPV1_OK || dsdpv1_wait_ready(&chip) != DSDPV1_OK ||
       dsdpv1_initialise(&chip, &config) != DSDPV1_OK)
     return 1;

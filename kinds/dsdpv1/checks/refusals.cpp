@@ -1,0 +1,67 @@
+#include "kinds/dsdpv1/checks/refusals.hpp"
+
+#include <string>
+#include <utility>
+
+#include "model/dpram/reasons.hpp"
+#include "model/dsdpv1/reasons.hpp"
+
+namespace dsdpv1::checks {
+namespace {
+
+/// The user may hand over inputs of the earlier length before it sees a new configuration.
+constexpr unsigned kUnknowing = 2;
+
+/// Blocks that no state of master or chip can make wrong.
+constexpr bool is_of_block(profibus::Reason reason) {
+  return reason == dpram::Reason::kInitLength || reason == dpram::Reason::kInitAddress ||
+         reason == dpram::Reason::kInitLimit || reason == dpram::Reason::kInitCfg ||
+         reason == profibus::Reason::kDiagLength || reason == profibus::Reason::kDiagType ||
+         reason == dpram::Reason::kAcyclicLength || reason == dpram::Reason::kBeforeInit;
+}
+
+/// CRCs of blocks; over the parallel port CRC_WRITTEN judges them.
+constexpr bool is_of_crc(profibus::Reason reason) {
+  return reason == dpram::Reason::kInitCrc || reason == dpram::Reason::kInputCrc || reason == dpram::Reason::kDiagCrc ||
+         reason == dpram::Reason::kC1Crc || reason == dpram::Reason::kC2Crc;
+}
+
+constexpr bool is_of_telegram(profibus::Reason reason) {
+  return reason == Reason::kTelegramCrc || reason == Reason::kTelegramAddress || reason == Reason::kTelegramData ||
+         reason == Reason::kTelegramLength;
+}
+
+constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 2> kJudged = {
+    {{regs::kChipCommand1Prm, regs::kUserCommand1PrmVerdict}, {regs::kChipCommand1Cfg, regs::kUserCommand1CfgVerdict}}};
+
+}  // namespace
+
+/// A verdict may come too late for its block (H7, S16); one without a block is wrong.
+void Refusals::hold(const UserHold& hold) {
+  for (std::size_t kind = 0; kind < kJudged.size(); ++kind) {
+    const auto& [block, verdict] = kJudged.at(kind);
+    if (((hold.chip_1.cleared() | hold.chip_1.taken) & block) != 0) fetched_.at(kind) = true;
+    if ((hold.user_1.set() & verdict) != 0) unfounded_.at(kind) = !std::exchange(fetched_.at(kind), false);
+  }
+  if (((hold.chip_1.cleared() | hold.chip_1.taken) & regs::kChipCommand1Cfg) != 0) lengths_ = 0;
+  if ((hold.user_1.set() | hold.user_2.set()) != 0)
+    recorder_.get().kept(Check::kUserRefused, hold.ended, true, [] { return std::string(); });
+}
+
+/// Over the UART the user may hand over the empty inputs of the DPRAM to get news (UA10), and a newer request may come
+/// between its look and its answer.
+bool Refusals::is_users_fault(const profibus::Event& event, Port port) {
+  const profibus::Reason reason = event.reason;
+  if (reason == profibus::Reason::kVerdictUnexpected) return unfounded_.at(event.a == 0 ? 0 : 1);
+  if (reason == profibus::Reason::kInputLength) return (port != Port::kUart || event.a != 0) && ++lengths_ > kUnknowing;
+  if (reason == profibus::Reason::kAcyclicAnswerDiffers) return port != Port::kUart;
+  return is_of_block(reason) || is_of_telegram(reason) || (is_of_crc(reason) && port != Port::kParallel);
+}
+
+void Refusals::event(const profibus::Event& event, Port port) {
+  if (is_users_fault(event, port))
+    recorder_.get().kept(
+        Check::kUserRefused, event.at, false, [&event] { return dsdpv1::describe(event); });
+}
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,34 @@
+#pragma once
+// What the chip refused of what the user wrote (U6). The chip's events tell; without them, as of foreign RTL, nothing
+// is judged.
+#include <array>
+#include <functional>
+
+#include "kinds/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/user_hold.hpp"
+#include "model/profibus/event.hpp"
+#include "tb/chip/checks/recorder.hpp"
+
+namespace dsdpv1::checks {
+
+class Refusals {
+ public:
+  enum class Port : std::uint8_t { kParallel, kSpi, kUart };
+
+  explicit Refusals(Recorder& recorder) : recorder_(recorder) {}
+
+  /// RESET is low.
+  void reset() { *this = Refusals(recorder_); }
+  void hold(const UserHold& hold);
+  void event(const profibus::Event& event, Port port);
+
+ private:
+  bool is_users_fault(const profibus::Event& event, Port port);
+
+  std::reference_wrapper<Recorder> recorder_;
+  std::array<bool, 2> fetched_{};    ///< parameters, configuration: since the last verdict
+  std::array<bool, 2> unfounded_{};  ///< the last verdict was on nothing
+  unsigned lengths_ = 0;             ///< inputs of another length since the user fetched a configuration
+};
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,29 @@
+#include "kinds/dsdpv1/checks/start_order.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace dsdpv1::checks {
+namespace {
+
+/// What the port itself needs: the count of holds; over SPI and UART ownership, intervals.
+constexpr bool belongs_to_port(unsigned address) {
+  return address == regs::kAccessCount || (address >= regs::kOwnership && address < regs::kInit);
+}
+
+}  // namespace
+
+void StartOrder::judge(const Access& access) {
+  if (!access.write) {
+    if (access.address == regs::kValidFlag && access.value == regs::kValidFlagValid) state_ = State::kSeen;
+    return;
+  }
+  if (belongs_to_port(access.address)) return;
+  const State before = std::exchange(state_, State::kJudged);
+  recorder_.kept(Check::kReadyUnseen, access.at, before == State::kSeen, [&access] {
+    return fmt::format("B{:03X} written, and B004 was not read as C5 before", access.address);
+  });
+}
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,32 @@
+#pragma once
+// The user waits for the chip after RESET (U7).
+#include "kinds/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/port_timing.hpp"
+#include "registers/dsdpv1_regs.hpp"
+#include "tb/chip/checks/recorder.hpp"
+
+namespace dsdpv1::checks {
+
+class StartOrder {
+ public:
+  explicit StartOrder(Recorder& recorder) : recorder_(recorder) {}
+
+  /// RESET is low.
+  void reset() { state_ = State::kUnseen; }
+  void accessed(const Access& access) {
+    if (state_ != State::kJudged) judge(access);
+  }
+
+ private:
+  enum class State : std::uint8_t {
+    kUnseen,
+    kSeen,    ///< the user has read B004 = C5
+    kJudged,  ///< ... or has written; the rest is not judged
+  };
+  void judge(const Access& access);
+
+  Recorder& recorder_;
+  State state_ = State::kUnseen;
+};
+
+}  // namespace dsdpv1::checks
