@@ -76,10 +76,10 @@ void Checks::reset_pin(Tick at, bool level) {
   cells_.reset();
   station_.reset();
   service_.reset();
-  duties_.reset();
   spi_.reset();
   frames_.reset();
   uart_.reset(at, in_reset_);
+  duties_.reset();  // a reply on the UART may have ended before
 }
 
 void Checks::handshake(Tick at, Pin pin, bool level) {

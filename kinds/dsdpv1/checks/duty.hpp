@@ -20,7 +20,7 @@ class Duty {
   /// The user does it at `at`; `text()` describes it. Measured unless its violation has been reported.
   template <class Text>
   void met(Recorder& recorder, Check check, Tick at, const Text& text) {
-    if (since_ && !missed_) recorder.value(check, *since_, at - *since_, text);
+    if (since_ && !missed_) recorder.value(check, *since_, at - *since_, text, Act::omitted(*since_, at));
     ends();
   }
   /// Time advances to `now`: a violation once the limit has passed.
@@ -28,7 +28,7 @@ class Duty {
   void pass(Recorder& recorder, Check check, Tick now, const Text& text) {
     if (!since_ || missed_ || now - *since_ <= recorder.limit(check).value) return;
     missed_ = true;
-    recorder.value(check, *since_, now - *since_, text);
+    recorder.value(check, *since_, now - *since_, text, Act::omitted(*since_, now));
   }
 
  private:

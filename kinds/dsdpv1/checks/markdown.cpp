@@ -114,7 +114,8 @@ valid first byte the end is unknown. Violations show the margin in bit times too
 - A DSDPV1-RSU's parameters (`uart_gaps`, `uart_min_tsdr`, `spi_write_gap`, ...). A run takes them from its scenario; the checker of the C API and of Python has their
   defaults.
 - What the user means to do later. BLOCK_SERVED, VERDICT_GIVEN, OUTPUTS_FETCHED and INPUTS_RENEWED report an omission when their time has passed, at the next hold or telegram, or at the end of the
-  run; a shorter run shows nothing. A scenario with a user that is silent on purpose allows or disables them. The time of such a violation is that from which the action was owed.
+  run; a shorter run shows nothing. A scenario with a user that is silent on purpose allows or disables them. 1000 random scenarios of right users, over each port,
+  give no violation (`RightUsers`). The time of such a violation is that from which the action was owed.
 - Whether outputs came for the user. OUTPUTS_FETCHED takes each Data_Exchange of the station that was answered, not repeated and had outputs, until the user looks and finds B00E.0 clear.
 - What the chip refuses. USER_REFUSED takes it from the chip's events. RTL without a core beside it and the checker of the C API have none, so nothing is evaluated there.
 - The number of lost outputs. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one

@@ -58,10 +58,16 @@ bool Refusals::is_users_fault(const profibus::Event& event, Port port) {
   return is_of_block(reason) || is_of_telegram(reason) || (is_of_crc(reason) && port != Port::kParallel);
 }
 
+/// The user's last write of the flags: with a block's flag it has handed over what is refused.
 void Refusals::event(const profibus::Event& event, Port port) {
-  if (is_users_fault(event, port))
-    recorder_.get().kept(
-        Check::kUserRefused, event.at, false, [&event] { return dsdpv1::describe(event); });
+  if (!is_users_fault(event, port)) return;
+  const bool acyclic = event.reason == dpram::Reason::kC1Crc || event.reason == dpram::Reason::kC2Crc ||
+                       event.reason == dpram::Reason::kAcyclicLength ||
+                       event.reason == profibus::Reason::kAcyclicAnswerDiffers;
+  const Address flags = acyclic ? regs::kUserCommand2 : regs::kUserCommand1;
+  recorder_.get().kept(
+      Check::kUserRefused, event.at, false, [&event] { return dsdpv1::describe(event); },
+      is_of_telegram(event.reason) ? Act::done(event.at) : Act::written(flags, event.at));
 }
 
 }  // namespace dsdpv1::checks

@@ -67,8 +67,10 @@ void ServedBlocks::judge_whole(const UserHold& hold, const UserHolds& holds) {
   for (const Block& block : kChipBlocks) {
     if ((hold.chip(block).cleared() & block.flag) == 0) continue;
     if (const std::optional<bool> all = holds.read_all(block))
-      recorder_.kept(Check::kBlockWhole, hold.ended, *all,
-                     [&block] { return flag_text(block) + ": cleared without having read all of the block"; });
+      recorder_.kept(
+          Check::kBlockWhole, hold.ended, *all,
+          [&block] { return flag_text(block) + ": cleared without having read all of the block"; },
+          Act::written(block.command, hold.ended));
   }
 }
 
