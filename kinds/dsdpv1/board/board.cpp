@@ -91,6 +91,7 @@ Board::~Board() {
 void Board::run(Tick now) {
   if (mailbox_) look_at_mailbox(now);
   for (Tick at = now;;) {
+    turn_ = at;
     if (device_tick() <= at) run_devices(at);
     if (cpu_.next() <= at) cpu_.run(at);
     at = device_tick();
@@ -135,13 +136,24 @@ void Board::bite() {
   cpu_.wake(pins_->now());
 }
 
+/// A byte that was lost is told at the read of DR that comes too late, or without one after a while.
 void Board::look_for_overruns() {
+  constexpr Tick kWhile = 10 * bus::kTicksPerMs;
   for (const auto block : {SerialSide::kSpi1, SerialSide::kSpi2, SerialSide::kUsart2}) {
-    const std::uint64_t before = std::exchange(lost_.at(block), serial_.lost(block));
-    if (lost_.at(block) != before && is_in_use(block))
-      tell(tb::board_code::kOverrun,
-           block == SerialSide::kUsart2 ? "a character for USART2 is lost (ORE)" : "a byte for SPI is lost (OVR)");
+    if (!has_lost(block)) continue;
+    Tick& since = lost_since_.at(block);
+    if (since == bus::kNever) since = turn_;
+    if (turn_ - since >= kWhile) tell_lost(block);
   }
+}
+
+void Board::tell_lost(SerialSide::Block block) {
+  const std::uint64_t before = std::exchange(lost_.at(block), serial_.lost(block));
+  lost_since_.at(block) = bus::kNever;
+  const bool is_uart = block == SerialSide::kUsart2;
+  tell(tb::board_code::kOverrun,
+       fmt::format("{} {} lost before DR is read ({})", lost_.at(block) - before,
+                   is_uart ? "characters for USART2 are" : "bytes for SPI are", is_uart ? "ORE" : "OVR"));
 }
 
 /// Delays before the first access to the chip, and with the chip in reset, do no harm. Of a loop that polls, passes are

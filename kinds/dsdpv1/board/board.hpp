@@ -141,6 +141,8 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   unsigned device_requests() const { return serial_.requests() | timer_requests_ << kSerialIrq.size(); }
   void bite();
   void look_for_overruns();
+  bool has_lost(SerialSide::Block block) const { return is_in_use(block) && serial_.lost(block) != lost_.at(block); }
+  void tell_lost(SerialSide::Block block);
   void look_if_stuck();
   bool is_in_use(SerialSide::Block block) const;
   void storm(unsigned irq, std::uint32_t pc) override;
@@ -224,8 +226,10 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::uint64_t timers_at_ = Timer::kNever;  ///< the next one's next()
   unsigned timer_requests_ = 0;              ///< bit 0: TIM2
   Watchdog watchdog_{kLsi};
-  std::array<std::uint64_t, 3> lost_{};  ///< SerialSide::lost, as told
-  bool bitten_ = false;                  ///< the next reset is the watchdog's
+  std::array<std::uint64_t, 3> lost_{};                                    ///< SerialSide::lost, as told
+  std::array<Tick, 3> lost_since_{bus::kNever, bus::kNever, bus::kNever};  ///< the first of those not told
+  Tick turn_ = 0;        ///< of run(): the time of a processor that sleeps stands still
+  bool bitten_ = false;  ///< the next reset is the watchdog's
   Fsmc fsmc_;
   MemoryBus memory_bus_;
   bool bus_changed_ = true;  ///< since memory_bus_ was looked at

@@ -218,7 +218,9 @@ std::uint32_t Board::load_register(const Peripheral& of, std::uint32_t offset) {
     case Peripheral::kExti: come_up(); return exti_.read(offset);
     case Peripheral::kSerial: {
       meet_devices();
-      const std::uint32_t value = serial_.read(static_cast<SerialSide::Block>(of.number), offset);
+      const auto block = static_cast<SerialSide::Block>(of.number);
+      if (offset == kSerialDr.at(block) && has_lost(block)) tell_lost(block);
+      const std::uint32_t value = serial_.read(block, offset);
       update_interrupts();
       return value;
     }
@@ -531,7 +533,7 @@ void Board::misused(const tb::BoardCode& code, const std::string& text) {
 }
 
 void Board::tell(const tb::BoardCode& code, const std::string& text, std::optional<std::uint32_t> pc) {
-  if (on_error) on_error({now(), code.code, text, place_of(pc.value_or(core_.place()))});
+  if (on_error) on_error({std::max(now(), turn_), code.code, text, place_of(pc.value_or(core_.place()))});
 }
 
 // ------------------------------------------------------------------------------------------------- notes
