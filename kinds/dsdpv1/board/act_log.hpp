@@ -64,7 +64,7 @@ class ActLog {
   template <class Is>
   const Entry* last(Tick until, const Is& is) const;
 
-  std::array<Entry, 64> entries_{};
+  std::array<Entry, 512> entries_{};  ///< more than a block has cells
   std::size_t count_ = 0;
   std::array<Sample, 1000> samples_{};
   std::size_t samples_taken_ = 0;
