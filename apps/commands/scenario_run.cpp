@@ -40,6 +40,14 @@ void check_golden(const RunArguments& arguments) {
 
 }  // namespace
 
+void check_has_board(const std::string& program, const tb::scenario::Scenario& scenario) {
+  const tb::ChipKind& kind = *scenario.kind;
+  if (std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
+                  [&kind](const tb::scenario::Slave& slave) { return kind.has_debugger(slave); }))
+    return;
+  throw tb::InputError(program + ": --gdb needs a slave whose user_cpu has kind: arm, " + scenario.file + " has none");
+}
+
 tb::RunOptions options_of(const RunArguments& arguments) {
   check_word("dsdpv1-sim run: --engine", arguments.engine, {"step", "skip", "rtl", "lockstep"});
   check_word("dsdpv1-sim run: --view", arguments.view, {"pins", "tlm"});
@@ -179,15 +187,6 @@ LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make, con
 
 namespace {
 
-void check_has_board(const tb::scenario::Scenario& scenario) {
-  const tb::ChipKind& kind = *scenario.kind;
-  if (std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
-                  [&kind](const tb::scenario::Slave& slave) { return kind.has_debugger(slave); }))
-    return;
-  throw tb::InputError("dsdpv1-sim run: --gdb needs a slave whose user_cpu has kind: arm, " + scenario.file +
-                       " has none");
-}
-
 void check_view(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
   if (arguments.view == "tlm" && scenario.kind->needs_pins(scenario))
     throw tb::InputError("dsdpv1-sim run: --view tlm has whole frames and telegrams at the chip's serial ports, and " +
@@ -254,6 +253,8 @@ int forth_and_back(RunRequest& request, const std::function<int()>& carry_out) {
     const int status = carry_out();
     if (!goes_back(request)) return status;
     request.options.gdb->history->begin_again();
+    if (!request.restored && !request.described.files.empty())  // the debugger may have changed the firmware's file
+      request.described = described_run(request.arguments, request.described.files.front().content, request.scenario);
     line = 0;
   }
 }
@@ -267,7 +268,7 @@ int run(const RunArguments& given) {
   request.options.wave = wave_options("dsdpv1-sim run", arguments.wave, *request.scenario.kind);
   check_outputs_of(arguments, request.scenario);
   check_view(arguments, request.scenario);
-  if (arguments.gdb) check_has_board(request.scenario);
+  if (arguments.gdb) check_has_board("dsdpv1-sim run", request.scenario);
   const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
   if (arguments.engine == "lockstep") return forth_and_back(request, [&] { return run_lockstep(request, rtl).status; });
   if (arguments.engine == "rtl")

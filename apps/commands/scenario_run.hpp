@@ -22,6 +22,9 @@ struct RunRequest {
   std::optional<tb::SavedRun> restored;  ///< of --restore
 };
 
+/// Throws tb::InputError if no slave has a processor for `--gdb` of this program.
+void check_has_board(const std::string& program, const tb::scenario::Scenario& scenario);
+
 /// The options except the wave's. Throws tb::InputError.
 tb::RunOptions options_of(const RunArguments& arguments);
 

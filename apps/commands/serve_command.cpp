@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/commands/command.hpp"
+#include "apps/commands/scenario_run.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
@@ -47,6 +48,9 @@ class Serve : public Command {
     add_checks_table_option(app, check_rows_);
     add_set_option(app, set_);
     add_capture_options(app, capture_);
+    app.add_option("--gdb", gdb_, "As for run; while the processor is halted the host gets no answer")
+        ->type_name("PORT")
+        ->check(CLI::Range(0, 65535));
     add_quiet_option(app, quiet_);
     app.footer(std::string("\nExamples:\n"
                            "  dsdpv1-sim serve scenarios/serve_19k2.yaml --pty dp --log serve.log\n"
@@ -63,6 +67,7 @@ class Serve : public Command {
     if (!baud_.empty()) scenario.baud = baud_index("dsdpv1-sim serve: --baud", baud_);
     scenario.end = duration_.empty() ? kOpenEnd : time_of("dsdpv1-sim serve: --for", duration_, 1);
     take_run_words(*scenario.kind);
+    if (gdb_) attach_gdb(scenario);
     check_files(scenario);
     WantedFile result_file(result_), junit_file(junit_);
     std::optional<tb::html::ReportFile> report_file;
@@ -121,6 +126,12 @@ class Serve : public Command {
     run_.open_ended = true;
   }
 
+  void attach_gdb(const tb::scenario::Scenario& scenario) {
+    check_has_board("dsdpv1-sim serve", scenario);
+    const auto say = [](const std::string& line) { std::cerr << line << '\n'; };
+    run_.gdb = tb::GdbRequest{gdb_, say, interrupted, std::make_shared<user_cpu::DebugHistory>(), false};
+  }
+
   void check_files(const tb::scenario::Scenario& scenario) const {
     std::vector<NamedFile> outputs = wave_files("dsdpv1-sim serve", wave_.file, wave_.save);
     outputs.insert(outputs.end(), {{"--log", run_.log},
@@ -153,6 +164,7 @@ class Serve : public Command {
   tb::CheckRows check_rows_ = tb::CheckRows::kViolated;
   std::string checks_;  ///< empty: as the scenario says
   std::vector<std::string> set_;
+  std::optional<int> gdb_;
   CaptureArguments capture_;
   bool quiet_ = false;
 };

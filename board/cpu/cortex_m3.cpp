@@ -136,11 +136,10 @@ void CortexM3::handle_trap(Trap trap) {
 
 void CortexM3::between_instructions() {
   const Engine::Rest rest = std::exchange(rest_, {});
-  if (std::exchange(moved_, false)) return;
   if (reset_requested_) {
     system_.reset();
     reset_processor();
-  } else if (!stopped_) {
+  } else if (!std::exchange(moved_, false) && !stopped_) {
     take_exception(pc(), rest);
   }
 }

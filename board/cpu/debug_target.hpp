@@ -31,8 +31,9 @@ constexpr unsigned kRegisterCount = 23;
 /// A range of addresses that gdb may look at. Everything else it takes for empty.
 struct MemoryRegion {
   std::uint32_t start;
-  std::uint32_t size;  ///< bytes, > 0
-  bool writable;       ///< false: flash, gdb sets hardware breakpoints in it and refuses `load`
+  std::uint32_t size;      ///< bytes, > 0
+  bool writable;           ///< false: gdb sets hardware breakpoints in it
+  std::uint32_t page = 0;  ///< of flash: bytes that are erased at once; 0: no flash
 };
 
 /// The processor as a debugger wants it. No call takes simulated time and none has an effect on the run that is not
@@ -58,7 +59,8 @@ class DebugTarget {
   virtual bool report_data_accesses(bool on) = 0;
 
   /// As a system reset of the processor and its peripherals (AIRCR.SYSRESETREQ) before the next instruction, which is
-  /// then the reset handler's first; the chip is not touched. False: it cannot.
+  /// then the reset handler's first and the next that before_instruction() is called for; the chip is not touched.
+  /// False: it cannot.
   virtual bool reset() = 0;
   /// Simulated time.
   virtual bus::Tick now() const = 0;

@@ -4,6 +4,11 @@
 #include "board/cpu/cortex_m3.hpp"
 
 namespace dsdpv1::arm {
+namespace {
+
+constexpr std::uint32_t kFlashPage = 2048;  // of an STM32F103xE
+
+}  // namespace
 
 std::uint32_t CortexM3::read_register(Register which) const { return engine_.read(which); }
 
@@ -34,8 +39,9 @@ Registers CortexM3::registers() const {
 }
 
 std::vector<MemoryRegion> CortexM3::memory_map() const {
-  std::vector<MemoryRegion> all = {
-      {0, map_.flash_size, false}, {map_.flash_base, map_.flash_size, false}, {map_.ram_base, map_.ram_size, true}};
+  std::vector<MemoryRegion> all = {{0, map_.flash_size, false},
+                                   {map_.flash_base, map_.flash_size, false, kFlashPage},
+                                   {map_.ram_base, map_.ram_size, true}};
   const std::vector<MemoryRegion> outside = system_.regions();
   all.insert(all.end(), outside.begin(), outside.end());
   return all;

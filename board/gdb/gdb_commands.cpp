@@ -16,6 +16,7 @@ constexpr const char* kOk = "OK";
 constexpr const char* kMalformed = "E01";
 constexpr const char* kCannotAccess = "E0e";  // EFAULT
 constexpr const char* kUnknown = "";
+constexpr const char* kNoProcess = "W00";
 
 std::array<std::uint8_t, 4> little_endian(std::uint32_t value) {
   return {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8U),
@@ -42,13 +43,19 @@ std::string part_of(const std::string& text, GdbFields::Range range) {
   return (start + size < text.size() ? "m" : "l") + text.substr(start, size);
 }
 
+GdbCommands::Result refused(const std::string& why) { return {"E." + why, Resumption::kNone, false, "load: " + why}; }
+
 }  // namespace
 
 GdbCommands::Result GdbCommands::execute(std::string_view packet) {
   GdbFields fields(packet.substr(std::min<std::size_t>(1, packet.size())));
   Result result;
   switch (packet.empty() ? '\0' : packet.front()) {
-    case '?': result.reply = stop_reply_; break;
+    case '?': result.reply = killed_ ? kNoProcess : stop_reply_; break;
+    case '!':
+      extended_ = true;
+      result.reply = kOk;
+      break;
     case 'g': result.reply = read_registers(); break;
     case 'G': result.reply = write_registers(fields.rest()); break;
     case 'p': result.reply = read_register(fields); break;
@@ -60,14 +67,14 @@ GdbCommands::Result GdbCommands::execute(std::string_view packet) {
     case 'z': result.reply = change_stop(fields, false); break;
     case 'H':
     case 'T': result.reply = kOk; break;  // there is one thread
-    case 'q': result.reply = query(packet); break;
+    case 'q': return query(packet);
     case 'Q': result.reply = set(packet, result); break;
     case 'v': return verbose(fields);
     case 'b': return back(packet);
     case 'c': return resume_at(fields, Resumption::kContinue);
     case 's': return resume_at(fields, Resumption::kStep);
     case 'D': return {kOk, Resumption::kDetach};
-    case 'k': return {std::nullopt, Resumption::kKill};
+    case 'k': return kill(false);
     default: result.reply = kUnknown;
   }
   return result;
@@ -89,24 +96,27 @@ void GdbCommands::forget_stops() {
   breakpoints_.clear();
   if (!watchpoints_.empty()) target_.report_data_accesses(false);
   watchpoints_.clear();
+  flash_.forget();
+  extended_ = killed_ = false;
 }
 
-std::string GdbCommands::query(std::string_view packet) {
+GdbCommands::Result GdbCommands::query(std::string_view packet) {
   GdbFields fields(packet);
   if (fields.skip("qSupported")) {
-    return fmt::format("PacketSize={:x};QStartNoAckMode+;vContSupported+;qXfer:features:read+;qXfer:memory-map:read+{}",
-                       kGdbPacketSize, reverses_ ? ";ReverseStep+;ReverseContinue+" : "");
+    return {
+        fmt::format("PacketSize={:x};QStartNoAckMode+;vContSupported+;qXfer:features:read+;qXfer:memory-map:read+{}",
+                    kGdbPacketSize, reverses_ ? ";ReverseStep+;ReverseContinue+" : "")};
   }
-  if (fields.skip("qXfer:")) return transfer(fields);
+  if (fields.skip("qXfer:")) return {transfer(fields)};
   if (fields.skip("qRcmd,")) {
     const auto command = from_hex(fields.rest());
-    return command ? monitor(*command) : kMalformed;
+    return command ? monitor(*command) : Result{kMalformed};
   }
-  if (packet == "qAttached") return "1";  // gdb detaches when the user leaves it
-  if (packet == "qC") return "QC1";
-  if (packet == "qfThreadInfo") return "m1";
-  if (packet == "qsThreadInfo") return "l";
-  return kUnknown;
+  if (packet == "qAttached") return {"1"};  // gdb detaches when the user leaves it
+  if (packet == "qC") return {"QC1"};
+  if (packet == "qfThreadInfo") return {"m1"};
+  if (packet == "qsThreadInfo") return {"l"};
+  return {kUnknown};
 }
 
 std::string GdbCommands::set(std::string_view packet, Result& result) {
@@ -122,17 +132,24 @@ std::string GdbCommands::transfer(GdbFields fields) {
   return part_of(features ? target_description() : memory_map_description(target_.memory_map()), *range);
 }
 
-std::string GdbCommands::monitor(std::string_view command) {
+/// The commands of OpenOCD that programming environments send, and `time`. gdb only talks to a halted processor, so
+/// each leaves it halted.
+GdbCommands::Result GdbCommands::monitor(std::string_view command) {
+  const auto words = [](const std::string& text) { return to_hex(text + "\n"); };
   if (command == "time") {
     const bus::Tick now = target_.now();
-    return to_hex(fmt::format("simulated time {}.{:09} s\n", now / bus::kTicksPerSecond,
-                              now % bus::kTicksPerSecond / bus::kTicksPerNs));
+    return {words(fmt::format("simulated time {}.{:09} s", now / bus::kTicksPerSecond,
+                              now % bus::kTicksPerSecond / bus::kTicksPerNs))};
   }
-  if (command == "reset") {
-    if (!target_.reset()) return to_hex("the processor cannot be reset\n");
-    return to_hex("reset before the next instruction: `stepi` goes to the reset handler\n");
+  if (command == "reset" || command == "reset halt" || command == "reset init" || command == "reset run") {
+    if (!target_.reset()) return {words("the processor cannot be reset")};
+    return {words("reset, halted before the first instruction of the reset handler"), Resumption::kReset};
   }
-  return to_hex(fmt::format("monitor {}: expected time, reset\n", command));
+  if (command == "halt") return {words(fmt::format("halted at 0x{:08x}", target_.read_register(Register::kPc)))};
+  if (GdbFields fields(command); fields.skip("sleep ") || fields.skip("delay "))
+    return {words("no wait: simulated time stands still while the processor is halted")};
+  return {words(
+      fmt::format("monitor {}: expected time, reset, reset halt, reset init, reset run, halt, sleep MS", command))};
 }
 
 std::string GdbCommands::read_register(GdbFields fields) const {
@@ -222,8 +239,47 @@ std::string GdbCommands::change_watchpoint(const Watchpoint& point, bool insert)
 GdbCommands::Result GdbCommands::verbose(GdbFields fields) {
   if (fields.skip("Cont?")) return {"vCont;c;C;s;S;r"};
   if (fields.skip("Cont;")) return resume(fields);
-  if (fields.skip("Kill;")) return {kOk, Resumption::kKill};
+  if (fields.skip("Kill;")) return kill(true);
+  if (fields.skip("Run;")) return run_again();
+  if (fields.skip("Flash")) return flash(fields);
   return {kUnknown};
+}
+
+GdbCommands::Result GdbCommands::kill(bool replies) {
+  const auto reply = replies ? std::optional<std::string>(kOk) : std::nullopt;
+  if (!extended_) return {reply, Resumption::kKill};
+  killed_ = true;
+  return {reply};
+}
+
+/// Of any program and with any arguments: a board has one.
+GdbCommands::Result GdbCommands::run_again() {
+  if (!target_.reset()) return {kMalformed};
+  killed_ = false;
+  return {std::nullopt, Resumption::kReset};
+}
+
+GdbCommands::Result GdbCommands::flash(GdbFields fields) {
+  FlashLoader::Refusal refusal;
+  if (fields.skip("Erase:")) {
+    const auto range = fields.range();
+    if (!range) return {kMalformed};
+    refusal = flash_.erase(range->address, range->size);
+  } else if (fields.skip("Write:")) {
+    const auto address = fields.number();
+    if (!address || !fields.skip(":")) return {kMalformed};
+    refusal = flash_.write(*address, gdb_unescape(fields.rest()));
+  } else {
+    return fields.rest() == "Done" ? loaded() : Result{kUnknown};
+  }
+  return refusal ? refused(*refusal) : Result{kOk};
+}
+
+GdbCommands::Result GdbCommands::loaded() {
+  const auto difference = flash_.difference();
+  if (!difference) return {kOk};
+  if (program_now_ && flash_.holds(program_now_())) return {std::nullopt, Resumption::kBeginAgain};
+  return refused(*difference + "; start the run again with this program (--set user_cpu.elf=FILE)");
 }
 
 GdbCommands::Result GdbCommands::resume(GdbFields fields) {

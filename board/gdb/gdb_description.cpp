@@ -33,8 +33,10 @@ std::string target_description() {
 std::string memory_map_description(const std::vector<MemoryRegion>& regions) {
   std::string text = R"(<?xml version="1.0"?><memory-map>)";
   for (const MemoryRegion& region : regions) {
-    text += fmt::format(R"(<memory type="{}" start="0x{:x}" length="0x{:x}"/>)", region.writable ? "ram" : "rom",
-                        region.start, region.size);
+    const char* const type = region.page != 0 ? "flash" : region.writable ? "ram" : "rom";
+    text += fmt::format(R"(<memory type="{}" start="0x{:x}" length="0x{:x}")", type, region.start, region.size);
+    text +=
+        region.page != 0 ? fmt::format(R"(><property name="blocksize">0x{:x}</property></memory>)", region.page) : "/>";
   }
   return text + "</memory-map>";
 }

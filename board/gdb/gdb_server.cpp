@@ -31,6 +31,7 @@ std::string watch_reply(const Watchpoint& point) {
 
 GdbServer::GdbServer(DebugTarget& target, GdbOptions options)
     : target_(target), options_(std::move(options)), commands_(target, options_.history != nullptr) {
+  if (options_.history != nullptr && options_.history->live_from == 0) commands_.set_program(options_.program_now);
   commands_.set_stop_reply(kTrapped);
   if (travels())
     take_over();
@@ -73,6 +74,7 @@ bool GdbServer::halt_if_due(std::uint32_t pc, bool look) {
 
 /// True: the run was resumed at this instruction and has not executed it yet.
 bool GdbServer::resumed_here(std::uint32_t pc) {
+  if (awaited_) resumed_at_.reset();
   if (!resumed_at_) return false;
   due_ = stepping_;
   return *std::exchange(resumed_at_, std::nullopt) == pc;
@@ -87,6 +89,7 @@ void GdbServer::expect_call_again() {
 }
 
 std::optional<std::string> GdbServer::reason_to_stop(std::uint32_t pc) const {
+  if (awaited_) return kTrapped;
   if (!watch_hit_.empty()) return watch_hit_;
   if (commands_.breakpoints().at(pc)) return kTrapped;
   if (stepping_ && !commands_.step_range().holds(pc)) return kTrapped;
@@ -101,7 +104,7 @@ void GdbServer::wait_for_gdb() {
 
 void GdbServer::stop(const std::string& reply) {
   commands_.set_stop_reply(reply);
-  link_->send(reply);
+  link_->send(std::exchange(awaited_, std::nullopt).value_or(reply));
   converse();
 }
 
@@ -125,6 +128,15 @@ void GdbServer::converse() {
 /// Returns whether the processor continues.
 bool GdbServer::carry_out(const std::string& packet) {
   const GdbCommands::Result result = commands_.execute(packet);
+  if (!result.refused.empty()) options_.say(result.refused);
+  if (result.resumption == Resumption::kBeginAgain) {
+    begin_again();
+    return true;
+  }
+  if (result.resumption == Resumption::kReset) {
+    awaited_ = result.reply.value_or(kTrapped);
+    return due_ = true;
+  }
   if (result.reply) link_->send(*result.reply);
   if (result.stop_acknowledging) link_->stop_acknowledging();
   if (result.resumption == Resumption::kStepBack || result.resumption == Resumption::kContinueBack)
@@ -138,6 +150,8 @@ void GdbServer::resume(Resumption how) {
     case Resumption::kNone:
     case Resumption::kStepBack:
     case Resumption::kContinueBack:
+    case Resumption::kReset:
+    case Resumption::kBeginAgain:
     case Resumption::kContinue: break;
     case Resumption::kStep: stepping_ = due_ = true; break;
     case Resumption::kDetach:
@@ -158,9 +172,14 @@ void GdbServer::end() {
 }
 
 void GdbServer::let_go() {
-  if (std::exchange(attached_, false)) options_.say("gdb has gone without `detach`: the run goes on");
+  const bool killed = commands_.killed();
+  if (std::exchange(attached_, false) && !killed) options_.say("gdb has gone without `detach`: the run goes on");
   link_->close();
   commands_.forget_stops();
+  if (killed) {
+    over_ = true;
+    target_.end_run();
+  }
   watch_hit_.clear();
   stepping_ = due_ = false;
 }
@@ -176,6 +195,8 @@ void GdbServer::take_over() {
   const auto session = std::static_pointer_cast<Session>(options_.history->connection);
   link_ = session->link;
   commands_.set_stops(session->stops);
+  commands_.set_extended(session->extended);
+  awaited_ = session->awaited;
   waiting_ = due_ = false;
   attached_ = true;
 }
@@ -199,12 +220,21 @@ bool GdbServer::go_back(bool as_far_as_something_stops) {
 
 /// This run ends; its owner begins it again.
 void GdbServer::depart(user_cpu::Journey journey) {
-  options_.history->connection = std::make_shared<Session>(Session{link_, commands_.stops()});
+  options_.history->connection =
+      std::make_shared<Session>(Session{link_, commands_.stops(), commands_.extended(), awaited_});
   options_.history->back = std::move(journey);
   options_.history->journey.reset();
   over_ = true;
   attached_ = stepping_ = due_ = false;
   target_.end_run();
+}
+
+/// gdb has loaded the program that the run's file has now: from power-on, and without what gdb has changed before.
+void GdbServer::begin_again() {
+  options_.say("load: another program, the run begins again");
+  options_.history->inputs.clear();
+  awaited_ = "OK";
+  depart({0, *options_.history->begin, place(), false, kTrapped});
 }
 
 bool GdbServer::nears_end() const {

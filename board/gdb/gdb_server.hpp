@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "board/cpu/debug_target.hpp"
 #include "board/gdb/gdb_commands.hpp"
@@ -28,6 +29,8 @@ struct GdbOptions {
   std::function<void(const std::string&)> say = [](const std::string&) {};
   user_cpu::DebugHistory* history = nullptr;  ///< null: gdb cannot go back; else it outlives the server
   std::uint64_t board = 0;                    ///< as DebugHistory counts them
+  /// Flash with the program that the run's file has now; empty: none.
+  std::function<std::vector<std::uint8_t>()> program_now = [] { return std::vector<std::uint8_t>(); };
 };
 
 class GdbServer final : public Debugger {
@@ -61,6 +64,8 @@ class GdbServer final : public Debugger {
   struct Session {
     std::shared_ptr<GdbLink> link;
     Stops stops;
+    bool extended = false;
+    std::optional<std::string> awaited;
   };
   /// The last place of a search so far.
   struct Found {
@@ -75,6 +80,7 @@ class GdbServer final : public Debugger {
   void take_over();
   bool go_back(bool as_far_as_something_stops);
   void depart(user_cpu::Journey journey);
+  void begin_again();
   void travel(std::optional<std::uint32_t> pc);
   void end_journey();
 
@@ -103,6 +109,7 @@ class GdbServer final : public Debugger {
   bool stepping_ = false;
   bool over_ = false;                        ///< the run ends: nothing halts it any more
   std::optional<std::uint32_t> resumed_at_;  ///< see expect_call_again()
+  std::optional<std::string> awaited_;       ///< reply to what has reset the processor: when it is halted again
   std::optional<Found> found_;
   std::string watch_hit_;  ///< stop reply of a watchpoint that the last instruction met; empty: none
 };

@@ -93,7 +93,11 @@ void HistoryPlayer::pass_on(Call call) {
 
 /// Returns whether the debugger may act.
 bool HistoryPlayer::play() {
-  while (has_more() && is_due(history_.inputs[next_])) carry_out(history_.inputs[next_++]);
+  while (has_more() && is_due(history_.inputs[next_])) {
+    const DebuggerInput& input = history_.inputs[next_++];
+    carry_out(input);
+    if (input.kind == DebuggerInput::Kind::kReset) return false;  // the processor calls again at the reset handler
+  }
   const bool has_a_say = travels() || (!has_more() && target_.now() >= history_.live_from);
   if (has_a_say) live_ = debugger_.get();
   return live_ != nullptr;

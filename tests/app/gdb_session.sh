@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# gdb-multiarch on the ARM board of a scenario: breakpoint, step, memory, then kill, which ends the run like Ctrl-C.
+# gdb-multiarch on the ARM board of a scenario: breakpoint, step, memory, then kill, which ends the run like Ctrl-C. Then on the board of serve.
 # Usage: gdb_session.sh DSDPV1_SIM FIRMWARE, in the project's folder.
 set -euo pipefail
 sim=$1 firmware=$2
@@ -12,12 +12,17 @@ fail() {
   exit 1
 }
 
-"$sim" run scenarios/arm_board_12m.yaml --no-progress --set "user_cpu.elf=$firmware" --gdb 0 >"$folder/out" 2>"$folder/err" &
-run=$!
-until grep -q 'localhost:' "$folder/err"; do
-  kill -0 "$run" 2>/dev/null || fail "the run did not wait for gdb"
-done
-port=$(sed -n 's/.*localhost:\([0-9]*\).*/\1/p' "$folder/err" | head -n 1)
+# start COMMAND...: sets run and port
+start() {
+  "$sim" "$@" --set "user_cpu.elf=$firmware" --gdb 0 >"$folder/out" 2>"$folder/err" &
+  run=$!
+  until grep -q 'localhost:' "$folder/err"; do
+    kill -0 "$run" 2>/dev/null || fail "the run did not wait for gdb"
+  done
+  port=$(sed -n 's/.*localhost:\([0-9]*\).*/\1/p' "$folder/err" | head -n 1)
+}
+
+start run scenarios/arm_board_12m.yaml --no-progress
 
 gdb-multiarch -nx -batch -ex "target remote localhost:$port" -ex 'break dsdpv1_initialise' -ex continue \
   -ex 'print config->address' -ex stepi -ex 'monitor time' \
@@ -35,3 +40,16 @@ grep -q '^0x40012008:.*0x0000' "$folder/gdb" || fail "gdb did not read the pins 
 grep -q '^0xa0000004:.*0x00000501' "$folder/gdb" || fail "gdb did not read FSMC_BTR1"
 [ "$(grep -c ' us' "$folder/gdb")" -lt 2 ] || [ "$(grep ' us' "$folder/gdb" | sort -u | wc -l)" -eq 1 ] || fail "time went on while gdb looked"
 grep -q 'INTERRUPTED' "$folder/out" || fail "the run does not say that it was interrupted"
+
+start serve scenarios/arm_board_12m.yaml --pty "$folder/dp" --for 100ms
+gdb-multiarch -nx -batch -ex "target extended-remote localhost:$port" -ex load -ex start -ex detach "$firmware" >"$folder/gdb" 2>&1 || fail "gdb failed"
+status=0
+wait "$run" || status=$?
+grep -q 'Transfer rate' "$folder/gdb" || fail "gdb did not load"
+grep -q '^Temporary breakpoint 1, main' "$folder/gdb" || fail "gdb did not start"
+grep -q 'start-up finished' "$folder/out" || fail "serve did not go on after gdb (exit code $status)"
+
+status=0
+"$sim" serve scenarios/serve_19k2.yaml --gdb 0 >"$folder/out" 2>&1 || status=$?
+[ "$status" -eq 2 ] || fail "serve without a board: exit code $status"
+grep -q 'dsdpv1-sim serve: --gdb needs a slave whose user_cpu has kind: arm' "$folder/out" || fail "serve without a board says something else"

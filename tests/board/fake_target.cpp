@@ -6,6 +6,7 @@ namespace dsdpv1::arm::test {
 namespace {
 
 constexpr MemoryRange kFlash{0x0800'0000, 4096}, kRam{0x2000'0000, 65536};
+constexpr std::uint32_t kPage = 1024;
 constexpr std::uint64_t kPollEvery = 64;
 
 unsigned bits(std::uint32_t word, unsigned low, unsigned count) { return word >> low & ((1U << count) - 1U); }
@@ -31,6 +32,7 @@ void FakeTarget::start() {
 bool FakeTarget::run(Debugger& debugger, std::uint64_t most) {
   while (!ended_ && done_ < most) {
     if (done_ % kPollEvery == 0 && (polls_when_wanted || !debugger.wanted())) debugger.poll();
+    if (reset_requested_) start();
     const std::uint32_t pc = read_register(Register::kPc);
     if (debugger.wanted()) debugger.before_instruction(pc);
     if (reset_requested_) start();
@@ -67,7 +69,7 @@ std::uint32_t FakeTarget::load(std::uint32_t address, std::uint32_t size) const 
 }
 
 std::vector<MemoryRegion> FakeTarget::memory_map() const {
-  return {{kFlash.start, kFlash.size, false}, {kRam.start, kRam.size, true}};
+  return {{kFlash.start, kFlash.size, false, kPage}, {kRam.start, kRam.size, true}};
 }
 
 std::size_t FakeTarget::read_memory(std::uint32_t address, std::uint8_t* to, std::size_t count) const {

@@ -32,6 +32,7 @@ class GdbServerTest : public testing::Test {
     for (unsigned i = 4; i-- > 0;) value = value << 8U | static_cast<std::uint8_t>((*bytes)[i]);
     return value;
   }
+  std::string monitor(RawGdb& gdb, const std::string& words) { return gdb.ask("qRcmd," + to_hex(words)); }
   void start() { bench.start(); }
 
   GdbBench bench;
@@ -80,8 +81,8 @@ TEST_F(GdbServerTest, SaysWhatItCanDo) {
 TEST_F(GdbServerTest, WhatItDoesNotKnowIsAnsweredEmpty) {
   start();
   RawGdb gdb(bench.port());
-  for (const char* const packet : {"", "!", "vMustReplyEmpty", "qTStatus", "QNonStop:1", "Z5,8000000,2",
-                                   "vFlashErase:8000000,1000", "qXfer:auxv:read::0,10"})
+  for (const char* const packet : {"", "vMustReplyEmpty", "vAttach;1", "vFlashRead:8000000", "qTStatus", "QNonStop:1",
+                                   "Z5,8000000,2", "qXfer:auxv:read::0,10"})
     EXPECT_EQ(gdb.ask(packet), "") << packet;
 }
 
@@ -112,6 +113,8 @@ TEST_F(GdbServerTest, MalformedPacketsAreErrors) {
                                    "vCont;r8000000",
                                    "cxyz",
                                    "qRcmd,0",
+                                   "vFlashErase:8000000",
+                                   "vFlashWrite:8000000",
                                    "qXfer:features:read:target.xml:0"})
     EXPECT_EQ(gdb.ask(packet), "E01") << packet;
   EXPECT_EQ(gdb.ask("G" + std::string((kRegisterCount + 1) * 8, '0')), "E01");
@@ -165,9 +168,12 @@ TEST_F(GdbServerTest, DescriptionsComeInPieces) {
   EXPECT_THAT(xml, AllOf(HasSubstr("org.gnu.gdb.arm.m-profile"), HasSubstr("org.gnu.gdb.arm.m-system"),
                          HasSubstr("faultmask"), testing::EndsWith("</target>")));
   EXPECT_EQ(gdb.ask("qXfer:features:read:target.xml:ffff,100"), "l");
-  EXPECT_THAT(gdb.ask("qXfer:memory-map:read::0,1000"),
-              AllOf(HasSubstr(R"(<memory type="rom" start="0x8000000" length="0x1000"/>)"),
-                    HasSubstr(R"(<memory type="ram" start="0x20000000" length="0x10000"/>)")));
+  EXPECT_THAT(
+      gdb.ask("qXfer:memory-map:read::0,1000"),
+      AllOf(
+          HasSubstr(
+              R"(<memory type="flash" start="0x8000000" length="0x1000"><property name="blocksize">0x400</property></memory>)"),
+          HasSubstr(R"(<memory type="ram" start="0x20000000" length="0x10000"/>)")));
 }
 
 TEST_F(GdbServerTest, BreakpointsOfBothKindsStopBeforeTheInstruction) {
@@ -428,23 +434,126 @@ TEST_F(GdbServerTest, FaultIsShownBeforeTheRunEnds) {
   EXPECT_EQ(gdb.ask("c"), "W00");
 }
 
-TEST_F(GdbServerTest, MonitorResetsTheProcessor) {
+TEST_F(GdbServerTest, EachMonitorResetLeavesTheProcessorAtItsFirstInstruction) {
   start();
   RawGdb gdb(bench.port());
+  for (const char* const words : {"reset", "reset halt", "reset init", "reset run"}) {
+    EXPECT_EQ(gdb.ask("s"), kStopped);
+    EXPECT_EQ(gdb.ask("Pf=" + std::string("11000008")), "OK") << "a new pc does not come before the reset";
+    EXPECT_EQ(from_hex(monitor(gdb, words)), "reset, halted before the first instruction of the reset handler\n")
+        << words;
+    EXPECT_EQ(pc(gdb), kRun) << words;
+    EXPECT_EQ(gdb.ask("?"), kStopped);
+  }
+  EXPECT_EQ(from_hex(monitor(gdb, "time")), "simulated time 0.000004000 s\n");
   EXPECT_EQ(gdb.ask("s"), kStopped);
-  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("reset"))),
-            "reset before the next instruction: `stepi` goes to the reset handler\n");
-  EXPECT_EQ(gdb.ask("s"), kStopped);
+  EXPECT_EQ(pc(gdb), kRun + 2) << "it goes on from there";
+}
+
+TEST_F(GdbServerTest, MonitorHaltAndSleepChangeNothing) {
+  start();
+  RawGdb gdb(bench.port());
+  EXPECT_EQ(from_hex(monitor(gdb, "halt")), "halted at 0x08000008\n");
+  for (const char* const words : {"sleep 500", "delay 3000"})
+    EXPECT_EQ(from_hex(monitor(gdb, words)), "no wait: simulated time stands still while the processor is halted\n");
+  EXPECT_EQ(
+      from_hex(monitor(gdb, "arm semihosting enable")),
+      "monitor arm semihosting enable: expected time, reset, reset halt, reset init, reset run, halt, sleep MS\n");
   EXPECT_EQ(pc(gdb), kRun);
-  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("time"))), "simulated time 0.000001000 s\n") << "before it is executed";
-  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("halt"))), "monitor halt: expected time, reset\n");
+}
+
+/// Flash of the fake target from `address` on, as vFlashWrite has it.
+std::string flash_write(RawGdb& gdb, std::uint32_t address, std::uint32_t size) {
+  const auto bytes = from_hex(gdb.ask(fmt::format("m{:x},{:x}", address, size)));
+  std::string escaped;
+  for (const char byte : bytes.value_or("")) {
+    const bool special = byte == '#' || byte == '$' || byte == '}' || byte == '*';
+    escaped += special ? std::string{'}', static_cast<char>(byte ^ 0x20)} : std::string{byte};
+  }
+  return fmt::format("vFlashWrite:{:x}:", address) + escaped;
+}
+
+TEST_F(GdbServerTest, FlashTakesTheProgramThatItHas) {
+  start();
+  RawGdb gdb(bench.port());
+  EXPECT_EQ(gdb.ask("vFlashErase:8000000,800"), "OK");
+  EXPECT_EQ(gdb.ask(flash_write(gdb, 0x08000000, 7)), "OK") << "packets end anywhere";
+  EXPECT_EQ(gdb.ask(flash_write(gdb, 0x08000007, 0x7F9)), "OK");
+  EXPECT_EQ(gdb.ask("vFlashDone"), "OK");
+  EXPECT_EQ(gdb.ask("vFlashDone"), "OK");
+  EXPECT_EQ(bench.said().size(), 1U);
+}
+
+TEST_F(GdbServerTest, LoadThatHasBrokenOffIsForgotten) {
+  start();
+  RawGdb first(bench.port());
+  EXPECT_EQ(first.ask("vFlashErase:8000000,400"), "OK");
+  EXPECT_EQ(first.ask("D"), "OK");
+  RawGdb gdb(bench.port());
+  EXPECT_EQ(gdb.ask("vFlashErase:8000400,400"), "OK");
+  EXPECT_EQ(gdb.ask("vFlashDone"), "OK") << "nothing is there";
+}
+
+TEST_F(GdbServerTest, FlashRefusesInWordsAnotherProgramAndWhatARealOneDoesNotDo) {
+  start();
+  RawGdb gdb(bench.port());
+  const std::string other = "; start the run again with this program (--set user_cpu.elf=FILE)";
+  const std::vector<std::pair<std::string, std::string>> refused = {
+      {"vFlashWrite:8000000:x", "flash at 0x08000000 must be erased before it is written"},
+      {"vFlashErase:8000200,400", "1024 bytes at 0x08000200 cannot be erased, flash has pages of 1024 bytes"},
+      {"vFlashErase:8000000,200", "512 bytes at 0x08000000 cannot be erased, flash has pages of 1024 bytes"},
+      {"vFlashErase:8000c00,800", "there is no flash of 2048 bytes at 0x08000c00 to erase"},
+      {"vFlashErase:20000000,400", "there is no flash of 1024 bytes at 0x20000000 to erase"},
+      {"vFlashWrite:8000fff:xx", "there is no flash of 2 bytes at 0x08000fff to write"},
+      {"vFlashErase:8000000,400", ""},
+      {"vFlashWrite:8000000:x", ""},
+      {"vFlashWrite:8000000:y", "flash at 0x08000000 must be erased before it is written"},
+      {"vFlashDone", "gdb loads another program than that of the run: 0x78 at 0x08000000, expected 0x00" + other},
+      {"vFlashErase:8000000,400", ""},
+      {"vFlashDone", "gdb loads another program than that of the run: 0xff at 0x08000000, expected 0x00" + other},
+      {"vFlashWrite:8000000:x", "flash at 0x08000000 must be erased before it is written"},
+  };
+  std::vector<std::string> said = {fmt::format("waiting for gdb: target remote localhost:{}", bench.port())};
+  for (const auto& [packet, words] : refused) {
+    EXPECT_EQ(gdb.ask(packet), words.empty() ? "OK" : "E." + words);
+    if (!words.empty()) said.push_back("load: " + words);
+    EXPECT_EQ(bench.said(), said);
+  }
+  EXPECT_EQ(gdb.ask("m8000000,8"), "0000012009000008") << "the program is there";
+}
+
+TEST_F(GdbServerTest, ExtendedGdbMayKillAndRunAgain) {
+  start();
+  RawGdb gdb(bench.port());
+  EXPECT_EQ(gdb.ask("!"), "OK");
+  EXPECT_EQ(gdb.ask("s"), kStopped);
+  EXPECT_EQ(gdb.ask("vKill;a410"), "OK");
+  EXPECT_EQ(gdb.ask("?"), "W00");
+  EXPECT_EQ(gdb.ask("vRun;"), kStopped);
+  EXPECT_EQ(pc(gdb), kRun);
+  EXPECT_EQ(gdb.ask("vRun;6c6f6f70;61"), kStopped) << "also without kill";
+  EXPECT_EQ(gdb.ask("?"), kStopped);
+  EXPECT_EQ(gdb.ask("D"), "OK");
+  EXPECT_FALSE(bench.target.ended());
+}
+
+TEST_F(GdbServerTest, ExtendedGdbThatKillsAndGoesEndsTheRun) {
+  start();
+  RawGdb gdb(bench.port());
+  EXPECT_EQ(gdb.ask("!"), "OK");
+  gdb.send("k");
+  gdb.hang_up();
+  bench.end();
+  EXPECT_TRUE(bench.target.ended());
+  EXPECT_EQ(bench.said().size(), 1U);
 }
 
 TEST_F(GdbServerTest, TargetThatCannotBeResetSaysSo) {
   bench.target.resettable = false;
   start();
   RawGdb gdb(bench.port());
-  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("reset"))), "the processor cannot be reset\n");
+  EXPECT_EQ(from_hex(monitor(gdb, "reset")), "the processor cannot be reset\n");
+  EXPECT_EQ(gdb.ask("vRun;"), "E01");
 }
 
 TEST_F(GdbServerTest, DebuggerIsWantedOnlyWhileSomethingMayStopTheRun) {

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "board/firmware/elf_image.hpp"
 #include "board/gdb/gdb_server.hpp"
 #include "board/gdb/history_player.hpp"
 #include "io/input/input_error.hpp"
@@ -52,12 +54,27 @@ void check_objects(const scenario::Scenario& scenario, const scenario::Slave& sl
                      fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
 }
 
-std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTarget& target) {
+/// Flash with the program that the file has now; empty if that is no firmware.
+std::vector<std::uint8_t> flash_of(const std::string& elf) {
+  constexpr arm::MemoryRange kFlash = arm::FirmwareMemory().flash;
+  std::vector<std::uint8_t> flash(kFlash.size, 0xFF);
+  try {
+    for (const arm::Segment& segment : arm::load_elf(elf).segments)
+      if (kFlash.holds(segment.address, segment.bytes.size()))
+        std::copy(segment.bytes.begin(), segment.bytes.end(), flash.begin() + (segment.address - kFlash.start));
+  } catch (const InputError&) {
+    flash.clear();
+  }
+  return flash;
+}
+
+std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTarget& target, const std::string& elf) {
   arm::HistoryPlayer::MakeDebugger server;
   user_cpu::DebugHistory* const way_back = gdb.goes_back ? gdb.history.get() : nullptr;
   if (gdb.port) {
-    server = [&gdb, way_back](arm::DebugTarget& noted, std::uint64_t board) {
-      return std::make_unique<arm::GdbServer>(noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say, way_back, board});
+    server = [&gdb, way_back, elf](arm::DebugTarget& noted, std::uint64_t board) {
+      return std::make_unique<arm::GdbServer>(
+          noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say, way_back, board, [elf] { return flash_of(elf); }});
     };
   }
   return std::make_unique<arm::HistoryPlayer>(target, *gdb.history, server);
@@ -88,7 +105,9 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
     if (settings.mode != HostMode::kParallel) options.card = static_cast<unsigned>(settings.address);
   }
   if (const GdbRequest* gdb = request.gdb)
-    options.make_debugger = [gdb](arm::DebugTarget& target) { return make_debugger(*gdb, target); };
+    options.make_debugger = [gdb, elf = options.firmware->path](arm::DebugTarget& target) {
+      return make_debugger(*gdb, target, elf);
+    };
   return [&user, &chip, &host, options](const user_cpu::StationConfig& station, Tick start) {
     arm::BoardOptions now = options;
     now.program = program_options(user, station);

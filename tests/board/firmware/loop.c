@@ -16,5 +16,7 @@ __attribute__((naked)) void loop(void) {
   __asm__ volatile("b.n loop");
 }
 
+void main(void) __attribute__((alias("loop"))); /* for gdb's `start` */
+
 extern char stack_top[];
 __attribute__((section(".vectors"), used)) static const void* const vectors[2] = {stack_top, (const void*)run};
