@@ -10,7 +10,7 @@ using user_cpu::Act;
 
 constexpr Tick kStart = 1000, kPeriod = ActLog::kSamplePeriod;
 
-std::string page(std::uint32_t pc) { return std::to_string(pc >> 8U); }
+std::string page(std::uint32_t pc) { return pc < 0x1000 ? std::to_string(pc >> 8U) : ""; }
 
 TEST(ActLog, ActIsTheLastOneUpToItsTime) {
   ActLog log(kStart);
@@ -47,8 +47,8 @@ TEST(ActLog, ActsOlderThanWhatIsKeptAreNotKnown) {
 TEST(ActLog, OmissionIsWhereTheProgramWasLongest) {
   ActLog log(kStart);
   Tick now = kStart;
-  const auto runs = [&](std::uint32_t pc, int periods) {
-    for (int i = 0; i < periods; ++i) log.sample(now += kPeriod, pc);
+  const auto runs = [&](std::uint32_t pc, int periods, std::uint32_t lr = 0xFFFF'FFF9) {
+    for (int i = 0; i < periods; ++i) log.sample(now += kPeriod, pc, lr);
   };
   runs(0x100, 50);
   const Tick since = now;
@@ -65,9 +65,22 @@ TEST(ActLog, OmissionIsWhereTheProgramWasLongest) {
   EXPECT_FALSE(log.longest_stay(since, since + kPeriod / 2, page)) << "no sample in between";
 }
 
+TEST(ActLog, OmissionIsInTheFunctionThatWaitsNotInTheOneThatItAsksForTheTime) {
+  ActLog log(kStart);
+  Tick now = kStart;
+  const auto runs = [&](std::uint32_t pc, std::uint32_t lr) { log.sample(now += kPeriod, pc, lr); };
+  for (int i = 0; i < 10; ++i) runs(0x100, 0x220), runs(0x104, 0x220), runs(0x210, 0x220);
+  const auto stay = log.longest_stay(kStart, now, page);
+  ASSERT_TRUE(stay);
+  EXPECT_EQ(stay->pc, 0x210U);
+  EXPECT_EQ(stay->time, 30 * kPeriod);
+  for (int i = 0; i < 40; ++i) runs(0x500, 0x620);  // a leaf is meant rather than its caller
+  EXPECT_EQ(log.longest_stay(kStart, now, page)->pc, 0x500U);
+}
+
 TEST(ActLog, SleepIsSampledWhenItEndsHoweverLongItWas) {
   ActLog log(kStart);
-  log.sample(kStart + 1'000'000 * kPeriod, 0x100);
+  log.sample(kStart + 1'000'000 * kPeriod, 0x100, 0);
   EXPECT_GT(log.sample_at(), kStart + 1'000'000 * kPeriod);
   const auto stay = log.longest_stay(kStart + 999'950 * kPeriod, kStart + 1'000'000 * kPeriod, page);
   ASSERT_TRUE(stay);

@@ -2,11 +2,11 @@
 
 namespace dsdpv1::arm {
 
-void ActLog::take_samples(Tick now, std::uint32_t pc) {
+void ActLog::take_samples(Tick now, std::uint32_t pc, std::uint32_t lr) {
   const Tick kept = static_cast<Tick>(samples_.size()) * kSamplePeriod;
   if (now - sample_at_ > kept) sample_at_ += (now - kept - sample_at_) / kSamplePeriod * kSamplePeriod;
   for (; sample_at_ <= now; sample_at_ += kSamplePeriod)
-    samples_.at(samples_taken_++ % samples_.size()) = {sample_at_, pc};
+    samples_.at(samples_taken_++ % samples_.size()) = {sample_at_, pc, lr};
 }
 
 template <class Is>

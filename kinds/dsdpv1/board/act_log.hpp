@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "tb/chip/user_cpu/place.hpp"
 
@@ -16,6 +17,7 @@ using bus::Tick;
 
 class ActLog {
  public:
+  static constexpr std::uint32_t kCallBytes = 4;
   /// A place of the program is kept this often: 100 us, for the last 100 ms.
   static constexpr Tick kSamplePeriod = 100 * bus::kTicksPerUs;
 
@@ -30,20 +32,22 @@ class ActLog {
 
   /// When the next sample is due.
   Tick sample_at() const { return sample_at_; }
-  /// The program has been at `pc` from the last sample's time until `now`, or was not asked.
-  void sample(Tick now, std::uint32_t pc) {
-    if (sample_at_ <= now) take_samples(now, pc);
+  /// The program has been at `pc` from the last sample's time until `now`, or was not asked. `lr`: its link register.
+  void sample(Tick now, std::uint32_t pc, std::uint32_t lr) {
+    if (sample_at_ <= now) take_samples(now, pc, lr);
   }
 
   /// The instruction of an act; absent if it is older than what is kept. Not for an omission.
   std::optional<std::uint32_t> instruction(const user_cpu::Act& act) const;
 
-  /// Where the program was most of the time from `since` to `until`, by the samples.
+  /// Where the program was most of the time from `since` to `until`, by the samples: a function, also while it calls
+  /// one that calls no other.
   struct Stay {
     std::uint32_t pc = 0;  ///< the last one there
     Tick time = 0;
+    Tick itself = 0;  ///< of it in the function itself
   };
-  /// `function_of(pc)`: a name. Absent without a sample.
+  /// `function_of(address)`: a name; empty: none. Absent without a sample.
   template <class FunctionOf>
   std::optional<Stay> longest_stay(Tick since, Tick until, const FunctionOf& function_of) const;
 
@@ -56,10 +60,10 @@ class ActLog {
   };
   struct Sample {
     Tick at = bus::kNever;
-    std::uint32_t pc = 0;
+    std::uint32_t pc = 0, lr = 0;
   };
 
-  void take_samples(Tick now, std::uint32_t pc);
+  void take_samples(Tick now, std::uint32_t pc, std::uint32_t lr);
   void add(const Entry& entry) { entries_.at(count_++ % entries_.size()) = entry; }
   template <class Is>
   const Entry* last(Tick until, const Is& is) const;
@@ -78,13 +82,21 @@ std::optional<ActLog::Stay> ActLog::longest_stay(Tick since, Tick until, const F
   for (std::size_t i = samples_taken_ - kept; i < samples_taken_; ++i) {
     const Sample& sample = samples_.at(i % samples_.size());
     if (sample.at <= since || sample.at > until) continue;
-    Stay& stay = stays[function_of(sample.pc)];
-    stay = {sample.pc, stay.time + kSamplePeriod};
+    const std::string function = function_of(sample.pc), caller = function_of(sample.lr);
+    const auto stays_in = [&](const std::string& name, std::uint32_t at, Tick itself) {
+      Stay& stay = stays[name];
+      stay = {at, stay.time + kSamplePeriod, stay.itself + itself};
+    };
+    stays_in(function, sample.pc, kSamplePeriod);
+    if (caller != function && !caller.empty()) stays_in(caller, sample.lr - kCallBytes, 0);
   }
-  const auto longest = std::max_element(stays.begin(), stays.end(),
-                                        [](const auto& a, const auto& b) { return a.second.time < b.second.time; });
+  const auto longest = std::max_element(stays.begin(), stays.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.second.time, a.second.itself) < std::tie(b.second.time, b.second.itself);
+  });
   if (longest == stays.end()) return std::nullopt;
-  return Stay{longest->second.pc, std::min(longest->second.time, until - since)};
+  Stay stay = longest->second;
+  stay.time = std::min(stay.time, until - since);
+  return stay;
 }
 
 }  // namespace dsdpv1::arm

@@ -316,7 +316,7 @@ void Board::meet_devices() {
 
 /// The processor may stay ahead of the other agents as long as none of them is due.
 std::uint64_t Board::keep_up() {
-  acts_.sample(now(), core_.place());
+  if (acts_.sample_at() <= now()) acts_.sample(now(), core_.place(), core_.read_register(Register::kLr));
   if (has_news() || stays_until() <= now()) come_up();
   if (core_.cycles() >= look_at_) look_if_stuck();
   return next_due();
@@ -350,7 +350,7 @@ void Board::sleep(std::uint64_t until) {
   while (!take_intr0_edges() && !woken && pins_->now() < end) woken = pins_->wait_for_wake(end);
   core_.advance_to(std::max(core_.cycles(), cycle_of(pins_->now())));
   touched_at_ = core_.cycles();
-  acts_.sample(now(), core_.pc() - kWfiBytes);
+  acts_.sample(now(), core_.pc() - kWfiBytes, core_.read_register(Register::kLr));
 }
 
 void Board::reset() {
