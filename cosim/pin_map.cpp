@@ -27,13 +27,14 @@ class Reader {
     for (const char* key : {"files", "include"})
       if (root[key] && !root[key].IsSequence())
         fail(root[key], std::string(key) + " is no list, expected [NAME, NAME]");
-    if (root["clock"]) map_.clock = port(root["clock"]);
+    if (root["clock"]) map_.clock = port("clock", root["clock"]);
     for (const auto& each : root["pins"]) pin(each.first, each.second);
     for (const auto& each : root["tolerance"]) tolerance(each.first, each.second);
-    for (const auto& each : root["parameters"]) map_.parameters[text(each.first)] = text(each.second);
-    for (const auto& each : root["files"]) map_.files.push_back(text(each));
-    for (const auto& each : root["include"]) map_.include.push_back(text(each));
-    if (root["reference"]) map_.reference = truth(root["reference"]);
+    for (const auto& each : root["parameters"])
+      map_.parameters[word("a parameter", each.first)] = word("parameter " + each.first.Scalar(), each.second);
+    for (const auto& each : root["files"]) map_.files.push_back(word("a file", each));
+    for (const auto& each : root["include"]) map_.include.push_back(word("a folder", each));
+    if (root["reference"]) map_.reference = truth("reference", root["reference"]);
     return map_;
   }
 
@@ -51,29 +52,30 @@ class Reader {
       throw tb::InputError(path_, error.mark.line + 1, error.msg + ", expected YAML");
     }
   }
-  std::string text(const YAML::Node& node) const {
-    if (!node.IsScalar() || node.Scalar().empty()) fail(node, "is no word, expected one name or number");
+  /// `what` it is, for messages.
+  std::string word(const std::string& what, const YAML::Node& node) const {
+    if (!node.IsScalar() || node.Scalar().empty()) fail(node, what + " is no word, expected one name or number");
     return node.Scalar();
   }
   void check_keys(const YAML::Node& node, const std::vector<std::string>& allowed) const {
     for (const auto& each : node) check_name(each.first, allowed);
   }
   void check_name(const YAML::Node& node, const std::vector<std::string>& allowed) const {
-    const std::string name = text(node);
+    const std::string name = word("a key", node);
     if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
       fail(node, "unknown name " + name + tb::did_you_mean(name, allowed) + ", expected " + tb::join(allowed));
   }
-  Port port(const YAML::Node& node) const {
-    if (node.IsScalar()) return {text(node), false};
-    if (!node.IsMap() || !node["port"]) fail(node, "is no port, expected NAME and {port: NAME, inverted: true}");
+  Port port(const std::string& pin, const YAML::Node& node) const {
+    if (node.IsScalar()) return {word(pin, node), false};
+    if (!node.IsMap() || !node["port"]) fail(node, pin + " is no port, expected NAME and {port: NAME, inverted: true}");
     check_keys(node, {"port", "inverted"});
-    Port port{text(node["port"]), false};
-    if (node["inverted"]) port.inverted = truth(node["inverted"]);
+    Port port{word("port of " + pin, node["port"]), false};
+    if (node["inverted"]) port.inverted = truth("inverted of " + pin, node["inverted"]);
     return port;
   }
-  bool truth(const YAML::Node& node) const {
-    const std::string value = text(node);
-    if (value != "true" && value != "false") fail(node, "is " + value + ", expected true, false");
+  bool truth(const std::string& what, const YAML::Node& node) const {
+    const std::string value = word(what, node);
+    if (value != "true" && value != "false") fail(node, what + " is " + value + ", expected true, false");
     return value == "true";
   }
   std::vector<std::string> names() const {
@@ -83,7 +85,7 @@ class Reader {
   }
   void pin(const YAML::Node& name, const YAML::Node& node) {
     check_name(name, names());
-    map_.pins[text(name)] = port(node);
+    map_.pins[name.Scalar()] = port(name.Scalar(), node);
   }
   void tolerance(const YAML::Node& name, const YAML::Node& node) {
     std::vector<std::string> outputs;
@@ -91,12 +93,12 @@ class Reader {
       if (!pin.input && pin.bus == nullptr) outputs.emplace_back(pin.name);
     check_name(name, outputs);
     for (std::size_t i = 0; i < pins_.size(); ++i)
-      if (text(name) == pins_[i].name) map_.tolerances.at(i) = cycles(node);
+      if (name.Scalar() == pins_[i].name) map_.tolerances.at(i) = cycles("tolerance of " + name.Scalar(), node);
   }
-  int cycles(const YAML::Node& node) const {
+  int cycles(const std::string& what, const YAML::Node& node) const {
     int value = -1;
     if (!YAML::convert<int>::decode(node, value) || value < 0 || value > kLargestTolerance)
-      fail(node, "is " + text(node) + ", expected 0 to " + std::to_string(kLargestTolerance) + " cycles");
+      fail(node, what + " is " + word(what, node) + ", expected 0 to " + std::to_string(kLargestTolerance) + " cycles");
     return value;
   }
 

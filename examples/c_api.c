@@ -16,7 +16,7 @@ enum { kAddress = 5, kSlot = 1, kIndex = 2, kOfClass1 = 3, kRequests = 5 };
 static void check(dpsim_status status) {
   if (status == DPSIM_OK) return;
   fprintf(stderr, "%s: %s\n", dpsim_status_name(status), dpsim_error_message());
-  exit(1);
+  exit(2); /* as the programs do for wrong input */
 }
 
 static double us(uint64_t ticks) { return (double)ticks / (1000 * DPSIM_TICKS_PER_NS); }

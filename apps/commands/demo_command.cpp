@@ -53,8 +53,7 @@ class Demo : public Command {
  private:
   std::string file(const char* ending) const { return (fs::path(out_) / kScenario).string() + ending; }
   static std::string files(const RunArguments& given) {
-    return "\nWaves   " + fs::absolute(given.wave.file).string() + "\nLog     " + fs::absolute(given.log).string() +
-           "\nResult  " + fs::absolute(given.result).string() + '\n';
+    return "Files: " + fs::absolute(given.wave.file).string() + ", .log, .json\n";
   }
 
   std::string out_ = "out";

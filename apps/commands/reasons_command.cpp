@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <regex>
 
 #include "apps/commands/command.hpp"
 #include "apps/options/outputs.hpp"
@@ -22,7 +23,7 @@ void add_check_codes(std::vector<tb::CodeText>& list, const tb::ChipKind& kind) 
     const bool known =
         std::any_of(list.begin(), list.end(), [&](const tb::CodeText& each) { return each.code == rule.id; });
     if (known) continue;
-    list.push_back({rule.id, "violation", std::string(rule.rule) + " (" + rule.clause + ")", rule.advice});
+    list.push_back({rule.id, "violation", "", std::string(rule.rule) + " (" + rule.clause + ")", rule.advice});
   }
 }
 
@@ -34,18 +35,42 @@ std::vector<tb::CodeText> check_codes(const tb::ChipKind& kind) {
   return list;
 }
 
+/// The page and anchor of a ruling or clause.
+std::string place_of(const std::string& name) {
+  static const std::regex chip("[PHDSV][0-9]+"), sisters("(R|SP|UA)[0-9]+");
+  if (name == "PROFIBUS facts") return "chip.md#profibus-facts-that-the-documents-take-for-granted";
+  if (name == "ARM board") return "arm_board.md#what-a-real-board-would-not-forgive";
+  const char* page = std::regex_match(name, chip)      ? "chip.md#"
+                     : std::regex_match(name, sisters) ? "chip_rsu.md#"
+                                                       : "conformance.md#";
+  return page + bus::capture::lower_case(name);
+}
+
+/// "S6, T19-4" with each name as `format` shows it with its place.
+std::string linked(const std::string& source, const char* format) {
+  std::string text;
+  for (std::size_t at = 0; at < source.size();) {
+    const std::size_t end = std::min(source.find(", ", at), source.size());
+    const std::string name = source.substr(at, end - at);
+    text += (at == 0 ? "" : ", ") + fmt::format(fmt::runtime(format), name, place_of(name));
+    at = end + 2;
+  }
+  return text;
+}
+
 void print(std::string& text, const std::vector<tb::CodeText>& reasons) {
   for (const tb::CodeText& each : reasons)
     text += fmt::format("{} ({})\n", each.code, each.severity) +
             tb::named_line("", each.example.empty() ? each.text : "such as: " + each.example, 0) +
-            tb::named_line("", each.advice, 0);
+            tb::named_line("", each.advice, 0) +
+            (each.source.empty() ? "" : tb::named_line("", "see " + linked(each.source, "{} (docs/{})"), 0));
 }
 
 void print_table(std::string& text, const std::string& head, const std::vector<tb::CodeText>& reasons) {
-  text += head + "\n| code | kind | text | what to do |\n|---|---|---|---|\n";
+  text += head + "\n| code | kind | text | what to do | why |\n|---|---|---|---|---|\n";
   for (const tb::CodeText& each : reasons)
-    text += fmt::format("| <a id=\"{}\"></a>`{}` | {} | {} | {} |\n", bus::capture::lower_case(each.code), each.code,
-                        each.severity, each.text, each.advice);
+    text += fmt::format("| <a id=\"{}\"></a>`{}` | {} | {} | {} | {} |\n", bus::capture::lower_case(each.code),
+                        each.code, each.severity, each.text, each.advice, linked(each.source, "[{}]({})"));
 }
 
 /// The codes of the kind of chip and of the monitor; the checks have a separate page.
@@ -61,9 +86,11 @@ std::string as_markdown(const tb::ChipKind& kind) {
       "Every code that a log, a result file or a scenario may hold, with its meaning and what to do about it. "
       "`dsdpv1-sim "
       "reasons CODE` prints one of\n"
-      "them. **info**: something was carried out; **refusal**: something that the master or the user asked for was "
-      "not; **violation**: a rule was\n"
-      "broken, and a scenario that does not allow it fails.\n";
+      "them. *Why* names the rulings and clauses that it follows from. **info**: something was carried out; "
+      "**refusal**: "
+      "something that the\n"
+      "master or the user asked for was not; **violation**: a rule was broken, and a scenario that does not allow it "
+      "fails.\n";
   for (const tb::CodeTable& table : tables_of(kind))
     print_table(text, fmt::format("\n## {}\n\n{}\n", table.title, table.introduction), table.codes);
   return text +

@@ -30,7 +30,7 @@ CLI::Option* add_checks_option(CLI::App& app, std::string& word) {
 void add_checks_table_option(CLI::App& app, tb::CheckRows& rows) {
   app.add_flag_callback(
       "--checks-table", [&rows] { rows = tb::CheckRows::kAll; },
-      "Show a row for each check in the summary, not only for violated ones");
+      "Show in the summary a row for each check, not only for violated ones, and how long each slave waited");
 }
 
 std::optional<tb::ChecksMode> checks_mode(const std::string& command, const std::string& word) {

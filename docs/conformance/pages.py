@@ -38,6 +38,10 @@ def row(*cells):
     return "| " + " | ".join(cell(each) for each in cells) + " |\n"
 
 
+def anchored(name):
+    return f'<a id="{name.lower()}"></a>{name}'
+
+
 def head(*cells):
     return row(*cells) + "|" + "---|" * len(cells) + "\n"
 
@@ -55,7 +59,7 @@ def clause_row(root, clause, run):
         asserted, last = tests(clause.tests), shown(run.of(clause.tests))
     else:
         asserted, last = (f"*none: {clause.reason}*" if clause.reason else "**NO TEST**"), "-"
-    return row(clause.name, clause.says, ", ".join(clause.rulings) or "-", files(root, "model", clause.model),
+    return row(anchored(clause.name), clause.says, ", ".join(clause.rulings) or "-", files(root, "model", clause.model),
                files(root, "rtl", clause.rtl), asserted, last)
 
 

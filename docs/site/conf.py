@@ -71,11 +71,17 @@ def link_words(app, doctree, docname):
     for text in list(doctree.findall(nodes.Text)):
         if isinstance(text.parent, (nodes.paragraph, nodes.emphasis)) and any(links_in(text)):
             text.parent.replace(text, list(with_links(text.astext(), lambda page: app.builder.get_relative_uri(docname, page))))
-    for strong in doctree.findall(nodes.strong):
-        if RULINGS.get(strong.astext()) == docname and isinstance(strong.parent.parent, nodes.list_item):
-            strong.parent.parent["ids"].append(strong.astext().lower())
+
+
+def know_anchors(app, doctree):
+    """Links may lead to what a page names by <a id>, not only to headings."""
+    slugs = app.env.metadata[app.env.docname].setdefault("myst_slugs", {})
+    for raw in doctree.findall(nodes.raw):
+        for name in re.findall(r'<a id="([^"]+)">', raw.astext()):
+            slugs.setdefault(name, (0, name, name))
 
 
 def setup(app):
+    app.connect("doctree-read", know_anchors)
     app.connect("doctree-resolved", link_words)
     app.connect("autodoc-process-docstring", mark_examples)

@@ -68,13 +68,17 @@ ReadFile try_read_file(const std::string& path, std::size_t most_mb) {
 std::string nearest_file(const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path wanted(path), folder = wanted.parent_path();
-  std::vector<std::string> stems;
+  std::vector<std::string> stems, endings;
   std::error_code error;
   for (fs::directory_iterator each(folder.empty() ? "." : folder, error), end; !error && each != end;
        each.increment(error))
-    if (each->path().extension() == wanted.extension()) stems.push_back(each->path().stem());
+    if (each->path().stem() == wanted.stem())
+      endings.push_back(each->path().extension());
+    else if (each->path().extension() == wanted.extension())
+      stems.push_back(each->path().stem());
   std::sort(stems.begin(), stems.end());
-  const std::string stem = nearest(wanted.stem(), stems);
+  const std::string ending = nearest(wanted.extension(), endings), stem = nearest(wanted.stem(), stems);
+  if (!ending.empty()) return (folder / (wanted.stem().string() + ending)).string();
   return stem.empty() ? "" : (folder / (stem + wanted.extension().string())).string();
 }
 

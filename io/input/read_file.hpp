@@ -33,8 +33,8 @@ std::string what_is_wrong(int error);
 ReadFile try_read_file(const std::string& path, std::size_t most_mb);
 /// From now on readers of `path` get this text if it does not exist.
 void provide_file(const std::string& path, std::string text);
-/// The file beside `path`, with the same ending, that was probably meant if `path` does not exist; empty when none is
-/// near.
+/// The file beside `path`, with the same ending or the same name before it, that was probably meant if `path` does not
+/// exist; empty when none is near.
 std::string nearest_file(const std::string& path);
 /// Like try_read_file, but throws InputError with one line.
 std::string read_file(const std::string& path, const FileKind& kind);

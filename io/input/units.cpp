@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <sstream>
 
 namespace dsdpv1::tb {
@@ -98,32 +97,6 @@ std::string time_text(bus::Tick ticks) {
   }
   return fmt::format("{:.3f}ns", static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerNs));
 }
-
-namespace {
-
-/// 1000 or more when rounded to so many digits after the point.
-bool is_too_long(bus::Tick ticks, const Unit& unit, int digits) {
-  const double one = std::pow(10, digits);
-  return std::round(static_cast<double>(ticks) / static_cast<double>(unit.ticks) * one) >= 1000 * one;
-}
-
-/// `digits`: those after the point in s, ms, us and ns.
-std::string in_unit(bus::Tick ticks, const std::array<int, 4>& digits) {
-  if (ticks < 0) return "-" + in_unit(-ticks, digits);
-  std::size_t i = digits.size() - 1;
-  while (i > 0 && is_too_long(ticks, kUnits[i], digits[i])) --i;
-  std::string number =
-      fmt::format("{:.{}f}", static_cast<double>(ticks) / static_cast<double>(kUnits[i].ticks), digits[i]);
-  while (number.size() - number.find('.') > 4 && number.compare(number.size() - 3, 3, "000") == 0)
-    number.resize(number.size() - 3);
-  return number + " " + kUnits[i].name;
-}
-
-}  // namespace
-
-std::string short_time(bus::Tick ticks) { return in_unit(ticks, {3, 3, 3, 3}); }
-
-std::string moment_text(bus::Tick ticks) { return in_unit(ticks, {9, 6, 3, 3}); }
 
 std::string cycle_text(bus::Tick at) {
   const bus::Tick rest = at % kTicksPerCycle;

@@ -22,12 +22,6 @@ std::optional<bus::Tick> parse_time(const std::string& text);
 /// The shortest way to write a time that `parse_time` reads back: "1.5ms".
 std::string time_text(bus::Tick ticks);
 
-/// A length of time for people, in the unit that leaves 1 to 999: "9.956 ms".
-std::string short_time(bus::Tick ticks);
-
-/// A point in time for people, in the same unit, to the nanosecond or finer: "5.000021 ms", "63.280 us", "120.000 ms".
-std::string moment_text(bus::Tick ticks);
-
 /// Ticks of a cycle of 48 MHz.
 constexpr bus::Tick kTicksPerCycle = 250;
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bus/time_text.hpp"
 #include "io/input/suggest.hpp"
-#include "io/input/units.hpp"
 #include "lab/calibrate/calibration.hpp"
 #include "tb/report/text_table.hpp"
 
@@ -43,7 +43,7 @@ std::string ppm_text(const Estimate& clock) {
 /// Error and time of the worst instance, or a dash.
 std::string worst_text(const std::vector<Outlier>& outliers) {
   if (outliers.empty()) return "-";
-  return fmt::format("{:+.2f} at {}", outliers.front().by, tb::moment_text(outliers.front().at));
+  return fmt::format("{:+.2f} at {}", outliers.front().by, bus::moment_text(outliers.front().at));
 }
 
 std::string parameter_table(const Result& result) {
@@ -67,7 +67,7 @@ std::string claim_text(const ClaimResult& claim) {
 std::string where_text(const ClaimResult& claim) {
   if (claim.tally.contradictions.empty()) return "-";
   const Contradiction& first = claim.tally.contradictions.front();
-  return fmt::format("{}: {}", tb::moment_text(first.at), first.how);
+  return fmt::format("{}: {}", bus::moment_text(first.at), first.how);
 }
 
 std::string claim_table(const Result& result, bool all) {
@@ -157,7 +157,7 @@ nlohmann::ordered_json claim_json(const ClaimResult& claim) {
 
 std::string text(const Result& result, bool all) {
   std::string text =
-      line("capture", fmt::format("{}: {} pins, {}", result.file, result.wires.size(), tb::moment_text(result.end)));
+      line("capture", fmt::format("{}: {} pins, {}", result.file, result.wires.size(), bus::moment_text(result.end)));
   text += line("pins", wires_text(*result.table, result.wires));
   text += line("samples", fmt::format("every {:.3f} ns{}, jitter up to {:.1f} ns", result.sample_ns,
                                       result.rate_found ? " (by the times of the changes)" : "", result.jitter_ns));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bus/time_text.hpp"
 #include "io/input/suggest.hpp"
 #include "io/input/units.hpp"
 #include "tb/report/junit.hpp"
@@ -19,7 +20,7 @@ std::string line(const std::string& heading, const std::string& what) {
   return fmt::format("{:<17} {}\n", heading, what);
 }
 
-std::string moment(const Result& result, Time at) { return tb::moment_text(result.scale.tick(at)); }
+std::string moment(const Result& result, Time at) { return bus::moment_text(result.scale.tick(at)); }
 
 std::string file_text(const Result& result, const FileResult& file) {
   return fmt::format("{}: {} signals, {} to {}{}", file.path, file.signals, moment(result, file.begin),

@@ -12,6 +12,7 @@
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"
+#include "bus/time_text.hpp"
 #include "io/input/units.hpp"
 #include "tb/bench/run_log.hpp"
 #include "tb/bench/verdict.hpp"
@@ -136,7 +137,7 @@ std::vector<std::pair<Verdict, std::size_t>> left_aside(const Result& result) {
 
 std::string first_text(const Result& result) {
   if (const RequestResult* first = result.first_difference())
-    return line("first difference", fmt::format("at {}, telegram {} of the capture: {}", tb::moment_text(first->start),
+    return line("first difference", fmt::format("at {}, telegram {} of the capture: {}", bus::moment_text(first->start),
                                                 first->telegram + 1, first->why)) +
            line("  request", in_words(first->request)) + line("  recorded", answer_text(result, first->recorded)) +
            line("  model", answer_text(result, first->model));
@@ -147,13 +148,13 @@ std::string unasked_text(const Result& result) {
   if (result.unasked.empty()) return "";
   const Answer& first = result.unasked.front();
   return line("unasked", fmt::format("the model sent {} telegrams without a request to it, the first at {}: {}",
-                                     result.unasked.size(), tb::moment_text(first.start), in_words(first.bytes)));
+                                     result.unasked.size(), bus::moment_text(first.start), in_words(first.bytes)));
 }
 
 std::string capture_text(const Result& result) {
-  std::string text =
-      fmt::format("{}: {} telegrams from {} to {} at {}, {}", bus::printable(result.capture), result.telegrams,
-                  tb::moment_text(result.begin), tb::moment_text(result.end), bus::baud(result.baud).name, result.form);
+  std::string text = fmt::format("{}: {} telegrams from {} to {} at {}, {}", bus::printable(result.capture),
+                                 result.telegrams, bus::moment_text(result.begin), bus::moment_text(result.end),
+                                 bus::baud(result.baud).name, result.form);
   if (result.left_out != 0) text += fmt::format(", {} at other rates left out", result.left_out);
   return text;
 }
@@ -213,7 +214,7 @@ std::string text(const Result& result, const RunResult& run) {
   text += line("model", result.station);
   text += line("inputs", result.inputs_recorded ? "the recorded ones, and the recorded diagnoses"
                                                 : "those of the scenario's user CPU");
-  text += line("lead-in", tb::moment_text(result.lead_in) + (result.started ? kStarted : ""));
+  text += line("lead-in", bus::moment_text(result.lead_in) + (result.started ? kStarted : ""));
   text += line("TSDR / bit times", fmt::format("recorded {}, model {} (min / median / max); {}",
                                                spread_text(result, recorded_spread(result)),
                                                spread_text(result, model_spread(result)), rule_text(result)));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/input/units.hpp"
+#include "bus/time_text.hpp"
 #include "lab/campaign/children.hpp"
 
 namespace dsdpv1::tb::sweep {
@@ -77,7 +77,7 @@ std::string Point::reason() const {
   if (!error.empty()) return error;
   const std::string bad = bad_reads != 0 ? fmt::format("{} reads of unknown data", bad_reads) : "";
   const std::string seen =
-      first ? fmt::format("{} at {}: {}", first->code, tb::moment_text(std::llround(first->at_ns * bus::kTicksPerNs)),
+      first ? fmt::format("{} at {}: {}", first->code, bus::moment_text(std::llround(first->at_ns * bus::kTicksPerNs)),
                           first->text)
             : "";
   if (!bad.empty() || !seen.empty()) return bad + (bad.empty() || seen.empty() ? "" : "; ") + seen;

@@ -7,7 +7,7 @@ namespace dsdpv1 {
 using profibus::Severity;
 
 const profibus::ReasonRow detail::kReasonRows[] = {
-#define X(id, severity, code, text, advice) {Severity::severity, code, text, advice},
+#define X(id, severity, ...) {Severity::severity, __VA_ARGS__},
 #include "model/dsdpv1/reasons.inc"
 #undef X
 };

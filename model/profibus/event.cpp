@@ -6,7 +6,7 @@
 namespace dsdpv1::profibus {
 
 const ReasonRow detail::kReasonRows[] = {
-#define X(id, severity, code, text, advice) {Severity::severity, code, text, advice},
+#define X(id, severity, ...) {Severity::severity, __VA_ARGS__},
 #include "model/profibus/reasons.inc"
 #undef X
 };

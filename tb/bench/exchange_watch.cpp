@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "io/input/units.hpp"
+#include "bus/time_text.hpp"
 
 namespace dsdpv1::tb {
 namespace {
@@ -144,7 +144,7 @@ void ExchangeWatch::master_state(Tick now, const std::string& master, const std:
     entry->why = stations_.master(master).slave(*stations_.listed_address(member)).step_reason;
     const auto& end = ends_[index_of(entry->slave)];
     if (end && end->at >= *entry->since)
-      entry->why += fmt::format("; {} at {}", profibus::code(end->reason), moment_text(end->at));
+      entry->why += fmt::format("; {} at {}", profibus::code(end->reason), bus::moment_text(end->at));
   }
   entry->in = in;
 }
@@ -178,10 +178,10 @@ ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult& s
     result.seen = "never, " + state + " at the end";
   else if (entry.left != 0)
     result.seen = fmt::format("left {} time{} without the script, first at {}{}; {} at the end", entry.left,
-                              entry.left == 1 ? "" : "s", moment_text(entry.first_left),
+                              entry.left == 1 ? "" : "s", bus::moment_text(entry.first_left),
                               entry.why.empty() ? "" : ", " + entry.why, state);
   else
-    result.seen = fmt::format("since {}{}{}", moment_text(*entry.since), there ? "" : ", but at the end " + state,
+    result.seen = fmt::format("since {}{}{}", bus::moment_text(*entry.since), there ? "" : ", but at the end " + state,
                               result.left_out ? ": the script keeps it away" : "");
   if (result.passed || result.left_out || there) return result;
   if (!slave.master_reason.empty()) result.seen += fmt::format("; {}: {}", entry.master, slave.master_reason);
@@ -209,7 +209,7 @@ std::string ExchangeWatch::waits_for(const SlaveResult& slave) const {
   if (stands == steps.end())
     return slave.status.dp_state == profibus::DpState::kOffline ? "its user CPU has not initialised it" : "";
   const std::string code = profibus::code((*stands)->reason);
-  return fmt::format("{} since {}: {}. {}", code, moment_text((*stands)->at), scenario_.kind->describe(**stands),
+  return fmt::format("{} since {}: {}. {}", code, bus::moment_text((*stands)->at), scenario_.kind->describe(**stands),
                      advice_of(*scenario_.kind, code));
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bus/baud.hpp"
-#include "io/input/units.hpp"
+#include "bus/time_text.hpp"
 
 namespace dsdpv1::tb {
 
@@ -67,7 +67,7 @@ std::string place_text(const user_cpu::Place& place) {
   const std::string function = place.function.empty() ? "" : fmt::format("in {}()", place.function);
   const std::string joint = function.empty() ? "" : " ";
   if (!place.stayed) return line + joint + function;
-  return fmt::format("{}{}{} for {}", function, joint, line, short_time(*place.stayed));
+  return fmt::format("{}{}{} for {}", function, joint, line, bus::short_time(*place.stayed));
 }
 
 std::string with_place(const std::string& text, const std::optional<user_cpu::Place>& place) {

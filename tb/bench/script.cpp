@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bus/baud.hpp"
+#include "bus/time_text.hpp"
 #include "io/input/units.hpp"
 #include "tb/bench/conditions.hpp"
 
@@ -131,7 +132,7 @@ void Script::judge(std::size_t index, Tick now, bool last_chance) {
   ExpectationResult& result = expectations_[index];
   const std::string there = seen(expectation, facts);
   result.passed = passed;
-  result.seen = fmt::format("{} at {}", there, moment_text(now));
+  result.seen = fmt::format("{} at {}", there, bus::moment_text(now));
   judged_[index] = true;
   const std::string& station = expectation.slave.empty() ? "bus" : expectation.slave.text;
   journal_.log(now, station, "expect", fmt::format("{}: {}, seen {}", passed ? "met" : "FAILED", result.text, there));
@@ -142,7 +143,7 @@ std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
     const scenario::Expectation& expectation = scenario_.expect[i];
     if (!interrupted && !expectation.at && !expectation.by) judge(i, now, true);
     if (judged_[i]) continue;
-    expectations_[i].seen = "the run ended at " + moment_text(now);
+    expectations_[i].seen = "the run ended at " + bus::moment_text(now);
   }
   return expectations_;
 }

@@ -44,7 +44,9 @@ struct OwnSettings {
 
 /// A code in logs, result files and scenarios, with its text and advice.
 struct CodeText {
-  std::string code, severity, text, advice;
+  std::string code, severity;
+  std::string source;  ///< rulings and clauses, as "S6, T19-4"
+  std::string text, advice;
   std::string example = {};  ///< the text with example values; empty without values
 };
 

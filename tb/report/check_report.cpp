@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/input/units.hpp"
+#include "bus/time_text.hpp"
 #include "tb/report/text_table.hpp"
 
 namespace dsdpv1::tb {
@@ -64,8 +64,8 @@ std::string tightest(const RunResult& result, const std::vector<Row>& rows) {
       least = &row;
   if (least == nullptr) return "";
   const checks::Record& record = least->worst->record;
-  return fmt::format(", {} by only {} at {}{}", least->rule->id, short_time(*record.worst_margin),
-                     moment_text(*record.at), at_slave(result, *least->worst));
+  return fmt::format(", {} by only {} at {}{}", least->rule->id, bus::short_time(*record.worst_margin),
+                     bus::moment_text(*record.at), at_slave(result, *least->worst));
 }
 
 std::string headline(const RunResult& result, const std::vector<Row>& rows) {
@@ -92,9 +92,9 @@ std::string table_of(const RunResult& result, const std::vector<Row>& rows) {
                                       number(row.count),
                                       number(row.violations),
                                       number(row.allowed),
-                                      time_or_dash(worst.worst_margin, short_time),
-                                      time_or_dash(worst.worst_value, short_time),
-                                      time_or_dash(worst.at, moment_text)};
+                                      time_or_dash(worst.worst_margin, bus::short_time),
+                                      time_or_dash(worst.worst_value, bus::short_time),
+                                      time_or_dash(worst.at, bus::moment_text)};
     if (several) cells.push_back(row.worst->slave);
     table.add(cells);
   }
@@ -110,7 +110,7 @@ std::string pins_of(const checks::Violation& violation) {
     auto line = std::find_if(lines.begin(), lines.end(), [&name](const auto& each) { return each.first == name; });
     if (line == lines.end()) line = lines.insert(line, {name, ""});
     line->second += fmt::format("{}{} {}", line->second.empty() ? "" : ", ", level_text(*change.pin, change.level),
-                                short_time(change.at - violation.at));
+                                bus::short_time(change.at - violation.at));
     columns = std::max(columns, name.size());
   }
   std::string text;
@@ -120,7 +120,7 @@ std::string pins_of(const checks::Violation& violation) {
 
 std::string first_violation(const RunResult& result, const CheckResult& check) {
   const checks::Violation& first = check.listed.front();
-  std::string text = "\n" + line_of(fmt::format("{} at {}{}: {}", check.rule->id, moment_text(first.at),
+  std::string text = "\n" + line_of(fmt::format("{} at {}{}: {}", check.rule->id, bus::moment_text(first.at),
                                                 at_slave(result, check), with_place(first.text, first.where)));
   text += named_line("", check.rule->rule, 0) + pins_of(first);
   if (check.record.violations > 1)

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "io/input/units.hpp"
+#include "bus/time_text.hpp"
 #include "tb/bench/verdict.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/report/text_table.hpp"
@@ -13,7 +13,7 @@ namespace {
 JunitCase case_of_run(const RunResult& result) {
   JunitCase made{result.file, fmt::format("run, engine {}, view {}", result.engine, result.view), result.wall_s,
                  std::nullopt, whole_summary(result)};
-  if (result.interrupted) made.failure = "interrupted at " + moment_text(result.simulated);
+  if (result.interrupted) made.failure = "interrupted at " + bus::moment_text(result.simulated);
   if (verdict(result) == Verdict::kNothingJudged)
     made.failure = "nothing judged: no data exchange, and nothing was expected";
   return made;
@@ -24,7 +24,7 @@ std::string violations_text(const RunResult& result) {
   for (const Repeated& each : result.violated)
     if (!each.allowed)
       text += fmt::format("{} times {} {}{}{}, first at {}: {}\n", each.count, each.station, each.code,
-                          each.place.empty() ? "" : " at ", each.place, moment_text(each.first),
+                          each.place.empty() ? "" : " at ", each.place, bus::moment_text(each.first),
                           with_place(each.text, each.where));
   return text;
 }
@@ -41,7 +41,7 @@ JunitCase case_of(const RunResult& result, const CheckResult& check) {
   const std::uint64_t count = check.record.violations - check.allowed;
   if (count == 0) return made;
   const std::string text =
-      fmt::format("violated {} times, first at {}: {}\n{}\n", count, moment_text(check.listed.front().at),
+      fmt::format("violated {} times, first at {}: {}\n{}\n", count, bus::moment_text(check.listed.front().at),
                   with_place(check.listed.front().text, check.listed.front().where), check.rule->rule);
   (result.checks_mode == ChecksMode::kFail ? made.failure.emplace() : made.output) = text;
   return made;
@@ -59,7 +59,7 @@ JunitCase case_of(const RunResult& result, const ExpectationResult& expectation)
 JunitCase case_of(const RunResult& result, const LockstepResult& lockstep) {
   JunitCase made{result.file, "model and RTL are the same", 0, std::nullopt, ""};
   if (const auto& difference = lockstep.difference)
-    made.failure = fmt::format("{} at {}: {}", difference->slave, moment_text(difference->at), difference->what);
+    made.failure = fmt::format("{} at {}: {}", difference->slave, bus::moment_text(difference->at), difference->what);
   return made;
 }
 

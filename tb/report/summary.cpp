@@ -6,7 +6,7 @@
 #include <array>
 
 #include "bus/printable.hpp"
-#include "io/input/units.hpp"
+#include "bus/time_text.hpp"
 #include "tb/bench/verdict.hpp"
 #include "tb/report/check_report.hpp"
 #include "tb/report/text_table.hpp"
@@ -22,21 +22,29 @@ bool is_step(const Occurrence& each) {
   return std::any_of(kSteps.begin(), kSteps.end(), [&each](const char* code) { return each.code == code; });
 }
 
-std::string steps(const RunResult& result) {
-  constexpr std::size_t kMost = 40;
-  TextTable table({"time", "station", "what"});
-  std::size_t shown = 0, hidden = 0;
+/// A station's steps of one time in one row.
+std::vector<Occurrence> joined_steps(const RunResult& result) {
+  std::vector<Occurrence> rows;
   for (const Occurrence& each : result.occurrences) {
     if (!is_step(each)) continue;
-    if (shown == kMost) {
-      ++hidden;
-      continue;
-    }
-    ++shown;
-    table.add({moment_text(each.at), each.station, each.text});
+    if (!rows.empty() && rows.back().at == each.at && rows.back().station == each.station)
+      rows.back().text += "; " + each.text;
+    else
+      rows.push_back(each);
   }
-  if (shown == 0) return "";
-  return table.text() + (hidden != 0 ? fmt::format("  ... and {} more, see --log and --result\n", hidden) : "") + "\n";
+  return rows;
+}
+
+std::string steps(const RunResult& result) {
+  constexpr std::size_t kMost = 40;
+  const std::vector<Occurrence> rows = joined_steps(result);
+  if (rows.empty()) return "";
+  TextTable table({"time", "station", "what"});
+  for (std::size_t i = 0; i < std::min(rows.size(), kMost); ++i)
+    table.add({bus::moment_text(rows[i].at), rows[i].station, rows[i].text});
+  const std::string more =
+      rows.size() > kMost ? fmt::format("  ... and {} more, see --log and --result\n", rows.size() - kMost) : "";
+  return table.text() + more + "\n";
 }
 
 /// All of a station and code, at whatever places.
@@ -81,7 +89,7 @@ std::string repeated(const char* head, const std::vector<Repeated>& all) {
   TextTable table({head, "reason", "times", "first", "last", "what, the first time"});
   for (const Group& group : grouped(all))
     table.add({group.first->station, group.first->code + place_of(group), times_of(group),
-               moment_text(group.first->first), moment_text(group.last),
+               bus::moment_text(group.first->first), bus::moment_text(group.last),
                with_place(group.first->text, group.first->where)});
   return table.text() + "  dsdpv1-sim reasons REASON says what to do\n\n";
 }
@@ -103,24 +111,27 @@ Cells state_of(const SlaveResult& slave) {
           name(slave.status.dp_state),
           baud_text(slave.status.baud),
           fmt::format("{}", slave.status.data_exchanges),
-          fmt::format("{}", slave.status.outputs_missed)};
+          fmt::format("{}", slave.status.outputs_missed),
+          tsdr(slave)};
 }
 
 Cells times_of(const SlaveResult& slave) {
-  return {tsdr(slave), short_time(slave.status.longest_wait), short_time(slave.user.port.longest_wait),
-          short_time(slave.user.port.longest_hold)};
+  return {bus::short_time(slave.status.longest_wait), bus::short_time(slave.user.port.longest_wait),
+          bus::short_time(slave.user.port.longest_hold)};
 }
 
-/// One table, or one of states and one of times where it is too wide.
-std::string slaves(const RunResult& result) {
-  const Cells state = {"slave", "address", "DP state", "baud", "exchanges", "overwritten"},
-              times = {"TSDR / bit times", "chip waited", "user waited", "longest hold"};
+/// One table, or one of states and one of times where it is too wide. A passing run has the times only with the
+/// details.
+std::string slaves(const RunResult& result, bool with_times) {
+  const Cells state = {"slave", "address", "DP state", "baud", "exchanges", "overwritten", "TSDR / bit times"},
+              times = {"chip waited", "user waited", "longest hold"};
   TextTable whole(joined(state, times)), states(state), others(joined({"slave"}, times));
   for (const SlaveResult& slave : result.slaves) {
     whole.add(joined(state_of(slave), times_of(slave)));
     states.add(state_of(slave));
     others.add(joined({slave.name}, times_of(slave)));
   }
+  if (!with_times) return states.text() + "\n";
   return (whole.fits() ? whole.text() : states.text() + others.text()) + "\n";
 }
 
@@ -135,7 +146,7 @@ std::string masters(const RunResult& result) {
   for (const MasterResult& master : result.masters) {
     const std::string interval = master.min_slave_interval_us == 0
                                      ? "without pauses"
-                                     : fmt::format("{}us or more each", master.min_slave_interval_us);
+                                     : fmt::format("{} us or more each", master.min_slave_interval_us);
     text += named_line(
         "master", fmt::format("{}: {} cycles, {} ({})", master.name, master.cycles, interval, interval_from(master)));
   }
@@ -158,6 +169,9 @@ std::string expectations(const RunResult& result) {
   }
   const auto some = [](std::size_t count, const char* words) { return count != 0 ? fmt::format(words, count) : ""; };
   std::string counts;
+  if (all != 0 && met == all && implied != 0 && kept == implied)
+    return named_line("expectations", fmt::format("{} of {} met; {} of {} slaves in data exchange to the end", met, all,
+                                                  kept, implied));
   if (implied != 0)
     counts += named_line("data exchange", fmt::format("{} of {} slaves of masters to the end", kept, implied) +
                                               some(kept_away, ", the script keeps {} away"));
@@ -194,12 +208,12 @@ std::string pacing(const HostLineStatistics& line, const PaceStatistics& pace) {
       fmt::format("{} telegrams, {} bytes from it, {} bytes to it; {} telegrams held back for T_SYN or the slot "
                   "time, {} at most",
                   line.telegrams, line.sent_bytes, line.heard_bytes, line.held_back,
-                  short_time(line.longest_held_back)));
+                  bus::short_time(line.longest_held_back)));
   text += named_line("pacing", fmt::format("simulated behind real time by {:.2f} ms in the mean, {:.2f} ms at most",
                                            pace.error_mean_us() / 1000, pace.error_max_us / 1000));
   if (pace.losses != 0)
-    text += named_line("too slow",
-                       fmt::format("{} times, simulated time lost {} in total", pace.losses, short_time(pace.lost)));
+    text += named_line(
+        "too slow", fmt::format("{} times, simulated time lost {} in total", pace.losses, bus::short_time(pace.lost)));
   return text;
 }
 
@@ -234,7 +248,7 @@ std::string measured(const RunResult& result) {
   std::string text =
       masters(result) +
       named_line("telegrams", fmt::format("{} ({} wrong)", result.telegrams, result.wrong_telegrams)) +
-      named_line("simulated", fmt::format("{} in {:.2f} s{}{}", moment_text(result.simulated), result.wall_s,
+      named_line("simulated", fmt::format("{} in {:.2f} s{}{}", bus::moment_text(result.simulated), result.wall_s,
                                           pace_text(result.real_time_factor()), execution(result)));
   if (result.pacing) text += pacing(result.pacing->line, result.pacing->pace);
   return text + boards(result);
@@ -252,8 +266,9 @@ std::string violations(const RunResult& result) {
 
 std::string summary(const RunResult& result, CheckRows checks) {
   return fmt::format("\n{}\n\n", bus::printable(result.scenario)) + steps(result) +
-         repeated("violated by", result.violated) + repeated("refused by", result.refused) + slaves(result) +
-         waiting(result) + measured(result) + violations(result) + expectations(result) + check_report(result, checks) +
+         repeated("violated by", result.violated) + repeated("refused by", result.refused) +
+         slaves(result, checks == CheckRows::kAll || verdict(result) != Verdict::kPassed) + waiting(result) +
+         measured(result) + violations(result) + expectations(result) + check_report(result, checks) +
          fmt::format("\n{}\n", words(result));
 }
 

@@ -10,33 +10,34 @@ namespace {
 
 struct FlagText {
   bus::FlagKind kind;
-  const char *meaning, *advice;
+  const char *source, *meaning, *advice;
 };
 constexpr FlagText kFlags[] = {
-    {bus::FlagKind::kCollision, "two stations drive the line at once",
+    {bus::FlagKind::kCollision, "PROFIBUS facts", "two stations drive the line at once",
      "Give each station a separate address, run one master at a time, and let requests wait for the answer or the "
      "slot time."},
-    {bus::FlagKind::kGap, "more than 1 bit time of idle inside a telegram",
+    {bus::FlagKind::kGap, "S10", "more than 1 bit time of idle inside a telegram",
      "Send the characters of a telegram without a pause. Slaves ignore such a telegram."},
-    {bus::FlagKind::kSynViolated, "a request began less than T_SYN (33 bit times) after the last activity",
+    {bus::FlagKind::kSynViolated, "S3", "a request began less than T_SYN (33 bit times) after the last activity",
      "The master must leave 33 bit times of idle before a request. Slaves ignore it otherwise."},
-    {bus::FlagKind::kTsdrEarly, "an answer came before min_TSDR",
+    {bus::FlagKind::kTsdrEarly, "S3, S11", "an answer came before min_TSDR",
      "Check min_TSDR of Set_Prm and the station that answered."},
-    {bus::FlagKind::kTsdrLate, "an answer came after max_TSDR",
+    {bus::FlagKind::kTsdrLate, "S3, M11-4", "an answer came after max_TSDR",
      "Check the station that answered; MaxTsdr of the GSD file must hold at this baud rate."},
-    {bus::FlagKind::kCharacterError, "a character with wrong parity or a low stop bit",
+    {bus::FlagKind::kCharacterError, "PROFIBUS facts", "a character with wrong parity or a low stop bit",
      "Disturbed line, a second sender, or another baud rate or parity than 8E1."},
-    {bus::FlagKind::kTelegramError, "a telegram with a wrong delimiter, length or FCS, or one that broke off",
+    {bus::FlagKind::kTelegramError, "PROFIBUS facts",
+     "a telegram with a wrong delimiter, length or FCS, or one that broke off",
      "Disturbed line, or a sender that builds telegrams wrongly: `dsdpv1-sim decode` explains the bytes."},
-    {bus::FlagKind::kUnanswered, "no answer within the slot time",
+    {bus::FlagKind::kUnanswered, "PROFIBUS facts", "no answer within the slot time",
      "Nothing while masters look for stations or slaves search the baud rate. Else the log has the slave's reason "
      "beside it."},
-    {bus::FlagKind::kUnexpectedAnswer, "an answer without a request, or by the wrong station",
+    {bus::FlagKind::kUnexpectedAnswer, "PROFIBUS facts", "an answer without a request, or by the wrong station",
      "Two stations with the same address, or a master whose slot time is too short: its request and the late answer "
      "overlap."},
-    {bus::FlagKind::kGlitch, "a low level shorter than half a bit",
+    {bus::FlagKind::kGlitch, "S10", "a low level shorter than half a bit",
      "Disturbed line. The chip ignores it while idle (S10)."},
-    {bus::FlagKind::kTwoMasters, "a master sends while another has the token",
+    {bus::FlagKind::kTwoMasters, "PROFIBUS facts", "a master sends while another has the token",
      "Masters on one segment must share the token: each takes part in the ring, with a separate address and the same "
      "slot time."},
 };
@@ -57,8 +58,8 @@ std::string flag_code(bus::FlagKind kind) {
 std::vector<CodeText> flag_codes() {
   std::vector<CodeText> list;
   for (const FlagText& flag : kFlags)
-    list.push_back({flag_code(flag.kind), flag.kind == bus::FlagKind::kUnanswered ? "info" : "violation", flag.meaning,
-                    flag.advice});
+    list.push_back({flag_code(flag.kind), flag.kind == bus::FlagKind::kUnanswered ? "info" : "violation", flag.source,
+                    flag.meaning, flag.advice});
   return list;
 }
 

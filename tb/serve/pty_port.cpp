@@ -25,11 +25,13 @@ class Link {
  public:
   Link(const std::string& path, const std::string& target) : path_(path), target_(target) {
     if (path.empty()) return;
-    // A link left by a killed run points to a pseudo-terminal that no longer exists.
+    // A link left by a killed run points to a pseudo-terminal that no longer exists, or that is now this one.
     std::error_code error;
-    if (fs::is_symlink(fs::symlink_status(path, error)) && !fs::exists(path, error)) fs::remove(path, error);
+    const fs::path left = fs::read_symlink(path, error);
+    if (!error && (!fs::exists(path, error) || left == target)) fs::remove(path, error);
     if (::symlink(target.c_str(), path.c_str()) != 0) {
-      const std::string hint = errno == EEXIST ? ", expected a name that is free" : "";
+      const std::string hint =
+          errno == EEXIST ? ", expected a name that is free; delete it if a run that was killed has left it" : "";
       throw InputError(path, 0, std::string("cannot be made a link: ") + std::strerror(errno) + hint);
     }
     while_starting_.emplace(path);

@@ -43,8 +43,7 @@ TEST_F(Outputs, DemoLeavesItsFilesInAFolderAndSaysWhere) {
   for (const char* time : {"first", "again, over its own files"}) {
     const app_test::Called called = call("demo", folder_.path());
     ASSERT_EQ(called.status, 0) << time << called.err;
-    EXPECT_NE(called.out.find("\nPASSED\n\nWaves   " + folder_.file("out/power_on_12m")), std::string::npos)
-        << called.out;
+    EXPECT_NE(called.out.find("\nPASSED\nFiles: " + folder_.file("out/power_on_12m")), std::string::npos) << called.out;
     const auto result = nlohmann::json::parse(read(folder_.file("out/power_on_12m.json")));
     EXPECT_TRUE(result.at("passed").get<bool>()) << time;
     EXPECT_GT(std::filesystem::file_size(folder_.file("out/power_on_12m.log")), 10000U) << time;
@@ -169,7 +168,7 @@ TEST_F(Outputs, PollRateIsThatOfTheGsdUnlessTheScenarioHasItsOwn) {
   write("s.yaml", text);
   const app_test::Called from_gsd = run("--result gsd.json");
   EXPECT_EQ(from_gsd.status, 0) << from_gsd.out;
-  EXPECT_NE(from_gsd.out.find("600us or more each (Min_Slave_Intervall of its slaves)"), std::string::npos);
+  EXPECT_NE(from_gsd.out.find("600 us or more each (Min_Slave_Intervall of its slaves)"), std::string::npos);
   EXPECT_EQ(run("--result own.json --quiet --set masters.plc.bus.min_slave_interval=0").status, 0);
   const auto gsd = nlohmann::json::parse(read(folder_.file("gsd.json"))),
              own = nlohmann::json::parse(read(folder_.file("own.json")));

@@ -1,7 +1,7 @@
 // Times and texts of reports.
 #include <gtest/gtest.h>
 
-#include "io/input/units.hpp"
+#include "bus/time_text.hpp"
 #include "io/waves/wave_writer.hpp"
 #include "tb/bench/conditions.hpp"
 #include "tb/bench/run_log.hpp"
@@ -155,8 +155,8 @@ TEST(Summary, PutsStatesAndTimesOfSlavesIntoTwoTablesWhereOneIsTooWide) {
   result.slaves.resize(2);
   result.slaves[0].name = "one";
   result.slaves[1].name = "other";
-  const std::string whole = "overwritten  TSDR / bit times", states = "  slave  address  DP state",
-                    times = "  slave  TSDR / bit times";
+  const std::string whole = "TSDR / bit times  chip waited", states = "  slave  address  DP state",
+                    times = "  slave  chip waited";
   EXPECT_NE(tb::summary(result).find(whole), std::string::npos);
   const tb::TableWidth narrow(80);
   const std::string text = tb::summary(result);
@@ -165,23 +165,51 @@ TEST(Summary, PutsStatesAndTimesOfSlavesIntoTwoTablesWhereOneIsTooWide) {
   EXPECT_NE(text.find(times), std::string::npos) << text;
 }
 
+TEST(Summary, OfAPassingRunIsShort) {
+  tb::RunResult result;
+  result.slaves.resize(1);
+  result.expectations.resize(3);
+  for (tb::ExpectationResult& each : result.expectations) each.passed = true;
+  result.expectations[2].implied = true;
+  const auto happens = [&result](const char* station, const char* text) {
+    tb::Occurrence each;
+    each.at = 1200;
+    each.station = station;
+    each.code = "DP_STATE";
+    each.text = text;
+    result.occurrences.push_back(each);
+  };
+  happens("a", "one");
+  happens("a", "two");
+  happens("b", "three");
+  const std::string text = tb::summary(result);
+  EXPECT_NE(text.find("  100.000 ns  a        one; two\n  100.000 ns  b        three\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("longest hold"), std::string::npos) << text;
+  EXPECT_NE(text.find("2 of 2 met; 1 of 1 slaves in data exchange to the end\n"), std::string::npos) << text;
+  EXPECT_NE(tb::summary(result, tb::CheckRows::kAll).find("longest hold"), std::string::npos);
+  result.expectations[2].passed = false;
+  const std::string failed = tb::summary(result);
+  EXPECT_NE(failed.find("longest hold"), std::string::npos);
+  EXPECT_NE(failed.find("0 of 1 slaves of masters to the end\n"), std::string::npos) << failed;
+}
+
 TEST(ShortTime, HasTheUnitThatLeaves1To999) {
-  EXPECT_EQ(tb::short_time(0), "0.000 ns");
-  EXPECT_EQ(tb::short_time(17), "1.417 ns");
-  EXPECT_EQ(tb::short_time(-17), "-1.417 ns");
-  EXPECT_EQ(tb::short_time(bus::kTicksPerUs - 1), "999.917 ns");
-  EXPECT_EQ(tb::short_time(bus::kTicksPerUs), "1.000 us");
-  EXPECT_EQ(tb::short_time(bus::kTicksPerMs - 1), "1.000 ms") << "rounded to three digits it is one";
-  EXPECT_EQ(tb::short_time(119'476'893'996), "9.956 s");
+  EXPECT_EQ(bus::short_time(0), "0.000 ns");
+  EXPECT_EQ(bus::short_time(17), "1.417 ns");
+  EXPECT_EQ(bus::short_time(-17), "-1.417 ns");
+  EXPECT_EQ(bus::short_time(bus::kTicksPerUs - 1), "999.917 ns");
+  EXPECT_EQ(bus::short_time(bus::kTicksPerUs), "1.000 us");
+  EXPECT_EQ(bus::short_time(bus::kTicksPerMs - 1), "1.000 ms") << "rounded to three digits it is one";
+  EXPECT_EQ(bus::short_time(119'476'893'996), "9.956 s");
 }
 
 TEST(MomentText, IsExactToTheNanosecond) {
-  EXPECT_EQ(tb::moment_text(0), "0.000 ns");
-  EXPECT_EQ(tb::moment_text(63280 * bus::kTicksPerNs), "63.280 us");
-  EXPECT_EQ(tb::moment_text(5'000'021 * bus::kTicksPerNs), "5.000021 ms");
-  EXPECT_EQ(tb::moment_text(120 * bus::kTicksPerMs), "120.000 ms");
-  EXPECT_EQ(tb::moment_text(7 * bus::kTicksPerSecond + bus::kTicksPerNs), "7.000000001 s");
-  EXPECT_EQ(tb::moment_text(bus::kTicksPerSecond - 1), "1.000 s");
+  EXPECT_EQ(bus::moment_text(0), "0.000 ns");
+  EXPECT_EQ(bus::moment_text(63280 * bus::kTicksPerNs), "63.280 us");
+  EXPECT_EQ(bus::moment_text(5'000'021 * bus::kTicksPerNs), "5.000021 ms");
+  EXPECT_EQ(bus::moment_text(120 * bus::kTicksPerMs), "120.000 ms");
+  EXPECT_EQ(bus::moment_text(7 * bus::kTicksPerSecond + bus::kTicksPerNs), "7.000000001 s");
+  EXPECT_EQ(bus::moment_text(bus::kTicksPerSecond - 1), "1.000 s");
 }
 
 }  // namespace

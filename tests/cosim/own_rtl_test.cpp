@@ -68,15 +68,16 @@ TEST_F(PinMapFile, WrongContentIsNamedWithItsLineAndWhatIsAllowed) {
             ":2: unknown name pinns (did you mean pins?), expected clock, pins, tolerance, parameters, files, "
             "include, reference");
   EXPECT_THAT(error_of("pins:\n  L_RQE: x\n"), HasSubstr(":2: unknown name L_RQE (did you mean L_REQ?), expected A,"));
-  EXPECT_EQ(error_of("pins:\n  RD: {port: r, inverted: maybe}\n"), ":2: is maybe, expected true, false");
+  EXPECT_EQ(error_of("pins:\n  RD: {port: r, inverted: maybe}\n"), ":2: inverted of RD is maybe, expected true, false");
   EXPECT_EQ(error_of("pins:\n  RD: {inverted: true}\n"),
-            ":2: is no port, expected NAME and {port: NAME, inverted: true}");
-  EXPECT_EQ(error_of("tolerance:\n  INTR0: 1001\n"), ":2: is 1001, expected 0 to 1000 cycles");
+            ":2: RD is no port, expected NAME and {port: NAME, inverted: true}");
+  EXPECT_EQ(error_of("tolerance:\n  INTR0: 1001\n"), ":2: tolerance of INTR0 is 1001, expected 0 to 1000 cycles");
   EXPECT_THAT(error_of("tolerance: {RD: 1}\n"), HasSubstr(":1: unknown name RD"));
   EXPECT_EQ(error_of("- a\n"), ":1: is no map, expected clock, pins, tolerance, parameters, files, include, reference");
   EXPECT_THAT(error_of("pins: {\n"), HasSubstr("expected YAML"));
   EXPECT_THAT(error_of("pins: 5\n"), HasSubstr(":1: pins is no map"));
-  EXPECT_EQ(error_of("reference: yes\n"), ":1: is yes, expected true, false");
+  EXPECT_EQ(error_of("reference: yes\n"), ":1: reference is yes, expected true, false");
+  EXPECT_THAT(error_of("parameters: {WIDTH: [8]}\n"), HasSubstr(":1: parameter WIDTH is no word"));
   EXPECT_THAT(error_of("files: a.sv\n"), HasSubstr(":1: files is no list"));
 }
 

@@ -53,7 +53,8 @@ def prose(text):
 
 # --------------------------------------------------------------------------------------------------------------- links
 def anchors(text):
-    """GitHub's anchors of the headings."""
+    """GitHub's anchors of the headings, and those that the text sets itself."""
+    yield from re.findall(r'<a id="([^"]+)"></a>', text)
     for heading in re.findall(r"^#+ +(.+)$", prose(text), re.M):
         yield re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 

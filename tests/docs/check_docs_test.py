@@ -70,6 +70,11 @@ class Project(small_project.SmallProject):
         self.change("README.md", "#its-rulings", "#rulings")
         self.expect("has the anchor #rulings")
 
+    def test_an_anchor_that_the_text_sets_itself_is_one(self):
+        self.change("docs/chip.md", "**P1**", '**P1**<a id="p1"></a>')
+        self.change("README.md", "#its-rulings", "#p1")
+        self.assertEqual(self.faults(), [])
+
     def test_a_file_that_is_not_there(self):
         self.change("README.md", "`model/core.cpp`", "`model/heart.cpp`")
         self.expect("README.md:2: there is no model/heart.cpp")

@@ -72,11 +72,11 @@ class Conformance(small_project.SmallProject):
         self.expect()
         self.assertEqual(self.generate("--check"), (0, "conformance: right\n"))
         page = self.text("docs/conformance.md")
-        self.assertIn("| 1 | a number | P1 | [core.cpp](../model/core.cpp) | [core.sv](../rtl_ref/core.sv) | "
+        self.assertIn("| <a id=\"1\"></a>1 | a number | P1 | [core.cpp](../model/core.cpp) | [core.sv](../rtl_ref/core.sv) | "
                       "`Core.Works` (when on), `Install.Core` | not run |", page)
-        self.assertIn("| T1-A | one\\|two | - | [core.cpp](../model/core.cpp) | - | `scenarios/one.yaml` | not run |", page)
+        self.assertIn("| <a id=\"t1-a\"></a>T1-A | one\\|two | - | [core.cpp](../model/core.cpp) | - | `scenarios/one.yaml` | not run |", page)
         self.assertIn("| T2 | not modelled |", page)
-        self.assertIn("| M1-1 | the same | - | [core.cpp](../model/core.cpp) | - | `scenarios/one.yaml` | not run |", page)
+        self.assertIn("| <a id=\"m1-1\"></a>M1-1 | the same | - | [core.cpp](../model/core.cpp) | - | `scenarios/one.yaml` | not run |", page)
         self.assertIn("| P1 | `Core.Works` (when on), `Install.Core` |", self.text("docs/test_plan.md"))
         self.assertIn("| all | `Core.Works` |", self.text("docs/test_plan.md"))
 
@@ -112,7 +112,7 @@ class Conformance(small_project.SmallProject):
         self.expect(f"{SHEET}:7: clause 1 has no test; give it tests: [...]")
         page = self.text("docs/conformance.md")
         self.assertIn("Neither a test nor a reason: 1.\n", page)
-        self.assertIn("| 1 | a number | - | [core.cpp](../model/core.cpp) | - | **NO TEST** | - |", page)
+        self.assertIn("| <a id=\"1\"></a>1 | a number | - | [core.cpp](../model/core.cpp) | - | **NO TEST** | - |", page)
 
     def test_a_repeated_clause_without_a_test(self):
         self.change(SHEET, "tests: [scenarios/one.yaml]", "tests: []")

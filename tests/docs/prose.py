@@ -80,7 +80,7 @@ def read(path):
 
 def prose_of_page(text):
     """Without code, and links as their words."""
-    text = re.sub(r"^ *```.*?^ *```|<!--.*?-->", blank, text, flags=re.S | re.M)
+    text = re.sub(r"^ *```.*?^ *```|<!--.*?-->|<a id=\"[\w.\-]+\"></a>", blank, text, flags=re.S | re.M)
     text = re.sub(r"`+[^`]+`+", lambda code: "X" + blank(code), text)
     return re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
 

@@ -160,7 +160,7 @@ class Kind : public tb::ChipKind {
       tb::CodeTable chip{"The chip", "", {}};
       for (const profibus::Reason reason : mailbox::reasons())
         chip.codes.push_back(
-            {profibus::code(reason), tb::name(profibus::severity(reason)), text_template(reason), advice(reason)});
+            {profibus::code(reason), tb::name(profibus::severity(reason)), "", text_template(reason), advice(reason)});
       return std::vector<tb::CodeTable>{chip};
     }();
     return tables;

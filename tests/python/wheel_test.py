@@ -5,6 +5,7 @@ The preset default compiles the same by the same commands, so the compiler's cac
 """
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -49,10 +50,22 @@ def names_are_right(wheel):
     assert any("libyaml-cpp" in name for name in names) and not any("libc.so" in name or "libstdc++" in name for name in names), names
 
 
+def licences_are_there(wheel):
+    """Of each bundled library the text of the package that it is from."""
+    with zipfile.ZipFile(wheel) as file:
+        libraries = {name.removeprefix("dsdpv1/lib/") for name in file.namelist() if re.match(r"dsdpv1/lib/[^/]+\.so", name)} - {"libdsdpv1.so.0"}
+        assert len(libraries) >= 5, libraries
+        for library in libraries:
+            package = call("dpkg-query", "-S", f"*-linux-gnu/{library}", stdout=subprocess.PIPE, text=True).stdout.split(":")[0]
+            assert b"opyright" in file.read(f"dsdpv1/lib/licences/{package}.txt"), library
+        assert b"Niels Lohmann" in file.read("dsdpv1/lib/licences/nlohmann-json3-dev.txt")
+
+
 def main(folder, build):
     folder.mkdir(parents=True, exist_ok=True)
     wheel = wheel_of(folder, build)
     names_are_right(wheel)
+    licences_are_there(wheel)
     with tempfile.TemporaryDirectory() as place:
         site = pathlib.Path(place) / "site"
         call(sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--disable-pip-version-check", "--target", site, wheel)

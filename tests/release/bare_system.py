@@ -136,8 +136,8 @@ class Watch:
 # ------------------------------------------------------------------------------------------------------------------ ways
 def check_table(said, system, folder):
     require("DP state WAIT_CFG to DATA_EXCH" in said and "\nPASSED\n" in said, f"the demo prints:\n{said}")
-    for line in ("Waves", "Log", "Result"):
-        (file,) = re.findall(rf"^{line} +/(\S+)$", said, re.M)
+    ((wave, others),) = re.findall(r"^Files: /(\S+), (.+)$", said, re.M)
+    for file in [wave, *(os.path.splitext(wave)[0] + ending for ending in others.split(", "))]:
         require(file.startswith(folder) and (system.root / file).stat().st_size > 10000, f"the demo leaves no /{file}")
 
 

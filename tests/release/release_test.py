@@ -48,6 +48,14 @@ class Files(InFolder):
             release.call("sh", "-c", "seq 100; exit 3")
         self.assertEqual(str(told.exception).splitlines(), ["sh failed:", *map(str, range(81, 101))])
 
+    def test_a_library_of_no_package_is_not_bundled(self):
+        (self.folder / "libz.so.1").touch()
+        done = [sys.executable, "-B", str(ROOT / "bindings/python/licences.py"), str(self.folder)]
+        subprocess.run(done, check=True)
+        self.assertIn("Jean-loup Gailly", (self.folder / "licences/zlib1g.txt").read_text(encoding="utf-8"))
+        (self.folder / "libmine.so.1").touch()
+        self.assertIn("libmine.so.1 is of no Debian package", subprocess.run(done, capture_output=True, text=True, check=False).stderr)
+
     def test_the_version_is_the_projects(self):
         self.assertRegex(release.version(), r"^\d+\.\d+\.\d+$")
 
@@ -94,7 +102,7 @@ class System:
         return self.packages
 
 
-TABLE = "DP state WAIT_CFG to DATA_EXCH\n\nPASSED\n\nWaves   /out/w.fst\nLog     /out/w.log\nResult  /out/w.json\n"
+TABLE = "DP state WAIT_CFG to DATA_EXCH\n\nPASSED\nFiles: /out/w.fst, .log, .json\n"
 
 
 class Checks(InFolder):

@@ -43,11 +43,13 @@ refuses "unknown group --force, expected toolchain" deps --force
 refuses "--tsv is for --list" deps --tsv
 refuses "no file of the project" edit nowhere.cpp
 refuses "expected --quick" test --fast
-refuses "expected --quick" test --quick again
+refuses "again is one argument too many, expected one of --quick" test --quick again
 refuses "expected default fast library debug coverage fuzz" build release
 refuses "expected --record" conformance now
 refuses "unknown argument --chekc, expected --check --record" release --chekc
-refuses "demo takes no arguments" demo now
+refuses "unknown argument now, expected --out FOLDER" demo now
+refuses "debug is one argument too many, expected one of default fast" build fast debug
+refuses "--record is one argument too many, expected one of --check --record" release --check --record
 refuses "rtl-formal takes no arguments" rtl-formal quickly
 refuses "nightly takes no arguments" nightly quickly
 refuses "rtl-coverage takes no arguments" rtl-coverage again

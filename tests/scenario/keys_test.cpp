@@ -121,5 +121,11 @@ TEST(Suggest, FindsTheNearestWordAndNothingForAStrangeOne) {
   EXPECT_EQ(tb::nearest("zzzzzz", {"name", "address", "gsd"}), "");
 }
 
+TEST(Suggest, TakesTwoLettersInTheWrongOrderForOneSlip) {
+  EXPECT_EQ(tb::nearest("efl", {"kind", "elf"}), "elf");
+  EXPECT_EQ(tb::nearest("rnu", {"demo", "run"}), "run");
+  EXPECT_EQ(tb::nearest("abc", {"cab"}), "");
+}
+
 }  // namespace
 }  // namespace dsdpv1

@@ -217,6 +217,25 @@ def bad_ports(program):
         check(sorted(os.listdir(folder)) == ["scenario.yaml", "there"], "left behind: %s" % os.listdir(folder))
 
 
+def link_of_a_killed_run(program):
+    """The next pseudo-terminal often has the number of the one that was killed; another program may be faster, so there are several trials."""
+    with Folder() as folder:
+        for trial in range(10):
+            ends = os.openpty()
+            os.symlink(os.ttyname(ends[1]), os.path.join(folder, "dp"))
+            for end in ends:
+                os.close(end)
+            try:
+                serve = Serve(program, folder, SCENARIO, "--for", "300ms")
+            except Failure as failure:
+                check(trial < 9 and "delete it if a run that was killed has left it" in str(failure), str(failure))
+                os.remove(os.path.join(folder, "dp"))
+                continue
+            serve.process.wait(timeout=DEADLINE)
+            serve.end()
+            return
+
+
 def ends_after_its_time(program):
     with Folder() as folder:
         serve = Serve(program, folder, SCENARIO, "--for", "300ms", "--wave", "serve.vcd")
@@ -252,7 +271,7 @@ def too_slow_is_said(program):
 
 
 CASES = [pty_hang_up_and_next_opener, one_shot_hosts, telegram_in_pieces, requests_in_one_write, broken_off_telegram, wrong_speed_is_said,
-         tcp_one_after_the_other, serial_port, bad_ports, ends_after_its_time, shipped_scenario, too_slow_is_said]
+         tcp_one_after_the_other, serial_port, bad_ports, link_of_a_killed_run, ends_after_its_time, shipped_scenario, too_slow_is_said]
 
 
 def main(program, name):

@@ -80,12 +80,21 @@ std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTa
   return std::make_unique<arm::HistoryPlayer>(target, *gdb.history, server);
 }
 
+/// Errors name the scenario's line as well as the file.
+std::shared_ptr<const arm::Firmware> firmware_of(const scenario::Scenario& scenario, const Name& elf) {
+  try {
+    return arm::load_firmware(scenario::resolve(scenario, elf));
+  } catch (const InputError& error) {
+    throw InputError(scenario.file, elf.line, std::string("elf ") + error.what());
+  }
+}
+
 MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
   ChipView& chip = request.chip;
   const scenario::UserCpu& user = request.slave.user_cpu;
   const Dsdpv1User& own = tb::own(user);
   arm::BoardOptions options;
-  options.firmware = arm::load_firmware(scenario::resolve(request.scenario, own.elf));
+  options.firmware = firmware_of(request.scenario, own.elf);
   if (!options.firmware->mailbox) {
     Untold missing = untold(request.scenario, request.slave, options.firmware->path,
                             fmt::format("has no mailbox ({})", DSDPV1_MAILBOX_SYMBOL));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "bus/time_text.hpp"
+
 namespace dsdpv1::checks {
 namespace {
 
@@ -148,7 +150,7 @@ void Ownership::end_without_ownership(Tick at) {
   if (!in_reset_)
     recorder_.value(Check::kNotOwner, since, since - at, [this, late] {
       const bool scattered = !holds_off() && freed_ >= 0 && late < kSoon;
-      return scattered ? ns_text(late) + " after the release: is the pointer volatile?" : std::string();
+      return scattered ? bus::short_time(late) + " after the release: is the pointer volatile?" : std::string();
     });
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bus/baud.hpp"
+#include "bus/time_text.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace dsdpv1::checks {
@@ -80,8 +81,8 @@ void Service::exchange(Tick at) {
     recorder_.value(
         interval_, at, interval - longest_part_,
         [&] {
-          return fmt::format("the chip was held off for {} of the {} between two Data_Exchange", ns_text(longest_part_),
-                             ns_text(interval));
+          return fmt::format("the chip was held off for {} of the {} between two Data_Exchange",
+                             bus::short_time(longest_part_), bus::short_time(interval));
         },
         Act::omitted(longest_since_, longest_since_ + longest_part_));
   }

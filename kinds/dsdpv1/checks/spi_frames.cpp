@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "bus/time_text.hpp"
+
 namespace dsdpv1::checks {
 namespace {
 
@@ -124,7 +126,8 @@ void SpiFrames::release(Tick at) {
   const Tick since = *std::exchange(owned_since_, std::nullopt);
   accesses_.released(at);
   recorder_.value(
-      Check::kOwned, at, at - since, [since] { return "owned since " + ns_text(since); }, Act::omitted(since, at));
+      Check::kOwned, at, at - since, [since] { return "owned since " + bus::short_time(since); },
+      Act::omitted(since, at));
   owner_gone(since, at);
 }
 

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "bus/time_text.hpp"
+
 namespace dsdpv1::checks {
 
 void SpiTiming::record(Check check, Tick at, Tick measured) {
@@ -80,8 +82,9 @@ void SpiTiming::mosi_changed(Tick at) {
 void SpiTiming::miso_changed(Tick at, bool driven) {
   if (!driven || !selected(at) || !sck_fell_) return;
   const Tick delay = at - *sck_fell_;
-  recorder_.get().kept(Check::kMisoDelay, at, delay <= Tick{settings_.get().spi_miso_delay},
-                       [this, delay] { return fmt::format("bit {} of the frame after {}", bits_, ns_text(delay)); });
+  recorder_.get().kept(Check::kMisoDelay, at, delay <= Tick{settings_.get().spi_miso_delay}, [this, delay] {
+    return fmt::format("bit {} of the frame after {}", bits_, bus::short_time(delay));
+  });
 }
 
 void SpiTiming::finish(Tick end) { end_frame_before(end + 1); }

@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <utility>
 
-namespace dsdpv1::checks {
+#include "bus/time_text.hpp"
 
-std::string ns_text(Tick ticks) {
-  return fmt::format("{:.3f} ns", static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerNs));
-}
+namespace dsdpv1::checks {
 
 std::string history_text(const Violation& violation) {
   std::string text;
   for (const PinChange& change : violation.history)
     text += fmt::format("{}{}={} {}", text.empty() ? "" : ", ", change.pin->name,
-                        tb::level_text(*change.pin, change.level), ns_text(change.at - violation.at));
+                        tb::level_text(*change.pin, change.level), bus::short_time(change.at - violation.at));
   return text;
 }
 
@@ -56,8 +54,8 @@ bool Recorder::add_outcome(CheckId check, Tick at, bool is_kept) {
 void Recorder::report_value(CheckId check, Tick at, Tick measured, const std::string& context, const Act& act) {
   const Tick left = margin(check, measured);
   std::string text =
-      fmt::format("{} of {} {}", ns_text(measured), rule(check).bound == Bound::kMin ? "at least" : "at most",
-                  ns_text(limits_[check].value));
+      fmt::format("{} of {} {}", bus::short_time(measured), rule(check).bound == Bound::kMin ? "at least" : "at most",
+                  bus::short_time(limits_[check].value));
   if (!context.empty()) text += ", " + context;
   report(check, at, left, std::move(text), act);
 }

@@ -39,9 +39,6 @@ struct Violation {
 /// "SCK=1 -62.500 ns, XSS=1 0.000 ns": the violation's history, with times relative to it.
 std::string history_text(const Violation& violation);
 
-/// "12.500 ns".
-std::string ns_text(Tick ticks);
-
 class Recorder {
  public:
   /// `rules` and `history` must outlive it.
