@@ -55,6 +55,10 @@ void Master1::set_outputs(std::uint8_t address, const Bytes& outputs) {
   slave_at(address).handler.set_outputs(outputs);
 }
 
+void Master1::vary_outputs(std::uint8_t address, OutputPattern pattern, std::uint32_t seed) {
+  slave_at(address).handler.vary_outputs(pattern, seed);
+}
+
 void Master1::release(std::uint8_t address) { slave_at(address).handler.release(); }
 
 void Master1::activate(std::uint8_t address) { slave_at(address).handler.restart("activated"); }

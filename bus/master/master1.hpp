@@ -68,6 +68,8 @@ class Master1 : public Agent {
   // --- One slave. `address` must have been added, else std::out_of_range.
   // Exactly output_length bytes, else std::invalid_argument.
   void set_outputs(std::uint8_t address, const Bytes& outputs);
+  /// Other outputs in each data exchange, until set_outputs.
+  void vary_outputs(std::uint8_t address, OutputPattern pattern, std::uint32_t seed);
   /// Sends Set_Prm with Unlock and then ignores the slave until `activate`.
   void release(std::uint8_t address);
   /// Brings a slave up (again).

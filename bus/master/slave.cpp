@@ -64,6 +64,19 @@ void SlaveHandler::set_outputs(const Bytes& outputs) {
   check(outputs.size() == view_.outputs.size(), parameters_,
         fmt::format("{} output bytes, configured are {}", outputs.size(), view_.outputs.size()));
   view_.outputs = outputs;
+  pattern_ = OutputPattern::kFixed;
+}
+
+void SlaveHandler::vary_outputs(OutputPattern pattern, std::uint32_t seed) {
+  pattern_ = pattern;
+  random_.seed(seed);
+}
+
+void SlaveHandler::renew_outputs() {
+  if (pattern_ == OutputPattern::kFixed) return;
+  ++exchange_;
+  for (std::uint8_t& byte : view_.outputs)
+    byte = pattern_ == OutputPattern::kCount ? exchange_ : static_cast<std::uint8_t>(random_() >> 8U);
 }
 
 void SlaveHandler::release() { go(SlaveState::kReleasing); }
@@ -93,6 +106,7 @@ Telegram SlaveHandler::framed(const Telegram& telegram) const {
 
 Telegram SlaveHandler::next_request() {
   asked_in_ = view_.state;
+  if (view_.state == SlaveState::kDataExchange && !diagnosis_due_) renew_outputs();
   return due_request();
 }
 
@@ -228,7 +242,8 @@ void SlaveHandler::cfg_answer(const FdlResult& result) {
 std::string SlaveHandler::fault() const {
   const unsigned status_1 = view_.diagnosis[0], status_2 = view_.diagnosis[1], holder = view_.diagnosis[3];
   if ((status_1 & kPrmFault) != 0) return (status_1 & kNotSupported) != 0 ? "Prm_Fault, Not_Supported" : "Prm_Fault";
-  if ((status_1 & kCfgFault) != 0) return "Cfg_Fault";
+  const bool of_this_cfg = !cfg_refused_;  // else it is of an earlier one, and stands until a right one is taken (S17)
+  if ((status_1 & kCfgFault) != 0 && of_this_cfg) return "Cfg_Fault";
   if ((status_1 & kNotSupported) != 0) return "Not_Supported";
   if ((status_2 & kPrmReq) != 0) return "Prm_Req";
   if (holder != kNoMaster && holder != master_) return fmt::format("held by master {}", holder);

@@ -2,6 +2,7 @@
 // A class-1 master's handling of one slave: the next request, and the effect of its answer. No I/O, no time.
 #include <cstdint>
 #include <functional>
+#include <random>
 #include <string>
 
 #include "bus/master/fdl.hpp"
@@ -54,8 +55,10 @@ class SlaveHandler {
   /// The result of the last `next_request`. Only counted if `release` or `restart` came in between.
   void done(const FdlResult& result);
 
-  /// Exactly output_length bytes, else std::invalid_argument.
+  /// Exactly output_length bytes, else std::invalid_argument. They stay until the next call.
   void set_outputs(const Bytes& outputs);
+  /// Other outputs in each exchange from now on. A repetition of a request has those of the request.
+  void vary_outputs(OutputPattern pattern, std::uint32_t seed);
   void set_clear(bool clear) { clear_ = clear; }
   void release();
   /// Restarts with Slave_Diag, also for a released slave.
@@ -66,6 +69,7 @@ class SlaveHandler {
   std::function<void()> on_diagnosis;  ///< called for an answer to Slave_Diag
 
  private:
+  void renew_outputs();
   Telegram due_request() const;
   Telegram service(std::uint8_t sap, const Bytes& data) const;
   Telegram data_exchange() const;
@@ -89,6 +93,9 @@ class SlaveHandler {
   Personality personality_;
   SlaveView view_;
   SlaveState asked_in_ = SlaveState::kOffline;  ///< the state of the last request
+  OutputPattern pattern_ = OutputPattern::kFixed;
+  std::uint8_t exchange_ = 0;  ///< OutputPattern::kCount
+  std::minstd_rand random_;    ///< OutputPattern::kRandom
   bool clear_ = false, diagnosis_due_ = false, cfg_refused_ = false;
 };
 

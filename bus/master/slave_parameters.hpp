@@ -10,6 +10,13 @@
 
 namespace dsdpv1::bus {
 
+/// Outputs from one data exchange to the next.
+enum class OutputPattern : std::uint8_t {
+  kFixed,   ///< as last set
+  kCount,   ///< each byte is the number of the exchange, from 1 on, modulo 256
+  kRandom,  ///< of a seed
+};
+
 struct SlaveParameters {
   std::string name = {};       ///< for messages
   std::uint8_t address = 0;    ///< 0..126

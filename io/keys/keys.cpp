@@ -38,8 +38,10 @@ std::string integer_form(const Field& field) {
 }
 
 std::string bytes_form(const Field& field) {
-  return fmt::format("{} to {} bytes as quoted hexadecimal text (\"01 A0 00*4\") or as a list of numbers ([1, 0xA0])",
-                     field.type.range.min, field.type.range.max);
+  std::string words;
+  for (const Word& word : field.type.words) words += ", or " + word.text;
+  return fmt::format("{} to {} bytes as quoted hexadecimal text (\"01 A0 00*4\") or as a list of numbers ([1, 0xA0]){}",
+                     field.type.range.min, field.type.range.max, words);
 }
 
 bus::Bytes read_byte_list(const Field& field, const YAML::Node& node, const Source& source) {

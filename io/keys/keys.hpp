@@ -38,7 +38,7 @@ struct Type {
   Kind kind = Kind::kText;
   Range range;
   std::string unit;                ///< of an integer or number, for people
-  std::vector<Word> words;         ///< of a kWord; of a kList: words that replace a list
+  std::vector<Word> words;         ///< of a kWord; of a kList or kBytes: words that replace it
   Kind element = Kind::kObject;    ///< of a kList
   Range each;                      ///< of the elements of a kList of integers
   const Object* object = nullptr;  ///< of a kObject, or of the elements of a kList; outlives the Type
@@ -268,6 +268,20 @@ class ObjectOf : public Object {
     field.type.range = lengths;
     return on_read(field, [member](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
       owner.*member = read_bytes(self, node, source);
+    });
+  }
+
+  /// Bytes, or instead one of `words`, which sets `choice`.
+  template <class E>
+  Field& bytes_or(const char* key, bus::Bytes T::*member, Range lengths, std::vector<WordFor<E>> words, E T::*choice,
+                  const char* text) {
+    Field& field = bytes(key, member, lengths, text);
+    for (const WordFor<E>& each : words) field.type.words.push_back({each.text, each.doc});
+    const auto read_plain = field.read;
+    return on_read(field, [choice, read_plain, words = std::move(words)](T& owner, const Field& self,
+                                                                         const YAML::Node& node, const Source& source) {
+      if (!is_word_of(self, node)) return read_plain(&owner, node, source);
+      owner.*choice = words[read_word(self, node, source)].value;
     });
   }
 

@@ -13,6 +13,7 @@ void add_slave(MasterStation& station, const scenario::MasterSlave& slave, const
   bus::Bytes outputs = slave.outputs;
   outputs.resize(static_cast<std::size_t>(parameters.output_length));
   station.master->set_outputs(parameters.address, outputs);
+  station.master->vary_outputs(parameters.address, slave.pattern, slave.seed);
   station.slaves[parameters.address] = parameters.name;
 }
 

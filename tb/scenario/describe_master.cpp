@@ -55,7 +55,13 @@ const ObjectOf<MasterSlave>& master_slave_keys() {
     o.boolean("freeze", &S::freeze, "Freeze_Req of Set_Prm.");
     o.boolean("fail_safe", &S::fail_safe, "Fail_Safe of the first DPV1 byte of Set_Prm.");
     o.boolean("dpv1", &S::dpv1, "DPV1_Enable of the first DPV1 byte of Set_Prm.");
-    o.bytes("outputs", &S::outputs, {0, 244}, "First outputs, filled up with 0 (default: all 0).");
+    o.bytes_or("outputs", &S::outputs, {0, 244},
+               std::vector<WordFor<bus::OutputPattern>>{
+                   {bus::OutputPattern::kCount, "count", "each byte is the number of the data exchange"},
+                   {bus::OutputPattern::kRandom, "random", "other bytes in each data exchange"}},
+               &S::pattern,
+               "First outputs, filled up with 0 (default: all 0). `set_outputs` of the script ends the words.");
+    o.integer("seed", &S::seed, {1, 0x7FFFFFFE}, "", "Of `outputs: random`.");
     o.at_least_one = {{"slave", "address"}};
     return o;
   }();

@@ -83,6 +83,7 @@ class SchemaWriter {
     json["anyOf"] = {
         {{"type", "string"}, {"pattern", "^ *([0-9A-Fa-f]{2}([*][0-9]{1,3})?( +|$))*$"}},
         {{"type", "array"}, {"items", items}, {"minItems", field.type.range.min}, {"maxItems", field.type.range.max}}};
+    if (!field.type.words.empty()) json["anyOf"].push_back(words(field));
     return json;
   }
 

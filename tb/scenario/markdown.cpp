@@ -45,12 +45,15 @@ std::string lower_case(std::string text) {
 
 std::string items(const Field& field) { return fmt::format("{} to {}", field.type.range.min, field.type.range.max); }
 
+/// Words that replace a value.
+std::string or_words(const Field& field) {
+  std::string text;
+  for (const keys::Word& word : field.type.words) text += ", or `" + word.text + "`";
+  return text;
+}
+
 std::string list_of(const Field& field) {
-  if (field.type.object != nullptr) {
-    std::string text = "list of " + link(*field.type.object);
-    for (const keys::Word& word : field.type.words) text += ", or `" + word.text + "`";
-    return text;
-  }
+  if (field.type.object != nullptr) return "list of " + link(*field.type.object) + or_words(field);
   if (field.type.element != Kind::kInteger) return "list of text";
   return fmt::format("list of {} integers, {} to {} {}", field.type.range.max, field.type.each.min, field.type.each.max,
                      field.type.unit);
@@ -71,7 +74,7 @@ std::string type_text(const Field& field) {
       return text;
     }
     case Kind::kTime: return fmt::format("time, {} to {}", time_text(range.min), time_text(range.max));
-    case Kind::kBytes: return fmt::format("{} bytes", items(field));
+    case Kind::kBytes: return fmt::format("{} bytes{}", items(field), or_words(field));
     case Kind::kObject: return link(*field.type.object);
     case Kind::kList: return list_of(field);
   }

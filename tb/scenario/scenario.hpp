@@ -51,6 +51,8 @@ struct MasterSlave {
   bool sync = false, freeze = false, fail_safe = false, dpv1 = false;
   std::optional<int> ident;
   bus::Bytes outputs;
+  bus::OutputPattern pattern = bus::OutputPattern::kFixed;
+  std::uint32_t seed = 1;
   int line = 0;
 };
 

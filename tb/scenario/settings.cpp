@@ -94,7 +94,9 @@ void check_value(const Field& field, const YAML::Node& value, const std::string&
     case Kind::kBoolean: keys::read_boolean(field, value, source); break;
     case Kind::kWord: keys::read_word(field, value, source); break;
     case Kind::kTime: keys::read_time(field, value, source); break;
-    case Kind::kBytes: keys::read_bytes(field, value, source); break;
+    case Kind::kBytes:
+      if (!keys::is_word_of(field, value)) keys::read_bytes(field, value, source);
+      break;
     case Kind::kList:
       if (!keys::is_word_of(field, value)) keys::check_list(field, value, source);
       break;

@@ -71,6 +71,48 @@ TEST_F(SlaveTest, BringUpByDiagnosisParametersConfigurationDiagnosis) {
   EXPECT_EQ(slave.view().counters.data_exchanges, 1U);
 }
 
+TEST_F(SlaveTest, CountedOutputsChangeInEachExchangeUntilTheyAreSet) {
+  slave.vary_outputs(OutputPattern::kCount, 1);
+  bring_up();
+  EXPECT_EQ(step(inputs({0, 0})).data, (Bytes{1, 1}));
+  EXPECT_EQ(step(inputs({0, 0}, fc::kDh)).data, (Bytes{2, 2}));
+  EXPECT_EQ(step(diagnosis(0, 0, 1)).dsap, sap::kSlaveDiag);
+  EXPECT_EQ(step(inputs({0, 0})).data, (Bytes{3, 3}));
+  EXPECT_EQ(slave.view().outputs, (Bytes{3, 3}));
+  slave.set_outputs({7, 8});
+  EXPECT_EQ(step(inputs({0, 0})).data, (Bytes{7, 8}));
+  EXPECT_EQ(step(inputs({0, 0})).data, (Bytes{7, 8}));
+}
+
+TEST_F(SlaveTest, RandomOutputsFollowFromTheSeed) {
+  bring_up();
+  const auto three_of = [this](std::uint32_t seed) {
+    slave.vary_outputs(OutputPattern::kRandom, seed);
+    std::vector<Bytes> seen;
+    for (int i = 0; i < 3; ++i) seen.push_back(step(inputs({0, 0})).data);
+    return seen;
+  };
+  const std::vector<Bytes> once = three_of(5);
+  EXPECT_NE(once[0], once[1]);
+  EXPECT_NE(once[1], once[2]);
+  EXPECT_EQ(three_of(5), once);
+  EXPECT_NE(three_of(6), once);
+}
+
+/// The user still judges Set_Prm when Chk_Cfg comes. Cfg_Fault of an earlier configuration stands until then.
+TEST_F(SlaveTest, AnOldCfgFaultDoesNotStopAChkCfgThatWasRefused) {
+  constexpr std::uint8_t kCfgFault = 0x04;
+  step(diagnosis(0x02 | kCfgFault, 0x01));
+  step(acknowledged());
+  step(refusal(fc::kRs));
+  step(diagnosis(0x02 | kCfgFault, 0, 1));
+  EXPECT_EQ(state(), SlaveState::kChkCfg);
+  EXPECT_EQ(step(acknowledged()).dsap, sap::kChkCfg);
+  step(diagnosis(0x02 | kCfgFault, 0, 1));
+  EXPECT_EQ(slave.view().reason, "Cfg_Fault");
+  EXPECT_EQ(state(), SlaveState::kDiagnose);
+}
+
 TEST_F(SlaveTest, AWrongIdentIsNotParameterised) {
   step(diagnosis(0x02, 0x01, 255, 0x9B));
   EXPECT_EQ(state(), SlaveState::kDiagnose);

@@ -53,6 +53,20 @@ TEST(Scenario, LeavesDefaultsWhereKeysAreMissing) {
   EXPECT_FALSE(tb::own(scenario.slaves[0].user_cpu).access);
 }
 
+TEST(Scenario, OutputsOfAMasterAreBytesOrAWord) {
+  const auto slave_with = [](const std::string& keys) {
+    const std::string masters = "masters: [{name: plc, slaves: [{slave: demo, " + keys + "}]}]\n";
+    return sc::parse(kSmall + masters, "s.yaml").masters.at(0).slaves.at(0);
+  };
+  EXPECT_EQ(slave_with("outputs: \"01 02\"").outputs, (bus::Bytes{1, 2}));
+  EXPECT_EQ(slave_with("outputs: [1, 2]").pattern, bus::OutputPattern::kFixed);
+  EXPECT_EQ(slave_with("outputs: count").pattern, bus::OutputPattern::kCount);
+  const sc::MasterSlave random = slave_with("outputs: random, seed: 7");
+  EXPECT_EQ(random.pattern, bus::OutputPattern::kRandom);
+  EXPECT_EQ(random.seed, 7U);
+  EXPECT_TRUE(random.outputs.empty());
+}
+
 std::string error_of_scenario(const std::string& text) {
   try {
     sc::parse(text, "s.yaml");
