@@ -42,6 +42,7 @@ class Command {
   const char *name_, *line_;
 };
 
+std::unique_ptr<Command> make_accept();
 std::unique_ptr<Command> make_calibrate();
 std::unique_ptr<Command> make_compare();
 std::unique_ptr<Command> make_completion();

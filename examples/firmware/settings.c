@@ -30,7 +30,7 @@ static const dsdpv1_mailbox_station own_station = {
     .max_prm = DSDPV1_MAX_PRM,
     .max_cfg = DSDPV1_MAX_CFG,
     .prm_mode = 0,
-    .cfg_mode = 0,
+    .cfg_mode = 1, /* exactly .cfg */
     .cfg_length = 2,
     .cfg = {0x11, 0x21},
 };
