@@ -59,14 +59,19 @@ class Accept : public Command {
         ->check(CLI::Range(0, 125))
         ->capture_default_str();
     app.add_option("--chip", order_.chip,
-                   "Kind of chip: dsdpv1, dsdpv1_r, dsdpv1_rsu (default: dsdpv1_rsu with --mode)");
+                   "Kind of chip: dsdpv1, dsdpv1_r, dsdpv1_rsu (default: dsdpv1_rsu with --mode)")
+        ->type_name("KIND");
     app.add_option("--mode", order_.mode, "Host port of a DSDPV1-RSU: parallel, spi, uart");
     app.add_option("--baud", order_.baud, "Baud rate of the masters, as in scenarios")->capture_default_str();
     app.add_option("--seed", order_.seed, "Of outputs and times")
         ->check(CLI::Range(1, 0x7FFFFFFE))
         ->capture_default_str();
-    app.add_option("--object", object_, "SLOT,INDEX,LENGTH of an object that masters may read")->capture_default_str();
-    app.add_option("--only", order_.only, "Only this stimulus, once for each")->allow_extra_args(false);
+    app.add_option("--object", object_, "An object that masters may read")
+        ->type_name("SLOT,INDEX,LENGTH")
+        ->capture_default_str();
+    app.add_option("--only", order_.only, "Only this stimulus, once for each")
+        ->type_name("STIMULUS")
+        ->allow_extra_args(false);
     app.add_flag("--list", list_, "List the stimuli instead");
     app.add_option("--engine", engine_, "skip, or step: every cycle evaluated")->capture_default_str();
     add_set_option(app, set_);
@@ -160,7 +165,7 @@ class Accept : public Command {
   }
 
   void say(const Plan& plan, const Facts& facts, const tb::RunResult& result) const {
-    std::cout << tb::summary(result, rows_) << '\n' << tb::accept::table(plan, facts) << std::flush;
+    std::cout << tb::accept::table(plan, facts) << '\n' << tb::summary(result, rows_) << std::flush;
     if (facts.address() && *facts.address() != plan.address)
       std::cout << tb::line_of(
           fmt::format("the firmware gives the chip the address {0}, its master asks {1}: --address {0}",

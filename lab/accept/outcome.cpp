@@ -20,10 +20,10 @@ struct Window {
 };
 
 Window window_of(const Section& section, const Facts& facts) {
-  constexpr Tick kAtTheStart = 1;  // the first data exchange belongs to it
+  constexpr Tick kFirstExchange = 1;  // which belongs to the start
   const Tick begun = facts.begun().value_or(bus::kNever / 2);
-  if (section.stimulus->apply == nullptr) return {0, begun + kAtTheStart};
-  return {begun + section.from + kAtTheStart, begun + section.to + kAtTheStart};
+  if (section.stimulus->apply == nullptr) return {0, begun + kFirstExchange};
+  return {begun + std::max(section.from, kFirstExchange), begun + section.to};
 }
 
 std::uint64_t times(const Met& met, const Window& window, const Facts& facts) {

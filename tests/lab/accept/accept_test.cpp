@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "io/input/input_error.hpp"
 #include "lab/accept/facts.hpp"
@@ -37,6 +39,14 @@ TEST(AcceptStimuli, EachHasANameOfItsOwnAndAsksForSomething) {
     EXPECT_TRUE(names.insert(each.name).second) << each.name;
     EXPECT_FALSE(each.met.empty()) << each.name;
   }
+}
+
+TEST(AcceptStimuli, EachIsInThePage) {
+  std::ifstream in(DSDPV1_SOURCE_DIR "/docs/accept.md");
+  std::ostringstream page;
+  page << in.rdbuf();
+  for (const Stimulus& each : stimuli())
+    EXPECT_THAT(page.str(), HasSubstr("| " + std::string(each.name) + " | " + each.about + " |"));
 }
 
 TEST(AcceptPlan, TheScenarioIsTheTextAndTheSectionsFollowEachOther) {

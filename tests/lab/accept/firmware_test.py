@@ -3,10 +3,12 @@
 
     firmware_test.py SIM GCC DEVICE_O2 CASE [--seeds N]
 
-CASE: right (the example firmware), parallel, spi (the firmware of tests/firmware/owed without a fault), uart (the example firmware), wrong.
+CASE: right (the example firmware, with the lines that docs/accept.md shows), parallel, spi, uart (the firmware of tests/firmware/owed without a
+fault), wrong (a fault of it).
 """
 import argparse
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,8 +17,10 @@ OWED = pathlib.Path(__file__).resolve().parents[2] / "firmware" / "owed"
 sys.path.insert(0, str(OWED))
 import owed  # noqa: E402
 
-EXAMPLE = {"right": [], "uart": ["--mode", "uart"]}
-PLANTED = {"parallel": ("NONE", "parallel", []), "spi": ("NONE", "spi", ["--mode", "spi"]), "wrong": ("CFG_ACCEPTED", "parallel", [])}
+EXAMPLE = {"right": []}
+PAGE = pathlib.Path(__file__).resolve().parents[3] / "docs" / "accept.md"
+PLANTED = {"parallel": ("NONE", "parallel", []), "spi": ("NONE", "spi", ["--mode", "spi"]),
+           "uart": ("NONE", "uart", ["--mode", "uart"]), "wrong": ("CFG_ACCEPTED", "parallel", [])}
 
 
 def accept(sim, elf, options):
@@ -37,7 +41,21 @@ def firmware(arguments, folder):
     return elf, options
 
 
+def without_counts(line):
+    return " ".join(re.sub(r"\d+", "N", line).split())
+
+
+def stale(printed):
+    """A line of the page that was not printed, whatever its numbers; or None."""
+    shown = PAGE.read_text().split("Of the example firmware:")[1].split("```")[1]
+    lines = {without_counts(line) for line in printed.splitlines()}
+    return next((line for line in shown.splitlines() if line not in ("", "...") and without_counts(line) not in lines and "----" not in line), None)
+
+
 def wrong(done, case):
+    if case == "right" and (line := stale(done.stdout)):
+        print(f"docs/accept.md shows: {line}")
+        return True
     if case != "wrong":
         return done.returncode != 0
     return done.returncode != 1 or "wrong configuration: Cfg_Fault" not in " ".join(done.stdout.split())
