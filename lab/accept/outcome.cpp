@@ -52,6 +52,7 @@ std::string verdict_on(const Met& met, std::uint64_t count) {
 }
 
 void add_rows(TextTable& table, const Section& section, const Facts& facts) {
+  if (section.left_out == kNotAskedFor) return;
   if (!section.left_out.empty()) return table.add({section.stimulus->name, "left out: " + section.left_out, "", ""});
   const Window window = window_of(section, facts);
   const std::string violations = violations_in(window, facts);

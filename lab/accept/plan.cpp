@@ -72,8 +72,9 @@ std::string chip_of(const Order& order) {
 std::string head(const Order& order, const bus::Gsd& gsd, bus::Tick end) {
   const std::vector<int> masters = master_addresses(order.address);
   const std::string ring = fmt::format("highest_address: {}, target_rotation: 20000", masters.back());
-  return fmt::format("name: Acceptance of {}\nbaud: {}\nend: {}\n",
-                     quoted(std::filesystem::path(order.elf).filename().string()), order.baud, time_text(end)) +
+  return fmt::format("name: {}\nbaud: {}\nend: {}\n",
+                     quoted("Acceptance of " + std::filesystem::path(order.elf).filename().string()), order.baud,
+                     time_text(end)) +
          chip_of(order) +
          fmt::format("\nslaves:\n  - name: {}\n    address: {}\n    gsd: {}\n    modules: {}\n", kDevice, order.address,
                      absolute(order.gsd), module_list(order.modules)) +
@@ -120,7 +121,7 @@ std::vector<Section> apply(const Order& order, const Slave& slave, Requests& req
   std::vector<Section> sections;
   for (const Stimulus& stimulus : stimuli()) {
     Section section = {&stimulus, requests.now(), 0, "", lines_in(requests.script())};
-    if (!is_wanted(order, stimulus)) section.left_out = "not asked for";
+    if (!is_wanted(order, stimulus)) section.left_out = kNotAskedFor;
     if (section.left_out.empty() && stimulus.left_out != nullptr) section.left_out = stimulus.left_out(slave);
     if (section.left_out.empty() && stimulus.apply != nullptr) stimulus.apply(requests);
     section.to = requests.now();

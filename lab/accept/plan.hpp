@@ -22,6 +22,9 @@ struct Order {
   std::vector<scenario::Setting> settings;  ///< keys of the scenario
 };
 
+/// Section::left_out of a stimulus that Order::only does not name.
+constexpr const char* kNotAskedFor = "not asked for";
+
 /// The time of a stimulus, from the first data exchange on; that of the first one is before it.
 struct Section {
   const Stimulus* stimulus = nullptr;

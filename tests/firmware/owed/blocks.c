@@ -20,7 +20,8 @@ unsigned fetch(const struct area* from, uint8_t* bytes) {
     bytes[0] = 2;
   else
     read_cells(from->begin, bytes, from->head);
-  const unsigned length = from->head + (from->head < 4u ? bytes[from->head - 1u] : 0u);
+  const int reads = from->head == 4u && bytes[0] == 0x5Eu; /* a request to read has no data */
+  const unsigned length = from->head + (reads ? 0u : bytes[from->head - 1u]);
   if (length > from->head) read_cells(from->begin + from->head, bytes + from->head, length - from->head);
   const int unread = (outputs && HAS(OUTPUT_CRC_UNREAD)) || (from->begin == 0x410u && HAS(PRM_CRC_UNREAD));
   const int right = unread || read_crc(from->crc) == crc16(bytes, length);

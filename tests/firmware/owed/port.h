@@ -34,7 +34,7 @@ uint16_t read_crc(unsigned from);
 void write_crc(unsigned to, uint16_t crc);
 uint16_t crc16(const uint8_t* bytes, unsigned count);
 
-/* A block of the DPRAM: `head` bytes with its length in the last of them (acyclic: four bytes and no more), its CRC and
+/* A block of the DPRAM: `head` bytes with its length in the last of them (a request to read has no more), its CRC and
  * flag. */
 struct area {
   uint16_t begin;
