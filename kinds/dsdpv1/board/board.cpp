@@ -162,7 +162,11 @@ void Board::look_if_stuck() {
   constexpr Tick kMost = 100 * bus::kTicksPerMs;
   if (std::exchange(polls_, false) || !in_service_ || !chip_reset_) touched_at_ = core_.cycles();
   if (tick_of(touched_at_) + kMost <= now()) {
-    misused(tb::board_code::kStuck, "100 ms without an access or sleep");
+    come_up();
+    std::optional<user_cpu::Place> place =
+        where(user_cpu::Act::omitted(now() - kMost, now()));  // with `stayed`, or from before that
+    if (!place || !place->stayed) place = place_of(core_.place());
+    if (on_error) on_error({now(), tb::board_code::kStuck.code, "100 ms without an access or sleep", place});
     touched_at_ = core_.cycles();
   }
   look_at_ = cycle_of(tick_of(touched_at_) + kMost);
