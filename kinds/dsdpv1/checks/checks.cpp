@@ -68,6 +68,8 @@ void Checks::parallel_pin(Tick at, Pin pin, Level level) {
 
 /// In reset the port neither reads nor writes (P10), and all running measurements end.
 void Checks::reset_pin(Tick at, bool level) {
+  if (level && in_reset_) recorder_.value(Check::kResetLow, at, at - reset_fell_, [] { return std::string(); });
+  if (!level) reset_fell_ = at;
   in_reset_ = !level;
   holding_ = false;
   hold_end_.reset();

@@ -105,6 +105,7 @@ class Checks : public ChipChecks, private AccessSink {
   SpiFrames frames_;
   UartFrames uart_;
   bool in_reset_ = true;
+  Tick reset_fell_ = 0;
   bool holding_ = false;          ///< a hold runs from R_STA's rise until R_REQ and R_STA are both low again
   std::optional<Tick> hold_end_;  ///< judged when time advances: a RESET at the same tick voids it
 };

@@ -20,6 +20,16 @@ Tick watchdog_of(const bus::Bytes& prm) {
   return Tick{prm[kFactor1]} * prm[kFactor2] * (base_1ms ? 1 : 10) * bus::kTicksPerMs;
 }
 
+/// A read, write or transport on C1 or an open C2 channel (tables 24, 26, 31).
+bool is_for_user(const bus::Telegram& asked) {
+  constexpr std::uint8_t kFirstChannel = 47, kLastChannel = 48;
+  const bool on_channel = asked.dsap == bus::sap::kMs1 || (asked.dsap >= kFirstChannel && asked.dsap <= kLastChannel);
+  if (!on_channel || asked.data.empty()) return false;
+  const std::uint8_t function = asked.data[0];
+  return function == regs::kFunctionNumRead || function == regs::kFunctionNumWrite ||
+         function == regs::kFunctionNumTransport;
+}
+
 /// A Set_Prm that is to parameterise (table 20).
 bool parameterises(const bus::Bytes& prm) {
   return prm.size() >= kShortestPrm && (prm[kStatus] & (kLock | kUnlock)) == kLock;
@@ -61,6 +71,8 @@ FreshData::Request FreshData::request_of(const bus::WireTelegram& telegram, bool
   request.outputs = !asked.data.empty();
   if (is_exchange) {
     request.service = Service::kExchange;
+  } else if (is_for_user(asked)) {
+    request.service = Service::kAcyclic;
   } else if (asked.dsap == bus::sap::kSetPrm && parameterises(asked.data)) {
     request.service = Service::kSetPrm;
     request.watchdog = watchdog_of(asked.data);
@@ -68,7 +80,7 @@ FreshData::Request FreshData::request_of(const bus::WireTelegram& telegram, bool
   return request;
 }
 
-void FreshData::telegram(const bus::WireTelegram& telegram) {
+bool FreshData::telegram(const bus::WireTelegram& telegram) {
   if (station_.is_asked(telegram)) {
     const Request request = request_of(telegram, station_.is_exchange(telegram));
     open_ = !(last_ && request.repeats(*last_));
@@ -76,7 +88,9 @@ void FreshData::telegram(const bus::WireTelegram& telegram) {
   } else if (open_ && station_.answers(telegram)) {
     open_ = false;
     answered(telegram.decoded.telegram);
+    return last_->service == Service::kAcyclic && telegram.decoded.telegram.kind == bus::TelegramKind::kSc;
   }
+  return false;
 }
 
 /// Refusals are SD1 with another function code (S20); an answer without inputs is SC or SD1 (S19).

@@ -21,12 +21,12 @@ class FreshData {
   /// RESET is low: no data are exchanged.
   void reset();
   void hold(const UserHold& hold);
-  /// A telegram on the line.
-  void telegram(const bus::WireTelegram& telegram);
+  /// A telegram on the line. True if it acknowledges a request on C1 or C2 for the user.
+  bool telegram(const bus::WireTelegram& telegram);
   void finish(Tick end);
 
  private:
-  enum class Service : std::uint8_t { kOther, kExchange, kSetPrm };
+  enum class Service : std::uint8_t { kOther, kExchange, kSetPrm, kAcyclic };
   /// A request to the station; the same again is a repetition, which is not executed (S26).
   struct Request {
     Service service = Service::kOther;

@@ -72,7 +72,7 @@ nothing is violated, and rules that no chip can see.
 ## Which apply
 
 A report has the checks of the port in use. With a DSDPV1, a DSDPV1-R, or a DSDPV1-RSU strapped to its parallel port these concern R_REQ, R_STA, CSR, RD and WR. With a DSDPV1-RSU
-strapped to SPI they are `TIMING_SCK_HIGH` to `B014_HOLD_INTERVAL`, strapped to its UART `RXD_CHARACTER_GAP` to `TXD_REPLY_TIME`. `BLOCK_SERVED` to `READY_UNSEEN` apply
+strapped to SPI they are `TIMING_SCK_HIGH` to `B014_HOLD_INTERVAL`, strapped to its UART `RXD_CHARACTER_GAP` to `TXD_REPLY_TIME`. `BLOCK_SERVED` to `RESET_LOW` apply
 to every port: telegrams of SPI and UART are read as accesses to cells. `BLOCK_WHOLE` judges holds by R_STA and B014, so nothing over the UART (U2). Rulings SP and UA are
 those of [chip_rsu.md](chip_rsu.md).
 

@@ -28,6 +28,7 @@ std::string flag_text(const Block& block) {
 
 void ServedBlocks::reset() {
   intr0_.ends();
+  request_.ends();
   for (Duty& each : flags_) each.ends();
   for (Duty& each : verdicts_) each.ends();
   modes_.reset();
@@ -46,6 +47,7 @@ void ServedBlocks::hold(const UserHold& hold, const UserHolds& holds) {
 /// Flags of the earlier operation are set aside (D11).
 void ServedBlocks::initialise(const UserHolds& holds) {
   intr0_.ends();
+  request_.ends();
   for (Duty& each : flags_) each.ends();
   for (Duty& each : verdicts_) each.ends();
   coming_modes_ = {holds.prm_mode(), holds.cfg_mode()};
@@ -88,6 +90,8 @@ void ServedBlocks::judge_flags(const UserHold& hold) {
       duty.met(recorder_, Check::kBlockServed, hold.ended, [&block] { return flag_text(block) + ": late"; });
   }
   if (looked && intr0_.since() && hold.began >= *intr0_.since()) intr0_.ends();
+  const bool looked_2 = hold.chip_2.read || hold.chip_2.written || hold.chip_2.taken != 0;
+  if (looked_2 && request_.since() && hold.began >= *request_.since()) request_.ends();
 }
 
 /// A newer block does not renew the time: the master still waits.
@@ -103,8 +107,10 @@ void ServedBlocks::judge_verdicts(const UserHold& hold) {
 }
 
 void ServedBlocks::pass(Tick now) {
-  intr0_.pass(recorder_, Check::kBlockServed, now,
-              [] { return std::string("INTR0: the user has not looked at B00E"); });
+  intr0_.pass(
+      recorder_, Check::kBlockServed, now, [] { return std::string("INTR0: the user has not looked at B00E"); });
+  request_.pass(recorder_, Check::kBlockServed, now,
+                [] { return std::string("a request on C1 or C2: the user has not looked at B00F"); });
   for (std::size_t i = kOutputs + 1; i < flags_.size(); ++i)
     flags_.at(i).pass(recorder_, Check::kBlockServed, now,
                       [i] { return flag_text(kChipBlocks.at(i)) + ": still set"; });

@@ -17,6 +17,8 @@ class ServedBlocks {
   /// RESET is low: nothing is owed.
   void reset();
   void intr0_fell(Tick at) { intr0_.begins(at); }
+  /// The chip has acknowledged a request on C1 or C2, for which it has no interrupt.
+  void request_came(Tick at) { request_.begins(at); }
   /// A hold has ended; `holds` has the bytes read.
   void hold(const UserHold& hold, const UserHolds& holds);
   /// Time advances without an access.
@@ -31,7 +33,7 @@ class ServedBlocks {
   bool is_judged_by_user(std::size_t kind) const;
 
   Recorder& recorder_;
-  Duty intr0_;
+  Duty intr0_, request_;
   std::array<Duty, kChipBlocks.size()> flags_;  ///< as kChipBlocks; that of the outputs is unused
   std::array<Duty, 2> verdicts_;                ///< on parameters, on configuration
   /// Judging modes of the initialisation in force, and of one that the chip has not accepted yet.

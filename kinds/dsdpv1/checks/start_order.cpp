@@ -26,4 +26,18 @@ void StartOrder::judge(const Access& access) {
   });
 }
 
+/// A refused one may be tried again.
+void StartOrder::hold(const UserHold& hold, bool same) {
+  if (!hold.initialises()) {
+    if (hold.initialised == false) initialised_.reset();
+    return;
+  }
+  if (initialised_ && same)
+    recorder_.value(
+        Check::kInitRepeated, hold.ended, hold.ended - *initialised_,
+        [] { return std::string("B010.2 set again, B020 to B0F6 unchanged"); },
+        Act::written(regs::kUserCommand1, hold.ended));
+  initialised_ = hold.ended;
+}
+
 }  // namespace dsdpv1::checks

@@ -1,7 +1,10 @@
 #pragma once
-// The user waits for the chip after RESET (U7).
+// The user waits for the chip after RESET and initialises it once (U7, U9).
+#include <optional>
+
 #include "kinds/dsdpv1/checks/check.hpp"
 #include "kinds/dsdpv1/checks/port_timing.hpp"
+#include "kinds/dsdpv1/checks/user_hold.hpp"
 #include "registers/dsdpv1_regs.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
@@ -12,7 +15,12 @@ class StartOrder {
   explicit StartOrder(Recorder& recorder) : recorder_(recorder) {}
 
   /// RESET is low.
-  void reset() { state_ = State::kUnseen; }
+  void reset() {
+    state_ = State::kUnseen;
+    initialised_.reset();
+  }
+  /// `same`: its initialisation, if it has one, is the earlier one.
+  void hold(const UserHold& hold, bool same);
   void accessed(const Access& access) {
     if (state_ != State::kJudged) judge(access);
   }
@@ -27,6 +35,7 @@ class StartOrder {
 
   Recorder& recorder_;
   State state_ = State::kUnseen;
+  std::optional<Tick> initialised_;  ///< and not refused, as far as the user knows
 };
 
 }  // namespace dsdpv1::checks

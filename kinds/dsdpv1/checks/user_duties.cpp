@@ -7,6 +7,7 @@ void UserDuties::reset() {
   start_.reset();
   served_.reset();
   fresh_.reset();
+  answers_.reset();
   refusals_.reset();
 }
 
@@ -14,17 +15,22 @@ void UserDuties::hold_ended(Tick at, HoldOf what) {
   const UserHold& hold = holds_.ended(at, what);
   served_.hold(hold, holds_);
   fresh_.hold(hold);
+  answers_.hold(hold, holds_);
+  start_.hold(hold, holds_.is_same_initialisation());
+  if (hold.initialises()) holds_.initialised();
   refusals_.hold(hold);
   holds_.forget_reads();
 }
 
 void UserDuties::telegram(Tick now, const bus::WireTelegram& telegram) {
   served_.pass(now);
-  fresh_.telegram(telegram);
+  answers_.pass(now);
+  if (fresh_.telegram(telegram)) served_.request_came(telegram.end);
 }
 
 void UserDuties::finish(Tick end) {
   served_.pass(end);
+  answers_.pass(end);
   fresh_.finish(end);
 }
 

@@ -4,6 +4,7 @@
 #include "kinds/dsdpv1/checks/fresh_data.hpp"
 #include "kinds/dsdpv1/checks/own_station.hpp"
 #include "kinds/dsdpv1/checks/refusals.hpp"
+#include "kinds/dsdpv1/checks/request_answers.hpp"
 #include "kinds/dsdpv1/checks/served_blocks.hpp"
 #include "kinds/dsdpv1/checks/start_order.hpp"
 #include "kinds/dsdpv1/checks/user_hold.hpp"
@@ -15,7 +16,7 @@ class UserDuties {
  public:
   /// `station` must outlive it.
   UserDuties(Recorder& recorder, const OwnStation& station)
-      : start_(recorder), served_(recorder), fresh_(recorder, station), refusals_(recorder) {}
+      : start_(recorder), served_(recorder), fresh_(recorder, station), answers_(recorder), refusals_(recorder) {}
 
   /// RESET is low.
   void reset();
@@ -25,7 +26,10 @@ class UserDuties {
   /// A telegram on the line, at `now`.
   void telegram(Tick now, const bus::WireTelegram& telegram);
   /// An event of the chip.
-  void event(const profibus::Event& event, Refusals::Port port) { refusals_.event(event, port); }
+  void event(const profibus::Event& event, Refusals::Port port) {
+    answers_.event(event);
+    refusals_.event(event, port);
+  }
   void finish(Tick end);
 
   // A hold of the parallel port, by B014, or of one telegram.
@@ -44,6 +48,7 @@ class UserDuties {
   StartOrder start_;
   ServedBlocks served_;
   FreshData fresh_;
+  RequestAnswers answers_;
   Refusals refusals_;
 };
 

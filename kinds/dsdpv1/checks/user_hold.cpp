@@ -51,12 +51,21 @@ void UserHolds::read(const Access& access) {
 
 void UserHolds::wrote(const Access& access) {
   if (!access.value) return;
-  if (access.address == regs::kPrmMode) prm_mode_ = *access.value;
-  if (access.address == regs::kCfgMode) cfg_mode_ = *access.value;
+  note_block(access.address, *access.value);
   FlagsInHold* const byte = flags(access.address);
   if (byte == nullptr) return;
   byte->after = *access.value;
   byte->written = true;
+}
+
+void UserHolds::note_block(Address address, std::uint8_t value) {
+  if (address >= regs::kInit && address < regs::kInitCrc) {
+    std::uint8_t& cell = init_.at(address - regs::kInit);
+    init_changed_ = init_changed_ || cell != value;
+    cell = value;
+  }
+  if (address >= regs::kC1 && address < regs::kC1Data) answers_[0].at(address - regs::kC1) = value;
+  if (address >= regs::kC2 && address < regs::kC2Data) answers_[1].at(address - regs::kC2) = value;
 }
 
 void UserHolds::taken(Address command, std::uint8_t flag) {
@@ -96,6 +105,13 @@ std::optional<bool> UserHolds::read_all(const Block& block) const {
   const unsigned most = static_cast<unsigned>(block.crc - block.data);
   const unsigned count = only_header ? 0 : std::min<unsigned>(values_.at(block.data - 1U), most);
   return has_read(block.data, count);
+}
+
+std::optional<AcyclicHeader> UserHolds::request_read(const Block& request) const {
+  AcyclicHeader header{};
+  if (uncertain_ || !has_read(request.first, header.size())) return std::nullopt;
+  for (std::size_t i = 0; i < header.size(); ++i) header.at(i) = values_.at(request.first + i);
+  return header;
 }
 
 }  // namespace dsdpv1::checks

@@ -11,6 +11,9 @@
 
 namespace dsdpv1::checks {
 
+/// Function_Num, slot, index, length of a request or answer on C1 or C2.
+using AcyclicHeader = std::array<std::uint8_t, 4>;
+
 /// A byte of flags in a hold.
 struct FlagsInHold {
   std::optional<std::uint8_t> read;  ///< as the user first read it
@@ -52,9 +55,16 @@ class UserHolds {
   /// Whether the user has read length and bytes of a block since `forget_reads`; absent if a value was uncertain.
   std::optional<bool> read_all(const Block& block) const;
   void forget_reads();
+  /// A request as the user has read it since `forget_reads`; absent if it has not read all of it for certain.
+  std::optional<AcyclicHeader> request_read(const Block& request) const;
+  /// The answer on C1 (0) or C2 (1) as last written.
+  const AcyclicHeader& answer_written(std::size_t channel) const { return answers_.at(channel); }
+  /// No byte of the initialisation has changed since `initialised`.
+  bool is_same_initialisation() const { return !init_changed_; }
+  void initialised() { init_changed_ = false; }
   /// B02B, B02D as last written: the judging modes (D8).
-  std::uint8_t prm_mode() const { return prm_mode_; }
-  std::uint8_t cfg_mode() const { return cfg_mode_; }
+  std::uint8_t prm_mode() const { return init_.at(regs::kPrmMode - regs::kInit); }
+  std::uint8_t cfg_mode() const { return init_.at(regs::kCfgMode - regs::kInit); }
 
  private:
   static constexpr Address kFirst = regs::kOutput;  ///< the chip's blocks are behind it
@@ -62,13 +72,16 @@ class UserHolds {
   FlagsInHold* flags(Address address);
   void read(const Access& access);
   void wrote(const Access& access);
+  void note_block(Address address, std::uint8_t value);
   bool has_read(unsigned first, unsigned count) const;
 
   UserHold hold_;
   std::array<std::uint8_t, regs::kDpramSize> values_{};  ///< read ones
   std::array<std::uint64_t, regs::kDpramSize / 64> read_{};
   bool any_read_ = false, uncertain_ = false;
-  std::uint8_t prm_mode_ = 0, cfg_mode_ = 0;
+  std::array<AcyclicHeader, 2> answers_{};
+  std::array<std::uint8_t, regs::kInitSize> init_{};
+  bool init_changed_ = true;
 };
 
 }  // namespace dsdpv1::checks

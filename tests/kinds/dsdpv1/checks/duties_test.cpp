@@ -415,5 +415,135 @@ TEST(ReadyUnseen, IsJudgedOnceAfterEachReset) {
   EXPECT_NE(board.violations.at(0).text.find("B005"), std::string::npos) << board.violations[0].text;
 }
 
+TEST(InitRepeated, SameValuesAgainAreMeasuredFromTheEarlierOnes) {
+  Board board;
+  const auto set_flag = [&board] {
+    return hold(board, [&board] {
+      board.read(0x010, 0x00);
+      board.write(0x010, 0x04);
+    });
+  };
+  initialise(board, 0, 1);
+  const Tick one = set_flag();
+  const Tick two = set_flag();
+  look(board, 0x00);
+  EXPECT_EQ(board.checks().record(Check::kInitRepeated).count, 2U);
+  EXPECT_EQ(violations(board, Check::kInitRepeated), 2U);
+  EXPECT_EQ(board.violations.back().margin, two - one - kLimit);
+}
+
+TEST(InitRepeated, OtherValuesRefusalAndResetAreNone) {
+  Board board;
+  initialise(board, 0, 1);
+  initialise(board, 2, 1);  // B02B
+  initialise(board, 2, 0);
+  EXPECT_EQ(violations(board, Check::kInitRepeated), 1U);
+  initialise(board, 2, 1);  // after a refusal
+  board.set(Pin::kReset, 0);
+  board.wait(5000);
+  board.set(Pin::kReset, 1);
+  initialise(board, 2, 1);
+  EXPECT_EQ(violations(board, Check::kInitRepeated), 1U);
+}
+
+TEST(ResetLow, LeastTimeIsShown) {
+  Board board;
+  board.set(Pin::kReset, 0);
+  board.wait(700);
+  board.set(Pin::kReset, 1);
+  EXPECT_EQ(board.checks().record(Check::kResetLow).count, 2U);
+  EXPECT_EQ(board.checks().record(Check::kResetLow).worst_value, 700);
+}
+
+// --- requests --------------------------------------------------------------------------------------------------------
+
+Tick fetch_request(Board& board) {
+  return hold(
+      board,
+      [&board] {
+        board.read(0x00F, 0x01);
+        for (const auto& [cell, value] : {std::pair(0x5D0U, 0x5EU), {0x5D1U, 1U}, {0x5D2U, 2U}, {0x5D3U, 4U}})
+          board.read(cell, value);
+        board.read(0x6C4, 0x00);
+        board.read(0x6C5, 0x00);
+        board.write(0x00F, 0x00);
+      });
+}
+
+/// Without its data and CRC.
+Tick answer(Board& board, unsigned function, unsigned slot, unsigned length) {
+  return hold(
+      board,
+      [&] {
+        board.write(0x5D0, function);
+        board.write(0x5D1, slot);
+        board.write(0x5D2, 2);
+        board.write(0x5D3, length);
+        board.read(0x00F, 0x00);
+        board.read(0x011, 0x00);
+        board.write(0x011, 0x01);
+      });
+}
+
+TEST(RequestAnswered, CountsFromTheFetchToTheAnswer) {
+  Board board;
+  const Tick fetched = fetch_request(board);
+  const Tick answered = answer(board, 0x5E, 1, 4);
+  look(board, 0x00);
+  EXPECT_EQ(board.checks().record(Check::kRequestAnswered).worst_value, answered - fetched);
+  EXPECT_EQ(violations(board, Check::kRequestAnswered), 0U);
+}
+
+TEST(RequestAnswered, AnswerToAnotherRequestOrTooLongIsFoundAndAnErrorIsFree) {
+  struct Answer {
+    unsigned function, slot, length;
+    std::uint64_t violations;
+  };
+  for (const Answer& each : {Answer{0x5E, 1, 5, 1}, Answer{0x5E, 2, 4, 1}, Answer{0x5F, 1, 4, 1},
+                             Answer{0xDE, 0x80, 0xFF, 0}, Answer{0xDF, 0x80, 0, 1}, Answer{0x5E, 1, 0, 0}}) {
+    Board board;
+    fetch_request(board);
+    answer(board, each.function, each.slot, each.length);
+    look(board, 0x00);
+    EXPECT_EQ(violations(board, Check::kRequestAnswered), each.violations)
+        << each.function << ' ' << each.slot << ' ' << each.length;
+  }
+}
+
+TEST(RequestAnswered, NoAnswerIsFoundAfterASecondAndANewerRequestEndsTheWait) {
+  constexpr Tick kSecond = bus::kTicksPerSecond;
+  for (const Tick beyond : {Tick{0}, Tick{1}}) {
+    Board board;
+    finish(board, fetch_request(board), kSecond + beyond);
+    EXPECT_EQ(violations(board, Check::kRequestAnswered), beyond == 0 ? 0U : 1U);
+  }
+  Board board;
+  fetch_request(board);
+  hold(board, [&board] { board.read(0x00F, 0x01); });
+  finish(board, board.now(), 2 * kSecond);
+  EXPECT_EQ(violations(board, Check::kRequestAnswered), 0U);
+}
+
+TEST(RequestAnswered, TimerOfTheUserIsSendTimeout) {
+  Board board;
+  board.checks().event({board.now(), profibus::Reason::kC2Timeout, 48, 1, 2});  // F: no poll
+  EXPECT_EQ(violations(board, Check::kRequestAnswered), 0U);
+  board.checks().event({board.now(), profibus::Reason::kC2Timeout, 48, 3, 2});
+  EXPECT_EQ(violations(board, Check::kRequestAnswered), 1U);
+}
+
+TEST(BlockServed, RequestThatTheChipHasAcknowledgedAsksForALookAtB00F) {
+  for (const bool looks : {false, true}) {
+    Slave slave;
+    slave.bus.request(slave.board, bus::make_telegram(kStation, 2, bus::fc::kRequest | bus::fc::kSrdHigh,
+                                                      {0x5E, 1, 1, 4}, bus::sap::kMs1, bus::sap::kMs1));
+    slave.board.wait(1000);
+    slave.bus.answered(slave.board);
+    if (looks) hold(slave.board, [&slave] { slave.board.read(0x00F, 0x00); });
+    finish(slave.board, slave.board.now(), 2 * kLimit);
+    EXPECT_EQ(violations(slave.board, Check::kBlockServed), looks ? 0U : 1U);
+  }
+}
+
 }  // namespace
 }  // namespace dsdpv1

@@ -272,7 +272,7 @@ TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
     EXPECT_GT(violations(result, check), 0U) << event;
     EXPECT_EQ(violations(result, check), events(result, event)) << event;
   }
-  EXPECT_EQ(result.checks.size(), 20U) << "those of SPI and of any port, no other";
+  EXPECT_EQ(result.checks.size(), 23U) << "those of SPI and of any port, no other";
 }
 
 tb::RunResult run_uart(const std::string& uart, const std::string& script) {
@@ -376,7 +376,7 @@ TEST(ChecksAndCore, FindTheSameOverTheUartWhoseRateIsWrong) {
     EXPECT_EQ(violations(result, checks::Check::kRxdParity), events(result, "UART_PARITY")) << uart;
     EXPECT_EQ(violations(result, checks::Check::kRxdCharacterGap), events(result, "TELEGRAM_CUT")) << uart;
     EXPECT_FALSE(broken(result).empty()) << uart;
-    EXPECT_EQ(result.checks.size(), 15U) << "those of the UART and of any port, no other";
+    EXPECT_EQ(result.checks.size(), 18U) << "those of the UART and of any port, no other";
   }
 }
 

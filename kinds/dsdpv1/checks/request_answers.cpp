@@ -1,0 +1,72 @@
+#include "kinds/dsdpv1/checks/request_answers.hpp"
+
+#include <fmt/format.h>
+
+namespace dsdpv1::checks {
+namespace {
+
+constexpr std::uint8_t kError = 0x80;                      ///< bit of Function_Num (tables 27, 32)
+constexpr std::uint16_t kTimerU = 3;                       ///< in C2_TIMEOUT
+constexpr std::size_t kFirstOfChip = 3, kFirstOfUser = 3;  ///< C1 in kChipBlocks, kUserBlocks; C2 follows
+
+/// V6, and a read gives no more than was asked for. An error repeats the function only.
+bool fits(const AcyclicHeader& asked, const AcyclicHeader& given) {
+  if (((asked[0] ^ given[0]) & ~kError) != 0) return false;
+  if ((given[0] & kError) != 0) return true;
+  const bool too_long = asked[0] == regs::kFunctionNumRead && given[3] > asked[3];
+  return asked[1] == given[1] && asked[2] == given[2] && !too_long;
+}
+
+std::string text_of(const AcyclicHeader& header) {
+  return fmt::format("{:02X} {:02X} {:02X} {:02X}", header[0], header[1], header[2], header[3]);
+}
+
+}  // namespace
+
+void RequestAnswers::hold(const UserHold& hold, const UserHolds& holds) {
+  pass(hold.ended);
+  if (hold.initialises()) return reset();
+  for (std::size_t which = 0; which < channels_.size(); ++which) serve(which, hold, holds);
+}
+
+/// A request that stands in B00F is newer than the one that was fetched: that is withdrawn (V13).
+void RequestAnswers::serve(std::size_t which, const UserHold& hold, const UserHolds& holds) {
+  Channel& channel = channels_.at(which);
+  const Block& request = kChipBlocks.at(kFirstOfChip + which);
+  const Block& answer = kUserBlocks.at(kFirstOfUser + which);
+  if (((hold.chip_2.cleared() | hold.chip_2.taken) & request.flag) != 0) {
+    channel.asked = holds.request_read(request);
+    channel.duty.ends();
+    channel.duty.begins(hold.ended);
+  }
+  if ((hold.user_2.set() & answer.flag) != 0 && channel.duty.since()) {
+    judge(which, holds.answer_written(which), hold.ended);
+    channel.duty.met(recorder_, Check::kRequestAnswered, hold.ended, [&request] { return std::string(request.name); });
+  }
+  if ((hold.chip_2.after & request.flag) != 0) channel.duty.ends();
+}
+
+void RequestAnswers::judge(std::size_t which, const AcyclicHeader& given, Tick at) {
+  const std::optional<AcyclicHeader>& asked = channels_.at(which).asked;
+  if (!asked || fits(*asked, given)) return;
+  recorder_.kept(
+      Check::kRequestAnswered, at, false,
+      [&] { return fmt::format("C{}: {} answers {}", which + 1, text_of(given), text_of(*asked)); },
+      Act::written(regs::kUserCommand2, at));
+}
+
+void RequestAnswers::event(const profibus::Event& event) {
+  if (event.reason != profibus::Reason::kC2Timeout || event.b != kTimerU) return;
+  const Tick since = channels_.at(1).duty.since().value_or(event.at);
+  recorder_.kept(
+      Check::kRequestAnswered, event.at, false, [] { return std::string("C2: no answer within Send_Timeout"); },
+      Act::omitted(since, event.at));
+}
+
+void RequestAnswers::pass(Tick now) {
+  for (std::size_t which = 0; which < channels_.size(); ++which)
+    channels_.at(which).duty.pass(
+        recorder_, Check::kRequestAnswered, now, [which] { return fmt::format("C{}: no answer", which + 1); });
+}
+
+}  // namespace dsdpv1::checks
