@@ -121,7 +121,8 @@ class Dsdpv1Kind : public ChipKind {
   }
   std::unique_ptr<PinChip> make_pin_chip(const ChipRequest& request, std::unique_ptr<PinDevice> device,
                                          bus::Segment& segment) const override {
-    auto chip = std::make_unique<Dsdpv1PinChip>(request.name, std::move(device), part_, request.watched, segment);
+    auto chip =
+        std::make_unique<Dsdpv1PinChip>(request.name, std::move(device), part_, request.watched, segment, request.late);
     chip->strap(straps_of(request.settings));
     return chip;
   }

@@ -1,6 +1,4 @@
 // Simulates accesses without work afterwards, where they are not observed.
-#include <algorithm>
-
 #include "model/dpram/sequencer.hpp"
 
 namespace dsdpv1::dpram {
@@ -13,11 +11,10 @@ bool Sequencer::may_doze() const {
 
 // The last access, of which only a part may lie before `until`, is executed byte by byte.
 void Sequencer::make_up_accesses(Cycle until) {
-  const Cycle period = std::max(interval_, kQuietAccess + 1);
-  const Cycle whole = (until - due_) / period;
+  const Cycle whole = (until - due_) / period();
   accesses_ += static_cast<std::uint64_t>(whole);
   if (whole > 0) ram_.write(regs::kAccessCount, kChipWasHere);
-  due_ += whole * period;
+  due_ += whole * period();
   begin(due_);
 }
 

@@ -69,6 +69,9 @@ class Sequencer {
   /// reset. Read it after eval().
   Cycle told_user() const { return told_user_; }
   std::uint64_t accesses() const { return accesses_; }
+  Cycle began() const { return start_; }  ///< the last access
+  /// From the start of an access without work to that of the next.
+  Cycle period() const { return interval_ > kQuietAccess ? interval_ : kQuietAccess + 1; }
   Cycle longest_wait() const { return longest_wait_; }
   std::uint64_t outputs_overwritten() const {
     return outputs_overwritten_;

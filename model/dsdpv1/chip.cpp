@@ -122,11 +122,15 @@ struct Chip::Impl {
   // The first edge after `to`, or the first at or after the host's next drive, whichever is earlier.
   Cycle unheard_until(Tick to) const { return first_edge_after(std::min(to, drive_at() - 1)); }
   void quiet_access();
+  void show_access(Cycle begin);
+  void show_end(Cycle begin);
   void access_edge(Cycle cycle);
   void eval_station(Cycle cycle);
   void catch_up_line(Cycle upto);
-  void doze_if_unseen();
+  void doze_if_unseen(bool ended);
+  bool shows_late() const { return (watched & kAccessPins) != 0 && sequencer.dozing(); }
   void wake();
+  void make_up(Cycle until);
   void catch_up();
   void update_access_pins();
   // L_REQ and L_STA stay low without a parallel port (R14).
@@ -155,7 +159,7 @@ struct Chip::Impl {
   dpram::Sequencer sequencer;
 
   PinSink sink;
-  std::uint32_t watched = 0;
+  std::uint32_t watched = 0, prompt = 0;  // of these, pins whose changes must not be late
   Tick now = 0;
   Tick planned_edge = kNever;
   Plan plans;
@@ -187,6 +191,7 @@ bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
   }
   if (pin > Pin::kReady) return set_serial(at, pin, value);
   if (value == host.level(pin)) return false;
+  if (shows_late()) make_up(done());
   host.set(at, pin, value);
   if (!live) plans.host = host.next();  // else the port ignores its pins
   publish_data(at);
@@ -202,7 +207,7 @@ bool Chip::Impl::set_serial(Tick at, Pin pin, Level value) {
 }
 
 bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report) {
-  if (engine != Engine::kSkip || (watched & mask(Pin::kDOut)) != 0) return false;
+  if (engine != Engine::kSkip || (prompt & mask(Pin::kDOut)) != 0) return false;
   advance(begin);
   const Tick last = begin + access.last();
   if (plans.but_the_hosts() <= last / kTicksPerCycle || !sequencer.started_up()) return false;
@@ -223,7 +228,7 @@ Level Chip::Impl::read_unheld(Tick begin, const HostAccess& access) {
   const Tick fall = begin + std::max(access.times().select, access.times().strobe);
   advance(fall);
   host.tell_unheld(fall, access);
-  sequencer.catch_up(first_edge_after(fall) - 1);
+  make_up(first_edge_after(fall) - 1);
   const Level sampled = host.read_unheld(begin, access, sequencer.owns());
   advance(begin + access.last());
   return sampled;
@@ -270,7 +275,7 @@ void Chip::Impl::enter_reset(Tick at) {
   running = false;
   catch_up_line(done());
   station.leave_run(at);
-  sequencer.catch_up(done());  // the RAM keeps what was written before RESET fell (H6)
+  make_up(done());  // the RAM keeps what was written before RESET fell (H6)
   sequencer.reset();
   station.reset();
   interrupt.reset();
@@ -326,6 +331,7 @@ void Chip::Impl::evaluate(Tick event, Tick to) {
 }
 
 void Chip::Impl::drive(Tick at) {
+  if (shows_late()) make_up(at / kTicksPerCycle);
   live ? serial.drive() : host.drive();
   publish_data(at);
 }
@@ -337,6 +343,7 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   const bool released = cycle == plans.release;
   if (released) choose_port(cycle);
   if (due(plans.host, cycle)) {
+    make_up(cycle - 1);
     sequencer.wake(cycle - 1);  // the user's write may be a command
     if (live) {
       eval_serial(cycle);
@@ -367,7 +374,9 @@ void Chip::Impl::end_edge(Cycle cycle) {
     interrupt.eval(cycle);
     plans.interrupt = interrupt.next();
   }
-  if (running) publish_edge(cycle, edge_outputs());
+  if (!running) return;
+  if (shows_late() && ((edge_outputs() ^ outputs) & watched & ~kAccessPins) != 0) make_up(cycle - 1);
+  publish_edge(cycle, edge_outputs());
 }
 
 // Most edges of an answering chip change PBTXD only.
@@ -380,6 +389,7 @@ void Chip::Impl::send_bits(Cycle cycle, Tick to) {
   const Cycle act = std::min({other_plans, station.only_sends_until(), unheard_until(to)});
   do {
     now = cycle * kTicksPerCycle;
+    if (shows_late()) make_up(cycle - 1);
     plans.station = station.send_bit(cycle);
     publish_edge_outputs(now, (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd()));
     cycle = plans.station;
@@ -422,10 +432,17 @@ void Chip::Impl::quiet_access() {
   const Cycle begin = sequencer.next();
   now = begin * kTicksPerCycle;
   sequencer.begin_quietly();
-  publish_edge_outputs(now, outputs | owned_pins());
+  show_access(begin);
   now += dpram::Sequencer::kQuietAccess * kTicksPerCycle;
   sequencer.end_quietly();
-  publish_edge_outputs(now, outputs & ~kAccessPins);
+  show_end(begin);
+}
+
+void Chip::Impl::show_access(Cycle begin) { publish_edge_outputs(begin * kTicksPerCycle, outputs | owned_pins()); }
+
+// The end of an access without work.
+void Chip::Impl::show_end(Cycle begin) {
+  publish_edge_outputs((begin + dpram::Sequencer::kQuietAccess) * kTicksPerCycle, outputs & ~kAccessPins);
 }
 
 // The user requests no DPRAM, and no work waits for an access.
@@ -457,6 +474,7 @@ void Chip::Impl::release(Cycle cycle) {
 
 // Returns true if the edge had an effect that must be reported.
 bool Chip::Impl::eval_sequencer(Cycle cycle) {
+  const bool owned = sequencer.owns();
   if (due(plans.handshake, cycle)) {
     handshake.eval(cycle);
     if (!live) sequencer.user_holds(handshake.user_holds());
@@ -468,7 +486,7 @@ bool Chip::Impl::eval_sequencer(Cycle cycle) {
     plans.interrupt = interrupt.next();
     plans.station = station.next();
   }
-  doze_if_unseen();
+  doze_if_unseen(owned && !sequencer.owns());
   plans.sequencer = sequencer.next();
   return has_effect;
 }
@@ -486,34 +504,58 @@ void Chip::Impl::catch_up_line(Cycle upto) {
 // station's actions at this edge.
 void Chip::Impl::eval_station(Cycle cycle) {
   const bool changes_mail = station.may_act(cycle);
-  if (sequencer.dozing() && changes_mail) sequencer.catch_up(cycle);
+  if (sequencer.dozing() && changes_mail) make_up(cycle);
   station.eval(cycle);
   plans.station = station.next();
   if (!sequencer.dozing() || !changes_mail || sequencer.nothing_due()) return;
-  sequencer.wake(cycle);
+  sequencer.wake(cycle);  // nothing is left to make up
   plans.sequencer = sequencer.next();
 }
 
-// An access without work is visible only on L_REQ and L_STA, and to a user who requests the DPRAM.
-void Chip::Impl::doze_if_unseen() {
-  if (engine == Engine::kSkip && (watched & kAccessPins) == 0 && unasked()) sequencer.doze();
+// An access without work is visible only on L_REQ and L_STA, and to a user who requests the DPRAM. If these are
+// watched, the first one after a request is not late: it shows that the user's hold is over.
+void Chip::Impl::doze_if_unseen(bool ended) {
+  const bool unseen = (prompt & kAccessPins) == 0 && (ended || (watched & kAccessPins) == 0);
+  if (engine == Engine::kSkip && unseen && unasked()) sequencer.doze();
 }
 
 void Chip::Impl::wake() {
   if (!sequencer.dozing()) return;
+  make_up(done());
   sequencer.wake(done());
   plans.sequencer = sequencer.next();
   update_access_pins();
 }
 
+// Simulates accesses up to and including `until`. While the sequencer dozes, those that end or are the last two are
+// shown.
+void Chip::Impl::make_up(Cycle until) {
+  const bool shows = shows_late(), owned = sequencer.owns();
+  const Cycle before = sequencer.began();
+  const std::uint64_t accesses = sequencer.accesses();
+  sequencer.catch_up(until);
+  if (!shows) return;
+  const std::uint64_t made = sequencer.accesses() - accesses;
+  const Cycle last = sequencer.began();
+  if (owned && (made > 0 || !sequencer.owns())) show_end(before);
+  if (made > 1) {
+    show_access(last - sequencer.period());
+    show_end(last - sequencer.period());
+  }
+  if (made > 0) show_access(last);
+  if (made > 0 && !sequencer.owns()) show_end(last);
+}
+
 void Chip::Impl::catch_up() {
-  sequencer.catch_up(done());
+  make_up(done());
   if (sequencer.dozing()) update_access_pins();
 }
 
 // Updates only these pins: in the middle of an edge, when an event's listener reads pins, the others are not reported
-// yet.
-void Chip::Impl::update_access_pins() { outputs = (outputs & ~kAccessPins) | access_pins(); }
+// yet. If they are watched, they change with a report.
+void Chip::Impl::update_access_pins() {
+  if ((watched & kAccessPins) == 0) outputs = (outputs & ~kAccessPins) | access_pins();
+}
 
 // --- outputs ---------------------------------------------------------------------------------------------------------
 
@@ -581,9 +623,9 @@ Level Chip::Impl::level(Pin pin) const {
 template <class Archive>
 void Chip::Impl::store(Archive& archive) {
   auto& [its_engine, its_log, its_ram, its_station, its_host, its_handshake, its_interrupt, its_sequencer, its_sink,
-         its_watched, its_now, its_edge, its_plans, its_other_plans, its_reset, runs, its_req, its_sta, its_rxd,
-         its_outputs, is_live, its_d, its_miso, its_serial, its_config] = *this;
-  archive.given(its_engine, its_log, its_sink, its_watched, its_edge, its_other_plans, its_config);
+         its_watched, its_prompt, its_now, its_edge, its_plans, its_other_plans, its_reset, runs, its_req, its_sta,
+         its_rxd, its_outputs, is_live, its_d, its_miso, its_serial, its_config] = *this;
+  archive.given(its_engine, its_log, its_sink, its_watched, its_prompt, its_edge, its_other_plans, its_config);
   archive.within(Tick{0}, Tick{1} << 62, its_now);
   archive(its_ram, its_station, its_host, its_handshake, its_interrupt, its_sequencer, its_serial, its_plans);
   archive(its_reset, runs, its_req, its_sta, its_rxd, is_live);
@@ -602,12 +644,13 @@ bool Chip::Impl::is_possible() const {
          right(plans.interrupt, interrupt.next()) && sequencer.is_possible(over);
 }
 
-// Observers stay attached; with step, or if they watch accesses, the chip wakes.
+// Observers stay attached; with step, or if they watch accesses and not late, the chip wakes.
 void Chip::Impl::take_over(const Impl& observed) {
   log = observed.log;
+  if (engine == Engine::kStep || (observed.prompt & kAccessPins) != 0) wake();
   sink = observed.sink;
   watched = observed.watched;
-  if (engine == Engine::kStep || (watched & kAccessPins) != 0) wake();
+  prompt = observed.prompt;
   plan();
 }
 
@@ -677,11 +720,12 @@ Level Chip::level(Pin pin) const {
   return impl_->level(pin);
 }
 
-void Chip::watch(const PinSink& sink, std::uint32_t pins) {
+void Chip::watch(const PinSink& sink, std::uint32_t pins, bool late) {
   impl_->wake();
   impl_->plan();
   impl_->sink = sink;
   impl_->watched = sink.call != nullptr ? pins & kRsuOutputPins : 0;
+  impl_->prompt = late ? impl_->watched & ~(kAccessPins | mask(Pin::kDOut)) : impl_->watched;
 }
 
 void Chip::on_event(const profibus::EventSink& sink) { impl_->log.attach(sink); }

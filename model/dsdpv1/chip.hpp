@@ -77,7 +77,8 @@ class Chip {
   /// Executes a whole access of the host with its first edge at tick `begin`, replacing set() and sample() for each
   /// edge; a read returns `sampled`. The chip is then at the last edge. Returns false if the access must be made edge
   /// by edge, because something else happens before its last edge, it would report something, or D is watched; the chip
-  /// may then have advanced to `begin`. With `may_report` a read may report that the host does not hold the DPRAM.
+  /// may then have advanced to `begin`. With `may_report` a read may report that the host does not hold the DPRAM. If D
+  /// is watched and its changes may be late, the caller reports them: they follow from the access.
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report = false);
   /// True if only the host can observe the access, whatever happens on the line meanwhile: it keeps all limits, the
   /// host holds the DPRAM, and D is not watched. Its edges may then be set later than other events, but in their order
@@ -126,8 +127,11 @@ class Chip {
   /// not count as a sample.
   Level sample(Tick at);
 
-  /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it.
-  void watch(const PinSink& sink, std::uint32_t pins);
+  /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it. With `late`,
+  /// those of L_REQ and L_STA in accesses that find no work and no request of the user may be reported later, with
+  /// their ticks, before a change of another output or of the host's pins, and before level() and status() return; of
+  /// several such accesses in sequence only the last two.
+  void watch(const PinSink& sink, std::uint32_t pins, bool late = false);
   void on_event(const profibus::EventSink& sink);
 
   /// Access to the DPRAM without pins, time or side effects: for debuggers and checks. `address` 0..0x7FF (others

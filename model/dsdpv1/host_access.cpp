@@ -72,8 +72,6 @@ void HostAccess::aim(std::uint16_t address, std::uint8_t value) {
   if (value_ < size_) edges_[value_].level = value;
 }
 
-Tick HostAccess::sample() const { return edges_[edge_of(Pin::kDOut, 0)].at; }
-
 /// The index of this edge; the number of edges if there is no such edge.
 std::size_t HostAccess::edge_of(Pin pin, Level level) const {
   const auto searched = [pin, level](const Edge& edge) { return edge.pin == pin && edge.level == level; };
@@ -102,8 +100,8 @@ HostAccess::Times HostAccess::find_times() const {
           time(Pin::kCsr, 1),
           time(strobe, 0),
           time(strobe, 1),
-          write_ ? time(Pin::kDIn, 0) : sample(),
-          write_ ? time(Pin::kDIn, kLevelZ) : sample()};
+          write_ ? time(Pin::kDIn, 0) : time(Pin::kDOut, 0),
+          write_ ? time(Pin::kDIn, kLevelZ) : time(Pin::kDOut, 0)};
 }
 
 // A read needs A from the fall of the later strobe to the next rising edge of CLK.

@@ -69,7 +69,7 @@ class HostAccess {
   /// From the first edge to the end of the recovery time.
   Tick duration() const { return duration_; }
   /// From the first edge to the sample of D; for a read.
-  Tick sample() const;
+  Tick sample() const { return times_.data; }
 
   /// When, from the first edge on, each pin is set and released. D of a read: when it is sampled.
   struct Times {

@@ -80,20 +80,22 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
 
 Bench::~Bench() = default;
 
-/// Pins needed by the bench itself are watched anyway.
-PinMask Bench::watched_pins() const {
+bool Bench::needs_all_pins() const {
   const bool wave = !options_.wave.path.empty() && !options_.wave.asleep;
-  const bool all = wave || !options_.trace.empty() || !options_.observers.empty();
-  return all ? all_of(kind_.pins()) : checks_.pins() | hosts_.pins();
+  return wave || !options_.trace.empty() || !options_.observers.empty();
 }
+
+/// Pins needed by the bench itself are watched anyway.
+PinMask Bench::watched_pins() const { return needs_all_pins() ? all_of(kind_.pins()) : checks_.pins() | hosts_.pins(); }
 
 /// True if nothing, except perhaps the wave, needs each change of each pin or each cycle.
 bool Bench::takes_runs() const { return !options_.wave.inside && options_.trace.empty() && options_.observers.empty(); }
 
 void Bench::add_slave(const scenario::Slave& slave) {
   user_cpu::StationConfig station = setup_.station(slave);
+  const bool late = !needs_all_pins() && hosts_.port() == nullptr;  // checks do not mind
   std::unique_ptr<ChipView> chip = execution_->make_chip(
-      kind_, {slave.name.text, *scenario_.chip, options_.engine, options_.wave.inside, watched_pins()});
+      kind_, {slave.name.text, *scenario_.chip, options_.engine, options_.wave.inside, watched_pins(), late});
   MakeUser make_user = kind_.make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
   auto& slaves = stations_.slaves;
   slaves.push_back(std::make_unique<SlaveStation>(slaves.size(), slave, std::move(station), std::move(chip),

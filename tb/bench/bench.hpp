@@ -89,9 +89,11 @@ class Bench : private Observer {
   bool wave_is_empty() const { return waves_ && waves_->is_empty(); }
 
  private:
+  friend class Observers;
   class BaudFollower;
 
   PinMask watched_pins() const;
+  bool needs_all_pins() const;
   bool takes_runs() const;
   void add_slave(const scenario::Slave& slave);
   void connect(MasterStation& entry);
@@ -103,7 +105,6 @@ class Bench : private Observer {
   void add_observers();
   const GdbRequest* gdb_of(const scenario::Slave& slave) const;
   ChipNews wanted_news(const ChipView& chip) const;
-  bool hears_pins() const override { return false; }
   void interrupt(std::size_t slave, Tick at, bool level) override {
     stations_.slaves[slave]->interrupt_changed(at, level);
   }

@@ -22,7 +22,6 @@ class CaptureRecorder : public Observer {
   /// file cannot be created.
   CaptureRecorder(const CaptureRequest& request, int baud, Tick from);
 
-  bool hears_pins() const override { return false; }
   void telegram(const HeardTelegram& telegram) override;
   void flag(const bus::Flag& flag) override { collector_.flagged(flag); }
   void skipped(const bus::ReceivedCharacter& character) override { collector_.skipped(character, baud_); }

@@ -25,9 +25,11 @@ class CheckWatch : public Observer {
 
   /// Slaves are numbered in the order in which they are added. Does nothing when off.
   void add(const std::string& slave, ChipView& chip);
-  bool hears_pins() const override { return on(); }
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     slaves_[slave]->checks->pin(at, pin, level);
+  }
+  void pins(std::size_t slave, const PinEdge* first, const PinEdge* last) override {
+    slaves_[slave]->checks->pins(first, last);
   }
   void read(std::size_t slave, Tick sample) override {
     if (on()) slaves_[slave]->checks->read(sample);
@@ -60,7 +62,7 @@ class CheckWatch : public Observer {
   const scenario::Scenario& scenario_;
   ChecksMode mode_;
   const Observers& observers_;
-  bool on_;  ///< tested at every change of a pin
+  bool on_;
   std::vector<std::unique_ptr<Slave>> slaves_;
   std::uint64_t failures_ = 0;
 };

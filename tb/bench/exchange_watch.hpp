@@ -19,7 +19,6 @@ class ExchangeWatch : public Observer {
   /// Both must outlive it. `stations` need not be complete yet.
   ExchangeWatch(const scenario::Scenario& scenario, const Stations& stations);
 
-  bool hears_pins() const override { return false; }
   void event(std::size_t slave, const profibus::Event& event) override;
   void master_state(Tick now, const std::string& master, const std::string& member, const std::string& state) override;
   void acts(const scenario::Action& action, Tick now) override;

@@ -22,7 +22,6 @@ class HostWatch : public Observer {
   /// The pins that must be watched, none if nothing is read.
   PinMask pins() const { return readers_.empty() ? 0 : readers_.front()->pins(); }
   void add_to(bus::Timeline& timeline);
-  bool hears_pins() const override { return !readers_.empty(); }
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override { readers_[slave]->pin(at, pin, level); }
 
  private:

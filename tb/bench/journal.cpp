@@ -63,7 +63,7 @@ void Journal::happened(const Tally& tally, Tick at, const std::string& words, co
   const auto text = [&] { return event != nullptr ? scenario_.kind->describe(*event) : words; };
   const Occurrence& sample = tally.sample;
   const bool violation = sample.severity == profibus::Severity::kViolation;
-  observers_.tell(&Observer::counted, at, sample.station, sample.code, violation, ++*tally.count);
+  observers_.counted(at, sample.station, sample.code, violation, ++*tally.count);
   if (violation) ++(sample.allowed ? allowed_ : violations_);
   if (tally.repeated != nullptr) tally.repeated->add(at, text, where);
   if (log_) {
@@ -83,7 +83,7 @@ void Journal::happened(const Tally& tally, Tick at, const std::string& words, co
 
 void Journal::violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
   const std::string id = scenario_.kind->rules()[violation.check.index].id;
-  observers_.tell(&Observer::counted, violation.found, slave, id, true, ++counts_[slave][id]);
+  observers_.counted(violation.found, slave, id, true, ++counts_[slave][id]);
   if (!log_) return;
   LogEntry entry{
       std::max(violation.found, observers_.now()), slave, kind,

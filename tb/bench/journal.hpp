@@ -29,7 +29,6 @@ class Journal : public Observer {
   std::string in_log(const bus::Bytes& bytes) const;
 
   // Observer
-  bool hears_pins() const override { return false; }
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& telegram) override;
   void violated(const std::string& slave, const checks::Violation& violation, const char* kind) override;

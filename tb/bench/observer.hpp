@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "bus/monitor/monitor.hpp"
@@ -35,8 +36,6 @@ class HeardTelegram {
 /// scenario.
 class Observer : public ChipListener {
  public:
-  /// True if it overrides pin(); read once, when it is added.
-  virtual bool hears_pins() const { return true; }
   bool acts_on_events() const override { return false; }
   /// The run begins, `chip` has its power-on levels.
   virtual void begins(std::size_t /*slave*/, const ChipView& /*chip*/) {}
@@ -75,15 +74,24 @@ class Observer : public ChipListener {
   virtual void changed(Tick /*at*/) {}
 };
 
-/// Passes the chips' events to all observers.
+/// Passes the chips' events to all observers, frequent ones to those whose class overrides the call.
 class Observers : public ChipListener {
  public:
   /// `timeline` must outlive it.
   explicit Observers(const bus::Timeline& timeline) : timeline_(timeline) {}
-  /// It must outlive the calls of `tell`.
-  void add(Observer& observer) {
+  /// It must outlive the calls of `tell`. Of a plain Observer nothing is known: it is told everything.
+  template <class Own>
+  void add(Own& observer) {
     all_.push_back(&observer);
-    if (observer.hears_pins()) of_pins_.push_back(&observer);
+    const auto add_to = [&observer](std::vector<Observer*>& list, auto own, auto inherited) {
+      if (std::is_same_v<Own, Observer> || !std::is_same_v<decltype(own), decltype(inherited)>)
+        list.push_back(&observer);
+    };
+    add_to(of_pins_, &Own::pin, &ChipListener::pin);
+    add_to(of_events_, &Own::event, &ChipListener::event);
+    add_to(of_counts_, &Own::counted, &Observer::counted);
+    add_to(of_changes_, &Own::changed, &Observer::changed);
+    add_to(actors_, &Own::acts_on_events, &Observer::acts_on_events);
   }
 
   /// tell(&Observer::pin, slave, at, pin, level)
@@ -93,7 +101,13 @@ class Observers : public ChipListener {
   }
 
   /// Tells Observer::changed; in the TLM view chips act before the timeline has come to their tick.
-  void changed(Tick at = 0) const { tell(&Observer::changed, std::max(at, timeline_.now())); }
+  void changed(Tick at = 0) const {
+    for (Observer* each : of_changes_) each->changed(std::max(at, timeline_.now()));
+  }
+  void counted(Tick at, const std::string& station, const std::string& code, bool violation,
+               std::uint64_t count) const {
+    for (Observer* each : of_counts_) each->counted(at, station, code, violation, count);
+  }
   Tick now() const { return timeline_.now(); }
 
   /// Where the program of a slave's user CPU did something; set by the bench.
@@ -103,14 +117,17 @@ class Observers : public ChipListener {
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     for (Observer* each : of_pins_) each->pin(slave, at, pin, level);
   }
+  void pins(std::size_t slave, const PinEdge* first, const PinEdge* last) override {
+    for (Observer* each : of_pins_) each->pins(slave, first, last);
+  }
   void interrupt(std::size_t slave, Tick at, bool level) override { tell(&Observer::interrupt, slave, at, level); }
   void event(std::size_t slave, const profibus::Event& event) override {
-    tell(&Observer::event, slave, event);
+    for (Observer* each : of_events_) each->event(slave, event);
     changed(event.at);
   }
   bool acts_on_events() const override {
     return std::any_of(
-        all_.begin(), all_.end(), [](const Observer* each) { return each->acts_on_events(); });
+        actors_.begin(), actors_.end(), [](const Observer* each) { return each->acts_on_events(); });
   }
   void follows(std::size_t slave, PinNumber pin) override { tell(&Observer::follows, slave, pin); }
   void read(std::size_t slave, Tick sample) override { tell(&Observer::read, slave, sample); }
@@ -123,7 +140,7 @@ class Observers : public ChipListener {
 
  private:
   const bus::Timeline& timeline_;
-  std::vector<Observer*> all_, of_pins_;
+  std::vector<Observer*> all_, of_pins_, of_events_, of_counts_, of_changes_, actors_;
 };
 
 }  // namespace dsdpv1::tb

@@ -13,7 +13,6 @@ namespace dsdpv1::tb {
 /// some come later: the sum is the same.
 class RunDigest : public Observer {
  public:
-  bool hears_pins() const override { return false; }
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& heard) override;
   void violated(const std::string& slave, const checks::Violation& violation, const char* kind) override;

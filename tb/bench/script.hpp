@@ -29,7 +29,6 @@ class Script : public bus::Agent, public Observer {
     announce();
   }
   bool acts_on_events() const override { return waits_; }
-  bool hears_pins() const override { return false; }
   Tick next() const override;
   void run(Tick now) override;
   /// Judges the expectations for the end; an expectation whose time did not come has failed, as have those for the end

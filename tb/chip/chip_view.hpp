@@ -53,6 +53,12 @@ class ChipListener {
 
   /// Changes of the watched pins, in order of time.
   virtual void pin(std::size_t /*slave*/, Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
+  /// Several of them. With ChipRequest::late those of an access come when it is over, if nobody acts in between; those
+  /// of many accesses of the chip to its memory that nothing else shows, with the next change of another pin, and only
+  /// the last ones: as many as PinHistory keeps.
+  virtual void pins(std::size_t slave, const PinEdge* first, const PinEdge* last) {
+    for (; first != last; ++first) pin(slave, first->at, first->pin, first->level);
+  }
   /// The pin that interrupts the user CPU, reported before pin().
   virtual void interrupt(std::size_t /*slave*/, Tick /*at*/, bool /*level*/) {}
   virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}

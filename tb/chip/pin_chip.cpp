@@ -1,5 +1,6 @@
 #include "tb/chip/pin_chip.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "model/profibus/addressee.hpp"
@@ -15,7 +16,7 @@ static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody 
 }  // namespace
 
 PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, const PinTable& pins,
-                 const BoardPins& places, PinMask watched, bus::Segment& segment)
+                 const BoardPins& places, PinMask watched, bus::Segment& segment, bool late)
     : device_(std::move(device)),
       pins_(pins),
       places_(places),
@@ -24,7 +25,7 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, con
       station_(segment.attach(name, this)),
       line_(segment, station_),
       inputs_(pins.size()) {
-  begin_watch(watched);
+  begin_watch(watched, late);
   device_->on_event({[](void* self, const profibus::Event& event) {
                        auto& chip = *static_cast<PinChip*>(self);
                        if (chip.acts_on_events()) chip.pause_access();
@@ -33,17 +34,18 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, con
                      this});
 }
 
-void PinChip::begin_watch(PinMask pins) {
+void PinChip::begin_watch(PinMask pins, bool late) {
   const PinMask inputs = inputs_of(pins_),
                 needed = mask_of(places_.txd) | mask_of(places_.rts) | mask_of(places_.interrupt) | places_.told;
+  reports_late_ = late;
   reports_host_ = (pins & inputs & ~mask_of(places_.rxd)) != 0;
   reports_rxd_ = (pins & mask_of(places_.rxd)) != 0;
   reports_txd_ = (pins & mask_of(places_.txd)) != 0;
-  device_->watch({[](void* self, Tick at, PinNumber pin, Level level) {
-                    static_cast<PinChip*>(self)->pin_changed(at, pin, level);
-                  },
-                  this},
-                 (pins & ~inputs) | needed);
+  const PinSink sink = {
+      [](void* self, Tick at, PinNumber pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
+      this};
+  const PinMask outputs = (pins & ~inputs) | needed;
+  late ? device_->watch_late(sink, outputs) : device_->watch(sink, outputs);
   for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_[pin] = device_->level(static_cast<PinNumber>(pin));
 }
 
@@ -51,7 +53,7 @@ void PinChip::begin_watch(PinMask pins) {
 void PinChip::watch(Tick now, PinMask pins) {
   segment_.cut_run(now);
   device();
-  begin_watch(pins);
+  begin_watch(pins, false);
   segment_.set_deafness(station_, {});
   segment_.set_filter(station_, {});
   update_hearing();
@@ -174,6 +176,13 @@ void PinChip::set_pin(Tick at, PinNumber pin, Level level) {
 void PinChip::poke(Tick now, std::uint16_t address, std::uint8_t value) {
   sync(now);
   device_->poke(address, value);
+}
+
+void PinChip::report_edges(PinEdge* first, PinEdge* last) {
+  const auto is_known = [this](const PinEdge& edge) {
+    return std::exchange(inputs_[edge.pin], edge.level) == edge.level;
+  };
+  listener_->pins(number_, first, std::remove_if(first, last, is_known));
 }
 
 void PinChip::report_inputs(Tick at, PinNumber first, PinNumber last) {

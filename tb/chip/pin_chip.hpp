@@ -21,9 +21,9 @@ struct BoardPins {
 /// line.
 class PinChip : public ChipView, public bus::Agent, private bus::Listener {
  public:
-  /// `watched`: pins whose changes are reported (ChipRequest::watched).
+  /// `watched`: pins whose changes are reported, `late`: as in ChipRequest.
   PinChip(const std::string& name, std::unique_ptr<PinDevice> device, const PinTable& pins, const BoardPins& places,
-          PinMask watched, bus::Segment& segment);
+          PinMask watched, bus::Segment& segment, bool late = false);
 
   void set_reset(Tick at, bool level) override;
   void reset_host(Tick /*at*/) override {}
@@ -67,8 +67,11 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   virtual void catch_up_host(Tick /*at*/) {}
   /// One of BoardPins::told has changed.
   virtual void host_pin_changed(Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
-  /// True if changes of the user's pins are reported.
+  /// True if changes of the user's pins are reported; true if those of a whole access may be so at its end.
   bool reports_host() const { return reports_host_; }
+  bool reports_late() const { return reports_late_; }
+  /// Reports changes, in order of time, of which inputs may be to the present level.
+  void report_edges(PinEdge* first, PinEdge* last);
   /// Reports the inputs from `first` to `last` that have changed since their last report, in the order of their
   /// numbers; all except `rxd`, if they are wanted.
   void report_host(Tick at, PinNumber first, PinNumber last) {
@@ -86,7 +89,7 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   void catch_up(Tick at) {
     if (put_off_) catch_up_host(at);
   }
-  void begin_watch(PinMask pins);
+  void begin_watch(PinMask pins, bool late);
   void line_changed(Tick at, bool level) override;
   bool run_begins(const bus::CharacterRun& run) override;
   void runs_passed(std::uint64_t for_stations) override;
@@ -102,7 +105,7 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   bus::Segment& segment_;
   bus::StationId station_;
   LineDriver line_;
-  bool reports_host_ = false, reports_rxd_ = false, reports_txd_ = false, catching_up_ = false;
+  bool reports_host_ = false, reports_late_ = false, reports_rxd_ = false, reports_txd_ = false, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
   std::vector<Level> inputs_;  ///< by pin, as last reported
 };

@@ -38,6 +38,9 @@ class PinDevice {
   virtual Level sample(Tick at) = 0;
   /// Reports changes of the outputs in `pins`. One sink; a second call replaces it.
   virtual void watch(const PinSink& sink, PinMask pins) = 0;
+  /// As watch(). Changes that nobody can react to may be reported later, with their ticks, before those of other pins;
+  /// of many without a cause only the last, at least as many as PinHistory keeps.
+  virtual void watch_late(const PinSink& sink, PinMask pins) { watch(sink, pins); }
   virtual void on_event(const profibus::EventSink& sink) = 0;
 
   // --- Telegrams as a whole. Optional for devices that receive and show each change.

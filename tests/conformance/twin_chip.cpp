@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "model/profibus/addressee.hpp"
 #include "registers/dsdpv1_regs.hpp"
@@ -41,6 +42,7 @@ void compare_lists(const std::vector<T>& skip, const std::vector<T>& other, std:
                                        << words(skip.size() > other.size() ? skip[compared] : other[compared]);
 }
 
+constexpr unsigned kEachWay = 16;  // comparisons
 constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
 
 unsigned restored_every(unsigned usual) {
@@ -67,13 +69,14 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
     : segment_(segment),
       station_(segment.attach("chip", this)),
       twin_(engines == Engines::kStepAndSkip),
+      outputs_(outputs_of(config.part)),
       skip_(with_engine(config, dsdpv1::Engine::kSkip)),
       step_(with_engine(config, dsdpv1::Engine::kStep)),
       doze_(with_engine(config, dsdpv1::Engine::kSkip)),
       rtl_(twin_ ? RtlTwin::make(config) : nullptr) {
   skip_.watch({&on_skip_pin, this}, twin_ ? outputs_of(config.part) : mask(Pin::kPbtxd) | mask(Pin::kPbrts));
   step_.watch({&on_step_pin, this}, outputs_of(config.part));
-  doze_.watch({&on_doze_pin, this}, outputs_of(config.part) & ~kAccessPins);
+  watch_doze(false);
   skip_.on_event({&on_skip_event, this});
   step_.on_event({&on_step_event, this});
   doze_.on_event({&on_doze_event, this});
@@ -170,6 +173,8 @@ void TwinChip::compare(Tick at) {
   compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");
   compare_lists(events_, doze_events_, compared_doze_events_, "doze");
   compare_state();
+  compare_late();
+  if (++comparisons_ % kEachWay == 0) watch_doze(!late_);
   restorer_.compared({&skip_, &step_, &doze_});
   filter_for_doze();
 }
@@ -180,6 +185,27 @@ void TwinChip::compare_state() const {
   ASSERT_EQ(doze_.status().accesses, step_.status().accesses);
   ASSERT_EQ(doze_.status().telegrams_received, step_.status().telegrams_received);
   ASSERT_EQ(doze_.peek(dsdpv1::regs::kAccessCount), step_.peek(dsdpv1::regs::kAccessCount));
+}
+
+void TwinChip::watch_doze(bool late) {
+  late_ = late;
+  late_since_ = doze_.now();
+  doze_.watch({&on_doze_pin, this}, late ? outputs_ : outputs_ & ~kAccessPins, late);
+}
+
+// It may leave out changes of L_REQ and L_STA, but invents none, and knows the last ones when it is asked.
+void TwinChip::compare_late() {
+  const auto is_access = [](const PinChange& change) { return (mask(change.pin) & kAccessPins) != 0; };
+  for (; compared_late_ < late_trace_.size(); ++compared_late_) {
+    const PinChange& change = late_trace_[compared_late_];
+    while (late_place_ < trace_.size() && !(trace_[late_place_] == change)) ++late_place_;
+    ASSERT_LT(late_place_, trace_.size()) << "late: " << words(change);
+  }
+  const auto last = std::find_if(trace_.rbegin(), trace_.rend(), is_access);
+  if (late_ && last != trace_.rend() && last->at > late_since_) {
+    ASSERT_FALSE(late_trace_.empty()) << "late: without " << words(*last);
+    ASSERT_TRUE(late_trace_.back() == *last) << words(late_trace_.back()) << " instead of " << words(*last);
+  }
 }
 
 void TwinChip::on_skip_pin(void* self, Tick at, Pin pin, Level level) {
@@ -195,7 +221,10 @@ void TwinChip::on_step_pin(void* self, Tick at, Pin pin, Level level) {
 }
 
 void TwinChip::on_doze_pin(void* self, Tick at, Pin pin, Level level) {
-  static_cast<TwinChip*>(self)->doze_trace_.push_back({at, pin, level});
+  auto& twin = *static_cast<TwinChip*>(self);
+  const bool access = (mask(pin) & kAccessPins) != 0;
+  EXPECT_GE(at, std::exchange(twin.doze_told_, at)) << dsdpv1::name(pin);
+  (access ? twin.late_trace_ : twin.doze_trace_).push_back({at, pin, level});
 }
 
 void TwinChip::on_doze_event(void* self, const profibus::Event& event) {

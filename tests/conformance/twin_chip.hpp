@@ -1,10 +1,10 @@
 #pragma once
 // The chip under test, three times with the same pins: one evaluated in every cycle (step), one sleeping between its
-// actions (skip), and one that dozes. The third has no observer of L_REQ and L_STA, so it also sleeps through quiet
-// accesses. It takes whole runs of characters, except those for others, or else hears the line as late as it may. Every
-// difference of pins or events fails the test, so each conformance test also proves that they agree. From time to time
-// one of them continues from its saved state (Chip::save), which proves that the state is complete. If the environment
-// requests it, the reference RTL is a fourth (rtl_twin.hpp).
+// actions (skip), and one that dozes. The third has no observer of L_REQ and L_STA, or one that may hear of them late,
+// in turns, so it also sleeps through quiet accesses. It takes whole runs of characters, except those for others, or
+// else hears the line as late as it may. Every difference of pins or events fails the test, so each conformance test
+// also proves that they agree. From time to time one of them continues from its saved state (Chip::save), which proves
+// that the state is complete. If the environment requests it, the reference RTL is a fourth (rtl_twin.hpp).
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
@@ -78,6 +78,8 @@ class TwinChip : public bus::Agent, public bus::Listener {
   void filter_for_doze();
   void leave_run_with_doze(Tick at);
   void compare_state() const;
+  void watch_doze(bool late);
+  void compare_late();
 
   /// Hears for doze_.
   class Ear : public bus::Listener {
@@ -99,11 +101,17 @@ class TwinChip : public bus::Agent, public bus::Listener {
   bus::Segment& segment_;
   bus::StationId station_, doze_station_ = 0;
   const bool twin_;
+  const std::uint32_t outputs_;
   Ear ear_{*this};
   dsdpv1::Chip skip_, step_, doze_;
   const std::unique_ptr<RtlTwin> rtl_;
   std::vector<Unheard> unheard_;  // changes of the line that doze_ has not been told yet
   std::vector<PinChange> trace_, step_trace_, unwatched_trace_, doze_trace_;  // unwatched: trace_ without L_REQ, L_STA
+  std::vector<PinChange> late_trace_;                                         // of doze_: L_REQ, L_STA
+  bool late_ = false;
+  Tick late_since_ = 0, doze_told_ = 0;
+  unsigned comparisons_ = 0;
+  std::size_t compared_late_ = 0, late_place_ = 0;
   std::vector<profibus::Event> events_, step_events_, doze_events_;
   Restorer restorer_{100};
   std::size_t compared_pins_ = 0, compared_events_ = 0, compared_doze_pins_ = 0, compared_doze_events_ = 0;

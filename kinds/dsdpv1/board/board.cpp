@@ -107,6 +107,7 @@ void Board::run_devices(Tick now) {
     if (serial_tick() <= now) serial_.run(now, bus_), look_for_overruns();
     if (timer_tick() <= now) catch_up_timers();
   }
+  devices_acted_ = true;
   if ((device_requests() << kExtiIrq.size() & ~requests_) != 0) cpu_.wake(now);
 }
 
@@ -181,6 +182,7 @@ void Board::storm(unsigned irq, std::uint32_t pc) {
 /// Called while the chip acts, possibly before this agent's turn; the processor may be ahead.
 void Board::txd_changed(Tick at, bool level) {
   serial_.txd_changed(cycle_of(std::max(at, since_)), level);
+  devices_acted_ = true;
   announce();
   if (on_plan) on_plan();
 }
@@ -321,17 +323,19 @@ void Board::meet_devices() {
 /// The processor may stay ahead of the other agents as long as none of them is due.
 std::uint64_t Board::keep_up() {
   if (acts_.sample_at() <= now()) acts_.sample(now(), core_.place(), core_.read_register(Register::kLr));
-  if (has_news() || stays_until() <= now()) come_up();
+  const Tick next = stays_until();
+  const bool ahead = !has_news() && next > now();
+  if (ahead && core_.cycles() < look_at_) return due_cycle(next);
+  if (!ahead) come_up();
   if (core_.cycles() >= look_at_) look_if_stuck();
-  return next_due();
+  return due_cycle(stays_until());
 }
 
-/// The cycle up to which the processor may stay ahead.
-std::uint64_t Board::next_due() {
-  return std::min(look_at_, cycle_of(std::max(std::min(stays_until(), acts_.sample_at()), now())));
+std::uint64_t Board::due_cycle(Tick next) const {
+  return std::min(look_at_, cycle_of(std::max(std::min(next, acts_.sample_at()), now())));
 }
 
-/// A chip that runs ahead reports its edges before their time.
+/// Up to when the processor may stay ahead. A chip that runs ahead reports its edges before their time.
 Tick Board::stays_until() {
   const Tick quiet = quiet_until();
   return intr0_edges_.empty() ? quiet : std::min(quiet, intr0_edges_.front().at);
@@ -382,6 +386,7 @@ void Board::reset() {
 /// Returns true for a new interrupt request or an event.
 bool Board::take_intr0_edges() {
   const unsigned before = requests_;
+  if (!devices_acted_ && intr0_edges_.empty()) return false;
   for (; !intr0_edges_.empty() && intr0_edges_.front().at <= pins_->now(); intr0_edges_.pop_front()) {
     intr0_ = intr0_edges_.front().level;
     exti_.edge(intr0_pin_.port, intr0_pin_.pin, intr0_);
@@ -396,6 +401,7 @@ bool Board::update_interrupts() {
     return i < kExtiIrq.size() ? kExtiIrq.at(i) : kDeviceIrq.at(i - kExtiIrq.size());
   };
   requests_ = now;
+  devices_acted_ = false;
   for (std::size_t i = 0; changed >> i != 0; ++i)
     if ((changed >> i & 1U) != 0) core_.set_interrupt_level(irq(i), (now >> i & 1U) != 0);
   const bool event = exti_.take_event();

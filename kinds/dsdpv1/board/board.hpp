@@ -117,7 +117,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::uint32_t load(std::uint32_t address, unsigned bytes) override;
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   std::uint64_t keep_up() override;
-  std::uint64_t next_due();
+  std::uint64_t due_cycle(Tick next) const;
   Tick stays_until();
   std::optional<std::uint32_t> peek(std::uint32_t address) const override;
   std::vector<MemoryRegion> regions() const override;
@@ -244,7 +244,8 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   bool intr0_ = true;
   bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
   user_cpu::HandshakeCounters handshake_;
-  unsigned requests_ = 0;  ///< of exti_ and, above them, device_requests(), as last passed to the processor
+  bool devices_acted_ = false;  ///< since the last update of requests_
+  unsigned requests_ = 0;       ///< of exti_ and, above them, device_requests(), as last passed to the processor
   std::set<std::pair<std::uint32_t, unsigned>> noted_;  ///< by is_new
   std::vector<std::string> notes_;
   std::optional<Fault> fault_;  ///< that the firmware would have handled

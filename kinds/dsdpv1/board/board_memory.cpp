@@ -207,7 +207,7 @@ std::uint32_t Board::load_word(std::uint32_t address) {
   const std::uint32_t value = load_register(*here, address - here->base);
   if (stays(*here)) {
     polls_ = true;
-    core_.stays(next_due());
+    core_.stays(due_cycle(stays_until()));
   }
   return value;
 }

@@ -3,10 +3,17 @@
 #include <utility>
 
 namespace dsdpv1::checks {
+namespace {
+
+constexpr std::uint32_t kPortPins =
+    mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kWr) | mask(Pin::kA) | mask(Pin::kDIn) | mask(Pin::kDOut);
+
+}  // namespace
 
 void Checks::pin(Tick at, Pin pin, Level level) {
   if ((dsdpv1::mask(pin) & pins_) == 0) return;
   history_.add(at, static_cast<tb::PinNumber>(pin), level);
+  if (!serial() && (dsdpv1::mask(pin) & kPortPins) != 0) return port_pin(at, pin, level);
   if (strap(pin, level)) return;
   if (pin == Pin::kReset)
     reset_pin(at, level != 0);
@@ -20,6 +27,10 @@ void Checks::pin(Tick at, Pin pin, Level level) {
     uart_.pin(at, pin, level);
   else if (!in_reset_)
     spi_pin(at, pin, level);
+}
+
+void Checks::pins(const tb::PinEdge* first, const tb::PinEdge* last) {
+  for (; first != last; ++first) pin(first->at, static_cast<Pin>(first->pin), first->level);
 }
 
 bool Checks::strap(Pin pin, Level level) {
@@ -50,18 +61,18 @@ void Checks::spi_pin(Tick at, Pin pin, Level level) {
   frames_.pin(at, pin, level);
 }
 
+/// Most changes.
+void Checks::port_pin(Tick at, Pin pin, Level level) {
+  end_hold_before(at);
+  port_.pin(at, pin, level);
+}
+
 void Checks::parallel_pin(Tick at, Pin pin, Level level) {
   end_hold_before(at);
   switch (pin) {
     case Pin::kRReq:
     case Pin::kRSta: return handshake(at, pin, level != 0);
     case Pin::kLSta: return ownership_.l_sta(at, level != 0);
-    case Pin::kCsr:
-    case Pin::kRd:
-    case Pin::kWr:
-    case Pin::kA:
-    case Pin::kDIn:
-    case Pin::kDOut: return port_.pin(at, pin, level);
     default: return;
   }
 }

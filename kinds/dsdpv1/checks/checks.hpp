@@ -63,6 +63,7 @@ class Checks : public ChipChecks, private AccessSink {
   void pin(Tick at, tb::PinNumber pin, tb::Level level) override {
     this->pin(at, static_cast<dsdpv1::Pin>(pin), level);
   }
+  void pins(const tb::PinEdge* first, const tb::PinEdge* last) override;
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void read(Tick sample) override { port_.read(sample); }
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
@@ -80,6 +81,7 @@ class Checks : public ChipChecks, private AccessSink {
 
   bool serial() const { return settings_.mode == kSpi || settings_.mode == kUart; }
   bool strap(dsdpv1::Pin pin, Level level);
+  void port_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void parallel_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void spi_pin(Tick at, dsdpv1::Pin pin, Level level);
   void intr0_pin(Tick at, bool level);

@@ -11,14 +11,14 @@ ChipStatus status_of(const dsdpv1::Chip& core) {
   return status;
 }
 
-void CoreDevice::watch(const PinSink& sink, PinMask pins) {
+void CoreDevice::watch(const PinSink& sink, PinMask pins, bool late) {
   sink_ = sink;
   chip_.watch({[](void* self, Tick at, dsdpv1::Pin pin, Level level) {
                  const PinSink& to = static_cast<CoreDevice*>(self)->sink_;
                  to.call(to.self, at, number(pin), level);
                },
                this},
-              sink.call == nullptr ? 0 : pins);
+              sink.call == nullptr ? 0 : pins, late);
 }
 
 }  // namespace dsdpv1::tb

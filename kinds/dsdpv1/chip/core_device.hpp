@@ -22,7 +22,8 @@ class CoreDevice : public PinDevice {
   Tick next_seen() const override { return chip_.next_seen(); }
   Level level(PinNumber pin) const override { return chip_.level(static_cast<dsdpv1::Pin>(pin)); }
   Level sample(Tick at) override { return chip_.sample(at); }
-  void watch(const PinSink& sink, PinMask pins) override;
+  void watch(const PinSink& sink, PinMask pins) override { watch(sink, pins, false); }
+  void watch_late(const PinSink& sink, PinMask pins) override { watch(sink, pins, true); }
   void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
 
   profibus::Unheard unheard() const override { return chip_.unheard(); }
@@ -53,6 +54,8 @@ class CoreDevice : public PinDevice {
   const dsdpv1::Chip& chip() const { return chip_; }
 
  private:
+  void watch(const PinSink& sink, PinMask pins, bool late);
+
   dsdpv1::Chip chip_;
   PinSink sink_;
   InsideWatch inside_;

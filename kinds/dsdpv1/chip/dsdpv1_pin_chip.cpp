@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "kinds/dsdpv1/chip/core_device.hpp"
@@ -28,8 +30,8 @@ std::string words_of(const user_cpu::Access& access) {
 std::string words_of(const char* pin, bool level) { return fmt::format("{} {}", pin, level ? 1 : 0); }
 
 Dsdpv1PinChip::Dsdpv1PinChip(const std::string& name, std::unique_ptr<PinDevice> device, Part part, PinMask watched,
-                             bus::Segment& segment)
-    : PinChip(name, std::move(device), pins_of(part), kDsdpv1BoardPins, watched, segment),
+                             bus::Segment& segment, bool late)
+    : PinChip(name, std::move(device), pins_of(part), kDsdpv1BoardPins, watched, segment, late),
       part_(part),
       core_(core_of(*device_)) {
   pins_.emplace(*device_, core_);
@@ -117,9 +119,38 @@ void Dsdpv1PinChip::catch_up_host(Tick at) {
 void Dsdpv1PinChip::run_edges(Tick until) {
   hear_line();
   pauses_ = put_off_ = false;
-  const bool whole = !reports_host() && until >= pins_->last_edge() && pins_->run_whole(!acts_on_events());
-  if (!whole) run_edges_singly(until);
+  if (until < pins_->last_edge() || !run_whole()) run_edges_singly(until);
   plan_again();
+}
+
+bool Dsdpv1PinChip::run_whole() {
+  const bool quiet = !acts_on_events();
+  if (!reports_host()) return pins_->run_whole(quiet);
+  if (!reports_late() || !quiet || !pins_->run_whole(false)) return false;
+  report_whole(pins_->access(), pins_->last_edge() - pins_->access().last());
+  return true;
+}
+
+/// The edges as the user CPU and the chip have made them; the chip drives D at a falling edge of its clock (P5).
+void Dsdpv1PinChip::report_whole(const dsdpv1::HostAccess& access, Tick begin) {
+  std::array<PinEdge, 11> edges;  // 8, or 7 and 4 of D
+  PinEdge* last = edges.data();
+  const auto insert = [&](Tick at, Pin pin, Level level) {
+    PinEdge* place = last++;
+    for (; place != edges.data() && place[-1].at > at; --place) *place = place[-1];
+    *place = {at, number(pin), level};
+  };
+  for (const dsdpv1::HostAccess::Edge& edge : access)
+    if (edge.pin != Pin::kDOut) insert(begin + edge.at, edge.pin, edge.level);
+  if (!access.is_write()) {
+    const dsdpv1::HostAccess::Times& times = access.times();
+    const Tick fall = begin + std::max(times.select, times.strobe);
+    const Tick drive = profibus::first_edge_after(fall) * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2;
+    insert(fall, Pin::kDOut, dsdpv1::kLevelX);
+    insert(drive, Pin::kDOut, read_value());
+    insert(begin + std::min(times.select_end, times.strobe_end), Pin::kDOut, dsdpv1::kLevelZ);
+  }
+  report_edges(edges.data(), last);
 }
 
 void Dsdpv1PinChip::run_edges_singly(Tick until) {

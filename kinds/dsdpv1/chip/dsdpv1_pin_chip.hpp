@@ -16,7 +16,7 @@ extern const BoardPins kDsdpv1BoardPins;
 class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
  public:
   Dsdpv1PinChip(const std::string& name, std::unique_ptr<PinDevice> device, Part part, PinMask watched,
-                bus::Segment& segment);
+                bus::Segment& segment, bool late = false);
 
   /// Sets the straps of a DSDPV1-RSU, before anything else.
   void strap(const Straps& levels);
@@ -33,6 +33,8 @@ class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
   void report(Tick at, dsdpv1::Pin first, dsdpv1::Pin last);
   void report_access(Tick at);
   void run_edges_singly(Tick until);
+  bool run_whole();
+  void report_whole(const dsdpv1::HostAccess& access, Tick begin);
 
   // user_cpu::HostBus
   void set_serial(Tick at, dsdpv1::Pin pin, bool level) override;
@@ -44,7 +46,7 @@ class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
   bool intr0(Tick at) override { return pins().intr0(at); }
   unsigned lamps(Tick at) override { return pins().lamps(at); }
   /// RTL may need a larger stack than a program has.
-  bool is_looked_at_from_anywhere() const override { return core_ != nullptr; }
+  bool is_used_from_anywhere() const override { return core_ != nullptr; }
   void begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return pins_->next_edge(); }
   bool put_off() override;

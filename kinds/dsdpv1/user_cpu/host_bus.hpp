@@ -18,7 +18,7 @@ struct Access {
 /// Implemented by PinHostBus on the pins of the core, and by adapters to a socket: such a bus has one edge, the end of
 /// the access.
 ///
-/// Calls come in order of time, all from `bus::Agent::run` of the CPU, on the stack of the bench.
+/// Calls come in order of time, all during `bus::Agent::run` of the CPU, on the stack of the bench.
 class HostBus : public SerialPins {
  public:
   virtual void set_r_req(Tick at, bool level) = 0;
@@ -29,8 +29,8 @@ class HostBus : public SerialPins {
   virtual bool intr0(Tick at) = 0;
   /// The lamps' pins at `at`: PBF in bit 0, BR in bit 1, READY in bit 2.
   virtual unsigned lamps(Tick /*at*/) { return 0; }
-  /// Whether these pins may be sampled outside the bench's stack.
-  virtual bool is_looked_at_from_anywhere() const { return false; }
+  /// Whether these calls may come from the stack of the CPU's program.
+  virtual bool is_used_from_anywhere() const { return false; }
 
   /// Begins an access whose first edge is at `at`. Only one runs at a time.
   virtual void begin(Tick at, const Access& access, const AccessTiming& timing) = 0;

@@ -38,7 +38,7 @@ void NativeCpu::go_on_program() {
   if (request_.op == Op::kAccess) end_access();
   request_.op = Op::kNone;
   fiber_.resume();
-  take_request();
+  if (!std::exchange(begun_, false)) take_request();
 }
 
 /// No other agent has a turn before `at`, this CPU's next one: continue with it in this turn.
@@ -121,8 +121,26 @@ Tick NativeCpu::break_tick() const {
 
 void NativeCpu::perform(const Request& request) {
   request_ = request;
-  fiber_.suspend();
+  if (!made_at_once()) fiber_.suspend();
   serve_interrupt();
+}
+
+/// On the program's stack, in this turn: if the pins may be moved there, and no other agent has a turn up to its end.
+bool NativeCpu::made_at_once() {
+  if (request_.op >= Op::kWait || others == nullptr || !bus_.is_used_from_anywhere() || fiber_.unwinding())
+    return false;
+  take_request();
+  begun_ = !is_over_by_itself() || (ready_at_ > now_ && !others->go_on(ready_at_));
+  if (begun_) return false;
+  now_ = std::max(now_, ready_at_);
+  if (request_.op == Op::kAccess) end_access();
+  request_.op = Op::kNone;
+  return true;
+}
+
+/// Only time has to pass.
+bool NativeCpu::is_over_by_itself() const {
+  return request_.op != Op::kAccess || (!put_off_ && bus_.next_edge() == bus::kNever);
 }
 
 void NativeCpu::serve_interrupt() {
@@ -139,7 +157,7 @@ void NativeCpu::serve_interrupt() {
 
 std::uint8_t NativeCpu::read(std::uint16_t address) {
   request_ = {Op::kAccess, {false, address, 0}, false, 0, nullptr};
-  fiber_.suspend();
+  if (!made_at_once()) fiber_.suspend();
   const std::uint8_t value = bus_.read_value();  // before a handler reads another
   serve_interrupt();
   return value;
@@ -153,25 +171,18 @@ void NativeCpu::set_r_req(bool level) { perform({Op::kSetRReq, {}, level, 0, nul
 
 void NativeCpu::set_r_sta(bool level) { perform({Op::kSetRSta, {}, level, 0, nullptr}); }
 
-/// A sample that takes no time is part of this turn: no other agent must be waited for.
-void NativeCpu::look(Op what) {
-  if (timing_.pin_sample != 0 || !bus_.is_looked_at_from_anywhere()) return perform({what, {}, false, 0, nullptr});
-  request_.op = what;
-  take_request();
-}
-
 bool NativeCpu::l_req() {
-  look(Op::kLReq);
+  perform({Op::kLReq, {}, false, 0, nullptr});
   return sampled_;
 }
 
 bool NativeCpu::l_sta() {
-  look(Op::kLSta);
+  perform({Op::kLSta, {}, false, 0, nullptr});
   return sampled_;
 }
 
 unsigned NativeCpu::lamps() {
-  look(Op::kLamps);
+  perform({Op::kLamps, {}, false, 0, nullptr});
   return lamps_;
 }
 

@@ -76,7 +76,8 @@ class NativeCpu : public bus::Agent, private Cpu {
 
   void perform(const Request& request);
   bool passes_at_once(Tick at);
-  void look(Op what);
+  bool made_at_once();
+  bool is_over_by_itself() const;
   void suspend_until(Tick at, Break reason);
   void serve_interrupt();
   bool interrupt_is_due() const { return interrupts_open() && interrupt_at_ <= now_; }
@@ -99,6 +100,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   Tick wake_at_ = bus::kNever;
   Request request_;
   Break break_ = Break::kInterrupt;
+  bool begun_ = false;    ///< the request, before the program suspended
   bool put_off_ = false;  ///< the present access is put off until its end
   Tick now_ = 0;
   Tick ready_at_;  ///< when the program continues

@@ -30,6 +30,7 @@ class PinHostBus : public HostBus {
   /// Executes the running access at once, if the result is the same and it has not begun. `may_report`: as for
   /// Chip::carry_out.
   bool run_whole(bool may_report);
+  const dsdpv1::HostAccess& access() const { return *access_; }  ///< the present or last one
   Tick last_edge() const { return begin_ + access_->last(); }
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }

@@ -20,6 +20,10 @@ class ChipChecks {
   /// A change of a pin. The first changes are relative to the levels of a newly constructed chip. Ticks never decrease;
   /// pins that change at the same tick may come in any order.
   virtual void pin(Tick at, tb::PinNumber pin, tb::Level level) = 0;
+  /// Several changes, in their order.
+  virtual void pins(const tb::PinEdge* first, const tb::PinEdge* last) {
+    for (; first != last; ++first) pin(first->at, first->pin, first->level);
+  }
   /// Announces, before its first edge, a read that samples the data at `sample`. Only for user CPUs that report it,
   /// because the pins do not show it.
   virtual void read(Tick /*sample*/) {}

@@ -14,7 +14,13 @@ class Histogram {
   static constexpr std::size_t kEdges = 28;
   static constexpr std::size_t kBins = kEdges + 2;  ///< below 0, from 0 to the first edge, ..., from the last edge on
 
-  void add(bus::Tick margin) { ++counts_.at(bin_of(margin)); }
+  /// Returns the bin.
+  std::size_t add(bus::Tick margin) {
+    const std::size_t bin = bin_of(margin);
+    count_in(bin);
+    return bin;
+  }
+  void count_in(std::size_t bin) { ++counts_.at(bin); }
   std::uint64_t count(std::size_t bin) const { return counts_.at(bin); }
   /// Minimum margin of a bin in ticks; bin 0 (violated) has none and returns -kNever.
   static bus::Tick from(std::size_t bin) {

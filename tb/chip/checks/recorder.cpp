@@ -33,7 +33,8 @@ bool Recorder::add(CheckId check, Tick at, Tick measured) {
     return true;
   }
   const Tick left = margin(check, measured);
-  record.histogram.add(left);
+  const std::size_t bin = record.histogram.add(left);
+  kept_.at(check.index) = left < 0 ? Kept{} : Kept{measured, bin};
   if (!record.worst_margin || left < *record.worst_margin) {
     record.worst_margin = left;
     record.worst_value = measured;

@@ -43,14 +43,14 @@ class Recorder {
  public:
   /// `rules` and `history` must outlive it.
   Recorder(const RuleTable& rules, Limits limits, const PinHistory& history)
-      : rules_(rules), limits_(std::move(limits)), history_(history), records_(rules.size()) {}
+      : rules_(rules), limits_(std::move(limits)), history_(history), records_(rules.size()), kept_(rules.size()) {}
 
   /// A measured value of a check with Bound::kMin or kMax; `context()` describes the case, called only for a violation.
   /// `act`: of the user, if not at `at`; Act::omitted if the user should have done something.
   template <class Context>
   void value(CheckId check, Tick at, Tick measured, const Context& context, const std::optional<Act>& act = {}) {
-    if (limits_[check].on && !add(check, at, measured))
-      report_value(check, at, measured, context(), act.value_or(Act::done(at)));
+    if (!limits_[check].on || repeats(check, measured)) return;
+    if (!add(check, at, measured)) report_value(check, at, measured, context(), act.value_or(Act::done(at)));
   }
   /// The outcome of a check with Bound::kRule; `text()` describes the violation. `act`: as above.
   template <class Text>
@@ -69,6 +69,20 @@ class Recorder {
   std::function<void(const Violation&)> on_violation;
 
  private:
+  /// The value measured last, if it has a limit and kept it.
+  struct Kept {
+    std::optional<Tick> measured;
+    std::size_t bin = 0;  ///< of its margin
+  };
+  /// Most accesses have the same timing: the same value again is only counted.
+  bool repeats(CheckId check, Tick measured) {
+    const Kept& last = kept_.at(check.index);
+    if (last.measured != measured) return false;
+    Record& record = records_.at(check.index);
+    ++record.count;
+    record.histogram.count_in(last.bin);
+    return true;
+  }
   bool add(CheckId check, Tick at, Tick measured);
   bool add_outcome(CheckId check, Tick at, bool is_kept);
   void report_value(CheckId check, Tick at, Tick measured, const std::string& context, const Act& act);
@@ -81,6 +95,7 @@ class Recorder {
   const PinHistory& history_;
   Tick now_ = 0;
   std::vector<Record> records_;
+  std::vector<Kept> kept_;  ///< by check
 };
 
 }  // namespace dsdpv1::checks

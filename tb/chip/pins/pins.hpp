@@ -16,6 +16,13 @@ using Level = std::int16_t;
 constexpr Level kLevelZ = -1;  ///< released
 constexpr Level kLevelX = -2;  ///< unknown
 
+/// A pin has this level from tick `at` on.
+struct PinEdge {
+  std::int64_t at = 0;
+  PinNumber pin = 0;
+  Level level = kLevelZ;
+};
+
 struct PinInfo {
   const char* name = nullptr;  ///< from the datasheet
   int width = 1;               ///< number of wires, 1..15

@@ -27,6 +27,8 @@ class Fiber {
   /// From inside the body: returns to the caller of `resume` until it is called again.
   void suspend();
   bool ended() const { return ended_; }
+  /// Destroyed before its end: `suspend` returns at once.
+  bool unwinding() const { return unwinding_; }
 
  private:
   struct Unwind {};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <random>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -177,6 +178,75 @@ TEST_F(PutOffTest, AResetInTheMiddleForgetsTheRest) {
   late.chip.reset_host(at + 400);
   EXPECT_EQ(late.chip.level(number(Pin::kWr)), 1);
   EXPECT_EQ(late.core.now(), at + 400);
+}
+
+// --- pins that are reported late -------------------------------------------------------------------------------------
+
+/// The owner's accesses to two chips whose pins are all watched; the second reports each at its time.
+struct LateReportTest : testing::Test {
+  struct User : tb::ChipListener {
+    User(const char* name, bus::Segment& segment, bool late)
+        : chip(name, std::make_unique<tb::CoreDevice>(dsdpv1::Config()), Part::kDsdpv1, ~0U, segment, late) {
+      chip.listen(*this, 0);
+      chip.set_reset(1000, true);
+      chip.run(200 * bus::kTicksPerUs);
+      host.set_r_req(200 * bus::kTicksPerUs, true);
+      chip.run(202 * bus::kTicksPerUs);
+      host.set_r_sta(202 * bus::kTicksPerUs, true);
+      chip.run(203 * bus::kTicksPerUs);
+      changes.clear();
+    }
+    void pin(std::size_t /*slave*/, Tick at, tb::PinNumber pin, tb::Level level) override {
+      changes.push_back({at, pin, level});
+    }
+    void pins(std::size_t slave, const tb::PinEdge* first, const tb::PinEdge* last) override {
+      EXPECT_TRUE(std::is_sorted(first, last, [](const auto& a, const auto& b) { return a.at < b.at; }));
+      ++whole;
+      ChipListener::pins(slave, first, last);
+    }
+    bool acts_on_events() const override { return false; }
+    /// By time; at one tick pins come in any order.
+    std::vector<std::tuple<Tick, tb::PinNumber, tb::Level>> take() {
+      std::sort(changes.begin(), changes.end());
+      return std::exchange(changes, {});
+    }
+
+    tb::Dsdpv1PinChip chip;
+    user_cpu::HostBus& host = static_cast<user_cpu::HostBus&>(*chip.user_side());
+    std::vector<std::tuple<Tick, tb::PinNumber, tb::Level>> changes;
+    int whole = 0;
+  };
+
+  bus::Segment segment;
+  User late{"late", segment, true}, exact{"exact", segment, false};
+};
+
+TEST_F(LateReportTest, AWholeAccessHasTheEdgesOfEach) {
+  std::mt19937 random(5);
+  const auto draw = [&random](Tick least, Tick most) {
+    return std::uniform_int_distribution<Tick>(least, most)(random);
+  };
+  Tick now = 203 * bus::kTicksPerUs;
+  for (int i = 0; i < 3000; ++i) {
+    const Access access = {draw(0, 1) == 0, static_cast<std::uint16_t>(draw(0, 9) == 0 ? 0x7FF : draw(0x130, 0x133)),
+                           static_cast<std::uint8_t>(draw(0, 255))};
+    AccessTiming timing;
+    timing.address_setup = draw(-20, 400);
+    timing.cs_lead = draw(-100, 400);
+    timing.rd_sample = draw(370, 700) + std::max<Tick>(-timing.cs_lead, 0);
+    timing.rd_low = timing.rd_sample + draw(0, 100);
+    timing.address_hold = draw(-200, 300);
+    timing.cs_trail = draw(-50, 200);
+    for (User* user : {&late, &exact}) {
+      user->host.begin(now, access, timing);
+      while (user->host.next_edge() != bus::kNever) user->host.run_edges(user->host.end());
+    }
+    ASSERT_EQ(late.take(), exact.take()) << i;
+    ASSERT_EQ(late.host.read_value(), exact.host.read_value()) << i;
+    now = exact.host.end() + draw(0, 3) * 700;
+  }
+  EXPECT_GT(late.whole, 1000);
+  EXPECT_EQ(exact.whole, 0);
 }
 
 // --- telegrams of others ---------------------------------------------------------------------------------------------
