@@ -3,7 +3,7 @@
 namespace dsdpv1::checks {
 namespace {
 
-constexpr unsigned kErrorReply = 7, kFunctionError = 0x80;
+constexpr unsigned kErrorAnswer = 7, kFunctionError = 0x80;
 constexpr std::size_t kCrcBytes = 2, kReplyHead = 2, kExchangeHead = 5;
 
 /// UA10: what a reply to inputs carries, and the flag that the chip has cleared with it.
@@ -59,7 +59,7 @@ void SerialAccesses::carry_out(const HostTelegram& request, const HostReply& rep
     if ((bytes[1] & kFunctionError) == 0) exchange(request, bytes);
     return;
   }
-  if (bytes[0] >> 5U == kErrorReply) return;
+  if (bytes[0] >> 5U == kErrorAnswer) return;
   if (request.kind() == TelegramKind::kExchange) return read_and_write(bytes);
   if (request.kind() == TelegramKind::kRead)
     return access(false, request.address(), bytes.data() + kReplyHead, request.length());

@@ -10,7 +10,7 @@
 namespace dsdpv1::user_cpu {
 namespace {
 
-constexpr std::uint32_t kCells = 0x800, kLongest = 1024;
+constexpr std::uint32_t kDpramCells = 0x800, kLongest = 1024;
 
 /// `ticks` from now on, at most the end of time.
 Tick end_of(Tick now, std::uint64_t ticks) {
@@ -91,7 +91,7 @@ bool ProcessUser::receive(void* bytes, std::size_t n) {
 /// False: a request that does not exist, or not with this port.
 bool ProcessUser::carry_out(Cpu& cpu, const Request& request, Answer& answer) {
   const bool level = request.value != 0;
-  if (request.address >= kCells || request.length > kLongest) return false;
+  if (request.address >= kDpramCells || request.length > kLongest) return false;
   switch (request.what) {
     case DSDPV1_BENCH_HELLO: return request.value == DSDPV1_BENCH_VERSION;
     case DSDPV1_BENCH_READ: answer.value = cpu.read(static_cast<std::uint16_t>(request.address)); return true;
