@@ -27,10 +27,7 @@
 namespace dsdpv1::app {
 namespace {
 
-using tb::accept::Facts;
-using tb::accept::Plan;
-
-constexpr const char* kMoreHelp =
+constexpr const char* kAcceptHelp =
     "\nOne run from the first initialisation on. A master brings the slave up, changes its outputs in each exchange, "
     "and "
     "applies the stimuli one after the other. The checks judge the firmware (docs/checks.md); the table shows what was "
@@ -81,14 +78,14 @@ class Accept : public Command {
     add_report_option(app, report_);
     add_checks_table_option(app, rows_);
     add_output_options(app, progress_, quiet_);
-    app.footer(kMoreHelp);
+    app.footer(kAcceptHelp);
   }
 
   int carry_out() override {
     if (list_) return print_list();
     leave_nothing_on_signals();
     complete();
-    const Plan plan = tb::accept::make_plan(order_, scenario_.empty() ? "accept" : scenario_);
+    const tb::accept::Plan plan = tb::accept::make_plan(order_, scenario_.empty() ? "accept" : scenario_);
     check_outputs("dsdpv1-sim accept", {{"the firmware", order_.elf}, {"the GSD file", order_.gsd}},
                   {{"--scenario", scenario_}, {"--log", log_}, {"--result", result_}, {"--report", report_}});
     write_wanted(scenario_, plan.text);
@@ -134,12 +131,12 @@ class Accept : public Command {
     return options;
   }
 
-  int judge(const Plan& plan) {
+  int judge(const tb::accept::Plan& plan) {
     tb::RunOptions options = run_options();
     WantedFile result_file(result_);
     std::optional<tb::html::ReportFile> report;
     if (!report_.empty()) report.emplace(report_, plan.scenario, options);
-    Facts facts(plan.scenario, plan.address);
+    tb::accept::Facts facts(plan.scenario, plan.address);
     tb::Bench bench(plan.scenario, options, tb::make_pin_execution());
     bench.add_observer(facts);
     tb::RunResult result = run(plan, facts, bench);
@@ -150,7 +147,7 @@ class Accept : public Command {
     return exit_code(verdict(result));
   }
 
-  tb::RunResult run(const Plan& plan, const Facts& facts, tb::Bench& bench) const {
+  tb::RunResult run(const tb::accept::Plan& plan, const tb::accept::Facts& facts, tb::Bench& bench) const {
     tb::Progress progress(plan.end, shows_progress(progress_));
     catch_signals();
     const auto goes_on = [&](tb::Tick now) {
@@ -164,7 +161,7 @@ class Accept : public Command {
     return result;
   }
 
-  void say(const Plan& plan, const Facts& facts, const tb::RunResult& result) const {
+  void say(const tb::accept::Plan& plan, const tb::accept::Facts& facts, const tb::RunResult& result) const {
     std::cout << tb::accept::table(plan, facts) << '\n' << tb::summary(result, rows_) << std::flush;
     if (facts.address() && *facts.address() != plan.address)
       std::cout << tb::line_of(
