@@ -155,6 +155,7 @@ TEST_P(ArmUartRates, ReachDataExchangeWithoutAnErrorOnTheLine) {
       << FIRMWARE_O2 << "\", cycle: 20ms}}\n"
       << "masters:\n  - {name: plc, address: 2, bus: {gap_factor: 0, min_slave_interval: 3000}, slaves: [{slave: "
          "board, outputs: \"01 02\"}]}\n"
+      << "checks: {OUTPUTS_FETCHED: {max: 300ms}}\n"  // at 9600 bit/s a turn takes longer than 100 ms
       << "expect:\n  - {slave: board, dp_state: data_exch, inputs: \"01 02\", data_exchanges: 3}\n";
   const Called called = call("run s.yaml --no-progress --checks fail --log log", folder.path());
   EXPECT_EQ(called.status, 0) << called.out << called.err;
@@ -231,7 +232,7 @@ TEST(ArmBoard, FilesThatAreNoFirmwareGiveOneLine) {
   EXPECT_THAT(refused(DSDPV1_SIM), HasSubstr("64"));  // a program of this computer
   EXPECT_THAT(refused(std::string(DSDPV1_SOURCE_DIR) + "/README.md"), HasSubstr("ELF"));
   EXPECT_THAT(refused("nowhere.elf"), HasSubstr("nowhere.elf"));
-  EXPECT_THAT(refused("/dev/zero"), testing::StartsWith("/dev/zero: is larger than 64 MB, expected an executable"));
+  EXPECT_THAT(refused("/dev/zero"), HasSubstr("elf /dev/zero: is larger than 64 MB, expected an executable"));
 }
 
 // --- foreign firmware: no mailbox ------------------------------------------------------------------------------------

@@ -125,7 +125,7 @@ class Icarus(Benches, unittest.TestCase):
 
     def test_the_checker_names_a_write_strobe_that_is_too_short(self):
         status, said = self.run_bench("violations", "violations")
-        self.assertEqual((status, said.splitlines()[0]), (0, "violations 0, rules applied 16 times"))
+        self.assertEqual((status, said.splitlines()[0]), (0, "violations 0, rules applied 17 times"))
         status, said = self.run_bench("violations", "violations", "+short")
         self.assertIn("u_checker.report: TIMING_TS at cycle 9673 + 50 ticks (201.525 us): 5.000 ns of at least 12.500 ns, writing B006 [table 15, P5]\n", said)
         self.assertIn("violations 1, rules", said)

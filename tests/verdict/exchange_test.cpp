@@ -104,8 +104,8 @@ TEST(ImpliedExchange, StaysExpectedBesideOtherExpectations) {
 
 // --- the script
 
-/// A master that stops cuts off its telegram.
-const std::string kCut = "allow:\n  - {event: BUS_CHARACTER_ERROR}\n  - {event: BUS_TELEGRAM_ERROR}\n";
+/// A master that stops cuts off its telegram; a user that pauses serves nothing.
+const std::string kCut = "allow:\n  - {event: BUS_CHARACTER_ERROR}\n  - {event: BUS_TELEGRAM_ERROR}\n  - {event: OUTPUTS_FETCHED}\n  - {event: INPUTS_RENEWED}\n";
 
 TEST(ImpliedExchange, IsNotJudgedToTheEndWhenTheScriptKeepsTheSlaveAway) {
   for (const char* action : {"do: unplug, slave: io", "do: stop_master", "do: reset_chip, slave: io, for: 100ms",
@@ -123,7 +123,7 @@ TEST(ImpliedExchange, MustHaveBeenThereBeforeTheScriptKeepsTheSlaveAway) {
 }
 
 TEST(ImpliedExchange, MustComeBackAfterAReinitialisation) {
-  expect_passes({"script:\n  - {at: 4ms, do: reinitialise, slave: io}\n"});
+  expect_passes({"script:\n  - {at: 4ms, do: reinitialise, slave: io}\nallow:\n  - {event: INIT_REPEATED}\n"});
   expect_fails({"script:\n  - {at: 4ms, do: reinitialise, slave: io, new_address: 6}\n"}, "at the end");
 }
 

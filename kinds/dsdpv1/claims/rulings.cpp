@@ -32,7 +32,9 @@ const std::vector<Ruling>& all_rulings() {
       {"S28", kInside}, {"S29", nullptr}, {"S30", kWithS11}, {"S31", kInside},  {"S32", nullptr}, {"S33", kInside},
       {"V1", nullptr},  {"V2", nullptr},  {"V3", kInside},   {"V4", kInside},   {"V5", kInside},  {"V6", kInside},
       {"V7", kInside},  {"V8", nullptr},  {"V9", kInside},   {"V10", kInside},  {"V11", kInside}, {"V12", kInside},
-      {"V13", kInside}, {"V14", kInside}, {"V15", kInside},  {"facts", nullptr}};
+      {"V13", kInside}, {"V14", kInside}, {"V15", kInside},  {"U1", kUsers},    {"U2", kUsers},   {"U3", kUsers},
+      {"U4", kUsers},   {"U5", kUsers},   {"U6", kUsers},    {"U7", kUsers},    {"U8", kUsers},   {"U9", kUsers},
+      {"U10", kUsers},  {"facts", nullptr}};
   return all;
 }
 

@@ -63,7 +63,7 @@ void Recorder::report_value(CheckId check, Tick at, Tick measured, const std::st
 
 void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::string text, const Act& act) {
   if (!on_violation) return;
-  const Tick found = std::max(now_, history_.now());
+  const Tick found = std::max({at, now_, history_.now()});
   std::vector<PinChange> history = history_.last(rule(check).pins);
   // The history of a violation found later, by any change, excludes the changes at that time, whose order differs
   // between views.
