@@ -147,8 +147,9 @@ std::string with_orders(const std::string& scenario, const std::vector<std::stri
   std::string script = "script:\n";
   for (const std::string& order : orders) script += "  - {slave: drive, " + order + "}\n";
   text.replace(text.find("script:\n"), 8, script);
-  std::ofstream(folder.file("run.yaml"))
-      << text << "allow: [{event: SPI_BITS}, {event: RXD_PARITY}, {event: RXD_CHARACTER_GAP}, {event: USER_REFUSED}]\n";  // meant
+  std::ofstream(folder.file("run.yaml")) << text
+                                         << "allow: [{event: SPI_BITS}, {event: RXD_PARITY}, {event: "
+                                            "RXD_CHARACTER_GAP}, {event: USER_REFUSED}]\n";  // meant
   const auto called = call("run run.yaml --log log.txt -q" + settings, folder.path());
   EXPECT_EQ(called.status, 0) << scenario << called.err;
   return app_test::read(folder.path() / "log.txt");

@@ -105,7 +105,9 @@ TEST(ImpliedExchange, StaysExpectedBesideOtherExpectations) {
 // --- the script
 
 /// A master that stops cuts off its telegram; a user that pauses serves nothing.
-const std::string kCut = "allow:\n  - {event: BUS_CHARACTER_ERROR}\n  - {event: BUS_TELEGRAM_ERROR}\n  - {event: OUTPUTS_FETCHED}\n  - {event: INPUTS_RENEWED}\n";
+const std::string kCut =
+    "allow:\n  - {event: BUS_CHARACTER_ERROR}\n  - {event: BUS_TELEGRAM_ERROR}\n  - {event: OUTPUTS_FETCHED}\n  - "
+    "{event: INPUTS_RENEWED}\n";
 
 TEST(ImpliedExchange, IsNotJudgedToTheEndWhenTheScriptKeepsTheSlaveAway) {
   for (const char* action : {"do: unplug, slave: io", "do: stop_master", "do: reset_chip, slave: io, for: 100ms",

@@ -11,7 +11,7 @@
  * know, `what` says why
  */
 #define FAULT_TABLE(X)                                                                                               \
-  X(NONE, "PSU", ACT, "right firmware")                                                                              \
+  X(NONE, "PSU", RIGHT, "right firmware")                                                                            \
   /* the handshake */                                                                                                \
   X(STA_UNLOOKED, "P", ACT, "R_STA is raised without a look at L_REQ and L_STA")                                     \
   X(LOOK_EARLY, "P", ACT, "the only look comes within three cycles of R_REQ")                                        \

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Firmware with each fault of faults.h runs against the chip: none may pass unless it says why no observer can know, and the run names the line.
 
-    owed.py SIM GCC [--ports PS] [--faults NAME,...] [--table FILE]
+    owed.py SIM GCC [--ports PSU] [--faults NAME,...]
 
-A row for each fault and port: verdict, codes, the marked line or function, and the one that the run reports for them.
+A row for each fault and port: exit code, the marked line, whether the run names it (of an omission: a function), and all that it names. At least 90 % must
+be named.
 """
 import argparse
 import concurrent.futures
@@ -54,14 +55,12 @@ def build(gcc, fault, port, elf):
 
 
 def places(result):
-    """(code, file:line, function) of what the firmware did, in the order of the result."""
+    """(code, file:line, function) of all that the run holds against the firmware."""
     found = []
-    for check in result.get("checks", []):
-        for each in check.get("listed", []):
-            found.append((check["id"], each.get("where")))
-    for event in result.get("violated", []) + result.get("refused", []):
-        found.append((event.get("code"), event.get("where")))
-    return found
+    for check in result["checks"]:
+        found += [(check["id"], each["where"]) for each in check["listed"]]
+    found += [(event["code"], event["where"]) for event in result["violated"] + result["refused"]]
+    return [(code, f"{where['file']}:{where['line']}" if where else "", where["function"] if where else "") for code, where in found]
 
 
 def run(sim, elf, port, folder):
@@ -79,6 +78,31 @@ def row(sim, gcc, fault, port):
     return fault, port, done, result
 
 
+def judge(fault, port, done, result):
+    """What is wrong with the row, and whether the run names the place; None without a mark."""
+    found = places(result)
+    passed = done.returncode == 0
+    marks = fault.marks(port)
+    named = None
+    if fault.kind == "ACT" and marks:
+        named = any(place in marks for _, place, _ in found)
+    if fault.kind == "OMISSION":
+        named = any(function for _, _, function in found)
+    if fault.kind == "RIGHT" and not passed:
+        return "right firmware does not pass", named
+    if fault.kind in ("ACT", "OMISSION") and passed:
+        return "passes", named
+    if fault.kind in ("SILENT", "OPEN") and not passed:
+        return "does not pass any more: it gets a mark", None
+    return "", None if passed else named
+
+
+def wanted_jobs(arguments):
+    names = [name for name in arguments.faults.split(",") if name]
+    return [(fault, PORTS[port]) for fault in faults() for port in fault.ports
+            if port in arguments.ports and (not names or fault.name in names)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("sim")
@@ -86,13 +110,18 @@ def main():
     parser.add_argument("--ports", default="PSU")
     parser.add_argument("--faults", default="")
     arguments = parser.parse_args()
-    wanted = [name for name in arguments.faults.split(",") if name]
-    jobs = [(fault, PORTS[port]) for fault in faults() for port in fault.ports
-            if port in arguments.ports and (not wanted or fault.name in wanted)]
+    wrong = with_mark = right_mark = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for fault, port, done, result in pool.map(lambda job: row(arguments.sim, arguments.gcc, *job), jobs):
-            codes = sorted({code for code, where in places(result)}) if result else []
-            print(f"{fault.name}\t{port}\t{done.returncode}\t{','.join(map(str, codes))}\t{' '.join(fault.marks(port))}", flush=True)
+        for fault, port, done, result in pool.map(lambda job: row(arguments.sim, arguments.gcc, *job), wanted_jobs(arguments)):
+            why, named = judge(fault, port, done, result)
+            wrong += bool(why)
+            with_mark += named is not None
+            right_mark += bool(named)
+            seen = "; ".join(sorted({" ".join(filter(None, each)) for each in places(result)}))
+            print(fault.name, port, fault.kind, done.returncode, ",".join(fault.marks(port)), "" if named is None else "named" if named else "NOT NAMED",
+                  seen, why.upper(), sep="\t", flush=True)
+    print(f"{wrong} wrong; {right_mark} of {with_mark} places named")
+    return 1 if wrong or right_mark < 0.9 * with_mark else 0
 
 
 if __name__ == "__main__":
