@@ -155,16 +155,8 @@ TEST_P(ArmUartRates, ReachDataExchangeWithoutAnErrorOnTheLine) {
       << FIRMWARE_O2 << "\", cycle: 20ms}}\n"
       << "masters:\n  - {name: plc, address: 2, bus: {gap_factor: 0, min_slave_interval: 3000}, slaves: [{slave: "
          "board, outputs: \"01 02\"}]}\n"
-      << "checks: {BLOCK_SERVED: {max: 300ms}, OUTPUTS_FETCHED: {max: 300ms}, INPUTS_RENEWED: {max: 300ms}}\n"  // at
-                                                                                                                // 9600
-                                                                                                                // bit/s
-                                                                                                                // a
-                                                                                                                // turn
-                                                                                                                // takes
-                                                                                                                // longer
-                                                                                                                // than
-                                                                                                                // 100
-                                                                                                                // ms
+      // At 9600 bit/s a turn takes longer than 100 ms.
+      << "checks: {BLOCK_SERVED: {max: 300ms}, OUTPUTS_FETCHED: {max: 300ms}, INPUTS_RENEWED: {max: 300ms}}\n"
       << "expect:\n  - {slave: board, dp_state: data_exch, inputs: \"01 02\", data_exchanges: 3}\n";
   const Called called = call("run s.yaml --no-progress --checks fail --log log", folder.path());
   EXPECT_EQ(called.status, 0) << called.out << called.err;

@@ -37,7 +37,6 @@ unsigned fetch(const struct area* from, uint8_t* bytes) {
 void post(const struct area* to, const uint8_t* bytes, unsigned count) {
   write_cells(to->begin, bytes, count);
   write_crc(to->crc, crc16(bytes, count));
-  /* TELLS(C1_WRONG_SLOT) TELLS(C1_LONG) TELLS(DIAGNOSIS_LONG) */
   set_bits(to->command, to->flag);
 }
 

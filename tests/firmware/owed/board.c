@@ -37,7 +37,6 @@ void start_ports(void) { WORD(0x40021018u) |= HAS(GPIO_UNCLOCKED) ? 0x1E9u : 0x1
 
 /* RESET at PE4: low for 100 us. */
 void reset_chip(void) {
-  /* TELLS(RESET_UNDRIVEN) */
   WORD(0x40011814u) = 1u << 4;
   if (!HAS(RESET_UNDRIVEN)) WORD(0x40011800u) = (WORD(0x40011800u) & 0xFFF0FFFFu) | 0x30000u;
   port_start();
@@ -47,7 +46,7 @@ void reset_chip(void) {
     pause_us(200);
     WORD(0x40011814u) = 1u << 4;
   }
-  /* TELLS(RESET_SHORT) */
+  /* TELLS(RESET_UNDRIVEN) */
   WORD(0x40011810u) = 1u << 4;
 }
 

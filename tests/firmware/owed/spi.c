@@ -22,6 +22,11 @@ void port_start(void) {
 }
 
 static uint8_t character(uint8_t out) {
+  /*
+   * TELLS(CLEARED_UNREAD) TELLS(OUTPUTS_LATE) TELLS(LENGTH_UNREAD) TELLS(INIT_EARLY) TELLS(INIT_EACH_TURN)
+   * TELLS(DIAGNOSIS_LONG) TELLS(VERDICT_ALWAYS) TELLS(C1_WRONG_SLOT) TELLS(C1_LONG) TELLS(CHIPS_FLAG)
+   * TELLS(TELEGRAM_CRC)
+   */
   WORD(SPI_DR) = out;
   while ((WORD(SPI_SR) & 1u) == 0u) {
   }
@@ -48,7 +53,6 @@ static void transfer(unsigned count) {
   for (unsigned i = first; i < count; ++i) frame[i] = character(frame[i]);
   while ((WORD(SPI_SR) & 0x80u) != 0u) {
   }
-  /* TELLS(TELEGRAM_CRC) TELLS(CHIPS_FLAG) */
   WORD(PORTA_SET) = 1u << 4;
   pause_us(3); /* 000 6.3.2: 2.7 us */
 }

@@ -38,11 +38,9 @@ static void write_init(void) {
     init[2] = 0xC9;
     init[3] = 0x0C;
   }
-  /* TELLS(INIT_EARLY) */
   set_cell(0x005, 0x1D);
   write_cells(0x020, init, sizeof init);
   write_crc(0x0F7, crc16(init, sizeof init));
-  /* TELLS(INIT_EACH_TURN) */
   set_bits(0x010, kInit);
 }
 
@@ -176,7 +174,7 @@ static void idle(void) { pause_us(HAS(HELD_ALWAYS) ? 2 : 100); }
 
 static uint32_t* volatile settings; /* null */
 
-static void remember(void) { settings[4] = turns; /* TELLS(STRAY_STORE) */ }
+static void remember(void) { settings[4] = turns; }
 
 static void other_faults(void) {
   if (HAS(REQ_LEFT_UP) && turns == 200u) {

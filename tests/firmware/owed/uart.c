@@ -31,7 +31,9 @@ static void send(unsigned count) {
   for (unsigned i = 0; i < count; ++i) {
     while ((WORD(USART_SR) & 0x80u) == 0u) {
     }
-    /* TELLS(TELEGRAM_CRC) TELLS(CHIPS_FLAG) TELLS(DIAGNOSIS_LONG) TELLS(C1_WRONG_SLOT) TELLS(C1_LONG) TELLS(INIT_EARLY)
+    /*
+     * TELLS(TELEGRAM_CRC) TELLS(CHIPS_FLAG) TELLS(DIAGNOSIS_LONG) TELLS(C1_WRONG_SLOT) TELLS(C1_LONG)
+     * TELLS(INIT_EARLY) TELLS(INIT_EACH_TURN) TELLS(VERDICT_ALWAYS)
      */
     WORD(USART_DR) = frame[i];
   }
