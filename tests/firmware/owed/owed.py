@@ -20,7 +20,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 FLAGS = ["-mcpu=cortex-m3", "-mthumb", "-O2", "-g", "-fno-inline", "-ffreestanding", "-nostdlib", "-Wall", "-Wextra", "-Wconversion", "-Werror",
          f"-Wl,-T,{HERE}/station.ld", "-Wl,--build-id=none"]
 PORTS = {"P": "parallel", "S": "spi", "U": "uart"}
-FAULT = re.compile(r'X\((\w+), "(\w+)", (\w+), "([^"]*)"\)')
+FAULT = re.compile(r'X\((\w+), "(\w+)", (\w+),[\s\\]*"([^"]*)"\)')
 SOURCES = {"parallel": ["blocks.c", "parallel.c"], "spi": ["blocks.c", "spi.c"], "uart": ["uart.c"]}
 
 
