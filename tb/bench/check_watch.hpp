@@ -28,7 +28,7 @@ class CheckWatch : public Observer {
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     slaves_[slave]->checks->pin(at, pin, level);
   }
-  void pins(std::size_t slave, const PinEdge* first, const PinEdge* last) override {
+  void edges(std::size_t slave, const PinEdge* first, const PinEdge* last) override {
     slaves_[slave]->checks->pins(first, last);
   }
   void read(std::size_t slave, Tick sample) override {

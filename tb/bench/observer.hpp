@@ -117,8 +117,8 @@ class Observers : public ChipListener {
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     for (Observer* each : of_pins_) each->pin(slave, at, pin, level);
   }
-  void pins(std::size_t slave, const PinEdge* first, const PinEdge* last) override {
-    for (Observer* each : of_pins_) each->pins(slave, first, last);
+  void edges(std::size_t slave, const PinEdge* first, const PinEdge* last) override {
+    for (Observer* each : of_pins_) each->edges(slave, first, last);
   }
   void interrupt(std::size_t slave, Tick at, bool level) override { tell(&Observer::interrupt, slave, at, level); }
   void event(std::size_t slave, const profibus::Event& event) override {

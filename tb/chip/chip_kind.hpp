@@ -93,7 +93,7 @@ struct ChipRequest {
   Engine engine = Engine::kSkip;
   bool inside = false;  ///< internal signals are needed; Engine::kStep
   PinMask watched = 0;  ///< pins whose changes are needed; inputs of the host bus all or none
-  bool late = false;    ///< they may be reported late: see ChipListener::pins
+  bool late = false;    ///< they may be reported late: see ChipListener::edges
 };
 
 /// `--gdb`: the debugger of a processor that runs firmware.

@@ -56,7 +56,7 @@ class ChipListener {
   /// Several of them. With ChipRequest::late those of an access come when it is over, if nobody acts in between; those
   /// of many accesses of the chip to its memory that nothing else shows, with the next change of another pin, and only
   /// the last ones: as many as PinHistory keeps.
-  virtual void pins(std::size_t slave, const PinEdge* first, const PinEdge* last) {
+  virtual void edges(std::size_t slave, const PinEdge* first, const PinEdge* last) {
     for (; first != last; ++first) pin(slave, first->at, first->pin, first->level);
   }
   /// The pin that interrupts the user CPU, reported before pin().

@@ -182,7 +182,7 @@ void PinChip::report_edges(PinEdge* first, PinEdge* last) {
   const auto is_known = [this](const PinEdge& edge) {
     return std::exchange(inputs_[edge.pin], edge.level) == edge.level;
   };
-  listener_->pins(number_, first, std::remove_if(first, last, is_known));
+  listener_->edges(number_, first, std::remove_if(first, last, is_known));
 }
 
 void PinChip::report_inputs(Tick at, PinNumber first, PinNumber last) {

@@ -16,7 +16,7 @@ fail() {
 start() {
   "$sim" "$@" --set "user_cpu.elf=$firmware" --gdb 0 >"$folder/out" 2>"$folder/err" &
   run=$!
-  until grep -q 'localhost:' "$folder/err"; do
+  until [ "$(wc -l <"$folder/err")" -ge 1 ] && grep -q 'localhost:[0-9]' "$folder/err"; do  # the whole line
     kill -0 "$run" 2>/dev/null || fail "the run did not wait for gdb"
   done
   port=$(sed -n 's/.*localhost:\([0-9]*\).*/\1/p' "$folder/err" | head -n 1)

@@ -199,10 +199,10 @@ struct LateReportTest : testing::Test {
     void pin(std::size_t /*slave*/, Tick at, tb::PinNumber pin, tb::Level level) override {
       changes.push_back({at, pin, level});
     }
-    void pins(std::size_t slave, const tb::PinEdge* first, const tb::PinEdge* last) override {
+    void edges(std::size_t slave, const tb::PinEdge* first, const tb::PinEdge* last) override {
       EXPECT_TRUE(std::is_sorted(first, last, [](const auto& a, const auto& b) { return a.at < b.at; }));
       ++whole;
-      ChipListener::pins(slave, first, last);
+      ChipListener::edges(slave, first, last);
     }
     bool acts_on_events() const override { return false; }
     /// By time; at one tick pins come in any order.
