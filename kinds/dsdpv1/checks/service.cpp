@@ -27,9 +27,9 @@ void Service::accessed(const Access& access) {
   if (!intr0_fell_ || access.write) return;
   const bool in_areas = access.address >= regs::kPrm && access.address <= regs::kCfgCrc + 1;
   if (!in_areas && (access.address != regs::kChipCommand1 || !access.value)) return;
-  constexpr unsigned kNews = regs::kChipCommand1Prm | regs::kChipCommand1Cfg;
+  constexpr unsigned kJudgedNews = regs::kChipCommand1Prm | regs::kChipCommand1Cfg;
   // Nothing in B00E: an earlier service has already fetched this block.
-  if (in_areas || (*access.value & kNews) != 0)
+  if (in_areas || (*access.value & kJudgedNews) != 0)
     recorder_.value(
         Check::kIntr0Service, *intr0_fell_, access.began - *intr0_fell_,
         [&access] { return fmt::format("served by the read of B{:03X}", access.address); },

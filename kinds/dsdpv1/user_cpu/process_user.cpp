@@ -10,7 +10,7 @@
 namespace dsdpv1::user_cpu {
 namespace {
 
-constexpr std::uint32_t kDpramCells = 0x800, kLongest = 1024;
+constexpr std::uint32_t kDpramCells = 0x800, kMostBytes = 1024;
 
 /// `ticks` from now on, at most the end of time.
 Tick end_of(Tick now, std::uint64_t ticks) {
@@ -56,7 +56,7 @@ void ProcessUser::fail(const std::string& why) {
 bool ProcessUser::serve_one(Cpu& cpu) {
   Request request{};
   if (!receive(&request, sizeof request)) return false;
-  bytes_.resize(std::min(request.length, kLongest));
+  bytes_.resize(std::min(request.length, kMostBytes));
   if (!bytes_.empty() && !receive(bytes_.data(), bytes_.size())) return false;
   Answer answer{};
   if (!carry_out(cpu, request, answer)) {
@@ -91,7 +91,7 @@ bool ProcessUser::receive(void* bytes, std::size_t n) {
 /// False: a request that does not exist, or not with this port.
 bool ProcessUser::carry_out(Cpu& cpu, const Request& request, Answer& answer) {
   const bool level = request.value != 0;
-  if (request.address >= kDpramCells || request.length > kLongest) return false;
+  if (request.address >= kDpramCells || request.length > kMostBytes) return false;
   switch (request.what) {
     case DSDPV1_BENCH_HELLO: return request.value == DSDPV1_BENCH_VERSION;
     case DSDPV1_BENCH_READ: answer.value = cpu.read(static_cast<std::uint16_t>(request.address)); return true;
@@ -133,7 +133,7 @@ bool ProcessUser::transfer(const Request& request, Answer& answer) {
       serial_->send(bytes_.data(), bytes_.size());
       return true;
     case DSDPV1_BENCH_RECEIVE: {
-      if (spi || request.value > kLongest) return false;
+      if (spi || request.value > kMostBytes) return false;
       bytes_.resize(request.value);
       const auto timeout_us = static_cast<std::uint32_t>(request.ticks / static_cast<std::uint64_t>(bus::kTicksPerUs));
       answer.length = serial_->receive(bytes_.data(), bytes_.size(), timeout_us);
