@@ -16,7 +16,8 @@
  *                              .pause = dsdpv1_bench_pause, .address = 1, .baud = 1843200};
  *
  * Simulated time passes only in calls of this file, each as long as the scenario's `user_cpu: {timing: ...}` says, so a
- * loop of the program needs one. What the program writes to stdout is in the run's log. docs/tutorials/c_driver_on_host.md.
+ * loop of the program needs one. What the program writes to stdout is in the run's log.
+ * docs/tutorials/c_driver_on_host.md.
  *
  * C99 and POSIX. The program has one thread that calls these functions. If it was not started by dsdpv1-sim, the first
  * call says so and ends it with exit code 2; it ends with 0 when the run does.

@@ -1,6 +1,6 @@
 #pragma once
-// Firmware without a mailbox, and a process of the host, receive no commands and report nothing: the parts of a scenario
-// that need these are rejected or left out.
+// Firmware without a mailbox, and a process of the host, receive no commands and report nothing: the parts of a
+// scenario that need these are rejected or left out.
 #include <set>
 #include <string>
 #include <vector>

@@ -49,7 +49,7 @@ MakeUser process_user(const UserRequest& request, user_cpu::HostBus& host) {
   options.arguments = {scenario::resolve(request.scenario, own.program)};
   check_program(options.arguments[0], request.scenario, own.program.line);
   for (const Name& each : own.arguments) options.arguments.push_back(each.text);
-  options.patience_ms = static_cast<int>(own.patience / bus::kTicksPerMs);
+  options.patience_ms = static_cast<int>((own.patience + bus::kTicksPerMs - 1) / bus::kTicksPerMs);
   (void)untold(request.scenario, request.slave, options.arguments[0], "is a process of this computer");
   const user_cpu::HostPort port = host_port_of(own, static_cast<const Dsdpv1Settings&>(*request.scenario.chip));
   return [&host, timing = timing_of(own), options, port](const user_cpu::StationConfig&, Tick start) {

@@ -176,7 +176,8 @@ ObjectOf<Dsdpv1User> plain_user_keys() {
              {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
              {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"},
              {CpuKind::kProcess, "process",
-              "`program`, compiled for this computer, in a process (docs/tutorials/c_driver_on_host.md); its accesses have the times "
+              "`program`, compiled for this computer, in a process (docs/tutorials/c_driver_on_host.md); its accesses "
+              "have the times "
               "of `timing`"}},
          "The processor.");
   o.file("elf", &U::elf,
@@ -195,8 +196,7 @@ ObjectOf<Dsdpv1User> plain_user_keys() {
               "the first of them is reported in one line, and the scenario does not run"},
              {WithoutMailbox::kLeaveOut, "leave_out",
               "actions are not carried out, expectations not judged, and each is listed at the end"}},
-         "For firmware without a mailbox: the treatment of actions for the user CPU, of "
-         "expectations of outputs or of "
+         "For firmware without a mailbox: the treatment of actions for the user CPU, of expectations of outputs or of "
          "errors of the driver, and of settings for its program beside `elf` (docs/arm_board.md).");
   o.names("switches", &U::switches, {0, 112},
           "Switches on input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 except those that the board "

@@ -73,7 +73,7 @@ struct Dsdpv1User : OwnSettings {
   Name program;                                              ///< kProcess
   std::vector<Name> arguments;                               ///< kProcess
   Tick patience = 10 * bus::kTicksPerSecond;                 ///< kProcess: of the host's time; 0: no limit
-  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< not kNative
+  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
   std::vector<Name> switches;                                ///< kArm: "PA0=low"
   std::optional<double> cpi;                                 ///< kArm: cycles of HCLK per instruction
   std::optional<CpuTimes> timing;                            ///< not kArm; its `access` is unused: see the next member

@@ -43,60 +43,48 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::string& variable) {
   std::array<int, 2> ends{}, output{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail(errno, "socketpair");
-  socket_ = ends[0];
-  if (::pipe2(output.data(), O_CLOEXEC) != 0) {
-    ::close(ends[0]);
-    ::close(ends[1]);
-    fail(errno, "pipe2");
-  }
-  output_ = output[0];
-  ::fcntl(output_, F_SETFL, O_NONBLOCK);
-  try {
-    start(arguments, variable, ends[1], output[1]);
-  } catch (...) {
-    for (const int each : {ends[0], ends[1], output[0], output[1]}) ::close(each);
-    throw;
-  }
-  ::close(ends[1]);
-  ::close(output[1]);
+  socket_.reset(ends[0]);
+  const tb::Descriptor its_socket(ends[1]);
+  if (::pipe2(output.data(), O_CLOEXEC) != 0) fail(errno, "pipe2");
+  output_.reset(output[0]);
+  const tb::Descriptor its_output(output[1]);
+  ::fcntl(output_.get(), F_SETFL, O_NONBLOCK);
+  start(arguments, variable, its_socket.get(), its_output.get());
 }
 
 /// dup2 onto itself keeps close-on-exec: the ends are moved above the numbers that they get.
 void ChildProcess::start(const std::vector<std::string>& arguments, const std::string& variable, int its_socket,
                          int its_output) {
-  const int moved = ::fcntl(its_socket, F_DUPFD_CLOEXEC, kItsSocket + 1);
-  if (moved < 0) fail(errno, "fcntl");
+  const tb::Descriptor moved(::fcntl(its_socket, F_DUPFD_CLOEXEC, kItsSocket + 1));
+  if (!moved) fail(errno, "fcntl");
   std::vector<std::string> words = arguments, variables = environment(variable);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, its_output, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, moved, kItsSocket);
+  posix_spawn_file_actions_adddup2(&actions, moved.get(), kItsSocket);
   const int error =
       ::posix_spawn(&pid_, words[0].c_str(), &actions, nullptr, pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
-  ::close(moved);
   if (error != 0) fail(error, words[0]);
 }
 
 ChildProcess::~ChildProcess() {
-  ::close(socket_);
-  ::close(output_);
   if (pid_ < 0) return;
   ::kill(pid_, SIGKILL);
   ::waitpid(pid_, nullptr, 0);
 }
 
-bool ChildProcess::readable(int patience_ms) const {
-  pollfd wanted = {socket_, POLLIN, 0};
-  int ready = 0;
-  do ready = ::poll(&wanted, 1, patience_ms == 0 ? -1 : patience_ms);
-  while (ready < 0 && errno == EINTR);
+/// Takes the output meanwhile: a program whose pipe is full waits.
+bool ChildProcess::readable(int patience_ms) {
+  std::array<pollfd, 2> wanted = {{{socket_.get(), POLLIN, 0}, {output_.get(), POLLIN, 0}}};
+  const int ready = ::poll(wanted.data(), wanted.size(), patience_ms == 0 ? -1 : patience_ms);
+  if (wanted[1].revents != 0) take_output();
   return ready != 0;
 }
 
 ChildProcess::Got ChildProcess::receive(void* bytes, std::size_t n, int patience_ms) {
   for (char* at = static_cast<char*>(bytes); n != 0;) {
-    const ssize_t received = ::recv(socket_, at, n, MSG_DONTWAIT);
+    const ssize_t received = ::recv(socket_.get(), at, n, MSG_DONTWAIT);
     if (received > 0) {
       at += received;
       n -= static_cast<std::size_t>(received);
@@ -111,7 +99,7 @@ ChildProcess::Got ChildProcess::receive(void* bytes, std::size_t n, int patience
 
 bool ChildProcess::send(const void* bytes, std::size_t n) {
   for (const char* at = static_cast<const char*>(bytes); n != 0;) {
-    const ssize_t sent = ::send(socket_, at, n, MSG_NOSIGNAL);
+    const ssize_t sent = ::send(socket_.get(), at, n, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent <= 0) return false;
     at += sent;
@@ -120,18 +108,20 @@ bool ChildProcess::send(const void* bytes, std::size_t n) {
   return true;
 }
 
-void ChildProcess::lines(const std::function<void(const std::string&)>& each) {
+void ChildProcess::take_output() {
   std::array<char, 4096> piece{};
-  for (ssize_t n = 0; (n = ::read(output_, piece.data(), piece.size())) > 0;) {
-    for (const char c : std::string(piece.data(), static_cast<std::size_t>(n))) {
-      if (c != '\n') {
-        line_ += c;
-        continue;
-      }
-      each(line_);
-      line_.clear();
-    }
-  }
+  ssize_t n = 0;
+  while ((n = ::read(output_.get(), piece.data(), piece.size())) > 0)
+    text_.append(piece.data(), static_cast<std::size_t>(n));
+  if (n == 0) output_.reset();  // it has closed its stdout
+}
+
+void ChildProcess::lines(const std::function<void(const std::string&)>& each) {
+  take_output();
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = text_.find('\n', begin)) != std::string::npos; begin = end + 1)
+    each(text_.substr(begin, end - begin));
+  text_.erase(0, begin);
 }
 
 std::string ChildProcess::ending() {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "io/input/descriptor.hpp"
+
 namespace dsdpv1::user_cpu {
 
 /// Neither copied nor moved; used from one thread.
@@ -32,11 +34,12 @@ class ChildProcess {
 
  private:
   void start(const std::vector<std::string>& arguments, const std::string& variable, int its_socket, int its_output);
-  bool readable(int patience_ms) const;
+  bool readable(int patience_ms);
+  void take_output();
 
   pid_t pid_ = -1;
-  int socket_ = -1, output_ = -1;
-  std::string line_;
+  tb::Descriptor socket_, output_;
+  std::string text_;  ///< written to stdout, from the begin of a line on
 };
 
 }  // namespace dsdpv1::user_cpu

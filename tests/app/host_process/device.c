@@ -3,7 +3,8 @@
 /*
  * device PORT [FAULT]: a device that sends its two bytes of outputs back as inputs, over the port "parallel", "spi" or
  * "uart". Faults: "ends" and "crashes" after a hundred turns, "hangs" then without a call of its port, "hasty" raises
- * R_STA without a look at the chip's lines, "polls" instead of a handler of INTR0.
+ * R_STA without a look at the chip's lines, "polls" instead of a handler of INTR0, "talks" more than a pipe
+ * holds.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,8 +15,11 @@
 static dsdpv1_device chip;
 static dsdpv1_port port;
 static dsdpv1_spi spi = {.exchange = dsdpv1_bench_exchange, .pause = dsdpv1_bench_pause, .address = 1};
-static dsdpv1_uart uart = {
-    .send = dsdpv1_bench_send, .receive = dsdpv1_bench_receive, .pause = dsdpv1_bench_pause, .address = 1, .baud = 1843200};
+static dsdpv1_uart uart = {.send = dsdpv1_bench_send,
+                           .receive = dsdpv1_bench_receive,
+                           .pause = dsdpv1_bench_pause,
+                           .address = 1,
+                           .baud = 1843200};
 static uint8_t process[2];
 static const char* fault = "";
 
@@ -42,6 +46,7 @@ static dsdpv1_error open_port(const char* name) {
 }
 
 static void fail_as_wanted(void) {
+  for (int line = 0; is("talks") && line < 2000; ++line) printf("line %4d %090d\n", line, line);
   if (is("ends")) exit(3);
   if (is("crashes")) abort();
   if (is("hangs"))
@@ -51,8 +56,16 @@ static void fail_as_wanted(void) {
 
 int main(int count, char** arguments) {
   static const uint8_t cfg[] = {0x31};
-  const dsdpv1_config config = {.address = 5, .ident = 0x0CC9, .max_input = 2, .max_output = 2, .max_prm = 32,
-                                .max_cfg = 1, .prm_mode = 2, .cfg_mode = 2, .cfg = cfg, .cfg_length = 1};
+  const dsdpv1_config config = {.address = 5,
+                                .ident = 0x0CC9,
+                                .max_input = 2,
+                                .max_output = 2,
+                                .max_prm = 32,
+                                .max_cfg = 1,
+                                .prm_mode = 2,
+                                .cfg_mode = 2,
+                                .cfg = cfg,
+                                .cfg_length = 1};
   if (count > 2) fault = arguments[2];
   open_port(arguments[1]);
   while (dsdpv1_wait_ready(&chip) != DSDPV1_OK || dsdpv1_initialise(&chip, &config) != DSDPV1_OK) {

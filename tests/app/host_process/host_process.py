@@ -108,6 +108,10 @@ class HostProcess(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("device has not called its port for 1 s of the host's time", done.stdout)
 
+    def test_it_may_print_more_than_a_pipe_holds(self):
+        said = [event for event in map(json.loads, self.log(fault="talks", more=", patience: 2s").splitlines()) if event["kind"] == "text"]
+        self.assertEqual([event["text"][:9] for event in said if event["text"].startswith("line")], [f"line {line:4}" for line in range(2000)])
+
     def test_a_run_goes_on_where_it_was_saved(self):
         whole = self.log("--save-at", "20ms", "saved.run")
         done = subprocess.run([SIM, "run", "--restore", "saved.run", "--log", "rest.jsonl"], capture_output=True, text=True, check=False,
