@@ -21,7 +21,7 @@ FLAGS = ["-mcpu=cortex-m3", "-mthumb", "-O2", "-g", "-fno-inline", "-ffreestandi
          f"-Wl,-T,{HERE}/station.ld", "-Wl,--build-id=none"]
 PORTS = {"P": "parallel", "S": "spi", "U": "uart"}
 FAULT = re.compile(r'X\((\w+), "(\w+)", (\w+),[\s\\]*"([^"]*)"\)')
-SOURCES = {"parallel": ["blocks.c", "parallel.c"], "spi": ["blocks.c", "spi.c"], "uart": ["uart.c"]}
+SOURCES = {"parallel": ["blocks.c", "parallel.c"], "spi": ["blocks.c", "telegram.c", "spi.c"], "uart": ["telegram.c", "uart.c"]}
 
 
 def sources(port):

@@ -3,15 +3,14 @@
 /* The SPI port of the DSDPV1-RSU, card 1: XSS at PA4, SPI1 at PA5 to PA7, 9 MHz. Telegrams: 000 6. */
 #include "faults.h"
 #include "port.h"
+#include "telegram.h"
 
 #define PORTA_LOW 0x40010800u
 #define PORTA_SET 0x40010810u
 #define SPI_CR1 0x40013000u
 #define SPI_SR 0x40013008u
 #define SPI_DR 0x4001300Cu
-enum { kMost = 252, kSpare = 3, kAddress = 1, kRead = 0x00, kWrite = 0x20, kOwnership = 0x014 };
-
-static uint8_t frame[2 * kMost + kSpare];
+enum { kSpare = 3, kOwnership = 0x014 };
 
 void port_start(void) {
   WORD(0x40021018u) |= 1u << 12; /* SPI1 */
@@ -55,23 +54,6 @@ static void transfer(unsigned count) {
   }
   WORD(PORTA_SET) = 1u << 4;
   pause_us(3); /* 000 6.3.2: 2.7 us */
-}
-
-static unsigned seal(unsigned count) {
-  const uint16_t crc = crc16(frame, count);
-  static unsigned telegrams;
-  const unsigned spoilt = HAS(TELEGRAM_CRC) && ++telegrams % 50u == 0u ? 1u : 0u;
-  frame[count] = (uint8_t)(crc >> 8 ^ spoilt);
-  frame[count + 1u] = (uint8_t)crc;
-  return count + 2u;
-}
-
-static unsigned head(unsigned start, unsigned address, unsigned count) {
-  frame[0] = (uint8_t)(start | kAddress);
-  frame[1] = (uint8_t)(address >> 8);
-  frame[2] = (uint8_t)address;
-  frame[3] = (uint8_t)count;
-  return 4u;
 }
 
 /* The reply begins right after the request, or up to kSpare bytes later; before it there is FF. */

@@ -3,6 +3,7 @@
 /* The UART port of the DSDPV1-RSU: USART2 at PA2 and PA3, 1.8 MBd. Telegrams: 000 7. No ownership. */
 #include "faults.h"
 #include "port.h"
+#include "telegram.h"
 
 #define PORTA_LOW 0x40010800u
 #define PORTA_SET 0x40010810u
@@ -10,9 +11,8 @@
 #define USART_DR 0x40004404u
 #define USART_BRR 0x40004408u
 #define USART_CR1 0x4000440Cu
-enum { kMost = 258, kAddress = 1, kRead = 0x00, kWrite = 0x20, kSwap = 0x40, kHead = 5 };
+enum { kSwap = 0x40, kSwapHead = 5 };
 
-static uint8_t frame[kMost];
 static uint8_t last_inputs[3]; /* length 0 at first */
 
 void port_start(void) {
@@ -54,25 +54,8 @@ static unsigned receive(uint8_t* to, unsigned most) {
   return count;
 }
 
-static unsigned seal(unsigned count) {
-  const uint16_t crc = crc16(frame, count);
-  static unsigned telegrams;
-  const unsigned spoilt = HAS(TELEGRAM_CRC) && ++telegrams % 50u == 0u ? 1u : 0u;
-  frame[count] = (uint8_t)(crc >> 8 ^ spoilt);
-  frame[count + 1u] = (uint8_t)crc;
-  return count + 2u;
-}
-
 static int is_sealed(unsigned count) {
   return count >= 4u && crc16(frame, count - 2u) == (uint16_t)(frame[count - 2u] << 8 | frame[count - 1u]);
-}
-
-static unsigned head(unsigned start, unsigned address, unsigned count) {
-  frame[0] = (uint8_t)(start | kAddress);
-  frame[1] = (uint8_t)(address >> 8);
-  frame[2] = (uint8_t)address;
-  frame[3] = (uint8_t)count;
-  return 4u;
 }
 
 void read_cells(unsigned from, uint8_t* bytes, unsigned count) {
@@ -93,14 +76,14 @@ void write_cells(unsigned to, const uint8_t* bytes, unsigned count) {
 enum { kC1Came = 0x04, kC2Came = 0x08, kPrmCame = 0x10, kCfgCame = 0x20 };
 
 static int exchange_once(unsigned address, const uint8_t* bytes, unsigned count) {
-  const uint8_t begin[kHead] = {kSwap | kAddress, address == 0x227u ? 2 : 0, (uint8_t)(address >> 8), (uint8_t)address,
-                                (uint8_t)count};
+  const uint8_t begin[kSwapHead] = {kSwap | kAddress, address == 0x227u ? 2 : 0, (uint8_t)(address >> 8),
+                                    (uint8_t)address, (uint8_t)count};
   unsigned n = 0;
-  for (; n < kHead; ++n) frame[n] = begin[n];
+  for (; n < kSwapHead; ++n) frame[n] = begin[n];
   for (unsigned i = 0; i < count; ++i) frame[n++] = bytes[i];
   send(seal(n));
-  if (receive(frame, kHead) < kHead) return 0;
-  return is_sealed(kHead + receive(frame + kHead, frame[4] + 2u));
+  if (receive(frame, kSwapHead) < kSwapHead) return 0;
+  return is_sealed(kSwapHead + receive(frame + kSwapHead, frame[4] + 2u));
 }
 
 static uint8_t exchange(unsigned address, const uint8_t* bytes, unsigned count) {
@@ -139,5 +122,5 @@ void swap(const uint8_t* inputs, unsigned count, uint8_t* outputs, int wants_out
   if (!wants_outputs && inputs == 0) return;
   note(exchange(0x130, last_inputs, count));
   if (noted[0] != 0u) intr0_fell = 1;
-  for (unsigned i = 0; i < frame[4]; ++i) outputs[i] = frame[kHead + i];
+  for (unsigned i = 0; i < frame[4]; ++i) outputs[i] = frame[kSwapHead + i];
 }
