@@ -39,6 +39,7 @@ std::vector<tb::CodeText> check_codes(const tb::ChipKind& kind) {
 std::string place_of(const std::string& name) {
   static const std::regex chip("[PHDSV][0-9]+"), sisters("(R|SP|UA)[0-9]+");
   if (name == "PROFIBUS facts") return "chip.md#profibus-facts-that-the-documents-take-for-granted";
+  if (name == "host process") return "tutorials/c_driver_on_host.md";
   if (name == "ARM board") return "arm_board.md#what-a-real-board-would-not-forgive";
   const char* page = std::regex_match(name, chip)      ? "chip.md#"
                      : std::regex_match(name, sisters) ? "chip_rsu.md#"

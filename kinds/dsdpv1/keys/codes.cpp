@@ -2,6 +2,7 @@
 
 #include "driver/dsdpv1.h"
 #include "kinds/dsdpv1/keys/board_codes.hpp"
+#include "kinds/dsdpv1/user_cpu/process_user.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/scenario/event_codes.hpp"
@@ -142,6 +143,12 @@ std::vector<CodeText> board_codes() {
   return list;
 }
 
+std::vector<CodeText> process_codes() {
+  return {{user_cpu::kProcessEnded, "violation", "host process",
+           "a program of kind: process has ended, or does not call its port; its chip goes on without a user",
+           "Look at its exit code or signal. With a debugger at the program set user_cpu: {patience: 0s}."}};
+}
+
 }  // namespace
 
 const std::vector<CodeTable>& dsdpv1_codes() {
@@ -150,7 +157,8 @@ const std::vector<CodeTable>& dsdpv1_codes() {
       {"The driver", "Results of the C driver's calls, with their values.", driver_codes()},
       {"The ARM board",
        "See [arm_board.md](arm_board.md#what-a-real-board-would-not-forgive). Numbers are sections of RM0008, rev. 20.",
-       board_codes()}};
+       board_codes()},
+      {"The host process", "See [C driver on the host](tutorials/c_driver_on_host.md).", process_codes()}};
   return tables;
 }
 

@@ -130,8 +130,7 @@ std::string ChildProcess::ending() {
   pid_ = -1;
   if (WIFSIGNALED(status))
     return fmt::format("was ended by signal {}, {}", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
-  const int code = WEXITSTATUS(status);
-  return code == 0 ? "" : fmt::format("has ended with exit code {}", code);
+  return fmt::format("has ended with exit code {}", WEXITSTATUS(status));
 }
 
 }  // namespace dsdpv1::user_cpu

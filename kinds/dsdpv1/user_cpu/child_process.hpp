@@ -29,7 +29,7 @@ class ChildProcess {
   bool send(const void* bytes, std::size_t n);
   /// Calls `each` for the lines written to stdout since the last call.
   void lines(const std::function<void(const std::string&)>& each);
-  /// Waits for the end of a program that has closed the socket: "has ended with exit code 3". Empty: exit code 0.
+  /// Waits for the end of a program that has closed the socket: "has ended with exit code 3".
   std::string ending();
 
  private:

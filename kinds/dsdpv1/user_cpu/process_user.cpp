@@ -46,10 +46,10 @@ void ProcessUser::serve(Cpu& cpu) {
   }
 }
 
-/// The reason why the program cannot go on ends the run.
+/// The program cannot go on; its chip does.
 void ProcessUser::fail(const std::string& why) {
   const std::string name = std::filesystem::path(options_.arguments[0]).filename().string();
-  if (on_failure) on_failure(cpu_.now(), fmt::format("{} {}", name, why), "");
+  if (on_error) on_error({cpu_.now(), kProcessEnded, fmt::format("{} {}", name, why)});
 }
 
 /// Returns false at the program's end.
@@ -83,8 +83,7 @@ bool ProcessUser::receive(void* bytes, std::size_t n) {
         fmt::format("has not called its port for {} s of the host's time: a loop without a call of it? "
                     "(user_cpu: {{patience: ...}})",
                     options_.patience_ms / 1000));
-  if (got == ChildProcess::Got::kEnd)
-    if (const std::string why = child_->ending(); !why.empty()) fail(why);
+  if (got == ChildProcess::Got::kEnd) fail(child_->ending());
   return false;
 }
 

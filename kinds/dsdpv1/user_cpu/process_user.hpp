@@ -14,6 +14,9 @@
 
 namespace dsdpv1::user_cpu {
 
+/// Code of its end in logs and results.
+constexpr const char* kProcessEnded = "PROCESS_ENDED";
+
 struct ProcessOptions {
   std::vector<std::string> arguments;  ///< the program's path and its arguments
   int patience_ms = 0;                 ///< of the host's time without a request; 0: no limit

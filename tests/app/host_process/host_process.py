@@ -95,10 +95,14 @@ class HostProcess(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn("OWNERSHIP_SYNC_WINDOW", done.stdout)
 
-    def test_its_end_ends_the_run(self):
+    def test_its_end_is_a_violation(self):
         done = self.run_it(fault="ends")
         self.assertEqual(done.returncode, 1)
         self.assertIn("device has ended with exit code 3", done.stdout)
+        self.assertIn("PROCESS_ENDED", done.stdout)
+        done = self.run_it(program="/bin/true")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("true has ended with exit code 0", done.stdout)
         done = self.run_it(fault="crashes")
         self.assertEqual(done.returncode, 1)
         self.assertIn("device was ended by signal 6, Aborted", done.stdout)
