@@ -146,7 +146,7 @@ std::vector<CodeText> board_codes() {
 std::vector<CodeText> process_codes() {
   return {{user_cpu::kProcessEnded, "violation", "host process",
            "a program of kind: process has ended, or does not call its port; its chip goes on without a user",
-           "Look at its exit code or signal. With a debugger at the program set user_cpu: {patience: 0s}."}};
+           "Look at its exit code or signal. With a debugger at the program set user_cpu.patience=0s."}};
 }
 
 }  // namespace
