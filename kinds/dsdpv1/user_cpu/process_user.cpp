@@ -10,6 +10,8 @@
 namespace dsdpv1::user_cpu {
 namespace {
 
+static_assert(DSDPV1_BENCH_TICKS_PER_NS == bus::kTicksPerNs);
+
 constexpr std::uint32_t kDpramCells = 0x800, kMostBytes = 1024;
 
 /// `ticks` from now on, at most the end of time.
@@ -80,9 +82,9 @@ bool ProcessUser::receive(void* bytes, std::size_t n) {
   if (got == ChildProcess::Got::kAll) return true;
   if (got == ChildProcess::Got::kLate)
     fail(
-        fmt::format("has not called its port for {} s of the host's time: a loop without a call of it? "
+        fmt::format("has not called its port for {:g} s of the host's time: a loop without a call of it? "
                     "(user_cpu: {{patience: ...}})",
-                    options_.patience_ms / 1000));
+                    options_.patience_ms / 1000.0));
   if (got == ChildProcess::Got::kEnd) fail(child_->ending());
   return false;
 }
