@@ -2,7 +2,6 @@
 // The user's accesses to the DPRAM between taking and releasing it, summed up: flags seen, cleared and set, blocks
 // read. Over the UART, which has no ownership, each telegram is a hold.
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <optional>
 
@@ -24,6 +23,9 @@ struct FlagsInHold {
 
   /// B00E, B00F: flags that the user cleared.
   std::uint8_t cleared() const { return static_cast<std::uint8_t>(before & ~after); }
+  /// ... or the chip for the user: those of blocks that it has fetched.
+  std::uint8_t fetched() const { return static_cast<std::uint8_t>(cleared() | taken); }
+  bool looked_at() const { return read || written; }
   /// B010, B011: flags that the user set, certainly.
   std::uint8_t set() const { return written ? static_cast<std::uint8_t>(after & ~read.value_or(0)) : std::uint8_t{0}; }
 };
