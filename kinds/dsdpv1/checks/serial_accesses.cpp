@@ -78,6 +78,7 @@ void SerialAccesses::exchange(const HostTelegram& request, const bus::Bytes& rep
   access(true, block->first, request.bytes().data() + kExchangeHead, request.length());
   duties_.announced(block->command, block->flag);
   if (block->first != regs::kInput) return;
+  duties_.told_news();
   const Block& news = news_of(reply[1]);
   access(false, news.first, reply.data() + kExchangeHead,
          static_cast<unsigned>(reply.size() - kExchangeHead - kCrcBytes));

@@ -69,14 +69,16 @@ void ServedBlocks::judge_flags(const UserHold& hold) {
     const FlagsInHold& flags = hold.chip(block);
     if (!flags.looked_at() && flags.taken == 0) continue;
     Duty& duty = flags_.at(i);
-    if (((flags.before | flags.after) & block.flag) != 0)
+    if (((flags.before | flags.after | flags.taken) & block.flag) != 0)
       duty.begins(block.command == regs::kChipCommand1 ? intr0_.since().value_or(hold.began) : hold.began);
     if ((flags.after & block.flag) == 0)
       duty.met(recorder_, Check::kBlockServed, hold.ended, [&block] { return flag_text(block) + ": late"; });
   }
-  if (hold.chip_1.looked_at() && intr0_.since() && hold.began >= *intr0_.since()) intr0_.ends();
-  const bool looked_2 = hold.chip_2.looked_at() || hold.chip_2.taken != 0;
-  if (looked_2 && request_.since() && hold.began >= *request_.since()) request_.ends();
+  const auto looked = [&hold](Duty& duty, const FlagsInHold& flags) {
+    if ((flags.looked_at() || hold.told_news) && duty.since() && hold.began >= *duty.since()) duty.ends();
+  };
+  looked(intr0_, hold.chip_1);
+  looked(request_, hold.chip_2);
 }
 
 /// A newer block does not renew the time: the master still waits.

@@ -41,6 +41,7 @@ class UserDuties {
   /// The chip clears or sets a flag as part of the user's telegram.
   void taken(Address command, std::uint8_t flag) { holds_.taken(command, flag); }
   void announced(Address command, std::uint8_t flag) { holds_.announced(command, flag); }
+  void told_news() { holds_.told_news(); }
   void hold_ended(Tick at, HoldOf what);
 
  private:
