@@ -42,8 +42,8 @@ void Refusals::hold(const UserHold& hold) {
     if ((hold.user_1.set() & verdict) != 0) unfounded_.at(kind) = !std::exchange(fetched_.at(kind), false);
   }
   if ((fetched & regs::kChipCommand1Cfg) != 0) lengths_ = 0;
-  if ((hold.user_1.set() | hold.user_2.set()) != 0)
-    recorder_.get().kept(Check::kUserRefused, hold.ended, true, [] { return std::string(); });
+  if (told_ && (hold.user_1.set() | hold.user_2.set()) != 0)
+    recorder_.kept(Check::kUserRefused, hold.ended, true, [] { return std::string(); });
 }
 
 /// Over the UART the user may hand over the empty inputs of the DPRAM to get news (UA10), and a newer request may come
@@ -58,12 +58,13 @@ bool Refusals::is_users_fault(const profibus::Event& event, Port port) {
 
 /// The user's last write of the flags: with a block's flag it has handed over what is refused.
 void Refusals::event(const profibus::Event& event, Port port) {
+  told_ = true;
   if (!is_users_fault(event, port)) return;
   const bool acyclic = event.reason == dpram::Reason::kC1Crc || event.reason == dpram::Reason::kC2Crc ||
                        event.reason == dpram::Reason::kAcyclicLength ||
                        event.reason == profibus::Reason::kAcyclicAnswerDiffers;
   const Address flags = acyclic ? regs::kUserCommand2 : regs::kUserCommand1;
-  recorder_.get().kept(
+  recorder_.kept(
       Check::kUserRefused, event.at, false, [&event] { return dsdpv1::describe(event); },
       is_of_telegram(event.reason) ? Act::done(event.at) : Act::written(flags, event.at));
 }

@@ -31,6 +31,8 @@ class UserDuties {
     refusals_.event(event, port);
   }
   void finish(Tick end);
+  /// Whether USER_REFUSED can be judged.
+  bool judges_refusals() const { return refusals_.judges(); }
 
   // A hold of the parallel port, by B014, or of one telegram.
   void hold_began(Tick at) { holds_.began(at); }

@@ -361,6 +361,19 @@ TEST(UserRefused, InputsOfAnotherLengthCountFromTheThirdSinceAConfigurationWasFe
   EXPECT_EQ(violations(board, Check::kUserRefused), 1U);
 }
 
+TEST(UserRefused, IsJudgedOnlyOfAChipThatTellsItsEvents) {
+  Board board;
+  give_verdict(board);
+  look(board, 0x00);
+  EXPECT_FALSE(board.checks().applies(Check::kUserRefused)) << "foreign RTL";
+  EXPECT_EQ(board.checks().record(Check::kUserRefused).count, 0U);
+  refuse(board, profibus::Reason::kVerdictSuperseded);
+  give_verdict(board);
+  look(board, 0x00);
+  EXPECT_TRUE(board.checks().applies(Check::kUserRefused));
+  EXPECT_EQ(board.checks().record(Check::kUserRefused).count, 1U);
+}
+
 // --- READY_UNSEEN ----------------------------------------------------------------------------------------------------
 
 TEST(ReadyUnseen, IsJudgedOnceAfterEachReset) {
