@@ -23,8 +23,8 @@ void SlaveStation::hold_in_reset(Tick now) {
   user_.reset();
   announce();
   outputs_seen_ = 0;
+  chip_->set_reset(now, false);  // first: what the user's side cuts off is then no violation
   chip_->reset_host(now);
-  chip_->set_reset(now, false);
 }
 
 void SlaveStation::release_reset(Tick now) {

@@ -72,6 +72,19 @@ TEST(SerialViews, SpiIsTheSameWithFaultsGapsAndResets) {
                                      {"flip_bit", "cut_telegram"}));
 }
 
+/// RESET of the board ends the user CPU and the chip at once: a frame that it cuts off breaks no rule. The frames are
+/// slow, so that each reset is within one.
+TEST(SerialViews, AResetWithinAFrameIsNoViolation) {
+  const app_test::Folder folder;
+  std::ofstream(folder.file("s.yaml")) << scenario("mode: spi", "spi: {clock: 100}", {});
+  for (const std::string view : {"pins", "tlm"}) {
+    call("run s.yaml --quiet --checks off --log s.log --view " + view, folder.path());
+    const std::string log = read(folder.file("s.log"));
+    EXPECT_NE(log.find("SPI_CLAIMED"), std::string::npos) << view;
+    EXPECT_EQ(log.find("violation SPI_"), std::string::npos) << view;
+  }
+}
+
 TEST(SerialViews, UartIsTheSameWithFaultsAnotherRateAndResets) {
   expect_same_in_both_views(scenario("mode: uart, uart_rate: 460.8k", "uart: {rate: 455000, gap: 3us}",
                                      {"flip_bit", "cut_telegram", "wrong_parity"}));

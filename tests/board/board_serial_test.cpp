@@ -376,7 +376,7 @@ TEST_F(BoardSerial, APortThatSendsWithoutItsPinsIsTold) {
 TEST_F(BoardSerial, BytesThatAreLostAtThePortInUseAreTold) {
   start(kOverrun, 1, true, HostMode::kSpi);
   run();
-  EXPECT_THAT(misuses, ElementsAre("2 bytes for SPI are lost before DR is read (OVR), in overrun at serial.c:120"));
+  EXPECT_THAT(misuses, ElementsAre("2 bytes for SPI are lost before DR is read (OVR), in overrun at serial.c:97"));
   misuses.clear();
   host.restart();
   start(kUartOverrun, 1, true, HostMode::kUart);
@@ -385,7 +385,7 @@ TEST_F(BoardSerial, BytesThatAreLostAtThePortInUseAreTold) {
   say(kStart + 110 * bus::kTicksPerUs, 0x22);
   run();
   EXPECT_THAT(misuses, ElementsAre("1 characters for USART2 are lost before DR is read (ORE), in uart_overrun at "
-                                   "serial.c:157"));
+                                   "serial.c:134"));
 }
 
 TEST_F(BoardSerial, ClocksOffAndFunctionsThatAreMissingAreListed) {

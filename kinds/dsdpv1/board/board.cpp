@@ -11,9 +11,6 @@
 namespace dsdpv1::arm {
 namespace {
 
-// The board's wiring.
-constexpr unsigned kRReqPin = 6, kRStaPin = 7;
-
 constexpr std::uint32_t kWfiBytes = 2;  // also of WFE
 
 /// Of SerialSide, then TIM2 to TIM5.
@@ -410,13 +407,13 @@ bool Board::update_interrupts() {
 }
 
 void Board::update_pins() {
-  const Gpio& handshake = ports_[kC];
-  if (const bool level = handshake.level(kRReqPin, false); std::exchange(r_req_, level) != level) {
+  const Gpio& handshake = ports_[kRReq.port];
+  if (const bool level = handshake.level(kRReq.pin, false); std::exchange(r_req_, level) != level) {
     handshake_.r_req(pins_->now(), level);
     acts_.pins(pins_->now(), core_.pc(), !level);
     pins_->set_r_req(level);
   }
-  if (const bool level = handshake.level(kRStaPin, false); std::exchange(r_sta_, level) != level) {
+  if (const bool level = handshake.level(kRSta.pin, false); std::exchange(r_sta_, level) != level) {
     handshake_.r_sta(pins_->now(), level);
     acts_.pins(pins_->now(), core_.pc(), !level);
     pins_->set_r_sta(level);

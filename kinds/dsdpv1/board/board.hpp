@@ -91,9 +91,6 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
     Tick at;
     bool level;
   };
-  struct PortPin {
-    unsigned port, pin;
-  };
   /// A line between the chip and a pin of a port.
   struct Wire {
     PortPin at;
@@ -107,7 +104,6 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
     std::uint16_t driven, levels;
   };
   static constexpr Tick kLsi = bus::kTicksPerSecond / 40'000;  ///< (p)
-  enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
 
   // Others, called by the CPU that moves the pins
   Tick quiet_until() override;

@@ -33,7 +33,6 @@ constexpr std::uint32_t kAfioMapr = 0x04;
 constexpr std::array<std::uint32_t, 3> kSerialDr = {Spi::kDr, Spi::kDr, Usart::kDr};  // by SerialSide::Block
 
 // The board's wiring.
-constexpr unsigned kRReqPin = 6, kRStaPin = 7, kLReqPin = 8, kLStaPin = 9;
 constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
 
 constexpr std::uint64_t kApbCycles = 2;
@@ -272,7 +271,7 @@ Board::Levels Board::wired(unsigned port, const Outputs& chip) const {
   };
   if (port == reset_pin_.port) add(reset_pin_.pin, 1);
   if (port == intr0_pin_.port) add(intr0_pin_.pin, static_cast<unsigned>(intr0_));
-  if (port == kC) add(kLReqPin, chip.handshake), add(kLStaPin, chip.handshake >> 1U);
+  if (port == kC) add(kLReq.pin, chip.handshake), add(kLSta.pin, chip.handshake >> 1U);
   if (port == kG)
     for (unsigned i = 0; i < 3; ++i) add(kLampPin + i, chip.lamps >> i);
   return {static_cast<std::uint16_t>(driven), static_cast<std::uint16_t>(levels)};
@@ -421,18 +420,16 @@ void Board::follow_flash() { core_.set_flash(flash_.wait_states(), flash_.prefet
 void Board::check_clock() {
   const std::int64_t hz = rcc_.sysclk_hz(), wanted = (hz - 1) / kSysclkWithoutWait;
   const bool slow = hz <= kGreatestHclk && wanted > flash_.wait_states();
-  if (slow && !std::exchange(slow_flash_, slow))
+  if (const bool told = std::exchange(slow_flash_, slow); slow && !told)
     misused(tb::board_code::kFlashLatency,
             fmt::format("SYSCLK is {} MHz with {} wait states of flash (FLASH_ACR.LATENCY), which needs {}",
                         hz / 1'000'000, flash_.wait_states(), wanted));
-  slow_flash_ = slow;
   const std::int64_t hclk = rcc_.hclk_hz(), pclk1 = hclk / rcc_.apb1_divider();
   const bool fast = hclk > kGreatestHclk || pclk1 > kGreatestPclk1;
-  if (fast && !std::exchange(fast_, fast))
+  if (const bool told = std::exchange(fast_, fast); fast && !told)
     misused(tb::board_code::kClockFast,
             hclk > kGreatestHclk ? fmt::format("HCLK is {} MHz, expected at most 72 MHz", hclk / 1'000'000)
                                  : fmt::format("PCLK1 is {} MHz, expected at most 36 MHz", pclk1 / 1'000'000));
-  fast_ = fast;
 }
 
 void Board::store_serial(SerialSide::Block block, std::uint32_t offset, std::uint32_t value) {
@@ -443,7 +440,7 @@ void Board::store_serial(SerialSide::Block block, std::uint32_t offset, std::uin
   update_interrupts();
 }
 
-// ------------------------------------------------------------------------------------------------- notes
+// ------------------------------------------------------------------------------------------------- registers' tags
 
 void Board::look_at(const Peripheral& of, std::uint32_t offset, std::optional<std::uint32_t> written) {
   if (of.registers->is_plain(offset)) return;
@@ -473,10 +470,10 @@ std::vector<Board::Wire> Board::wires() const {
   const PortPin first_of_spi = options_.card == 2 ? PortPin{kB, 12} : PortPin{kA, 4};
   switch (options_.mode) {
     case HostMode::kParallel:
-      all.insert(all.end(), {{{kC, kRReqPin}, "R_REQ", false, true},
-                             {{kC, kRStaPin}, "R_STA", false, true},
-                             {{kC, kLReqPin}, "L_REQ", true},
-                             {{kC, kLStaPin}, "L_STA", true}});
+      all.insert(all.end(), {{kRReq, "R_REQ", false, true},
+                             {kRSta, "R_STA", false, true},
+                             {kLReq, "L_REQ", true},
+                             {kLSta, "L_STA", true}});
       break;
     case HostMode::kSpi:
       all.insert(all.end(), {{first_of_spi, "XSS"}, {{first_of_spi.port, first_of_spi.pin + 2}, "MISO", true}});
@@ -494,7 +491,7 @@ void Board::look_at_pins(unsigned port, const Gpio& before, std::uint32_t addres
       look_at_output(wire, addressed);
     else if (ports_.at(port).drives(pin) && !before.drives(pin))
       misused(tb::board_code::kPinConflict,
-              fmt::format("{} is an output, and the chip drives {}", pin_name(port, pin), wire.name));
+              fmt::format("{} is an output, and the chip drives {}", pin_name(wire.at), wire.name));
   }
 }
 
@@ -507,7 +504,7 @@ void Board::look_at_output(Wire& wire, std::uint32_t addressed) {
   wire.unheard = is_output ? 0 : wire.unheard + 1;
   const bool stays_low = is_output && wire.pushed && !gpio.is_pushed(pin) && !gpio.drives(pin);
   if (!stays_low && wire.unheard < 2) return;
-  misused(tb::board_code::kPinMode, fmt::format("{} ({}) is {}", pin_name(port, pin), wire.name,
+  misused(tb::board_code::kPinMode, fmt::format("{} ({}) is {}", pin_name(wire.at), wire.name,
                                                 stays_low ? "set while it is open drain: it stays low"
                                                           : "set or cleared while it is not an output"));
 }

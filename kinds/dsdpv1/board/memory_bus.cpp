@@ -7,31 +7,24 @@
 namespace dsdpv1::arm {
 namespace {
 
-enum Port : unsigned { kC = 2, kD, kE, kF, kG };
-
-struct Line {
-  unsigned port, pin;
-};
-
-constexpr Line kNe1 = {kD, 7}, kNoe = {kD, 4}, kNwe = {kD, 5}, kRReq = {kC, 6}, kRSta = {kC, 7}, kLReq = {kC, 8},
-               kLSta = {kC, 9};
-constexpr std::array<Line, 11> kAddress = {
+constexpr PortPin kNe1 = {kD, 7}, kNoe = {kD, 4}, kNwe = {kD, 5};
+constexpr std::array<PortPin, 11> kAddress = {
     {{kF, 0}, {kF, 1}, {kF, 2}, {kF, 3}, {kF, 4}, {kF, 5}, {kF, 12}, {kF, 13}, {kF, 14}, {kF, 15}, {kG, 0}}};
-constexpr std::array<Line, 8> kData = {{{kD, 14}, {kD, 15}, {kD, 0}, {kD, 1}, {kE, 7}, {kE, 8}, {kE, 9}, {kE, 10}}};
+constexpr std::array<PortPin, 8> kData = {{{kD, 14}, {kD, 15}, {kD, 0}, {kD, 1}, {kE, 7}, {kE, 8}, {kE, 9}, {kE, 10}}};
 
-void add(std::string& list, const Line& line, const std::string& name) {
-  list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", pin_name(line.port, line.pin), name);
+void add(std::string& list, const PortPin& line, const std::string& name) {
+  list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", pin_name(line), name);
 }
 
 }  // namespace
 
-std::string pin_name(unsigned port, unsigned pin) { return fmt::format("P{}{}", static_cast<char>('A' + port), pin); }
+std::string pin_name(const PortPin& at) { return fmt::format("P{}{}", static_cast<char>('A' + at.port), at.pin); }
 
 MemoryBus memory_bus(const std::array<Gpio, 7>& ports, const Fsmc& fsmc, bool handshake) {
   MemoryBus bus;
   bus.wide = fsmc.is_wide();
   bus.multiplexed = fsmc.is_multiplexed();
-  const auto passes = [&](const Line& line, const std::string& name) {
+  const auto passes = [&](const PortPin& line, const std::string& name) {
     const bool is = ports.at(line.port).is_pushed_alternate(line.pin);
     if (!is) add(bus.wrong_pins, line, name);
     return is;

@@ -15,6 +15,14 @@
 
 namespace dsdpv1::arm {
 
+enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG };
+struct PortPin {
+  unsigned port, pin;
+};
+constexpr PortPin kRReq = {kC, 6}, kRSta = {kC, 7}, kLReq = {kC, 8}, kLSta = {kC, 9};
+/// "PD4".
+std::string pin_name(const PortPin& at);
+
 struct MemoryBus {
   bool wide = false, multiplexed = false;  ///< MWID is not 8 bits; MUXEN
   bool reads = true, writes = true;        ///< NE1 and NOE, NE1 and NWE are driven
@@ -32,7 +40,5 @@ struct MemoryBus {
 
 /// `ports`: A to G. `handshake`: R_REQ and R_STA are in use.
 MemoryBus memory_bus(const std::array<Gpio, 7>& ports, const Fsmc& fsmc, bool handshake);
-/// "PD4": pin of a port, counted from A.
-std::string pin_name(unsigned port, unsigned pin);
 
 }  // namespace dsdpv1::arm

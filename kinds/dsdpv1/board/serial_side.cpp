@@ -14,7 +14,6 @@ constexpr std::uint32_t kSpi1Remap = 1U << 0U, kUsart2Remap = 1U << 3U;
 constexpr std::array<std::uint32_t, 3> kStatus = {Spi::kSr, Spi::kSr, Usart::kSr},
                                        kTxe = {1U << 1U, 1U << 1U, 1U << 7U};
 
-constexpr unsigned kPortA = 0;
 constexpr unsigned kRtsPin = 1, kTxPin = 2, kRxPin = 3;
 enum : unsigned { kNss, kSck, kMiso, kMosi };           // pins of an SPI, counted from its first one
 constexpr std::array<unsigned, 2> kFirstPin = {4, 12};  // PA4, PB12
@@ -113,8 +112,8 @@ std::array<SerialSide::Alternate, 8> SerialSide::alternates() const {
     *to++ = {i, first + kMosi, here && spi.drives(), spi.mosi()};
   }
   const bool here = (mapr_ & kUsart2Remap) == 0;
-  *to++ = {kPortA, kTxPin, here && usart_.drives(), usart_.tx()};
-  *to++ = {kPortA, kRtsPin, here && usart_.drives_rts(), usart_.rts()};
+  *to++ = {kA, kTxPin, here && usart_.drives(), usart_.tx()};
+  *to++ = {kA, kRtsPin, here && usart_.drives_rts(), usart_.rts()};
   return all;
 }
 
@@ -173,18 +172,18 @@ void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPin
 /// TX idles high, as its pull-up does, so that it may be open drain.
 std::string SerialSide::wrong_pin(Block block) const {
   if (block == kUsart2) {
-    const bool passes = (mapr_ & kUsart2Remap) == 0 && ports_.at(kPortA).is_alternate(kTxPin);
-    if (usart_.drives() && ports_.at(kPortA).is_analog(kRxPin)) return pin_name(kPortA, kRxPin) + " (RX)";
-    return usart_.drives() && !passes ? pin_name(kPortA, kTxPin) + " (TX)" : "";
+    const bool passes = (mapr_ & kUsart2Remap) == 0 && ports_.at(kA).is_alternate(kTxPin);
+    if (usart_.drives() && ports_.at(kA).is_analog(kRxPin)) return pin_name({kA, kRxPin}) + " (RX)";
+    return usart_.drives() && !passes ? pin_name({kA, kTxPin}) + " (TX)" : "";
   }
   const bool here = block != kSpi1 || (mapr_ & kSpi1Remap) == 0;
   for (const auto& [pin, name] : {std::pair(kSck, " (SCK)"), std::pair(kMosi, " (MOSI)")}) {
     const unsigned at = kFirstPin.at(block) + pin;
     if (spi_.at(block).drives() && !(here && ports_.at(block).is_pushed_alternate(at)))
-      return pin_name(block, at) + name;
+      return pin_name({block, at}) + name;
   }
   const unsigned miso = kFirstPin.at(block) + kMiso;
-  return spi_.at(block).drives() && ports_.at(block).is_analog(miso) ? pin_name(block, miso) + " (MISO)" : "";
+  return spi_.at(block).drives() && ports_.at(block).is_analog(miso) ? pin_name({block, miso}) + " (MISO)" : "";
 }
 
 SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {
@@ -197,7 +196,7 @@ SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {
   for (const Alternate& each : alternates())
     if (each.port == port && each.drives && ports_.at(port).is_alternate(each.pin)) add(each.pin, each.level);
   if (has_miso(port)) add(kFirstPin.at(port) + kMiso, miso);
-  if (card_ != 0 && port == kPortA) add(kRxPin, usart_.rx());
+  if (card_ != 0 && port == kA) add(kRxPin, usart_.rx());
   return seen;
 }
 

@@ -1,5 +1,7 @@
 #include "kinds/dsdpv1/checks/blocks.hpp"
 
+#include <fmt/format.h>
+
 #include "kinds/dsdpv1/port/crc16.hpp"
 
 namespace dsdpv1::checks {
@@ -24,6 +26,12 @@ std::optional<unsigned> covered_of_answer(const Block& block, const Look& look) 
 }
 
 }  // namespace
+
+std::string flag_name(Address cell, std::uint8_t flag) {
+  unsigned bit = 0;
+  while ((flag >> bit & 1U) == 0) ++bit;
+  return fmt::format("B{:03X}.{}", cell, bit);
+}
 
 std::optional<unsigned> covered(const Block& block, const Look& look) {
   if (block.command == regs::kUserCommand2) return covered_of_answer(block, look);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "registers/dsdpv1_regs.hpp"
 
@@ -48,6 +49,19 @@ constexpr std::array<Block, 5> kChipBlocks = {{
     {"C2 request", dsdpv1::regs::kChipCommand2, dsdpv1::regs::kChipCommand2C2, dsdpv1::regs::kC2, dsdpv1::regs::kC2Data,
      dsdpv1::regs::kC2Crc},
 }};
+
+/// A block of the chip on which the user gives a verdict, and its bit of B010.
+struct Judged {
+  const Block& block;
+  std::uint8_t verdict;
+};
+constexpr std::array<Judged, 2> kJudgedBlocks = {{
+    {kChipBlocks[1], dsdpv1::regs::kUserCommand1PrmVerdict},
+    {kChipBlocks[2], dsdpv1::regs::kUserCommand1CfgVerdict},
+}};
+
+/// "B00E.1": a bit of a cell.
+std::string flag_name(Address cell, std::uint8_t flag);
 
 /// Reads a cell; absent if its content is unknown.
 using Look = std::function<std::optional<std::uint8_t>(Address)>;

@@ -28,17 +28,6 @@ constexpr std::array<FlagByte, 8> kFlags = {{
     {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2 | regs::kUserCommand2InputClear, false},
 }};
 
-/// A verdict on a block: bit of B010, and bit of B00E, which stays set until the user fetches the block.
-struct Verdict {
-  std::uint8_t given, block;
-  const char* name;
-  const char* flag;
-};
-constexpr std::array<Verdict, 2> kVerdicts = {{
-    {regs::kUserCommand1PrmVerdict, regs::kChipCommand1Prm, "parameters (B010.7)", "B00E.1"},
-    {regs::kUserCommand1CfgVerdict, regs::kChipCommand1Cfg, "configuration (B010.6)", "B00E.2"},
-}};
-
 bool is_command_of_chip(Address address) { return address == regs::kChipCommand1 || address == regs::kChipCommand2; }
 bool is_command_of_user(Address address) { return address == regs::kUserCommand1 || address == regs::kUserCommand2; }
 
@@ -264,16 +253,16 @@ void CellRules::check_crcs_fetched(Tick at) {
 
 /// A verdict that was set before does not belong to this hold, and one withdrawn in it does not count.
 void CellRules::note_verdicts(std::uint8_t now, std::uint8_t before) {
-  for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
-    const std::uint8_t given = kVerdicts.at(i).given;
+  for (std::size_t i = 0; i < kJudgedBlocks.size(); ++i) {
+    const std::uint8_t given = kJudgedBlocks.at(i).verdict;
     hold_.verdicts[i] = (now & given) != 0 && ((before & given) == 0 || hold_.verdicts[i]);
   }
 }
 
 void CellRules::note_fetched(std::uint8_t now, const std::optional<std::uint8_t>& before) {
-  for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
-    const std::uint8_t block = kVerdicts.at(i).block;
-    if ((now & block) == 0 && (!before || (*before & block) != 0)) fetched_.set(i);
+  for (std::size_t i = 0; i < kJudgedBlocks.size(); ++i) {
+    const std::uint8_t flag = kJudgedBlocks.at(i).block.flag;
+    if ((now & flag) == 0 && (!before || (*before & flag) != 0)) fetched_.set(i);
   }
 }
 
@@ -282,24 +271,25 @@ void CellRules::note_fetched(std::uint8_t now, const std::optional<std::uint8_t>
 /// fetched nothing.
 std::optional<bool> CellRules::stands_unfetched(std::size_t verdict) const {
   constexpr std::size_t kPlace = regs::kChipCommand1 - kFirstFlags;
-  const bool stood = (flags_left_.at(kPlace) & kVerdicts.at(verdict).block) != 0;
+  const bool stood = (flags_left_.at(kPlace) & kJudgedBlocks.at(verdict).block.flag) != 0;
   if (stood || hold_.flags_seen[kPlace]) return stood;
   return fetched_[verdict] ? std::nullopt : std::optional(true);
 }
 
 /// At the release: the order of writes within the hold does not matter, because the chip sees them all at once.
 void CellRules::check_verdicts(Tick at) {
-  for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
+  for (std::size_t i = 0; i < kJudgedBlocks.size(); ++i) {
     if (!hold_.verdicts[i]) continue;
-    const Verdict& verdict = kVerdicts.at(i);
     if (const std::optional<bool> stands = stands_unfetched(i))
       recorder_.kept(
           Check::kVerdictUnfetched, at, !*stands,
-          [this, &verdict] {
-            const bool seen = (flags_left_.at(regs::kChipCommand1 - kFirstFlags) & verdict.block) != 0;
-            return fmt::format("verdict on the {}, {}", verdict.name,
-                               seen ? fmt::format("whose flag {} still stands", verdict.flag)
-                                    : fmt::format("and {} was not cleared since the last one", verdict.flag));
+          [this, &judged = kJudgedBlocks.at(i)] {
+            const auto& [block, verdict] = judged;
+            const bool seen = (flags_left_.at(regs::kChipCommand1 - kFirstFlags) & block.flag) != 0;
+            const std::string flag = flag_name(block.command, block.flag);
+            return fmt::format(
+                "verdict on the {} ({}), {}", block.name, flag_name(regs::kUserCommand1, verdict),
+                seen ? "whose flag " + flag + " still stands" : "and " + flag + " was not cleared since the last one");
           },
           Act::written(regs::kUserCommand1, at));
     fetched_.reset(i);

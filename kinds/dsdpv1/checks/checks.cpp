@@ -45,6 +45,7 @@ bool Checks::strap(Pin pin, Level level) {
 
 bool Checks::applies(CheckId check) const {
   if (check.index < CheckId(kFirstCommonCheck).index) return !serial();
+  if (check == Check::kUserRefused) return duties_.judges_refusals();
   if (check.index < CheckId(kFirstSpiCheck).index) return true;
   return settings_.mode == (check.index < CheckId(kFirstUartCheck).index ? kSpi : kUart);
 }

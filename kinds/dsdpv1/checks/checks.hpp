@@ -70,7 +70,8 @@ class Checks : public ChipChecks, private AccessSink {
   void finish(Tick end) override;
   void event(const profibus::Event& event) override;
 
-  /// With SPI and UART the parallel port and its handshake are unused (R14), and telegrams show the cells.
+  /// With SPI and UART the parallel port and its handshake are unused (R14), and telegrams show the cells. Refusals
+  /// need the chip's events.
   bool applies(CheckId check) const override;
   const Record& record(CheckId check) const override { return recorder_.record(check); }
   const Limit& limit(CheckId check) const override { return recorder_.limit(check); }

@@ -168,9 +168,9 @@ void FreshData::hold(const UserHold& hold) {
 /// A look that finds B00E.0 clear shows that nothing has come for the user, as in Sync mode (S4).
 void FreshData::outputs_in(const UserHold& hold) {
   const FlagsInHold& flags = hold.chip_1;
-  const bool cleared = ((flags.cleared() | flags.taken) & regs::kChipCommand1Output) != 0;
-  const bool found_clear = (flags.read || flags.written) && (flags.after & regs::kChipCommand1Output) == 0 &&
-                           outputs_.since() && hold.began > *outputs_.since();
+  const bool cleared = (flags.fetched() & regs::kChipCommand1Output) != 0;
+  const bool found_clear = flags.looked_at() && (flags.after & regs::kChipCommand1Output) == 0 && outputs_.since() &&
+                           hold.began > *outputs_.since();
   if (cleared)
     met(outputs_, Check::kOutputsFetched, hold.ended, "B00E.0 cleared");
   else if (found_clear)

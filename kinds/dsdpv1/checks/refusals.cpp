@@ -31,21 +31,19 @@ constexpr bool is_of_telegram(profibus::Reason reason) {
          reason == Reason::kTelegramLength;
 }
 
-constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 2> kVerdictBits = {
-    {{regs::kChipCommand1Prm, regs::kUserCommand1PrmVerdict}, {regs::kChipCommand1Cfg, regs::kUserCommand1CfgVerdict}}};
-
 }  // namespace
 
 /// A verdict may come too late for its block (H7, S16); one without a block is wrong.
 void Refusals::hold(const UserHold& hold) {
-  for (std::size_t kind = 0; kind < kVerdictBits.size(); ++kind) {
-    const auto& [block, verdict] = kVerdictBits.at(kind);
-    if (((hold.chip_1.cleared() | hold.chip_1.taken) & block) != 0) fetched_.at(kind) = true;
+  const std::uint8_t fetched = hold.chip_1.fetched();
+  for (std::size_t kind = 0; kind < kJudgedBlocks.size(); ++kind) {
+    const auto& [block, verdict] = kJudgedBlocks.at(kind);
+    if ((fetched & block.flag) != 0) fetched_.at(kind) = true;
     if ((hold.user_1.set() & verdict) != 0) unfounded_.at(kind) = !std::exchange(fetched_.at(kind), false);
   }
-  if (((hold.chip_1.cleared() | hold.chip_1.taken) & regs::kChipCommand1Cfg) != 0) lengths_ = 0;
-  if ((hold.user_1.set() | hold.user_2.set()) != 0)
-    recorder_.get().kept(Check::kUserRefused, hold.ended, true, [] { return std::string(); });
+  if ((fetched & regs::kChipCommand1Cfg) != 0) lengths_ = 0;
+  if (told_ && (hold.user_1.set() | hold.user_2.set()) != 0)
+    recorder_.kept(Check::kUserRefused, hold.ended, true, [] { return std::string(); });
 }
 
 /// Over the UART the user may hand over the empty inputs of the DPRAM to get news (UA10), and a newer request may come
@@ -60,12 +58,13 @@ bool Refusals::is_users_fault(const profibus::Event& event, Port port) {
 
 /// The user's last write of the flags: with a block's flag it has handed over what is refused.
 void Refusals::event(const profibus::Event& event, Port port) {
+  told_ = true;
   if (!is_users_fault(event, port)) return;
   const bool acyclic = event.reason == dpram::Reason::kC1Crc || event.reason == dpram::Reason::kC2Crc ||
                        event.reason == dpram::Reason::kAcyclicLength ||
                        event.reason == profibus::Reason::kAcyclicAnswerDiffers;
   const Address flags = acyclic ? regs::kUserCommand2 : regs::kUserCommand1;
-  recorder_.get().kept(
+  recorder_.kept(
       Check::kUserRefused, event.at, false, [&event] { return dsdpv1::describe(event); },
       is_of_telegram(event.reason) ? Act::done(event.at) : Act::written(flags, event.at));
 }

@@ -2,7 +2,6 @@
 // What the chip refused of what the user wrote (U6). The chip's events tell; without them, as of foreign RTL, nothing
 // is judged.
 #include <array>
-#include <functional>
 
 #include "kinds/dsdpv1/checks/check.hpp"
 #include "kinds/dsdpv1/checks/user_hold.hpp"
@@ -18,14 +17,20 @@ class Refusals {
   explicit Refusals(Recorder& recorder) : recorder_(recorder) {}
 
   /// RESET is low.
-  void reset() { *this = Refusals(recorder_); }
+  void reset() {
+    fetched_ = unfounded_ = {};
+    lengths_ = 0;
+  }
+  /// False until the chip has told something, as when it has started up.
+  bool judges() const { return told_; }
   void hold(const UserHold& hold);
   void event(const profibus::Event& event, Port port);
 
  private:
   bool is_users_fault(const profibus::Event& event, Port port);
 
-  std::reference_wrapper<Recorder> recorder_;
+  Recorder& recorder_;
+  bool told_ = false;                ///< an event
   std::array<bool, 2> fetched_{};    ///< parameters, configuration: since the last verdict
   std::array<bool, 2> unfounded_{};  ///< the last verdict was on nothing
   unsigned lengths_ = 0;             ///< inputs of another length since the user fetched a configuration

@@ -34,7 +34,7 @@ void RequestAnswers::serve(std::size_t which, const UserHold& hold, const UserHo
   Channel& channel = channels_.at(which);
   const Block& request = kChipBlocks.at(kFirstOfChip + which);
   const Block& answer = kUserBlocks.at(kFirstOfUser + which);
-  if (((hold.chip_2.cleared() | hold.chip_2.taken) & request.flag) != 0) {
+  if ((hold.chip_2.fetched() & request.flag) != 0) {
     channel.asked = holds.request_read(request);
     channel.duty.ends();
     channel.duty.begins(hold.ended);

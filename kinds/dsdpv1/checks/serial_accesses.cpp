@@ -6,22 +6,14 @@ namespace {
 constexpr unsigned kErrorAnswer = 7, kFunctionError = 0x80;
 constexpr std::size_t kCrcBytes = 2, kReplyHead = 2, kExchangeHead = 5;
 
-/// UA10: what a reply to inputs carries, and the flag that the chip has cleared with it.
-struct News {
-  std::uint8_t function;
-  Address first, command;
-  std::uint8_t flag;
-};
-constexpr std::array<News, 4> kNews = {{{0x10, regs::kPrm, regs::kChipCommand1, regs::kChipCommand1Prm},
-                                        {0x20, regs::kCfg, regs::kChipCommand1, regs::kChipCommand1Cfg},
-                                        {0x04, regs::kC1, regs::kChipCommand2, regs::kChipCommand2C1},
-                                        {0x08, regs::kC2, regs::kChipCommand2, regs::kChipCommand2C2}}};
-constexpr News kOutputsCome = {0, regs::kOutput, regs::kChipCommand1, regs::kChipCommand1Output};
+/// UA10: the bit of a reply to inputs for each of kChipBlocks; outputs come without one.
+constexpr std::array<std::uint8_t, kChipBlocks.size()> kNews = {0, 0x10, 0x20, 0x04, 0x08};
 
-const News& news_of(std::uint8_t function) {
-  for (const News& each : kNews)
-    if ((function & each.function) != 0) return each;
-  return kOutputsCome;
+/// The block that such a reply carries; the chip has cleared its flag.
+const Block& news_of(std::uint8_t function) {
+  for (std::size_t i = 0; i < kNews.size(); ++i)
+    if ((function & kNews.at(i)) != 0) return kChipBlocks.at(i);
+  return kChipBlocks.front();
 }
 
 /// UA9: the area of an exchange with the flag that the chip sets.
@@ -86,7 +78,8 @@ void SerialAccesses::exchange(const HostTelegram& request, const bus::Bytes& rep
   access(true, block->first, request.bytes().data() + kExchangeHead, request.length());
   duties_.announced(block->command, block->flag);
   if (block->first != regs::kInput) return;
-  const News& news = news_of(reply[1]);
+  duties_.told_news();
+  const Block& news = news_of(reply[1]);
   access(false, news.first, reply.data() + kExchangeHead,
          static_cast<unsigned>(reply.size() - kExchangeHead - kCrcBytes));
   duties_.taken(news.command, news.flag);

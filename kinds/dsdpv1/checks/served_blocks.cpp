@@ -1,38 +1,28 @@
 #include "kinds/dsdpv1/checks/served_blocks.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace dsdpv1::checks {
 namespace {
 
-constexpr std::size_t kOutputs = 0, kPrm = 1, kCfg = 2;  ///< in kChipBlocks
-
-/// A block of the chip with the bit of B010 for the verdict on it.
-struct Judged {
-  std::size_t block;
-  std::uint8_t given;
-};
-constexpr std::array<Judged, 2> kJudged = {
-    {{kPrm, regs::kUserCommand1PrmVerdict}, {kCfg, regs::kUserCommand1CfgVerdict}}};
+constexpr std::size_t kFirst = 1;  ///< in kChipBlocks: the outputs before it are of U4
 
 /// "B00E.1, parameters".
-std::string flag_text(const Block& block) {
-  unsigned bit = 0;
-  while ((block.flag >> bit & 1U) == 0) ++bit;
-  return fmt::format("B{:03X}.{}, {}", block.command, bit, block.name);
-}
+std::string flag_text(const Block& block) { return flag_name(block.command, block.flag) + ", " + block.name; }
 
 }  // namespace
 
 void ServedBlocks::reset() {
-  intr0_.ends();
-  request_.ends();
-  for (Duty& each : flags_) each.ends();
-  for (Duty& each : verdicts_) each.ends();
+  owe_nothing();
   modes_.reset();
   coming_modes_.reset();
+}
+
+void ServedBlocks::owe_nothing() {
+  intr0_.ends();
+  request_.ends();
+  flags_ = {};
+  verdicts_ = {};
 }
 
 void ServedBlocks::hold(const UserHold& hold, const UserHolds& holds) {
@@ -46,10 +36,7 @@ void ServedBlocks::hold(const UserHold& hold, const UserHolds& holds) {
 
 /// Flags of the earlier operation are set aside (D11).
 void ServedBlocks::initialise(const UserHolds& holds) {
-  intr0_.ends();
-  request_.ends();
-  for (Duty& each : flags_) each.ends();
-  for (Duty& each : verdicts_) each.ends();
+  owe_nothing();
   coming_modes_ = {holds.prm_mode(), holds.cfg_mode()};
 }
 
@@ -77,31 +64,30 @@ void ServedBlocks::judge_whole(const UserHold& hold, const UserHolds& holds) {
 }
 
 void ServedBlocks::judge_flags(const UserHold& hold) {
-  const bool looked = hold.chip_1.read || hold.chip_1.written;
-  for (std::size_t i = kOutputs + 1; i < kChipBlocks.size(); ++i) {
+  for (std::size_t i = kFirst; i < kChipBlocks.size(); ++i) {
     const Block& block = kChipBlocks.at(i);
     const FlagsInHold& flags = hold.chip(block);
-    const bool known = flags.read || flags.written || flags.taken != 0;
-    if (!known) continue;
+    if (!flags.looked_at() && flags.taken == 0) continue;
     Duty& duty = flags_.at(i);
-    if (((flags.before | flags.after) & block.flag) != 0)
-      duty.begins(i <= kCfg ? intr0_.since().value_or(hold.began) : hold.began);
+    if (((flags.before | flags.after | flags.taken) & block.flag) != 0)
+      duty.begins(block.command == regs::kChipCommand1 ? intr0_.since().value_or(hold.began) : hold.began);
     if ((flags.after & block.flag) == 0)
       duty.met(recorder_, Check::kBlockServed, hold.ended, [&block] { return flag_text(block) + ": late"; });
   }
-  if (looked && intr0_.since() && hold.began >= *intr0_.since()) intr0_.ends();
-  const bool looked_2 = hold.chip_2.read || hold.chip_2.written || hold.chip_2.taken != 0;
-  if (looked_2 && request_.since() && hold.began >= *request_.since()) request_.ends();
+  const auto looked = [&hold](Duty& duty, const FlagsInHold& flags) {
+    if ((flags.looked_at() || hold.told_news) && duty.since() && hold.began >= *duty.since()) duty.ends();
+  };
+  looked(intr0_, hold.chip_1);
+  looked(request_, hold.chip_2);
 }
 
 /// A newer block does not renew the time: the master still waits.
 void ServedBlocks::judge_verdicts(const UserHold& hold) {
-  for (std::size_t kind = 0; kind < kJudged.size(); ++kind) {
-    const Block& block = kChipBlocks.at(kJudged.at(kind).block);
+  for (std::size_t kind = 0; kind < kJudgedBlocks.size(); ++kind) {
+    const Block& block = kJudgedBlocks.at(kind).block;
     Duty& duty = verdicts_.at(kind);
-    const std::uint8_t fetched = static_cast<std::uint8_t>(hold.chip_1.cleared() | hold.chip_1.taken);
-    if ((fetched & block.flag) != 0 && is_judged_by_user(kind)) duty.begins(hold.ended);
-    if ((hold.user_1.set() & kJudged.at(kind).given) != 0)
+    if ((hold.chip_1.fetched() & block.flag) != 0 && is_judged_by_user(kind)) duty.begins(hold.ended);
+    if ((hold.user_1.set() & kJudgedBlocks.at(kind).verdict) != 0)
       duty.met(recorder_, Check::kVerdictGiven, hold.ended, [&block] { return std::string("on the ") + block.name; });
   }
 }
@@ -111,13 +97,12 @@ void ServedBlocks::pass(Tick now) {
       recorder_, Check::kBlockServed, now, [] { return std::string("INTR0: the user has not looked at B00E"); });
   request_.pass(recorder_, Check::kBlockServed, now,
                 [] { return std::string("a request on C1 or C2: the user has not looked at B00F"); });
-  for (std::size_t i = kOutputs + 1; i < flags_.size(); ++i)
+  for (std::size_t i = kFirst; i < flags_.size(); ++i)
     flags_.at(i).pass(recorder_, Check::kBlockServed, now,
                       [i] { return flag_text(kChipBlocks.at(i)) + ": still set"; });
-  for (std::size_t kind = 0; kind < kJudged.size(); ++kind)
-    verdicts_.at(kind).pass(recorder_, Check::kVerdictGiven, now, [kind] {
-      return std::string("no verdict on the ") + kChipBlocks.at(kJudged.at(kind).block).name;
-    });
+  for (std::size_t kind = 0; kind < kJudgedBlocks.size(); ++kind)
+    verdicts_.at(kind).pass(recorder_, Check::kVerdictGiven, now,
+                            [kind] { return std::string("no verdict on the ") + kJudgedBlocks.at(kind).block.name; });
 }
 
 }  // namespace dsdpv1::checks

@@ -25,6 +25,7 @@ class ServedBlocks {
   void pass(Tick now);
 
  private:
+  void owe_nothing();
   void initialise(const UserHolds& holds);
   void note_modes(const UserHold& hold);
   void judge_whole(const UserHold& hold, const UserHolds& holds);

@@ -31,6 +31,8 @@ class UserDuties {
     refusals_.event(event, port);
   }
   void finish(Tick end);
+  /// Whether USER_REFUSED can be judged.
+  bool judges_refusals() const { return refusals_.judges(); }
 
   // A hold of the parallel port, by B014, or of one telegram.
   void hold_began(Tick at) { holds_.began(at); }
@@ -41,6 +43,7 @@ class UserDuties {
   /// The chip clears or sets a flag as part of the user's telegram.
   void taken(Address command, std::uint8_t flag) { holds_.taken(command, flag); }
   void announced(Address command, std::uint8_t flag) { holds_.announced(command, flag); }
+  void told_news() { holds_.told_news(); }
   void hold_ended(Tick at, HoldOf what);
 
  private:

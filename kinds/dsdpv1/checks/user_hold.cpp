@@ -42,7 +42,7 @@ void UserHolds::read(const Access& access) {
   if (access.address == regs::kChipStatus1) hold_.initialised = (*access.value & regs::kChipStatus1Initialised) != 0;
   FlagsInHold* const byte = flags(access.address);
   if (byte == nullptr) return;
-  if (!byte->read && !byte->written) {
+  if (!byte->looked_at()) {
     byte->read = *access.value;
     byte->before = *access.value;
   }

@@ -2,7 +2,6 @@
 // The user's accesses to the DPRAM between taking and releasing it, summed up: flags seen, cleared and set, blocks
 // read. Over the UART, which has no ownership, each telegram is a hold.
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <optional>
 
@@ -24,6 +23,9 @@ struct FlagsInHold {
 
   /// B00E, B00F: flags that the user cleared.
   std::uint8_t cleared() const { return static_cast<std::uint8_t>(before & ~after); }
+  /// ... or the chip for the user: those of blocks that it has fetched.
+  std::uint8_t fetched() const { return static_cast<std::uint8_t>(cleared() | taken); }
+  bool looked_at() const { return read || written; }
   /// B010, B011: flags that the user set, certainly.
   std::uint8_t set() const { return written ? static_cast<std::uint8_t>(after & ~read.value_or(0)) : std::uint8_t{0}; }
 };
@@ -36,6 +38,7 @@ struct UserHold {
   Tick began = 0, ended = 0;
   FlagsInHold chip_1, chip_2, user_1, user_2;  ///< B00E, B00F, B010, B011
   std::optional<bool> initialised;             ///< B00A.0 as read
+  bool told_news = false;                      ///< by the reply to inputs over the UART (UA10)
 
   bool initialises() const { return user_1.written && (user_1.after & regs::kUserCommand1Init) != 0; }
   const FlagsInHold& chip(const Block& block) const { return block.command == regs::kChipCommand1 ? chip_1 : chip_2; }
@@ -50,6 +53,7 @@ class UserHolds {
   /// The chip clears or sets a flag as part of the user's telegram.
   void taken(Address command, std::uint8_t flag);
   void announced(Address command, std::uint8_t flag);
+  void told_news() { hold_.told_news = true; }
   const UserHold& ended(Tick at, HoldOf what);
 
   /// Whether the user has read length and bytes of a block since `forget_reads`; absent if a value was uncertain.

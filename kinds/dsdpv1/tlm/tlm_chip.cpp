@@ -35,17 +35,20 @@ void TlmChip::take(dsdpv1::systemc::TlmModule* module, const dsdpv1::systemc::Tl
   };
 }
 
-void TlmChip::move(HandshakePin& pin, bool level) {
+void TlmChip::set_reset(bool level) {
+  timeline_.catch_up();
+  move(reset_, level);
+}
+
+void TlmChip::move(PromptPin& pin, bool level) {
   pin.set(level);
   module_->sync(timeline_.ahead());
 }
 
-void TlmChip::write(Signal& signal, bool level) {
+void TlmChip::line_changed(bus::Tick /*at*/, bool level) {
   timeline_.catch_up();
-  signal.write(level);
+  rxd_.write(level);
 }
-
-void TlmChip::line_changed(bus::Tick /*at*/, bool level) { write(rxd_, level); }
 
 bool TlmChip::run_begins(const bus::CharacterRun& run) {
   if (own_run_) return true;  // the chip does not receive while it sends

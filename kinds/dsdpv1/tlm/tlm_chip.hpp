@@ -12,12 +12,13 @@
 
 namespace dsdpv1::systemc_bench {
 
-/// R_REQ or R_STA: a level that takes effect at once, instead of an sc_signal, which takes a delta cycle. That saves an
-/// update, an event and a process of the kernel for pins that a user CPU moves four times per hold of the DPRAM. The
-/// caller that sets it must notify the chip, which reads it (TlmModule::sync); no process waits for its events.
-class HandshakePin : public sc_core::sc_prim_channel, public sc_core::sc_signal_in_if<bool> {
+/// RESET, R_REQ or R_STA: a level that takes effect at once, instead of an sc_signal, which takes a delta cycle. That
+/// keeps the order of RESET and other pins at one tick. It saves an update, an event and a process of the kernel for
+/// pins that a user CPU moves four times per hold of the DPRAM. The caller that sets it must notify the chip, which
+/// reads it (TlmModule::sync); no process waits for its events.
+class PromptPin : public sc_core::sc_prim_channel, public sc_core::sc_signal_in_if<bool> {
  public:
-  explicit HandshakePin(const char* name) : sc_prim_channel(name) {}
+  explicit PromptPin(const char* name) : sc_prim_channel(name) {}
   void set(bool level) { level_ = level; }
 
   const bool& read() const override { return level_; }
@@ -53,7 +54,7 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   bus::StationId station() const { return station_; }
 
   /// Pins driven by the bench, only at the timeline's present time.
-  void set_reset(bool level) { write(reset_, level); }
+  void set_reset(bool level);
   void set_r_req(bool level) { move(r_req_, level); }
   void set_r_sta(bool level) { move(r_sta_, level); }
 
@@ -67,8 +68,7 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
 
   using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process
 
-  void move(HandshakePin& pin, bool level);
-  void write(Signal& signal, bool level);
+  void move(PromptPin& pin, bool level);
   void line_changed(bus::Tick at, bool level) override;
   bool run_begins(const bus::CharacterRun& run) override;
   void run_cut(bus::Tick at, bool level) override;
@@ -79,8 +79,8 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   TimelineModule& timeline_;
   dsdpv1::systemc::RsuTlmModule* rsu_ = nullptr;
   std::unique_ptr<dsdpv1::systemc::TlmModule> module_;
-  Signal reset_{"reset"}, rxd_{"rxd", true};
-  HandshakePin r_req_{"r_req"}, r_sta_{"r_sta"};
+  Signal rxd_{"rxd", true};
+  PromptPin reset_{"reset"}, r_req_{"r_req"}, r_sta_{"r_sta"};
   bus::StationId station_;
   bool enabled_ = false, drives_ = true;
   bool own_run_ = false, hides_txd_ = false;

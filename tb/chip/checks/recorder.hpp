@@ -62,7 +62,10 @@ class Recorder {
   const Record& record(CheckId check) const { return records_.at(check.index); }
   const Limit& limit(CheckId check) const { return limits_[check]; }
   /// The limit from now on, where it depends on the run.
-  void set_limit(CheckId check, Tick limit) { limits_[check].value = limit; }
+  void set_limit(CheckId check, Tick limit) {
+    limits_[check].value = limit;
+    kept_.at(check.index) = {};  // of the limit before
+  }
   /// Time advances without a change of a pin (a telegram, the end of the run).
   void now(Tick at) { now_ = at; }
 

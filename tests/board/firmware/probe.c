@@ -3,9 +3,8 @@
 #include <stdint.h>
 
 #include "../../../board/firmware/mailbox.h"
+#include "memory_bus.h"
 
-#define REG(address) (*(volatile uint32_t*)(address))
-#define CHIP(offset) (*(volatile uint8_t*)(0x60000000u + (offset)))
 #define CHIP16(offset) (*(volatile uint16_t*)(0x60000000u + (offset)))
 
 enum { TIM_CR1 = 0x00, TIM_DIER = 0x0C, TIM_SR = 0x10, TIM_EGR = 0x14, TIM_CNT = 0x24, TIM_PSC = 0x28, TIM_ARR = 0x2C };
@@ -21,21 +20,13 @@ enum {
   GPIOA_ODR = 0x4001080C,
   GPIOB_ODR = 0x40010C0C,
   GPIOB_LCKR = 0x40010C18,
-  GPIOC_CRL = 0x40011000,
   GPIOC_CRH = 0x40011004,
   GPIOC_IDR = 0x40011008,
   GPIOC_ODR = 0x4001100C,
   GPIOC_BSRR = 0x40011010,
   GPIOC_BRR = 0x40011014,
-  GPIOD_CRL = 0x40011400,
-  GPIOD_CRH = 0x40011404,
-  GPIOE_CRL = 0x40011800,
-  GPIOE_CRH = 0x40011804,
   GPIOE_IDR = 0x40011808,
   GPIOE_BSRR = 0x40011810,
-  GPIOF_CRL = 0x40011C00,
-  GPIOF_CRH = 0x40011C04,
-  GPIOG_CRL = 0x40012000,
   GPIOG_IDR = 0x40012008,
   SPI1_CR1 = 0x40013000,
   SPI1_CR2 = 0x40013004,
@@ -62,7 +53,6 @@ enum {
   RCC_AHBRSTR = 0x40021028, /* not in this family */
   FLASH_ACR = 0x40022000
 };
-#define FSMC_BCR1 0xA0000000u
 #define FSMC_BTR1 0xA0000004u
 #define FSMC_BWTR1 0xA0000104u
 #define NVIC_ISER0 0xE000E100u
@@ -74,19 +64,6 @@ static volatile uint32_t edges;
 static void clocks(void) {
   REG(RCC_APB2ENR) = 0x41FD;
   REG(RCC_AHBENR) |= 1u << 8;
-}
-
-/* The lines of the memory bus are alternate functions, R_REQ and R_STA outputs; 8 bits, not multiplexed. */
-static void memory_bus(void) {
-  REG(GPIOC_CRL) = 0x33444444;
-  REG(GPIOD_CRL) = 0xB4BB44BB;
-  REG(GPIOD_CRH) = 0xBB444444;
-  REG(GPIOE_CRL) = 0xB4444444;
-  REG(GPIOE_CRH) = 0x44444BBB;
-  REG(GPIOF_CRL) = 0x44BBBBBB;
-  REG(GPIOF_CRH) = 0xBBBB4444;
-  REG(GPIOG_CRL) = 0x4444444B;
-  REG(FSMC_BCR1) = 0x1081; /* MBKEN, WREN */
 }
 
 static void handshake(void) {

@@ -2,8 +2,7 @@
  * selects it with the word `program`. Results go to the chip's DPRAM, where the test reads them. */
 #include <stdint.h>
 
-#define REG(address) (*(volatile uint32_t*)(address))
-#define CHIP(offset) (*(volatile uint8_t*)(0x60000000u + (offset)))
+#include "memory_bus.h"
 
 enum {
   AFIO_MAPR = 0x40010004,
@@ -20,16 +19,8 @@ enum {
   GPIOB_CRL = 0x40010C00,
   GPIOB_CRH = 0x40010C04,
   GPIOB_BSRR = 0x40010C10,
-  GPIOC_CRL = 0x40011000,
-  GPIOD_CRL = 0x40011400,
-  GPIOD_CRH = 0x40011404,
   GPIOD_IDR = 0x40011408,
-  GPIOE_CRL = 0x40011800,
-  GPIOE_CRH = 0x40011804,
   GPIOE_BSRR = 0x40011810,
-  GPIOF_CRL = 0x40011C00,
-  GPIOF_CRH = 0x40011C04,
-  GPIOG_CRL = 0x40012000,
   RCC_CFGR = 0x40021004,
   RCC_APB2RSTR = 0x4002100C,
   RCC_AHBENR = 0x40021014,
@@ -42,7 +33,6 @@ enum {
 enum { CR1 = 0x00, CR2 = 0x04, SR = 0x08, DR = 0x0C }; /* of an SPI */
 enum { USART_SR = 0x00, USART_DR = 0x04, USART_BRR = 0x08, USART_CR1 = 0x0C, USART_CR3 = 0x14 };
 enum { RXNE = 1, TXE = 2, OVR = 0x40, BSY = 0x80 };
-#define FSMC_BCR1 0xA0000000u
 #define NVIC_ISER1 0xE000E104u
 
 const volatile uint32_t program __attribute__((used)) = 0;
@@ -53,19 +43,6 @@ static void clocks(void) {
   REG(RCC_APB1ENR) = 1u << 14 | 1u << 17;
   REG(RCC_AHBENR) |= 1u << 8;
   REG(RCC_CFGR) = 4u << 8; /* PCLK1 is half of HCLK */
-}
-
-/* The lines of the memory bus are alternate functions, R_REQ and R_STA outputs; 8 bits, not multiplexed. */
-static void memory_bus(void) {
-  REG(GPIOC_CRL) = 0x33444444;
-  REG(GPIOD_CRL) = 0xB4BB44BB;
-  REG(GPIOD_CRH) = 0xBB444444;
-  REG(GPIOE_CRL) = 0xB4444444;
-  REG(GPIOE_CRH) = 0x44444BBB;
-  REG(GPIOF_CRL) = 0x44BBBBBB;
-  REG(GPIOF_CRH) = 0xBBBB4444;
-  REG(GPIOG_CRL) = 0x4444444B;
-  REG(FSMC_BCR1) = 0x1081; /* MBKEN, WREN */
 }
 
 /* XSS an output, high; SCK, MOSI alternate functions, MISO an input. */

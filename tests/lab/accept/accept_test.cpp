@@ -155,6 +155,14 @@ TEST_F(AcceptOutcome, ViolationsStandBesideTheirStimulus) {
   EXPECT_THAT(table(plan, *facts), HasSubstr("VIOLATED: 1 BUS_COLLISION"));
 }
 
+/// DC 02 02 that ends within its last character is DC 02 FE.
+TEST_F(AcceptOutcome, TheRestOfATelegramThatAMasterCutsOffIsNoViolation) {
+  for (const auto kind : {bus::FlagKind::kCharacterError, bus::FlagKind::kTelegramError, bus::FlagKind::kGlitch,
+                          bus::FlagKind::kTwoMasters})
+    facts->flag({kind, 2000 + section(plan, "clear").from + 5, {}});
+  EXPECT_THAT(table(plan, *facts), Not(HasSubstr("VIOLATED")));
+}
+
 TEST_F(AcceptOutcome, AnAnswerWithBit7IsAnError) {
   tell("C1_ANSWER", 3000, 0x5E);
   tell("C1_ANSWER", 3001, 0xDE);

@@ -20,6 +20,11 @@ struct Timing {
   std::optional<Tick> sample = {};  ///< of D, after the fall of RD, by a user who reports it
 };
 
+/// Cells to be read, and their values.
+using Cells = std::vector<std::pair<unsigned, unsigned>>;
+/// Without user bytes, with the CRC.
+inline const Cells kEmptyParameters = {{0x410, 0x00}, {0x4FE, 0x40}, {0x4FF, 0xBF}};
+
 class Board {
  public:
   /// `from_start`: the test has the user's start, too (READY_UNSEEN).
@@ -86,6 +91,12 @@ class Board {
   void count() {
     read(0x006, 1);
     write(0x006, 2);
+  }
+  /// Reads flags and cells, and clears flag `set`; `others` stay set.
+  void fetch(unsigned flags, unsigned set, const Cells& cells, unsigned others = 0) {
+    read(flags, set | others);
+    for (const auto& [cell, value] : cells) read(cell, value);
+    write(flags, others);
   }
 
   std::vector<checks::Violation> violations;

@@ -14,6 +14,7 @@ namespace {
 
 using checks::Check;
 using checks_test::Board;
+using checks_test::Cells;
 
 /// A hold with B006 counted correctly and the test's actions in it.
 template <class Act>
@@ -58,36 +59,23 @@ void next_hold(Board& board) {
   board.count();
 }
 
-/// An empty block with its CRC; `others` of B00E stay set.
+/// `others` of B00E stay set.
 void fetch_parameters(Board& board, unsigned others = 0) {
-  board.read(0x00E, 0x02 | others);
-  board.read(0x410, 0x00);
-  board.read(0x4FE, 0x40);
-  board.read(0x4FF, 0xBF);
-  board.write(0x00E, others);
+  board.fetch(0x00E, 0x02, checks_test::kEmptyParameters, others);
 }
 
 /// Outputs of 70 bytes, of which `count` are read.
 void long_outputs(Board& board, unsigned count) {
-  board.read(0x00E, 0x01);
-  board.read(0x319, 70);
-  for (unsigned i = 0; i < count; ++i) board.read(0x31A + i, i);
-  board.read(0x40E, 0x12);
-  board.read(0x40F, 0x34);
-  board.write(0x00E, 0x00);
+  Cells cells = {{0x319, 70}, {0x40E, 0x12}, {0x40F, 0x34}};
+  for (unsigned i = 0; i < count; ++i) cells.emplace_back(0x31A + i, i);
+  board.fetch(0x00E, 0x01, cells);
 }
 
 /// A C1 request with length 1, of whose data `count` bytes are read.
 void request(Board& board, unsigned function, unsigned count) {
-  board.read(0x00F, 0x01);
-  board.read(0x5D0, function);
-  board.read(0x5D1, 0x01);
-  board.read(0x5D2, 0x02);
-  board.read(0x5D3, 0x01);
-  for (unsigned i = 0; i < count; ++i) board.read(0x5D4 + i, 0x77);
-  board.read(0x6C4, 0x12);
-  board.read(0x6C5, 0x34);
-  board.write(0x00F, 0x00);
+  Cells cells = {{0x5D0, function}, {0x5D1, 1}, {0x5D2, 2}, {0x5D3, 1}, {0x6C4, 0x12}, {0x6C5, 0x34}};
+  for (unsigned i = 0; i < count; ++i) cells.emplace_back(0x5D4 + i, 0x77);
+  board.fetch(0x00F, 0x01, cells);
 }
 
 const Case kCases[] = {

@@ -2,8 +2,6 @@
 // pins, INTR0 and telegrams, to the tick.
 #include <gtest/gtest.h>
 
-#include <utility>
-
 #include "model/dpram/reasons.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tests/kinds/dsdpv1/checks/board.hpp"
@@ -37,55 +35,34 @@ Tick look(Board& board, unsigned flags) {
       board, [&board, flags] { board.read(0x00E, flags); });
 }
 
-/// Parameters without user bytes.
-Tick fetch_parameters(Board& board) {
+Tick fetch(Board& board, unsigned flags, unsigned set, const checks_test::Cells& cells) {
   return hold(
-      board,
-      [&board] {
-        board.read(0x00E, 0x02);
-        board.read(0x410, 0x00);
-        board.read(0x4FE, 0x40);
-        board.read(0x4FF, 0xBF);
-        board.write(0x00E, 0x00);
-      });
+      board, [&] { board.fetch(flags, set, cells); });
+}
+Tick fetch_parameters(Board& board) { return fetch(board, 0x00E, 0x02, checks_test::kEmptyParameters); }
+Tick fetch_outputs(Board& board) {
+  return fetch(board, 0x00E, 0x01, {{0x319, 0x01}, {0x31A, 0x11}, {0x40E, 0x12}, {0x40F, 0x34}});
 }
 
-Tick fetch_outputs(Board& board) {
+/// In a hold, after the test's writes.
+Tick set_flag(Board& board, unsigned cell, unsigned flag, const checks_test::Cells& before = {}) {
   return hold(
       board,
-      [&board] {
-        board.read(0x00E, 0x01);
-        board.read(0x319, 0x01);
-        board.read(0x31A, 0x11);
-        board.read(0x40E, 0x12);
-        board.read(0x40F, 0x34);
-        board.write(0x00E, 0x00);
+      [&] {
+        for (const auto& [written, value] : before) board.write(written, value);
+        board.read(cell, 0x00);
+        board.write(cell, flag);
       });
 }
 
 /// An empty block with its CRC.
 Tick hand_over_inputs(Board& board) {
-  return hold(
-      board,
-      [&board] {
-        board.write(0x130, 0x00);
-        board.write(0x225, 0x40);
-        board.write(0x226, 0xBF);
-        board.read(0x010, 0x00);
-        board.write(0x010, 0x01);
-      });
+  return set_flag(board, 0x010, 0x01, {{0x130, 0x00}, {0x225, 0x40}, {0x226, 0xBF}});
 }
 
 /// Of the length byte alone, which the chip would refuse (D12): only the modes matter.
 void initialise(Board& board, unsigned prm_mode, unsigned accepted) {
-  hold(board, [&board, prm_mode] {
-    board.write(0x02B, prm_mode);
-    board.write(0x0F7, 0x40);
-    board.write(0x0F8, 0xBF);
-    board.write(0x00A, 0x00);
-    board.read(0x010, 0x00);
-    board.write(0x010, 0x04);
-  });
+  set_flag(board, 0x010, 0x04, {{0x02B, prm_mode}, {0x0F7, 0x40}, {0x0F8, 0xBF}, {0x00A, 0x00}});
   hold(board, [&board, accepted] {
     board.read(0x010, 0x00);
     board.read(0x00A, accepted);
@@ -346,14 +323,7 @@ void refuse(Board& board, profibus::Reason reason, std::uint16_t a = 0) {
   board.checks().event({board.now(), reason, a, 0, 0});
 }
 
-void give_verdict(Board& board) {
-  hold(
-      board,
-      [&board] {
-        board.read(0x010, 0x00);
-        board.write(0x010, 0x80);
-      });
-}
+void give_verdict(Board& board) { set_flag(board, 0x010, 0x80); }
 
 TEST(UserRefused, IsWhatTheUserCanAvoidWithTheChipsText) {
   Board board;
@@ -383,16 +353,25 @@ TEST(UserRefused, VerdictCountsOnlyWhenNoBlockWasFetchedForIt) {
 TEST(UserRefused, InputsOfAnotherLengthCountFromTheThirdSinceAConfigurationWasFetched) {
   Board board;
   for (int i = 0; i < 2; ++i) refuse(board, profibus::Reason::kInputLength, 3);
-  hold(board, [&board] {
-    board.read(0x00E, 0x04);
-    for (const unsigned cell : {0x500U, 0x501U, 0x502U, 0x5CBU, 0x5CCU}) board.read(cell, 0x00);
-    board.write(0x00E, 0x00);
-  });
+  fetch(board, 0x00E, 0x04, {{0x500, 0}, {0x501, 0}, {0x502, 0}, {0x5CB, 0}, {0x5CC, 0}});
   look(board, 0x00);
   for (int i = 0; i < 2; ++i) refuse(board, profibus::Reason::kInputLength, 3);
   EXPECT_EQ(violations(board, Check::kUserRefused), 0U);
   refuse(board, profibus::Reason::kInputLength, 3);
   EXPECT_EQ(violations(board, Check::kUserRefused), 1U);
+}
+
+TEST(UserRefused, IsJudgedOnlyOfAChipThatTellsItsEvents) {
+  Board board;
+  give_verdict(board);
+  look(board, 0x00);
+  EXPECT_FALSE(board.checks().applies(Check::kUserRefused)) << "foreign RTL";
+  EXPECT_EQ(board.checks().record(Check::kUserRefused).count, 0U);
+  refuse(board, profibus::Reason::kVerdictSuperseded);
+  give_verdict(board);
+  look(board, 0x00);
+  EXPECT_TRUE(board.checks().applies(Check::kUserRefused));
+  EXPECT_EQ(board.checks().record(Check::kUserRefused).count, 1U);
 }
 
 // --- READY_UNSEEN ----------------------------------------------------------------------------------------------------
@@ -417,15 +396,9 @@ TEST(ReadyUnseen, IsJudgedOnceAfterEachReset) {
 
 TEST(InitRepeated, SameValuesAgainAreMeasuredFromTheEarlierOnes) {
   Board board;
-  const auto set_flag = [&board] {
-    return hold(board, [&board] {
-      board.read(0x010, 0x00);
-      board.write(0x010, 0x04);
-    });
-  };
   initialise(board, 0, 1);
-  const Tick one = set_flag();
-  const Tick two = set_flag();
+  const Tick one = set_flag(board, 0x010, 0x04);
+  const Tick two = set_flag(board, 0x010, 0x04);
   look(board, 0x00);
   EXPECT_EQ(board.checks().record(Check::kInitRepeated).count, 2U);
   EXPECT_EQ(violations(board, Check::kInitRepeated), 2U);
@@ -458,16 +431,7 @@ TEST(ResetLow, LeastTimeIsShown) {
 // --- requests --------------------------------------------------------------------------------------------------------
 
 Tick fetch_request(Board& board) {
-  return hold(
-      board,
-      [&board] {
-        board.read(0x00F, 0x01);
-        for (const auto& [cell, value] : {std::pair(0x5D0U, 0x5EU), {0x5D1U, 1U}, {0x5D2U, 2U}, {0x5D3U, 4U}})
-          board.read(cell, value);
-        board.read(0x6C4, 0x00);
-        board.read(0x6C5, 0x00);
-        board.write(0x00F, 0x00);
-      });
+  return fetch(board, 0x00F, 0x01, {{0x5D0, 0x5E}, {0x5D1, 1}, {0x5D2, 2}, {0x5D3, 4}, {0x6C4, 0}, {0x6C5, 0}});
 }
 
 /// Without its data and CRC.

@@ -289,6 +289,16 @@ TEST(TxdReply, HasALatestTimeWhenTheScenarioSaysSo) {
   silent.expect_violation(Check::kTxdReplyTime, end + 12 * kBit + 5, -5);
 }
 
+TEST(BlockServed, ExchangeThatCarriesTheNewsIsALook) {
+  Host host;
+  host.set(kFirst, Pin::kIntr0, 0);
+  const Tick asked = host.send(kFirst, with_crc({0x41, 0x00, 0x01, 0x30, 0x01, 0x00}));  // empty inputs
+  const Tick end = host.reply(asked + 11 * kBit + kCycle, with_crc({0xC1, 0x10, 0x04, 0x10, 0x01, 0x00}));  // Set_Prm
+  host.checks.finish(end + 200 * bus::kTicksPerMs);
+  EXPECT_EQ(host.record(Check::kBlockServed).worst_value, end - kFirst);
+  EXPECT_EQ(host.record(Check::kBlockServed).violations, 0U);
+}
+
 TEST(UartChecks, AreOfThatModeAndNotInReset) {
   for (const Level mode : {kParallel, kSpi}) {
     Host host(mode);

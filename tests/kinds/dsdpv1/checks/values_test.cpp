@@ -451,6 +451,21 @@ TEST(History, NamesTheLastChangesOfThePinsInvolvedInOrder) {
   EXPECT_EQ(checks::history_text(board.violations[0]), "R_REQ=1 -62.417 ns, R_STA=1 0.000 ns");
 }
 
+TEST(Recorder, ValueAsBeforeIsJudgedByTheLimitNow) {
+  const checks::PinHistory history(tb::pins_of({}));
+  checks::Recorder recorder(checks::rules(), checks::Limits(checks::rules()), history);
+  const auto measure = [&recorder](Tick value) {
+    recorder.value(Check::kInputsRenewed, 0, value, [] { return std::string(); });
+  };
+  measure(1000);
+  recorder.set_limit(Check::kInputsRenewed, 1500);
+  measure(1000);
+  EXPECT_EQ(recorder.record(Check::kInputsRenewed).worst_margin, 500);
+  recorder.set_limit(Check::kInputsRenewed, 999);
+  measure(1000);
+  EXPECT_EQ(recorder.record(Check::kInputsRenewed).violations, 1U);
+}
+
 TEST(Histogram, BinsAre1And2And5OfEachDecadeFromOneNanosecond) {
   checks::Histogram histogram;
   for (const Tick ns : {-1, 0, 1, 2, 4, 5, 1'000'000'000}) histogram.add(ns * bus::kTicksPerNs);
