@@ -149,6 +149,7 @@ void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
 
 void Checks::event(const profibus::Event& event) {
   if (in_reset_) return;
+  if (!serial()) end_hold_before(event.at);
   duties_.event(event, settings_.mode == kSpi    ? Refusals::Port::kSpi
                        : settings_.mode == kUart ? Refusals::Port::kUart
                                                  : Refusals::Port::kParallel);

@@ -5,8 +5,10 @@
 namespace dsdpv1::checks {
 namespace {
 
-constexpr std::uint8_t kError = 0x80;                      ///< bit of Function_Num (tables 27, 32)
-constexpr std::uint16_t kTimerU = 3;                       ///< in C2_TIMEOUT
+constexpr std::uint8_t kError = 0x80;  ///< bit of Function_Num (tables 27, 32)
+constexpr std::uint16_t kTimerU = 3;   ///< in C2_TIMEOUT
+constexpr std::size_t kC1 = 0, kC2 = 1;
+constexpr Tick kC2Limit = bus::kTicksPerSecond;            ///< of a chip that does not tell when U has ended (U8)
 constexpr std::size_t kFirstOfChip = 3, kFirstOfUser = 3;  ///< C1 in kChipBlocks, kUserBlocks; C2 follows
 
 /// V6, and a read gives no more than was asked for. An error repeats the function only.
@@ -24,7 +26,6 @@ std::string text_of(const AcyclicHeader& header) {
 }  // namespace
 
 void RequestAnswers::hold(const UserHold& hold, const UserHolds& holds) {
-  pass(hold.ended);
   if (hold.initialises()) return reset();
   for (std::size_t which = 0; which < channels_.size(); ++which) serve(which, hold, holds);
 }
@@ -39,11 +40,19 @@ void RequestAnswers::serve(std::size_t which, const UserHold& hold, const UserHo
     channel.duty.ends();
     channel.duty.begins(hold.ended);
   }
-  if ((hold.user_2.set() & answer.flag) != 0 && channel.duty.since()) {
-    judge(which, holds.answer_written(which), hold.ended);
-    channel.duty.met(recorder_, Check::kRequestAnswered, hold.ended, [&request] { return std::string(request.name); });
-  }
+  if ((hold.user_2.set() & answer.flag) != 0 && channel.duty.since())
+    answered(which, holds.answer_written(which), hold.ended);
   if ((hold.chip_2.after & request.flag) != 0) channel.duty.ends();
+}
+
+/// C2 has no margin: its limit is the master's.
+void RequestAnswers::answered(std::size_t which, const AcyclicHeader& given, Tick at) {
+  judge(which, given, at);
+  const auto text = [which] { return std::string(kChipBlocks.at(kFirstOfChip + which).name); };
+  Duty& duty = channels_.at(which).duty;
+  if (which == kC1) return duty.met(recorder_, Check::kRequestAnswered, at, text);
+  recorder_.kept(Check::kRequestAnswered, at, true, text);
+  duty.ends();
 }
 
 void RequestAnswers::judge(std::size_t which, const AcyclicHeader& given, Tick at) {
@@ -56,17 +65,23 @@ void RequestAnswers::judge(std::size_t which, const AcyclicHeader& given, Tick a
 }
 
 void RequestAnswers::event(const profibus::Event& event) {
-  if (event.reason != profibus::Reason::kC2Timeout || event.b != kTimerU) return;
-  const Tick since = channels_.at(1).duty.since().value_or(event.at);
-  recorder_.kept(
-      Check::kRequestAnswered, event.at, false, [] { return std::string("C2: no answer within Send_Timeout"); },
-      Act::omitted(since, event.at));
+  if (event.reason == profibus::Reason::kC1Dropped) channels_.at(kC1).duty.ends();
+  if (event.reason == profibus::Reason::kC2Timeout && event.b == kTimerU)
+    no_answer_on_c2(event.at, "C2: no answer within Send_Timeout");
 }
 
-void RequestAnswers::pass(Tick now) {
-  for (std::size_t which = 0; which < channels_.size(); ++which)
-    channels_.at(which).duty.pass(
-        recorder_, Check::kRequestAnswered, now, [which] { return fmt::format("C{}: no answer", which + 1); });
+void RequestAnswers::no_answer_on_c2(Tick at, const char* text) {
+  Duty& duty = channels_.at(kC2).duty;
+  recorder_.kept(
+      Check::kRequestAnswered, at, false, [text] { return std::string(text); },
+      Act::omitted(duty.since().value_or(at), at));
+  duty.ends();
+}
+
+void RequestAnswers::pass(Tick now, bool chip_tells) {
+  channels_.at(kC1).duty.pass(recorder_, Check::kRequestAnswered, now, [] { return std::string("C1: no answer"); });
+  const std::optional<Tick> since = channels_.at(kC2).duty.since();
+  if (!chip_tells && since && now - *since > kC2Limit) no_answer_on_c2(now, "C2: no answer");
 }
 
 }  // namespace dsdpv1::checks

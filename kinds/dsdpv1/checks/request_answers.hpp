@@ -18,9 +18,10 @@ class RequestAnswers {
   /// RESET is low: nothing is owed.
   void reset() { channels_ = {}; }
   void hold(const UserHold& hold, const UserHolds& holds);
-  /// An event of the chip: U, the timer of the user on C2 (V3), has ended.
+  /// An event of the chip: the user's timer U on C2 (V3) has ended, or data exchange with a C1 request open (V1).
   void event(const profibus::Event& event);
-  void pass(Tick now);
+  /// `chip_tells`: the end of U comes as an event.
+  void pass(Tick now, bool chip_tells);
 
  private:
   struct Channel {
@@ -28,7 +29,9 @@ class RequestAnswers {
     std::optional<AcyclicHeader> asked;  ///< absent if it was not read for certain
   };
   void serve(std::size_t which, const UserHold& hold, const UserHolds& holds);
+  void answered(std::size_t which, const AcyclicHeader& given, Tick at);
   void judge(std::size_t which, const AcyclicHeader& given, Tick at);
+  void no_answer_on_c2(Tick at, const char* text);
 
   Recorder& recorder_;
   std::array<Channel, 2> channels_;  ///< C1, C2

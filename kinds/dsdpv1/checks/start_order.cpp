@@ -26,18 +26,18 @@ void StartOrder::judge(const Access& access) {
   });
 }
 
-/// A refused one may be tried again.
+/// Chapter 8: the user may initialise again what was refused, or when B006 says that the chip has not come.
 void StartOrder::hold(const UserHold& hold, bool same) {
-  if (!hold.initialises()) {
-    if (hold.initialised == false) initialised_.reset();
-    return;
-  }
+  if (hold.chip_came) chip_came_ = chip_came_.value_or(false) || *hold.chip_came;
+  if (hold.initialised == false || chip_came_ == false) initialised_.reset();
+  if (!hold.initialises()) return;
   if (initialised_ && same)
     recorder_.value(
         Check::kInitRepeated, hold.ended, hold.ended - *initialised_,
         [] { return std::string("B010.2 set again, B020 to B0F6 unchanged"); },
         Act::written(regs::kUserCommand1, hold.ended));
   initialised_ = hold.ended;
+  chip_came_.reset();
 }
 
 }  // namespace dsdpv1::checks

@@ -18,6 +18,7 @@ class StartOrder {
   void reset() {
     state_ = State::kUnseen;
     initialised_.reset();
+    chip_came_.reset();
   }
   /// `same`: its initialisation, if it has one, is the earlier one.
   void hold(const UserHold& hold, bool same);
@@ -36,6 +37,7 @@ class StartOrder {
   Recorder& recorder_;
   State state_ = State::kUnseen;
   std::optional<Tick> initialised_;  ///< and not refused, as far as the user knows
+  std::optional<bool> chip_came_;    ///< since then, by B006; absent if the user has not looked
 };
 
 }  // namespace dsdpv1::checks

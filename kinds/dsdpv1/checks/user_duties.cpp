@@ -15,6 +15,7 @@ void UserDuties::hold_ended(Tick at, HoldOf what) {
   const UserHold& hold = holds_.ended(at, what);
   served_.hold(hold, holds_);
   fresh_.hold(hold);
+  answers_.pass(at, refusals_.judges());
   answers_.hold(hold, holds_);
   start_.hold(hold, holds_.is_same_initialisation());
   if (hold.initialises()) holds_.initialised();
@@ -24,13 +25,13 @@ void UserDuties::hold_ended(Tick at, HoldOf what) {
 
 void UserDuties::telegram(Tick now, const bus::WireTelegram& telegram) {
   served_.pass(now);
-  answers_.pass(now);
+  answers_.pass(now, refusals_.judges());
   if (fresh_.telegram(telegram)) served_.request_came(telegram.end);
 }
 
 void UserDuties::finish(Tick end) {
   served_.pass(end);
-  answers_.pass(end);
+  answers_.pass(end, refusals_.judges());
   fresh_.finish(end);
 }
 

@@ -31,7 +31,7 @@ class UserDuties {
     refusals_.event(event, port);
   }
   void finish(Tick end);
-  /// Whether USER_REFUSED can be judged.
+  /// The chip tells its events, so that USER_REFUSED can be judged.
   bool judges_refusals() const { return refusals_.judges(); }
 
   // A hold of the parallel port, by B014, or of one telegram.

@@ -39,7 +39,9 @@ void UserHolds::read(const Access& access) {
     return;
   }
   if (!access.value) return;
-  if (access.address == regs::kChipStatus1) hold_.initialised = (*access.value & regs::kChipStatus1Initialised) != 0;
+  if (access.address == regs::kChipStatus1 && !cleared_initialised_)
+    hold_.initialised = (*access.value & regs::kChipStatus1Initialised) != 0;
+  if (access.address == regs::kAccessCount && !hold_.chip_came) hold_.chip_came = *access.value == 1;
   FlagsInHold* const byte = flags(access.address);
   if (byte == nullptr) return;
   if (!byte->looked_at()) {
@@ -52,6 +54,8 @@ void UserHolds::read(const Access& access) {
 void UserHolds::wrote(const Access& access) {
   if (!access.value) return;
   note_block(access.address, *access.value);
+  if (access.address == regs::kChipStatus1 && (*access.value & regs::kChipStatus1Initialised) == 0)
+    cleared_initialised_ = true;
   FlagsInHold* const byte = flags(access.address);
   if (byte == nullptr) return;
   byte->after = *access.value;

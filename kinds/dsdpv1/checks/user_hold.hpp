@@ -37,7 +37,8 @@ struct UserHold {
   HoldOf what = HoldOf::kDpram;
   Tick began = 0, ended = 0;
   FlagsInHold chip_1, chip_2, user_1, user_2;  ///< B00E, B00F, B010, B011
-  std::optional<bool> initialised;             ///< B00A.0 as read
+  std::optional<bool> initialised;             ///< B00A.0 as read, unless the user has cleared it itself (chapter 8)
+  std::optional<bool> chip_came;               ///< since the last hold: B006 was read as 1 (H3)
   bool told_news = false;                      ///< by the reply to inputs over the UART (UA10)
 
   bool initialises() const { return user_1.written && (user_1.after & regs::kUserCommand1Init) != 0; }
@@ -65,7 +66,7 @@ class UserHolds {
   const AcyclicHeader& answer_written(std::size_t channel) const { return answers_.at(channel); }
   /// No byte of the initialisation has changed since `initialised`.
   bool is_same_initialisation() const { return !init_changed_; }
-  void initialised() { init_changed_ = false; }
+  void initialised() { init_changed_ = cleared_initialised_ = false; }
   /// B02B, B02D as last written: the judging modes (D8).
   std::uint8_t prm_mode() const { return init_.at(regs::kPrmMode - regs::kInit); }
   std::uint8_t cfg_mode() const { return init_.at(regs::kCfgMode - regs::kInit); }
@@ -86,6 +87,7 @@ class UserHolds {
   std::array<AcyclicHeader, 2> answers_{};
   std::array<std::uint8_t, regs::kInitSize> init_{};
   bool init_changed_ = true;
+  bool cleared_initialised_ = false;  ///< B00A.0, by the user since its last initialisation
 };
 
 }  // namespace dsdpv1::checks

@@ -419,6 +419,56 @@ TEST(InitRepeated, OtherValuesRefusalAndResetAreNone) {
   EXPECT_EQ(violations(board, Check::kInitRepeated), 1U);
 }
 
+/// A hold whose first read is B006, as the chip or the user left it.
+template <class Act>
+void counted_hold(Board& board, unsigned count, const Act& act) {
+  board.ask();
+  board.read(0x006, count);
+  board.write(0x006, count + 1);
+  act();
+  board.release();
+}
+
+TEST(InitRepeated, RefusalSeenInTheSameHoldAllowsIt) {
+  Board board;
+  initialise(board, 0, 1);
+  hold(board, [&board] {
+    board.read(0x00A, 0x00);
+    board.read(0x010, 0x00);
+    board.write(0x010, 0x04);
+  });
+  look(board, 0x00);
+  EXPECT_EQ(violations(board, Check::kInitRepeated), 0U);
+}
+
+TEST(InitRepeated, UsersOwnClearingIsNoRefusal) {
+  Board board;
+  initialise(board, 0, 1);
+  hold(board, [&board] { board.write(0x00A, 0x00); });  // chapter 8: after success
+  look(board, 0x00);
+  hold(board, [&board] {
+    board.read(0x00A, 0x00);
+    board.read(0x010, 0x00);
+    board.write(0x010, 0x04);
+  });
+  look(board, 0x00);
+  EXPECT_EQ(violations(board, Check::kInitRepeated), 1U);
+}
+
+TEST(InitRepeated, IsAllowedUntilB006SaysThatTheChipHasCome) {
+  for (const unsigned count : {1U, 2U}) {
+    Board board;
+    set_flag(board, 0x010, 0x04, {{0x02B, 0}});
+    counted_hold(board, count, [&board] { board.read(0x00E, 0x00); });
+    counted_hold(board, 3, [&board] {
+      board.read(0x010, 0x00);
+      board.write(0x010, 0x04);
+    });
+    look(board, 0x00);
+    EXPECT_EQ(violations(board, Check::kInitRepeated), count == 1 ? 1U : 0U);
+  }
+}
+
 TEST(ResetLow, LeastTimeIsShown) {
   Board board;
   board.set(Pin::kReset, 0);
@@ -474,18 +524,54 @@ TEST(RequestAnswered, AnswerToAnotherRequestOrTooLongIsFoundAndAnErrorIsFree) {
   }
 }
 
-TEST(RequestAnswered, NoAnswerIsFoundAfterASecondAndANewerRequestEndsTheWait) {
-  constexpr Tick kSecond = bus::kTicksPerSecond;
+TEST(RequestAnswered, NoAnswerOnC1IsFoundAfterTheLimit) {
   for (const Tick beyond : {Tick{0}, Tick{1}}) {
     Board board;
-    finish(board, fetch_request(board), kSecond + beyond);
+    finish(board, fetch_request(board), kLimit + beyond);
     EXPECT_EQ(violations(board, Check::kRequestAnswered), beyond == 0 ? 0U : 1U);
   }
+}
+
+TEST(RequestAnswered, NewerRequestAndTheEndOfDataExchangeEndTheWait) {
+  Board newer;
+  fetch_request(newer);
+  hold(newer, [&newer] { newer.read(0x00F, 0x01); });
+  finish(newer, newer.now(), 2 * kLimit);
+  EXPECT_EQ(violations(newer, Check::kRequestAnswered), 0U);
+
+  Board left;
+  fetch_request(left);
+  left.checks().event({left.now(), profibus::Reason::kC1Dropped, 0, 0, 0});
+  finish(left, left.now(), 2 * kLimit);
+  EXPECT_EQ(violations(left, Check::kRequestAnswered), 0U);
+}
+
+Tick fetch_c2_request(Board& board) {
+  return fetch(board, 0x00F, 0x02, {{0x6D0, 0x5E}, {0x6D1, 1}, {0x6D2, 2}, {0x6D3, 4}, {0x7C4, 0}, {0x7C5, 0}});
+}
+
+TEST(RequestAnswered, OnC2TheChipTellsTheEndOfSendTimeoutElseASecondIsAllowed) {
+  struct Case {
+    bool tells;
+    Tick after;
+    std::uint64_t violations;
+  };
+  constexpr Tick kSecond = bus::kTicksPerSecond;
+  for (const Case& each : {Case{false, kSecond, 0}, Case{false, kSecond + 1, 1}, Case{true, 3 * kSecond, 0}}) {
+    Board board;
+    if (each.tells) refuse(board, profibus::Reason::kVerdictSuperseded);
+    finish(board, fetch_c2_request(board), each.after);
+    EXPECT_EQ(violations(board, Check::kRequestAnswered), each.violations) << each.tells << each.after;
+  }
+}
+
+TEST(RequestAnswered, TimerOfTheUserIsReportedOnce) {
   Board board;
-  fetch_request(board);
-  hold(board, [&board] { board.read(0x00F, 0x01); });
-  finish(board, board.now(), 2 * kSecond);
-  EXPECT_EQ(violations(board, Check::kRequestAnswered), 0U);
+  refuse(board, profibus::Reason::kVerdictSuperseded);
+  fetch_c2_request(board);
+  board.checks().event({board.now(), profibus::Reason::kC2Timeout, 48, 3, 2});
+  finish(board, board.now(), 3 * bus::kTicksPerSecond);
+  EXPECT_EQ(violations(board, Check::kRequestAnswered), 1U);
 }
 
 TEST(RequestAnswered, TimerOfTheUserIsSendTimeout) {
