@@ -150,9 +150,14 @@ bool CortexM3::before_instruction() {
   if (debugger_ != nullptr && !stopped_) attend_debugger();
   if (stopped_ || reset_requested_ || moved_ || preempting() != kNoException) return false;
   schedule();
-  if (timing_.leaves_out_polls && debugger_ == nullptr)
-    looked ? polling_.looked(engine_.attend_at()) : polling_.pass_by();
+  if (timing_.leaves_out_polls && debugger_ == nullptr) looked ? leave_out_passes() : polling_.pass_by();
   return true;
+}
+
+void CortexM3::leave_out_passes() {
+  const std::uint64_t since = polling_.began(), now = engine_.now();
+  polling_.looked(engine_.attend_at());
+  if (engine_.now() != now) system_.left_out(since / kMillis, (engine_.now() - now) / kMillis);
 }
 
 /// The world comes up to the last instruction step by step while that lets an exception in, which the instruction

@@ -37,6 +37,9 @@ class System {
   /// Between two instructions: the rest of the world comes up to cycles(); may call set_interrupt. Returns the cycle of
   /// the next call (kNever: none); after every load and store it is called again.
   virtual std::uint64_t keep_up() = 0;
+  /// Passes of a loop were left out (Timing::leaves_out_polls): each load after cycle `since` was made again, for the
+  /// last time `cycles` later.
+  virtual void left_out(std::uint64_t /*since*/, std::uint64_t /*cycles*/) {}
   /// WFI or WFE with nothing pending: lets time pass until set_interrupt was called or cycle `until` (kNever: none) has
   /// come; the system calls advance_to.
   virtual void sleep(std::uint64_t until) = 0;
@@ -150,6 +153,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   void catch_up_systick();
   bool gives_way();
   void schedule();
+  void leave_out_passes();
   void step_towards(std::uint64_t end);
   std::uint64_t due() const { return std::min(keep_up_at_, millis(systick_.next())); }
   bool is_due() const { return engine_.now() >= keep_up_at_; }

@@ -15,6 +15,8 @@ class Polling {
   /// Between two instructions, the first of which has looked outside: what it saw stays until `until` (thousandths of a
   /// cycle). Leaves out the passes that end before that, none unless the last two were alike.
   void looked(std::uint64_t until);
+  /// When the pass at work began, just after a look.
+  std::uint64_t began() const { return began_; }
   /// Something outside may have changed: the passes to come may be others.
   void restart() { begun_ = false; }
   /// Something happened that need not happen again: a store, an exception, a look at a value that changes with time.

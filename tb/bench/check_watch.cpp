@@ -49,6 +49,7 @@ void CheckWatch::add(const std::string& slave, ChipView& chip) {
   entry.checks = scenario_.kind->make_checks(scenario_.checks, scenario_.chip.get());
   entry.allowed.resize(rules);
   entry.listed_of.resize(rules);
+  entry.checks->hears_looks();
   entry.checks->on_violation([this, &entry](const checks::Violation& violation) { keep(entry, violation); });
 }
 

@@ -34,6 +34,9 @@ class CheckWatch : public Observer {
   void read(std::size_t slave, Tick sample) override {
     if (on()) slaves_[slave]->checks->read(sample);
   }
+  void looked(std::size_t slave, PinNumber pin, Tick at) override {
+    if (on()) slaves_[slave]->checks->looked(pin, at);
+  }
   void event(std::size_t slave, const profibus::Event& event) override {
     if (on()) slaves_[slave]->checks->event(event);
   }

@@ -71,6 +71,8 @@ class ChipListener {
   /// The user CPU begins a read, whose first edge is still to come, and samples the data at `sample`, which no pin
   /// shows.
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
+  /// The user CPU moves a pin as it has seen another: it looked at `pin` last at `at`, negative: never.
+  virtual void looked(std::size_t /*slave*/, PinNumber /*pin*/, Tick /*at*/) {}
   /// An internal signal (ChipKind::inner_signals) has changed; signals of words have no level, others no word. Only
   /// with ChipRequest::inside.
   virtual void inside(std::size_t /*slave*/, Tick /*at*/, std::size_t /*signal*/, Level /*level*/,
@@ -79,7 +81,7 @@ class ChipListener {
   virtual void action(std::size_t /*slave*/, Tick /*at*/, const std::string& /*words*/) {}
 };
 
-/// Optional reports. Without runs all changes are reported.
+/// Optional reports; `reads`: also looked(). Without runs all changes are reported.
 struct ChipNews {
   bool runs = false, reads = false, inside = false, actions = false;
 };

@@ -82,12 +82,18 @@ TEST_F(FirmwareLines, PinIsTheStoreThatMovedItInEveryEngineAndView) {
   for (const std::string options : {"--engine skip", "--engine step", "--view tlm"}) {
     run(kFast, "", options + " --set user_cpu.cycle=40us --set masters.plc.bus.min_slave_interval=0",
         FIRMWARE_EARLY_R_STA);
-    expect_line(where("OWNERSHIP_BOTH_OWN"), "dsdpv1_port_stm32.c", "GPIOC->BSRR = level ? bit : bit << 16;");
+    for (const char* check : {"OWNERSHIP_BOTH_OWN", "LOOK_IN_WINDOW"})
+      expect_line(where(check), "dsdpv1_port_stm32.c", "GPIOC->BSRR = level ? bit : bit << 16;");
     EXPECT_TRUE(where("OWNERSHIP_BOTH_OWN").at("stayed_ns").is_null());
     if (first.is_null()) first = result_.at("checks"), first_log = log();
     EXPECT_EQ(result_.at("checks"), first) << options;
     EXPECT_TRUE(log() == first_log) << options;
   }
+}
+
+TEST_F(FirmwareLines, LookThatCameTooSoonIsItsLoad) {
+  run(kFast + "checks: {LOOK_IN_WINDOW: {min: 1ms}}\n", "");
+  expect_line(where("LOOK_IN_WINDOW"), "dsdpv1_port_stm32.c", "return (GPIOC->IDR & kLStaBit) != 0u;");
 }
 
 TEST_F(FirmwareLines, OmissionIsWhereTheFirmwareWasInstead) {

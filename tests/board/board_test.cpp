@@ -57,7 +57,8 @@ enum Program {
   kIrqStorm,
   kWatchdog,
   kWatchdogAsleep,
-  kStuck
+  kStuck,
+  kAsks
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -263,6 +264,46 @@ TEST_F(BoardTest, Intr0ComesAtItsCycleToABusyProcessorThatNobodyElseStops) {
   const Tick handler = pins.of(Pin::kCsr).at(0).at;
   EXPECT_GE(handler - fall, 12 * kHclk3 / 3);
   EXPECT_LE(handler - fall, 30 * kHclk3 / 3);
+}
+
+struct LookedAt : user_cpu::PinHostBus {
+  using PinHostBus::PinHostBus;
+  void looked(const user_cpu::Looks& last) override { looks.push_back(last); }
+  std::vector<user_cpu::Looks> looks;
+};
+
+/// The looks that R_STA's rises follow, its last one by the handler of an INTR0 that falls at `fall`.
+std::vector<user_cpu::Looks> looks_of(Pins& pins, arm::BoardOptions options, Tick start, Tick fall) {
+  LookedAt host(pins);
+  QuietUntil others(start + 200 * bus::kTicksPerUs);
+  arm::Board board(
+      host, std::move(options), [](Tick, bool) {}, start);
+  board.set_others(&others);
+  board.interrupt_changed(fall, false);
+  while (board.next() <= start + bus::kTicksPerMs / 4) board.run(board.next());
+  return host.looks;
+}
+
+TEST_F(BoardTest, LookIsALoadOfPc8AndPc9AlsoOneThatAnUnchangedLoopLeavesOut) {
+  pins.l_req = 1;
+  arm::BoardOptions options;
+  options.firmware = with(kAsks);
+  options.fsmc = at_72_mhz();
+  for (Tick fall = kStart + 100 * bus::kTicksPerUs, i = 0; i < 30; ++i, fall += 100) {
+    options.timing.leaves_out_polls = false;
+    const auto all = looks_of(pins, options, kStart, fall);
+    options.timing.leaves_out_polls = true;
+    const auto some = looks_of(pins, options, kStart, fall);
+    ASSERT_EQ(all.size(), 3U);
+    ASSERT_EQ(some.size(), 3U);
+    EXPECT_EQ(all[0].l_req, -1);
+    EXPECT_GT(all[1].l_req, kStart);
+    EXPECT_LT(std::abs(all[2].l_req - fall), 2 * bus::kTicksPerUs);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      EXPECT_EQ(all[k].l_req, some[k].l_req) << k << ", INTR0 at " << fall;
+      EXPECT_EQ(all[k].l_sta, all[k].l_req);
+    }
+  }
 }
 
 TEST_F(BoardTest, MaskedLineIsPendingOnItsChosenEdgeOnly) {

@@ -18,29 +18,39 @@ class Device : public NotingSystem {
   std::uint32_t load(std::uint32_t address, unsigned bytes) override {
     if (address - kDevice >= 8) return NotingSystem::load(address, bytes);
     ++looks;
+    last_look = processor->cycles();
     processor->advance_to(processor->cycles() + latency);
     if (stays && (address == kDevice || second_stays)) processor->stays(keep_up());
     return address == kDevice && processor->cycles() >= rises ? 1 : 0;
+  }
+  void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override {
+    if (address == kPort) noted_looks.push_back(last_look);
+    NotingSystem::store(address, bytes, value);
+  }
+  void left_out(std::uint64_t since, std::uint64_t cycles) override {
+    if (last_look > since) last_look += cycles;
   }
   std::uint64_t keep_up() override {
     const std::uint64_t next = NotingSystem::keep_up();
     return processor->cycles() < rises ? std::min(next, rises) : next;
   }
-  std::uint64_t rises = 0;
+  std::uint64_t rises = 0, last_look = 0;
+  std::vector<std::uint64_t> noted_looks;  ///< the last one before each note
   unsigned looks = 0, latency = 2;
   bool stays = true, second_stays = true;
 };
 
 struct Seen {
   std::vector<std::uint32_t> notes;
-  std::vector<std::uint64_t> cycles;
+  std::vector<std::uint64_t> cycles, looks;
   std::uint64_t instructions;
   bool operator==(const Seen& other) const {
-    return notes == other.notes && cycles == other.cycles && instructions == other.instructions;
+    return notes == other.notes && cycles == other.cycles && looks == other.looks && instructions == other.instructions;
   }
 };
 std::ostream& operator<<(std::ostream& out, const Seen& seen) {
-  return out << testing::PrintToString(seen.notes) << testing::PrintToString(seen.cycles) << seen.instructions;
+  return out << testing::PrintToString(seen.notes) << testing::PrintToString(seen.cycles)
+             << testing::PrintToString(seen.looks) << seen.instructions;
 }
 
 struct Wait {
@@ -72,7 +82,7 @@ Seen seen(const Wait& run, bool leaves_out, unsigned& looks) {
   processor.set_flash(2, true);
   processor.run();
   looks = system.looks;
-  return {system.notes, system.note_cycles, processor.instructions()};
+  return {system.notes, system.note_cycles, system.noted_looks, processor.instructions()};
 }
 
 enum Way : std::uint32_t { kLook, kTwo, kMemory, kCounts, kStores, kBlock, kWorks, kCalls, kWide, kWays };

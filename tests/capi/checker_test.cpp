@@ -66,6 +66,16 @@ TEST(CapiChecker, AWriteThatIsTooShortIsReportedWithItsMargin) {
   EXPECT_EQ(result.at, violated[0].tick);
 }
 
+TEST(CapiChecker, LooksThatNobodyTellsAreNotJudged) {
+  const auto checker = make_checker();
+  EXPECT_TRUE(judged(pins_of_a_write(150), checker.get()).empty());
+  size_t rule = 0;
+  ok(dpsim_rule_find(nullptr, "LOOK_IN_WINDOW", &rule));
+  auto result = sized<dpsim_check_result>();
+  ok(dpsim_checker_get_result(checker.get(), rule, &result));
+  EXPECT_EQ(result.count, 0U);
+}
+
 TEST(CapiChecker, AWriteThatKeepsItsTimesIsNot) {
   const auto checker = make_checker();
   EXPECT_TRUE(judged(pins_of_a_write(150), checker.get()).empty());

@@ -54,7 +54,7 @@ class Build:
 
     def program(self, target):
         """The path of a test program, relative to the build's folder."""
-        return next(name for name in (f"tests/{folder.name}/{target}" for folder in (self.root / "tests").iterdir()) if (self.folder / name).is_file())
+        return next(str(path.relative_to(self.folder)) for path in (self.folder / "tests").rglob(target) if path.is_file())
 
 
 class Overlay:

@@ -27,7 +27,7 @@ build main.o: cxx {root}/main.cpp
 build lib/part.a: archive together.o
 build tests/all/program: link main.o | lib/part.a
   libs = lib/part.a
-build tests/all/other: link {root}/other.cpp
+build tests/all/deep/other: link {root}/other.cpp
 """
 
 
@@ -49,7 +49,7 @@ class Project(unittest.TestCase):
         write(self.root / "other.cpp", "int main() { return 9; }\n")
         write(self.root / "build/together.cpp", f'#include "{self.root}/part/part.cpp"\n')
         write(self.root / "build/build.ninja", NINJA.format(compiler=COMPILER, root=self.root))
-        (self.root / "tests/all").mkdir(parents=True)
+        (self.root / "tests/all/deep").mkdir(parents=True)
         subprocess.run(["ninja", "-C", self.root / "build", "--quiet"], check=True)
         self.build = overlay.Build(self.root / "build", self.root)
 
@@ -80,7 +80,7 @@ class Project(unittest.TestCase):
 
     def test_a_program_without_the_file_is_not_made(self):
         planted = overlay.Overlay(self.build, self.fault(), self.root / "faults/one")
-        self.assertIsNone(planted.link("tests/all/other"))
+        self.assertIsNone(planted.link(self.build.program("other")))
 
     def test_a_fault_that_does_not_compile_is_one_line(self):
         with self.assertRaisesRegex(overlay.Failed, r"^model.yaml:1: one cannot be built: [^\n]+$"):

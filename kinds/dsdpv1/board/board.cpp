@@ -240,6 +240,7 @@ std::optional<user_cpu::Place> Board::where(const user_cpu::Act& act) const {
       return place;
     }
   }
+  if (act.look && act.at == look_.at) return place_of(look_.pc);
   const std::optional<std::uint32_t> pc = acts_.instruction(act);
   return pc ? std::optional(place_of(*pc)) : std::nullopt;
 }
@@ -326,6 +327,12 @@ std::uint64_t Board::keep_up() {
   if (!ahead) come_up();
   if (core_.cycles() >= look_at_) look_if_stuck();
   return due_cycle(stays_until());
+}
+
+void Board::left_out(std::uint64_t since, std::uint64_t cycles) {
+  if (look_.cycle <= since) return;  // before the loop
+  look_.cycle += cycles;
+  look_.at = tick_of(look_.cycle);
 }
 
 std::uint64_t Board::due_cycle(Tick next) const {
@@ -416,6 +423,7 @@ void Board::update_pins() {
   if (const bool level = handshake.level(kRSta.pin, false); std::exchange(r_sta_, level) != level) {
     handshake_.r_sta(pins_->now(), level);
     acts_.pins(pins_->now(), core_.pc(), !level);
+    pins_->looked({look_.at, look_.at});
     pins_->set_r_sta(level);
   }
   if (const bool level = ports_.at(reset_pin_.port).level(reset_pin_.pin, true);

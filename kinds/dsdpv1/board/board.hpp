@@ -103,6 +103,12 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   struct Levels {
     std::uint16_t driven, levels;
   };
+  /// The last load of L_REQ and L_STA.
+  struct Look {
+    Tick at = -1;
+    std::uint64_t cycle = 0;
+    std::uint32_t pc = 0;
+  };
   static constexpr Tick kLsi = bus::kTicksPerSecond / 40'000;  ///< (p)
 
   // Others, called by the CPU that moves the pins
@@ -113,6 +119,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::uint32_t load(std::uint32_t address, unsigned bytes) override;
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   std::uint64_t keep_up() override;
+  void left_out(std::uint64_t since, std::uint64_t cycles) override;
   std::uint64_t due_cycle(Tick next) const;
   Tick stays_until();
   std::optional<std::uint32_t> peek(std::uint32_t address) const override;
@@ -239,6 +246,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::deque<Intr0Edge> intr0_edges_;  ///< not yet reached by the processor
   bool intr0_ = true;
   bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
+  Look look_;
   user_cpu::HandshakeCounters handshake_;
   bool devices_acted_ = false;  ///< since the last update of requests_
   unsigned requests_ = 0;       ///< of exti_ and, above them, device_requests(), as last passed to the processor

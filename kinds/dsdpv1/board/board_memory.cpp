@@ -33,6 +33,8 @@ constexpr std::uint32_t kAfioMapr = 0x04;
 constexpr std::array<std::uint32_t, 3> kSerialDr = {Spi::kDr, Spi::kDr, Usart::kDr};  // by SerialSide::Block
 
 // The board's wiring.
+constexpr std::uint32_t kLookedAt = kGpioA + kC * kBlock + kGpioIdr + 1;  // the byte with PC8 and PC9, L_REQ and L_STA
+static_assert(kLReq.pin / 8 == 1 && kLSta.pin / 8 == 1);
 constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
 
 constexpr std::uint64_t kApbCycles = 2;
@@ -95,6 +97,7 @@ std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
   polls_ = false;
   if (address >= kBank1 && address < kBank1End) return load_chip(address, bytes);
   const std::uint32_t word = load_word(address & ~3U) >> (address % 4 * 8);
+  if (kLookedAt - address < bytes) look_ = {now(), core_.cycles(), core_.pc()};
   return bytes == 4 ? word : word & ((1U << bytes * 8) - 1);
 }
 

@@ -44,6 +44,7 @@ bool Checks::strap(Pin pin, Level level) {
 }
 
 bool Checks::applies(CheckId check) const {
+  if (check == Check::kLookInWindow) return !serial() && ownership_.judges_looks();
   if (check.index < CheckId(kFirstCommonCheck).index) return !serial();
   if (check == Check::kUserRefused) return duties_.judges_refusals();
   if (check.index < CheckId(kFirstSpiCheck).index) return true;

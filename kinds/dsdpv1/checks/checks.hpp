@@ -66,12 +66,14 @@ class Checks : public ChipChecks, private AccessSink {
   void pins(const tb::PinEdge* first, const tb::PinEdge* last) override;
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void read(Tick sample) override { port_.read(sample); }
+  void hears_looks() override { ownership_.hears_looks(); }
+  void looked(tb::PinNumber pin, Tick at) override { ownership_.looked(static_cast<dsdpv1::Pin>(pin), at); }
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void finish(Tick end) override;
   void event(const profibus::Event& event) override;
 
   /// With SPI and UART the parallel port and its handshake are unused (R14), and telegrams show the cells. Refusals
-  /// need the chip's events.
+  /// need the chip's events, looks a user CPU that tells them.
   bool applies(CheckId check) const override;
   const Record& record(CheckId check) const override { return recorder_.record(check); }
   const Limit& limit(CheckId check) const override { return recorder_.limit(check); }

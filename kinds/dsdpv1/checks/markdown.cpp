@@ -101,6 +101,8 @@ valid first byte the end is unknown. Violations show the margin in bit times too
 
 - The time at which the user samples D. The user CPUs of the bench report it, so TIMING_TW is exact for them, at the pins and in TLM. For any other user the check
   takes the end of the read, RD's or CSR's rise, as the latest moment. The value read is taken to be the last D that the chip drove.
+- The time at which the user looks at L_REQ and L_STA. The user CPUs of the bench tell it, each kind in each engine and view, so LOOK_IN_WINDOW is exact for them. Of any other user
+  nothing is known: its looks are not judged. A report leaves the check out there, its count is 0.
 - A cell that the chip may have written since the user's last read. It counts as unknown until the user reads it in the hold. Rules that depend on
   it are not judged (a CRC over it, a flag written blindly).
 - The replacement of a judged block. VERDICT_UNFETCHED uses B00E as the user left it. A verdict in a hold without a

@@ -66,6 +66,7 @@ void Ownership::r_sta_rose(Tick at) {
   if (r_req_) {
     record(Check::kNoRequest, at, at - r_req_rose_);
     record(Check::kSyncWindow, at, at - held_off_since_);
+    judge_looks(at);
   } else {
     alone_since_ = at;
   }
@@ -73,6 +74,21 @@ void Ownership::r_sta_rose(Tick at) {
     both_own_since_ = at;
   else
     record(Check::kBothOwn, at, at - std::max(l_sta_fell_, held_off_since_));
+}
+
+/// In the window R_STA breaks the rule of kSyncWindow.
+void Ownership::judge_looks(Tick at) {
+  const Limit& window = recorder_.limit(Check::kSyncWindow);
+  if (!hears_looks_ || in_reset_ || (window.on && at - held_off_since_ < window.value)) return;
+  const Tick look = std::min(l_req_look_, l_sta_look_);
+  const bool none = look < held_off_since_;
+  const auto words = [&] {
+    const auto is_meant = [&](Tick last) { return none ? last < held_off_since_ : last == look; };
+    const char* const pins = !is_meant(l_sta_look_) ? "L_REQ" : !is_meant(l_req_look_) ? "L_STA" : "L_REQ and L_STA";
+    return std::string(none ? "no look at " : "the last look at ") + pins;
+  };
+  recorder_.value(Check::kLookInWindow, at, none ? 0 : look - held_off_since_, words,
+                  none ? Act::done(at) : Act::looked(look));
 }
 
 /// Both low for zero time does not count as low: the window continues (H2).

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "kinds/dsdpv1/checks/check.hpp"
+#include "model/dsdpv1/pins.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
 namespace dsdpv1::checks {
@@ -22,6 +23,11 @@ class Ownership {
   void r_req(Tick at, bool level);
   void r_sta(Tick at, bool level);
   void l_sta(Tick at, bool level);
+  /// The user CPU tells its looks.
+  void hears_looks() { hears_looks_ = true; }
+  bool judges_looks() const { return hears_looks_; }
+  /// Before R_STA rises: the last look at L_REQ or L_STA; negative: none.
+  void looked(dsdpv1::Pin pin, Tick at) { (pin == dsdpv1::Pin::kLReq ? l_req_look_ : l_sta_look_) = at; }
   void access_began(Tick at);
   void access_ended(Tick at);
   /// End of the run: judges running measurements as if they ended now.
@@ -36,6 +42,7 @@ class Ownership {
   bool holds_off() const { return r_req_ || r_sta_; }
   void record(Check check, Tick at, Tick measured, const std::optional<Act>& act = {});
   void r_sta_rose(Tick at);
+  void judge_looks(Tick at);
   void holding_off_may_have_changed(Tick at, bool before);
   void ownership_may_have_changed(Tick at);
   void ownership_lost(Tick at);
@@ -48,6 +55,8 @@ class Ownership {
   Tick reset_changed_ = 0;
   bool r_req_ = false, r_sta_ = false, l_sta_ = false, owned_ = false;
   Tick r_req_rose_ = 0, r_sta_rose_ = -1, l_sta_fell_ = 0, owned_since_ = 0;
+  bool hears_looks_ = false;
+  Tick l_req_look_ = -1, l_sta_look_ = -1;
   Tick held_off_since_ = 0;  ///< R_REQ or R_STA rose when both were low
   Tick freed_ = -1;          ///< both have been low since then
   std::optional<Tick> both_own_since_;

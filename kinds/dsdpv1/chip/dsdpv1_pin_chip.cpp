@@ -93,6 +93,12 @@ void Dsdpv1PinChip::set_r_sta(Tick at, bool level) {
   report(at, Pin::kRSta, Pin::kRSta);
 }
 
+void Dsdpv1PinChip::looked(const user_cpu::Looks& last) {
+  if (!wanted_.reads) return;
+  listener_->looked(number_, number(Pin::kLReq), last.l_req);
+  listener_->looked(number_, number(Pin::kLSta), last.l_sta);
+}
+
 void Dsdpv1PinChip::begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) {
   pins_->begin(at, access, timing);  // no edge yet, so the chip is not affected
   if (wanted_.actions) listener_->action(number_, at, words_of(access));

@@ -43,6 +43,7 @@ class Dsdpv1PinChip : public PinChip, private user_cpu::HostBus {
   void set_r_sta(Tick at, bool level) override;
   bool l_req(Tick at) override { return pins().l_req(at); }
   bool l_sta(Tick at) override { return pins().l_sta(at); }
+  void looked(const user_cpu::Looks& last) override;
   bool intr0(Tick at) override { return pins().intr0(at); }
   unsigned lamps(Tick at) override { return pins().lamps(at); }
   /// RTL may need a larger stack than a program has.

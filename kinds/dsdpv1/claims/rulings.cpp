@@ -18,23 +18,23 @@ const char* const kModels = "it is about the model";
 
 const std::vector<Ruling>& all_rulings() {
   static const std::vector<Ruling> all = {
-      {"P1", nullptr},  {"P2", nullptr},   {"P3", nullptr},   {"P4", kNoPin},   {"P5", nullptr},  {"P6", nullptr},
-      {"P7", nullptr},  {"P8", kUsers},    {"P9", nullptr},   {"P10", nullptr}, {"P11", kUsers},  {"P12", kUsers},
-      {"P13", kNoPin},  {"H1", nullptr},   {"H2", nullptr},   {"H3", nullptr},  {"H4", kInside},  {"H5", nullptr},
-      {"H6", nullptr},  {"H7", kInside},   {"H8", nullptr},   {"D1", nullptr},  {"D2", nullptr},  {"D3", kWithD2},
-      {"D4", kInside},  {"D5", kInside},   {"D6", kInside},   {"D7", nullptr},  {"D8", kInside},  {"D9", kInside},
-      {"D10", kInside}, {"D11", kInside},  {"D12", kInside},  {"D13", kInside}, {"D14", kInside}, {"D15", kInside},
-      {"D16", kInside}, {"D17", kInside},  {"D18", kNoPin},   {"S1", nullptr},  {"S2", nullptr},  {"S3", nullptr},
-      {"S4", kInside},  {"S5", nullptr},   {"S6", kInside},   {"S7", kInside},  {"S8", kModels},  {"S9", nullptr},
-      {"S10", nullptr}, {"S11", nullptr},  {"S12", kInside},  {"S13", nullptr}, {"S14", nullptr}, {"S15", kInside},
-      {"S16", kInside}, {"S17", kInside},  {"S18", kInside},  {"S19", nullptr}, {"S20", nullptr}, {"S21", nullptr},
-      {"S22", kWithS1}, {"S23", kInside},  {"S24", kInside},  {"S25", kInside}, {"S26", nullptr}, {"S27", kInside},
-      {"S28", kInside}, {"S29", nullptr},  {"S30", kWithS11}, {"S31", kInside}, {"S32", nullptr}, {"S33", kInside},
-      {"V1", nullptr},  {"V2", nullptr},   {"V3", kInside},   {"V4", kInside},  {"V5", kInside},  {"V6", kInside},
-      {"V7", kInside},  {"V8", nullptr},   {"V9", kInside},   {"V10", kInside}, {"V11", kInside}, {"V12", kInside},
-      {"V13", kInside}, {"V14", kInside},  {"V15", kInside},  {"U1", kUsers},   {"U2", kUsers},   {"U3", kUsers},
-      {"U4", kUsers},   {"U5", kUsers},    {"U6", kUsers},    {"U7", kUsers},   {"U8", kUsers},   {"U9", kUsers},
-      {"U10", kUsers},  {"facts", nullptr}};
+      {"P1", nullptr},  {"P2", nullptr},  {"P3", nullptr},   {"P4", kNoPin},   {"P5", nullptr},  {"P6", nullptr},
+      {"P7", nullptr},  {"P8", kUsers},   {"P9", nullptr},   {"P10", nullptr}, {"P11", kUsers},  {"P12", kUsers},
+      {"P13", kNoPin},  {"H1", nullptr},  {"H2", nullptr},   {"H3", nullptr},  {"H4", kInside},  {"H5", nullptr},
+      {"H6", nullptr},  {"H7", kInside},  {"H8", nullptr},   {"D1", nullptr},  {"D2", nullptr},  {"D3", kWithD2},
+      {"D4", kInside},  {"D5", kInside},  {"D6", kInside},   {"D7", nullptr},  {"D8", kInside},  {"D9", kInside},
+      {"D10", kInside}, {"D11", kInside}, {"D12", kInside},  {"D13", kInside}, {"D14", kInside}, {"D15", kInside},
+      {"D16", kInside}, {"D17", kInside}, {"D18", kNoPin},   {"S1", nullptr},  {"S2", nullptr},  {"S3", nullptr},
+      {"S4", kInside},  {"S5", nullptr},  {"S6", kInside},   {"S7", kInside},  {"S8", kModels},  {"S9", nullptr},
+      {"S10", nullptr}, {"S11", nullptr}, {"S12", kInside},  {"S13", nullptr}, {"S14", nullptr}, {"S15", kInside},
+      {"S16", kInside}, {"S17", kInside}, {"S18", kInside},  {"S19", nullptr}, {"S20", nullptr}, {"S21", nullptr},
+      {"S22", kWithS1}, {"S23", kInside}, {"S24", kInside},  {"S25", kInside}, {"S26", nullptr}, {"S27", kInside},
+      {"S28", kInside}, {"S29", nullptr}, {"S30", kWithS11}, {"S31", kInside}, {"S32", nullptr}, {"S33", kInside},
+      {"V1", nullptr},  {"V2", nullptr},  {"V3", kInside},   {"V4", kInside},  {"V5", kInside},  {"V6", kInside},
+      {"V7", kInside},  {"V8", nullptr},  {"V9", kInside},   {"V10", kInside}, {"V11", kInside}, {"V12", kInside},
+      {"V13", kInside}, {"V14", kInside}, {"V15", kInside},  {"U1", kUsers},   {"U2", kUsers},   {"U3", kUsers},
+      {"U4", kUsers},   {"U5", kUsers},   {"U6", kUsers},    {"U7", kUsers},   {"U8", kUsers},   {"U9", kUsers},
+      {"U10", kUsers},  {"U11", kUsers},  {"facts", nullptr}};
   return all;
 }
 

@@ -44,6 +44,11 @@ class TlmChipView : public ChipView {
       if (wanted_.actions) listener_->action(number_, at, words_of(access));
       if (!access.write && wanted_.reads) listener_->read(number_, sample);
     };
+    bus_.on_looked = [this](const user_cpu::Looks& last) {
+      if (!wanted_.reads) return;
+      listener_->looked(number_, number(Pin::kLReq), last.l_req);
+      listener_->looked(number_, number(Pin::kLSta), last.l_sta);
+    };
     bus_.on_handshake = [this](Tick at, const char* pin, bool level) {
       if (wanted_.actions) listener_->action(number_, at, words_of(pin, level));
     };

@@ -24,6 +24,8 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
 
   /// Called at the begin of an access; a read samples D at `sample`.
   std::function<void(Tick at, const Access& access, Tick sample)> on_begin;
+  /// As HostBus::looked.
+  std::function<void(const Looks& last)> on_looked;
   /// Called when R_REQ or R_STA changes.
   std::function<void(Tick at, const char* pin, bool level)> on_handshake;
 
@@ -37,6 +39,9 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   void set_r_sta(Tick at, bool level) override;
   bool l_req(Tick at) override;
   bool l_sta(Tick at) override;
+  void looked(const Looks& last) override {
+    if (on_looked) on_looked(last);
+  }
   bool intr0(Tick at) override;
   unsigned lamps(Tick at) override;
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;

@@ -45,6 +45,8 @@ class Cpu {
   /// The pin is sampled at once; the call takes `pin_sample`.
   virtual bool l_req() = 0;
   virtual bool l_sta() = 0;
+  /// Replaces the times of the last calls of these two, for a program that is not what looks.
+  virtual void looked(const Looks& last) = 0;
   /// As above for the lamps' pins, see HostBus::lamps.
   virtual unsigned lamps() = 0;
 

@@ -15,6 +15,11 @@ struct Access {
   std::uint8_t value = 0;     ///< for a write
 };
 
+/// When the program looked at the pins last; -1: never.
+struct Looks {
+  Tick l_req = -1, l_sta = -1;
+};
+
 /// Implemented by PinHostBus on the pins of the core, and by adapters to a socket: such a bus has one edge, the end of
 /// the access.
 ///
@@ -26,6 +31,8 @@ class HostBus : public SerialPins {
   /// The pins at `at`, after all chip activity up to and including that tick.
   virtual bool l_req(Tick at) = 0;
   virtual bool l_sta(Tick at) = 0;
+  /// Announces, before R_STA rises, the looks that it follows.
+  virtual void looked(const Looks& /*last*/) {}
   virtual bool intr0(Tick at) = 0;
   /// The lamps' pins at `at`: PBF in bit 0, BR in bit 1, READY in bit 2.
   virtual unsigned lamps(Tick /*at*/) { return 0; }

@@ -56,15 +56,18 @@ void NativeCpu::take_request() {
       ready_at_ = now_ + timing_.pin_write;
       break;
     case Op::kSetRSta:
+      if (request_.level) bus_.looked(looks_);
       bus_.set_r_sta(now_, request_.level);
       ready_at_ = now_ + timing_.pin_write;
       break;
     case Op::kLReq:
       sampled_ = bus_.l_req(now_);
+      looks_.l_req = now_;
       ready_at_ = now_ + timing_.pin_sample;
       break;
     case Op::kLSta:
       sampled_ = bus_.l_sta(now_);
+      looks_.l_sta = now_;
       ready_at_ = now_ + timing_.pin_sample;
       break;
     case Op::kLamps:

@@ -64,6 +64,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   void set_r_sta(bool level) override;
   bool l_req() override;
   bool l_sta() override;
+  void looked(const Looks& last) override { looks_ = last; }
   unsigned lamps() override;
   void transfer(Transfer& transfer) override;
   SerialPins& serial_pins() override { return bus_; }
@@ -105,6 +106,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   Tick now_ = 0;
   Tick ready_at_;  ///< when the program continues
   bool sampled_ = false;
+  Looks looks_;
   unsigned lamps_ = 0;
   Fiber fiber_;
 };

@@ -27,6 +27,10 @@ class ChipChecks {
   /// Announces, before its first edge, a read that samples the data at `sample`. Only for user CPUs that report it,
   /// because the pins do not show it.
   virtual void read(Tick /*sample*/) {}
+  /// The user CPU tells its looks at the chip's pins: without `looked` there was none. Before the first change.
+  virtual void hears_looks() {}
+  /// Announces, before the user acts on it, that it looked at `pin` last at `at`; negative: never.
+  virtual void looked(tb::PinNumber /*pin*/, Tick /*at*/) {}
   /// A telegram of any station that has ended, at `now`.
   virtual void telegram(Tick now, const bus::WireTelegram& telegram) = 0;
   /// Once, at the end of the run.

@@ -21,9 +21,11 @@ struct Act {
   bus::Tick at = 0;                        ///< the last one up to then
   std::optional<bus::Tick> since = {};     ///< an omission: nothing was done from then until `at`
   std::optional<std::uint16_t> cell = {};  ///< the last write to this cell; if that is not known, the last release
+  bool look = false;                       ///< the look at pins of the chip that was made at `at`
 
   static Act done(bus::Tick at) { return {at}; }
   static Act omitted(bus::Tick since, bus::Tick until) { return {until, since}; }
+  static Act looked(bus::Tick at) { return {at, {}, {}, true}; }
   static Act written(std::uint16_t cell, bus::Tick until) { return {until, {}, cell}; }
 };
 

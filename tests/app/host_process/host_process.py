@@ -91,9 +91,25 @@ class HostProcess(unittest.TestCase):
         self.assertLess(said[0]["at_ns"] - falls[0], 5000)
 
     def test_its_mistakes_are_violations(self):
-        done = self.run_it(fault="hasty")
-        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
-        self.assertIn("OWNERSHIP_SYNC_WINDOW", done.stdout)
+        for fault, check in (("hasty", "OWNERSHIP_SYNC_WINDOW"), ("blind", "LOOK_IN_WINDOW")):
+            with self.subTest(fault=fault):
+                done = self.run_it(fault=fault)
+                self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+                self.assertIn(check, done.stdout)
+
+    def looks(self, *options, port="parallel"):
+        """What the run has of LOOK_IN_WINDOW."""
+        self.run_it("--result", "result.json", *options, port=port)
+        checks = json.loads((self.folder / "result.json").read_text())["checks"]
+        return [each for each in checks if each["id"] == "LOOK_IN_WINDOW"]
+
+    def test_its_looks_are_judged_alike_in_every_engine_and_view_of_the_parallel_port(self):
+        first = self.looks()
+        self.assertGreater(first[0]["count"], 100)
+        for options in (("--engine", "step"), ("--view", "tlm")):
+            self.assertEqual(self.looks(*options), first)
+        for port in ("spi", "uart"):
+            self.assertEqual(self.looks(port=port), [])
 
     def test_its_end_is_a_violation(self):
         done = self.run_it(fault="ends")

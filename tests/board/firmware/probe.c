@@ -57,7 +57,7 @@ enum {
 #define FSMC_BWTR1 0xA0000104u
 #define NVIC_ISER0 0xE000E100u
 
-enum { IRQ_STORM = 27 }; /* its number in programs */
+enum { IRQ_STORM = 27, ASKS = 31 }; /* their numbers in programs */
 const volatile uint32_t program __attribute__((used)) = 0;
 static volatile uint32_t edges;
 
@@ -97,6 +97,20 @@ static void busy(void) {
   for (;;) {
   }
 }
+/* Looks at the wrong half of IDR, at the right one, then until the handler of INTR0 raises R_STA. */
+static void asks(void) {
+  REG(GPIOC_BSRR) = 1u << 6;
+  (void)*(volatile uint8_t*)GPIOC_IDR;
+  REG(GPIOC_BSRR) = 1u << 7;
+  REG(GPIOC_BRR) = 1u << 7;
+  (void)*(volatile uint8_t*)(GPIOC_IDR + 1u);
+  REG(GPIOC_BSRR) = 1u << 7;
+  REG(GPIOC_BRR) = 1u << 7;
+  wait_for_edges();
+  while ((REG(GPIOC_IDR) & 3u << 8) != 0) {
+  }
+}
+
 static void interrupt(void) {
   wait_for_edges();
   for (;;) {
@@ -399,6 +413,7 @@ void EXTI9_5_handler(void) {
   CHIP(0x7FF) = 0;
   ++edges;
   REG(EXTI_PR) = 1u << 6;
+  if (program == ASKS) REG(GPIOC_BSRR) = 1u << 7;
 }
 
 void TIM2_handler(void);
@@ -416,7 +431,7 @@ void run(void) {
       nonsense,  lacking,   registers,        clocks_off,        busy,       divided,
       restarted, wide_bus,  multiplexed,      floating_bus,      wrong_pins, outside,
       bank_2,    timer,     timer_while_busy, irq_storm,         watchdog,   watchdog_asleep,
-      stuck};
+      stuck,     asks};
   edges = 0;
   clocks();
   memory_bus();

@@ -47,11 +47,7 @@ void port_start(void) {
 static int chip_is_away(void) { return (WORD(PORTC_IN) & LINES) == 0u; }
 
 static void wait_for_chip(void) {
-  if (HAS(STA_UNLOOKED)) return;
-  if (HAS(LOOK_EARLY)) {
-    (void)chip_is_away();
-    return;
-  }
+  if (HAS(STA_UNLOOKED) || HAS(LOOK_EARLY)) return;
   const uint32_t since = now();
   while (now() - since < 12u) { /* 170 ns */
   }
@@ -62,8 +58,10 @@ static void wait_for_chip(void) {
 void take(void) {
   /* TELLS(ALTERNATE) TELLS(OPEN_DRAIN) */
   WORD(PORTC_SET) = R_REQ;
+  /* TELLS(LOOK_EARLY) */
+  if (HAS(LOOK_EARLY)) (void)WORD(PORTC_IN);
   wait_for_chip();
-  /* TELLS(STA_UNLOOKED) TELLS(LOOK_EARLY) */
+  /* TELLS(STA_UNLOOKED) */
   WORD(PORTC_SET) = R_STA;
   /* TELLS(FSMC_FLOATING) TELLS(FSMC_WIDE) TELLS(FSMC_MULTIPLEXED) TELLS(NOT_VOLATILE) */
   if (!HAS(UNCOUNTED)) CELLS[0x006] = (uint8_t)(CELLS[0x006] + 1u);

@@ -42,6 +42,8 @@ class Board {
   void wait(Tick ticks) { now_ += ticks; }
   void set(Pin pin, Level level) { checks_.pin(now_, pin, level); }
 
+  /// By a user who tells his looks (hears_looks).
+  void look(Pin pin) { checks_.looked(number(pin), now_); }
   /// The handshake of figure 4, R_STA `window` after R_REQ.
   void ask(Tick window = 2040) {
     set(Pin::kRReq, 1);

@@ -122,6 +122,153 @@ TEST(SyncWindow, BothLowForNoTimeIsNoNewRequest) {
   EXPECT_EQ(violations(board, Check::kSyncWindow), 0U);
 }
 
+void look_at_both(Board& board) {
+  board.look(Pin::kLReq);
+  board.look(Pin::kLSta);
+}
+
+/// A right hold by a user who tells his looks.
+void hold_with_looks(Board& board) {
+  board.checks().hears_looks();
+  board.set(Pin::kRReq, 1);
+  board.wait(1200);
+  look_at_both(board);
+  board.wait(840);
+  board.set(Pin::kRSta, 1);
+  board.wait(500);
+  board.count();
+  board.release();
+}
+
+TEST(LookInWindow, RStaWithoutALookSinceTheRequestIsAViolation) {
+  Board board;
+  hold_with_looks(board);
+  board.ask();
+  ASSERT_EQ(board.violations.size(), 1U);
+  EXPECT_EQ(board.violations[0].text, "0.000 ns of at least 62.500 ns, no look at L_REQ and L_STA");
+  EXPECT_FALSE(board.violations[0].act.look) << "the line is that of R_STA";
+  EXPECT_EQ(board.violations[0].act.at, board.now() - 500);
+  EXPECT_EQ(board.checks().record(Check::kLookInWindow).count, 2U);
+}
+
+TEST(LookInWindow, OnePinIsNotEnough) {
+  for (const Pin pin : {Pin::kLReq, Pin::kLSta}) {
+    Board board;
+    hold_with_looks(board);
+    board.set(Pin::kRReq, 1);
+    board.wait(1200);
+    board.look(pin);
+    board.set(Pin::kRSta, 1);
+    ASSERT_EQ(board.violations.size(), 1U);
+    EXPECT_EQ(board.violations[0].text.substr(board.violations[0].text.rfind(' ')),
+              pin == Pin::kLReq ? " L_STA" : " L_REQ");
+  }
+}
+
+TEST(LookInWindow, LastLookCountsNotTheFirst) {
+  Board board;
+  hold_with_looks(board);
+  board.set(Pin::kRReq, 1);
+  board.wait(100);
+  look_at_both(board);
+  const Tick early = board.now();
+  board.wait(2000);
+  board.look(Pin::kLReq);
+  board.set(Pin::kRSta, 1);
+  ASSERT_EQ(board.violations.size(), 1U);
+  EXPECT_EQ(board.violations[0].text, "8.333 ns of at least 62.500 ns, the last look at L_STA");
+  EXPECT_TRUE(board.violations[0].act.look);
+  EXPECT_EQ(board.violations[0].act.at, early);
+  board.release();
+  board.set(Pin::kRReq, 1);
+  look_at_both(board);
+  board.wait(2000);
+  look_at_both(board);
+  board.set(Pin::kRSta, 1);
+  EXPECT_EQ(violations(board, Check::kLookInWindow), 1U);
+}
+
+TEST(LookInWindow, UserWhoGivesUpLooksAgainInHisNextRequest) {
+  for (const bool looks : {true, false}) {
+    Board board;
+    hold_with_looks(board);
+    board.set(Pin::kRReq, 1);
+    board.wait(1200);
+    look_at_both(board);
+    board.set(Pin::kRReq, 0);
+    board.wait(100);
+    board.set(Pin::kRReq, 1);
+    board.wait(1200);
+    if (looks) look_at_both(board);
+    board.set(Pin::kRSta, 1);
+    EXPECT_EQ(violations(board, Check::kLookInWindow), looks ? 0U : 1U);
+  }
+}
+
+TEST(LookInWindow, RequestThatNeverEndedNeedsNoOtherLook) {
+  Board board;
+  hold_with_looks(board);
+  board.set(Pin::kRReq, 1);
+  board.wait(1200);
+  look_at_both(board);
+  board.set(Pin::kRSta, 1);
+  board.wait(500);
+  board.set(Pin::kRReq, 0);
+  board.wait(100);
+  board.set(Pin::kRReq, 1);  // takes the release back
+  board.set(Pin::kRSta, 0);
+  board.wait(2000);
+  board.set(Pin::kRSta, 1);
+  board.set(Pin::kRSta, 0);
+  board.set(Pin::kRReq, 0);
+  board.set(Pin::kRReq, 1);  // both low for no time
+  board.wait(100);
+  board.set(Pin::kRSta, 1);
+  EXPECT_TRUE(board.violations.empty()) << board.violations.front().text;
+  EXPECT_EQ(board.checks().record(Check::kLookInWindow).count, 4U);
+}
+
+TEST(LookInWindow, RStaInTheWindowIsNotJudgedTwice) {
+  for (const bool judged : {true, false}) {
+    checks::Limits limits(checks::rules());
+    limits[Check::kSyncWindow].on = judged;
+    Board board(limits);
+    board.checks().hears_looks();
+    board.ask(749);
+    EXPECT_EQ(violations(board, Check::kSyncWindow), judged ? 1U : 0U);
+    EXPECT_EQ(violations(board, Check::kLookInWindow), judged ? 0U : 1U);
+  }
+}
+
+TEST(LookInWindow, RStaBeforeRReqIsAnotherMistake) {
+  Board board;
+  board.checks().hears_looks();
+  board.set(Pin::kRSta, 1);
+  board.wait(2000);
+  board.set(Pin::kRReq, 1);
+  ASSERT_EQ(board.violations.size(), 1U);
+  EXPECT_EQ(board.violations[0].check, Check::kNoRequest);
+}
+
+TEST(LookInWindow, OfAUserWhoDoesNotTellNothingIsJudged) {
+  Board board;
+  EXPECT_FALSE(board.checks().applies(Check::kLookInWindow));
+  board.ask();
+  EXPECT_EQ(board.checks().record(Check::kLookInWindow).count, 0U);
+  board.checks().hears_looks();
+  EXPECT_TRUE(board.checks().applies(Check::kLookInWindow));
+}
+
+TEST(LookInWindow, SerialPortsHaveNoSuchPins) {
+  for (Level mode = 0; mode <= 3; ++mode) {
+    checks::SerialSettings settings;
+    settings.mode = mode;
+    checks::Checks checks(checks::Limits(checks::rules(Part::kRsu)), Part::kRsu, settings);
+    checks.hears_looks();
+    EXPECT_EQ(checks.applies(Check::kLookInWindow), mode == 0 || mode == 3);
+  }
+}
+
 TEST(Reset, RequestThroughItHoldsTheChipOffFromItsEndOn) {
   Board board;
   board.ask();

@@ -82,6 +82,7 @@ class RightUser {
 
 /// The others depend on the scenario's rates: HOLD_INTERVAL.
 bool is_duty(checks::CheckId check) {
+  if (check == checks::Check::kLookInWindow) return true;
   return check.index >= checks::CheckId(checks::kFirstCommonCheck).index &&
          check.index < checks::CheckId(checks::kFirstSpiCheck).index;
 }

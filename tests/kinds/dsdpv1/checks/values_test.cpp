@@ -74,6 +74,24 @@ void sync_window_of_a_renewed_request(Board& board, Tick margin) {
   sync_window(board, margin);
 }
 
+/// The other pin is looked at in time.
+void look_in_window(Board& board, Tick margin, Pin first, Pin second) {
+  board.checks().hears_looks();
+  board.set(Pin::kRReq, 1);
+  board.wait(100);
+  board.look(first);
+  board.wait(650 + margin);
+  board.look(first);
+  board.wait(200);
+  board.look(second);
+  board.set(Pin::kRSta, 1);
+  board.wait(500);
+  board.release();
+}
+
+void look_at_l_req(Board& board, Tick margin) { look_in_window(board, margin, Pin::kLReq, Pin::kLSta); }
+void look_at_l_sta(Board& board, Tick margin) { look_in_window(board, margin, Pin::kLSta, Pin::kLReq); }
+
 void not_owner(Board& board, Tick margin) {
   board.set(Pin::kRReq, 1);
   board.wait(2040);
@@ -257,6 +275,8 @@ const Case kCases[] = {
     {"SyncWindow", Check::kSyncWindow, sync_window},
     {"SyncWindowOfANewRequest", Check::kSyncWindow, sync_window_of_a_new_request},
     {"SyncWindowOfARenewedRequest", Check::kSyncWindow, sync_window_of_a_renewed_request},
+    {"LookAtLReq", Check::kLookInWindow, look_at_l_req},
+    {"LookAtLSta", Check::kLookInWindow, look_at_l_sta},
     {"RStaReleasedInAccess", Check::kReleasedInAccess, r_sta_released_in_access},
     {"RReqReleasedInAccess", Check::kReleasedInAccess, r_req_released_in_access},
     {"RReqNeverReleased", Check::kNeverReleased, r_req_never_released},

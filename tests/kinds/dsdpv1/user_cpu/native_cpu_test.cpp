@@ -68,6 +68,25 @@ TEST_F(NativeCpu, AccessesTakeTheirTime) {
   EXPECT_EQ(cpu->next(), bus::kNever);
 }
 
+TEST_F(NativeCpu, LastLooksAreToldBeforeRStaRises) {
+  start([](Cpu& c) {
+    c.set_r_sta(true);
+    c.set_r_sta(false);
+    for (int i = 0; i < 3; ++i) c.l_req();
+    c.l_sta();
+    c.l_req();
+    c.set_r_sta(true);
+    c.looked({7, 8});
+    c.set_r_sta(true);
+  });
+  timeline.run_until(10'000);
+  ASSERT_EQ(bus.looks.size(), 3U);
+  EXPECT_EQ(bus.looks[0].l_req, -1);
+  EXPECT_EQ(bus.looks[1].l_req, 20 + 4 * 20);
+  EXPECT_EQ(bus.looks[1].l_sta, 20 + 3 * 20);
+  EXPECT_EQ(bus.looks[2].l_sta, 8);
+}
+
 TEST_F(NativeCpu, OthersActBetweenTheEdges) {
   struct Other : bus::Agent {
     Tick next() const override { return acted ? bus::kNever : 700; }

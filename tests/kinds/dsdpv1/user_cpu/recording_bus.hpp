@@ -24,6 +24,7 @@ class RecordingBus : public user_cpu::HostBus {
     note(at, "L_STA?");
     return chip_busy;
   }
+  void looked(const user_cpu::Looks& last) override { looks.push_back(last); }
   bool intr0(Tick) override { return true; }
 
   void begin(Tick at, const user_cpu::Access& access, const AccessTiming&) override {
@@ -43,6 +44,7 @@ class RecordingBus : public user_cpu::HostBus {
 
   bool chip_busy = false, bad = false, puts_off = false;
   std::vector<std::string> log;
+  std::vector<user_cpu::Looks> looks;  ///< before each rise of R_STA
 
  private:
   void note(Tick at, const char* what) { log.push_back(std::to_string(at) + " " + what); }
