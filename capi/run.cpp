@@ -43,7 +43,8 @@ void refuse_boards(const Scenario& scenario) {
     if (kind.has_debugger(slave))
       fail(DPSIM_ERR_UNSUPPORTED, scenario.file + ":" + std::to_string(slave.user_cpu.line) + ": slave " +
                                       slave.name.text +
-                                      " has an ARM board, allowed in this library is kind: native; dsdpv1-sim runs it");
+                                      " has an ARM board, allowed in this library are kind: native and process; "
+                                      "dsdpv1-sim runs it");
 }
 
 std::optional<tb::ChecksMode> checks_of(dpsim_checks_mode mode) {

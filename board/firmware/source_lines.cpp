@@ -75,7 +75,7 @@ void for_each_function(Dwarf_Die* parent, const Take& take, int depth = 0) {
     const int tag = ::dwarf_tag(&die);
     const bool is_function = tag == DW_TAG_inlined_subroutine || tag == DW_TAG_subprogram;
     if (is_function) take(die);
-    if (is_function || tag == DW_TAG_lexical_block) for_each_function(&die, take, depth + 1);
+    if (is_function || tag == DW_TAG_lexical_block || tag == DW_TAG_namespace) for_each_function(&die, take, depth + 1);
     if (::dwarf_siblingof(&die, &die) != 0) return;
   }
 }

@@ -19,7 +19,7 @@
  * loop of the program needs one. What the program writes to stdout is in the run's log.
  * docs/tutorials/c_driver_on_host.md.
  *
- * C99 and POSIX. The program has one thread that calls these functions. If it was not started by dsdpv1-sim, the first
+ * C99 and Linux. The program has one thread that calls these functions. If it was not started by dsdpv1-sim, the first
  * call says so and ends it with exit code 2; it ends with 0 when the run does.
  */
 /* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using): C, also when included by C++ */

@@ -7,6 +7,7 @@
 
 #include "bus/time_text.hpp"
 #include "lab/campaign/children.hpp"
+#include "tb/report/result_fields.hpp"
 
 namespace dsdpv1::tb::sweep {
 namespace {
@@ -20,7 +21,7 @@ void take_first(std::optional<FirstViolation>& first, const FirstViolation& seen
 void take_events(Point& point, const Json& run) {
   for (const Json& event : run.value("events", Json::array())) {
     if (event.at("severity") != "violation" || event.at("allowed") == true) continue;
-    take_first(point.first, {event.at("at_ns"), event.at("slave"), event.at("code"), event.at("text")});
+    take_first(point.first, {event.at("at_ns"), event.at("slave"), event.at("code"), text_and_place(event)});
   }
 }
 
@@ -40,7 +41,7 @@ void take_check(Point& point, const Json& json) {
   if (violations <= 0) return;
   check.violations += violations;
   for (const Json& each : json.value("listed", Json::array()))
-    take_first(point.first, {each.at("at_ns"), json.value("slave", ""), check.id, each.at("text")});
+    take_first(point.first, {each.at("at_ns"), json.value("slave", ""), check.id, text_and_place(each)});
 }
 
 void take_run(Point& point, const Json& run) {

@@ -121,7 +121,8 @@ void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, boo
 }
 
 void Journal::user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& /*registers*/) {
-  happened(tally(name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation), at, why);
+  happened(tally(name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation), at, why, nullptr,
+           observers_.where(slave, user_cpu::Act::done(at)));
 }
 
 void Journal::host_telegram(std::size_t slave, const HostTelegram& telegram) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "io/input/units.hpp"
@@ -181,7 +183,7 @@ void place_fields(Fields& out, const user_cpu::Place& place) {
   out.field("file", place.file, "of the source, without folders; empty: not known");
   out.field("line", place.line, "of the file; 0: not known");
   out.field("function", place.function, "its name; empty: not known");
-  out.field("pc", fmt::format("0x{:08X}", place.pc), "address of the instruction");
+  out.field("pc", fmt::format("0x{:08X}", place.pc), "address of the instruction, of a process in its file");
   out.time("stayed_ns", place.stayed, "of an omission: how long the program was in the function meanwhile; else null");
 }
 
@@ -307,6 +309,17 @@ Times that end in `_ns` are nanoseconds from the start of the run: whole numbers
 }  // namespace
 
 std::string result_json(const RunResult& result) { return json_file(Fields::written(result, run_fields)); }
+
+std::string text_and_place(const nlohmann::json& entry) {
+  const std::string text = entry.at("text");
+  const nlohmann::json where = entry.value("where", nlohmann::json());
+  if (where.is_null()) return text;
+  user_cpu::Place place{where.at("file"), where.at("line"), where.at("function"),
+                        static_cast<std::uint32_t>(std::stoul(where.at("pc").get<std::string>(), nullptr, 16))};
+  if (const nlohmann::json& stayed = where.at("stayed_ns"); !stayed.is_null())
+    place.stayed = std::llround(stayed.get<double>() * bus::kTicksPerNs);
+  return with_place(text, place);
+}
 
 std::string result_schema() { return schema_file(kSchema, described()); }
 

@@ -1,5 +1,6 @@
 #pragma once
 // The contents of the result file of a run, for programs and people.
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "tb/bench/record.hpp"
@@ -10,6 +11,8 @@ namespace dsdpv1::tb {
 std::string result_json(const RunResult& result);
 /// Its JSON Schema (draft 2020-12): exact, what it does not name is wrong.
 std::string result_schema();
+/// The `text` of a violation or event of a result file, with its place.
+std::string text_and_place(const nlohmann::json& entry);
 /// docs/result.md.
 std::string result_markdown();
 

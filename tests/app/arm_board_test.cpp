@@ -388,11 +388,15 @@ TEST(ArmBoard, FaultEndsTheRunWithTheSourceLine) {
     const Called called =
         call("run s.yaml --no-progress --result r.json --log " + view + " --view " + view, folder.path());
     EXPECT_EQ(called.status, 1);
-    EXPECT_THAT(called.out, HasSubstr("run at fault.c:"));
+    EXPECT_THAT(called.out, testing::ContainsRegex("at fault.c:[0-9]+ in run\\(\\)"));
     EXPECT_THAT(called.out, HasSubstr("xpsr"));
     const Json result = Json::parse(read(folder.file("r.json")));
     EXPECT_LT(result.at("simulated_ns").get<double>(), 1e6);
-    EXPECT_EQ(result.at("events").back().at("code"), "ARM_FAULT");
+    const Json event = result.at("events").back(), where = event.at("where");
+    EXPECT_EQ(event.at("code"), "ARM_FAULT");
+    EXPECT_EQ(where.at("file"), "fault.c");
+    EXPECT_EQ(where.at("function"), "run");
+    EXPECT_EQ(result.at("violated").at(0).at("where"), where);
   }
   EXPECT_EQ(read(folder.file("pins")), read(folder.file("tlm")));
 }

@@ -101,6 +101,12 @@ class Counting(unittest.TestCase):
     def test_every_row_is_recorded(self):
         self.assertEqual(set(instructions.recorded()), set(instructions.NAMES))
 
+    def test_the_page_of_the_checks_says_what_they_cost(self):
+        record, page_of_checks = instructions.recorded(), (programs.ROOT / "docs/checks.md").read_text(encoding="utf-8")
+        said = re.search(r"takes ([\d.]+) times the host instructions of one without in `power_on_12m`, and ([\d.]+) times in `arm_board_12m`", page_of_checks)
+        for times, row_name in zip(said.groups(), ("demo", "arm")):
+            self.assertEqual(times, f"{record[f'{row_name}_checks'] / record[row_name]:.1f}")
+
 
 class Measuring(unittest.TestCase):
     """The whole program with its own rows and calibration."""

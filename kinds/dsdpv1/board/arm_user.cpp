@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
 
 #include "board/firmware/elf_image.hpp"
 #include "board/gdb/gdb_server.hpp"
 #include "board/gdb/history_player.hpp"
 #include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
 #include "kinds/dsdpv1/board/board.hpp"
 #include "kinds/dsdpv1/chip/untold.hpp"
 #include "kinds/dsdpv1/chip/user_maker.hpp"
@@ -129,8 +131,23 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
   };
 }
 
+/// Of a program of this computer.
+user_cpu::PlaceOf lines_of(const std::string& program) {
+  constexpr std::size_t kMostMb = 256;
+  const ReadFile file = try_read_file(program, kMostMb);
+  const auto lines = std::make_shared<arm::SourceLines>(arm::ElfImage(),
+                                                        std::vector<std::uint8_t>(file.text.begin(), file.text.end()));
+  return [lines](std::uint32_t address) {
+    const arm::SourceLine line = lines->line_of(address);
+    return user_cpu::Place{line.file, line.line, line.function, address};
+  };
+}
+
 }  // namespace
 
-void add_arm_board() { set_arm_maker(arm_user); }
+void add_arm_board() {
+  set_arm_maker(arm_user);
+  set_line_reader(lines_of);
+}
 
 }  // namespace dsdpv1::tb

@@ -3,8 +3,8 @@
 
 namespace dsdpv1::tb {
 
-/// Registers the ARM board; call it before the first scenario is read. Parts of a scenario that firmware without a
-/// mailbox cannot execute are left out or rejected, see ../chip/untold.hpp.
+/// Registers the ARM board, and the reader of host processes' lines; call it before the first scenario is read. Parts
+/// of a scenario that firmware without a mailbox cannot execute are left out or rejected, see ../chip/untold.hpp.
 void add_arm_board();
 
 }  // namespace dsdpv1::tb

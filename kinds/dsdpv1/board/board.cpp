@@ -190,11 +190,11 @@ void Board::look_at_mailbox(Tick now) {
   const bool handed_over = mailbox_->look(now, [this](const user_cpu::DriverError& error) {
     if (on_error) on_error(user_cpu::program_error(error));
   });
-  if (was_right && !mailbox_->wrong().empty() && on_failure)
-    on_failure(now,
-               fmt::format("the firmware has written nonsense into its mailbox ({}): {}", DSDPV1_MAILBOX_SYMBOL,
-                           mailbox_->wrong()),
-               table(core_.registers()));
+  if (was_right && !mailbox_->wrong().empty())
+    fail(now, core_.place(),
+         fmt::format("the firmware has written nonsense into its mailbox ({}): {}", DSDPV1_MAILBOX_SYMBOL,
+                     mailbox_->wrong()),
+         core_.registers());
   if (!handed_over) return;
   core_.signal_event();
   cpu_.wake(now);
@@ -230,19 +230,9 @@ std::optional<user_cpu::BoardReport> Board::board() const {
   return report;
 }
 
-/// An omission that was too short for a sample is where the firmware acted next, or last.
 std::optional<user_cpu::Place> Board::where(const user_cpu::Act& act) const {
-  if (act.since) {
-    const auto function_of = [this](std::uint32_t pc) { return options_.firmware->lines.line_of(pc).function; };
-    if (const auto stay = acts_.longest_stay(*act.since, act.at, function_of)) {
-      user_cpu::Place place = place_of(stay->pc);
-      place.stayed = stay->time;
-      return place;
-    }
-  }
   if (act.look && act.at == look_.at) return place_of(look_.pc);
-  const std::optional<std::uint32_t> pc = acts_.instruction(act);
-  return pc ? std::optional(place_of(*pc)) : std::nullopt;
+  return acts_.where(act, [this](std::uint32_t pc) { return place_of(pc); });
 }
 
 user_cpu::Place Board::place_of(std::uint32_t pc) const {
@@ -278,10 +268,14 @@ void Board::ended_by_debugger() {
 }
 
 void Board::failed(const Fault& fault) {
-  const SourceLines& lines = options_.firmware->lines;
-  if (!on_failure) return;
-  on_failure(now(), fmt::format("{}; in {}, LR in {}", fault.text, lines.at(fault.pc), lines.at(fault.registers.lr)),
-             table(fault.registers));
+  fail(now(), fault.pc, fmt::format("{}; LR in {}", fault.text, options_.firmware->lines.at(fault.registers.lr)),
+       fault.registers);
+}
+
+/// The instruction at `pc` is the last act: where() names it.
+void Board::fail(Tick at, std::uint32_t pc, const std::string& why, const Registers& registers) {
+  acts_.pins(at, pc, false);
+  if (on_failure) on_failure(at, why, table(registers));
 }
 
 Tick Board::tick_of(std::uint64_t cycle) const {

@@ -32,11 +32,11 @@
 #include "board/stm32/terminal.hpp"
 #include "board/stm32/timer.hpp"
 #include "board/stm32/watchdog.hpp"
-#include "kinds/dsdpv1/board/act_log.hpp"
 #include "kinds/dsdpv1/board/mailbox_link.hpp"
 #include "kinds/dsdpv1/board/memory_bus.hpp"
 #include "kinds/dsdpv1/board/serial_side.hpp"
 #include "kinds/dsdpv1/keys/board_codes.hpp"
+#include "kinds/dsdpv1/user_cpu/act_log.hpp"
 #include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/programs.hpp"
 #include "model/dsdpv1/config.hpp"
@@ -152,6 +152,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void txd_changed(Tick at, bool level);
   void note_fault(const Fault& fault);
   void failed(const Fault& fault);
+  void fail(Tick at, std::uint32_t pc, const std::string& why, const Registers& registers);
   void ended_by_debugger();
   Tick tick_of(std::uint64_t cycle) const;
   std::uint64_t cycle_of(Tick tick) const;
@@ -218,7 +219,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   // `since_` is the tick of cycle `since_cycle_`; from there a cycle takes `cycle_ticks_` / `cycle_parts_` ticks.
   Tick since_, cycle_ticks_ = 1, cycle_parts_ = 1;
   std::uint64_t since_cycle_ = 0;
-  ActLog acts_;
+  user_cpu::ActLog acts_;
   SerialSide::Ports ports_;
   SerialSide serial_;
   Exti exti_;

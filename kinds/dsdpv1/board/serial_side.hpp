@@ -17,7 +17,7 @@
 #include "board/stm32/rcc.hpp"
 #include "board/stm32/spi.hpp"
 #include "board/stm32/usart.hpp"
-#include "kinds/dsdpv1/board/act_log.hpp"
+#include "kinds/dsdpv1/user_cpu/act_log.hpp"
 #include "kinds/dsdpv1/user_cpu/claim_counters.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_pins.hpp"
 
@@ -35,7 +35,7 @@ class SerialSide {
   enum Block : unsigned { kSpi1, kSpi2, kUsart2 };
 
   /// `card`: 1 or 2; 0: a chip without serial pins. `ports` and `acts`, which learns of each byte sent, outlive it.
-  SerialSide(const Ports& ports, unsigned card, ActLog& acts) : ports_(ports), card_(card), acts_(acts) {}
+  SerialSide(const Ports& ports, unsigned card, user_cpu::ActLog& acts) : ports_(ports), card_(card), acts_(acts) {}
 
   /// A register at `offset` of a block.
   std::uint32_t peek(Block block, std::uint32_t offset) const;
@@ -100,7 +100,7 @@ class SerialSide {
 
   const Ports& ports_;
   unsigned card_;
-  ActLog& acts_;
+  user_cpu::ActLog& acts_;
   std::uint32_t mapr_ = 0;
   std::array<Spi, 2> spi_;
   Usart usart_;

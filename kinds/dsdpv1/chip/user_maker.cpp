@@ -17,6 +17,9 @@
 namespace dsdpv1::tb {
 namespace {
 
+MakeArmUser arm_maker = nullptr;
+ReadLines line_reader = nullptr;
+
 user_cpu::CpuTiming timing_of(const Dsdpv1User& own) {
   user_cpu::CpuTiming timing;
   if (own.timing) timing = static_cast<const user_cpu::CpuTiming&>(*own.timing);
@@ -50,6 +53,7 @@ MakeUser process_user(const UserRequest& request, user_cpu::HostBus& host) {
   check_program(options.arguments[0], request.scenario, own.program.line);
   for (const Name& each : own.arguments) options.arguments.push_back(each.text);
   options.patience_ms = static_cast<int>((own.patience + bus::kTicksPerMs - 1) / bus::kTicksPerMs);
+  if (line_reader != nullptr) options.lines_of = line_reader;
   (void)untold(request.scenario, request.slave, options.arguments[0], "is a process of this computer");
   const user_cpu::HostPort port = host_port_of(own, static_cast<const Dsdpv1Settings&>(*request.scenario.chip));
   return [&host, timing = timing_of(own), options, port](const user_cpu::StationConfig&, Tick start) {
@@ -57,11 +61,11 @@ MakeUser process_user(const UserRequest& request, user_cpu::HostBus& host) {
   };
 }
 
-MakeArmUser arm_maker = nullptr;
-
 }  // namespace
 
 void set_arm_maker(MakeArmUser make) { arm_maker = make; }
+
+void set_line_reader(ReadLines read) { line_reader = read; }
 
 MakeUser make_dsdpv1_user(const UserRequest& request) {
   auto& host = static_cast<user_cpu::HostBus&>(*request.chip.user_side());

@@ -124,6 +124,11 @@ void ChildProcess::lines(const std::function<void(const std::string&)>& each) {
   text_.erase(0, begin);
 }
 
+std::filesystem::path ChildProcess::program() const {
+  std::error_code error;
+  return std::filesystem::read_symlink(fmt::format("/proc/{}/exe", pid_), error);
+}
+
 std::string ChildProcess::ending() {
   int status = 0;
   ::waitpid(pid_, &status, 0);

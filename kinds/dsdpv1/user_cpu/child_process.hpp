@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ class ChildProcess {
   bool send(const void* bytes, std::size_t n);
   /// Calls `each` for the lines written to stdout since the last call.
   void lines(const std::function<void(const std::string&)>& each);
+  /// The file that it runs; another one than was started if that has started it in its place. Empty: not known.
+  std::filesystem::path program() const;
   /// Waits for the end of a program that has closed the socket: "has ended with exit code 3".
   std::string ending();
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -25,6 +26,7 @@ ProcessUser::ProcessUser(HostBus& bus, const CpuTiming& timing, ProcessOptions o
                          const HostPort& port)
     : options_(std::move(options)),
       port_(port),
+      acts_(start),
       cpu_(
           bus, timing, [this](Cpu& cpu) { serve(cpu); }, start) {
   cpu_.on_announce = [this] {
@@ -51,16 +53,77 @@ void ProcessUser::serve(Cpu& cpu) {
 /// The program cannot go on; its chip does.
 void ProcessUser::fail(const std::string& why) {
   const std::string name = std::filesystem::path(options_.arguments[0]).filename().string();
-  if (on_error) on_error({cpu_.now(), kProcessEnded, fmt::format("{} {}", name, why)});
+  const std::optional<std::uint32_t> last = std::exchange(present_, std::nullopt);
+  const std::optional<Place> place = last && options_.lines_of ? std::optional(place_of(*last)) : std::nullopt;
+  if (on_error) on_error({cpu_.now(), kProcessEnded, fmt::format("{} {}", name, why), place});
+}
+
+// ------------------------------------------------------------------------------------------------------------- places
+
+std::optional<Place> ProcessUser::where(const Act& act) const {
+  if (!options_.lines_of) return std::nullopt;
+  for (const Look& look : looks_)
+    if (act.look && act.at == look.at) return place_of(look.callers);
+  if (act.since && present_) acts_.sample(act.at, *present_, *present_);
+  return acts_.where(act, [this](std::uint32_t callers) { return place_of(callers); });
+}
+
+const Place& ProcessUser::place_of(std::uint32_t callers) const {
+  if (!lines_) lines_ = options_.lines_of(program_);
+  return callers_.place(callers, lines_);
+}
+
+/// What moves the chip's pins, or looks at them.
+void ProcessUser::note_act(Tick now, const Request& request) {
+  if (!present_) return;
+  const bool is_access = request.what == DSDPV1_BENCH_READ || request.what == DSDPV1_BENCH_WRITE;
+  const bool is_pin = request.what == DSDPV1_BENCH_R_REQ || request.what == DSDPV1_BENCH_R_STA;
+  if (is_access) acts_.access(now, *present_, request.address, 1, request.what == DSDPV1_BENCH_WRITE);
+  if (is_pin) acts_.pins(now, *present_, request.value == 0);
+  if (request.what == DSDPV1_BENCH_L_REQ) looks_[0] = {now, *present_};
+  if (request.what == DSDPV1_BENCH_L_STA) looks_[1] = {now, *present_};
+  if (request.what == DSDPV1_BENCH_EXCHANGE || request.what == DSDPV1_BENCH_SEND) acts_.pins(now, *present_, false);
+}
+
+// ----------------------------------------------------------------------------------------------------------- requests
+
+/// False: the program has ended.
+bool ProcessUser::receive_callers(const Request& request) {
+  present_.reset();
+  addresses_.resize(std::min(request.callers, DSDPV1_BENCH_CALLERS));
+  if (addresses_.empty()) return true;
+  if (!receive(addresses_.data(), addresses_.size() * sizeof addresses_[0])) return false;
+  own_addresses_.clear();
+  for (const std::uint64_t address : addresses_)
+    if (address - load_address_ <= std::numeric_limits<std::uint32_t>::max())
+      own_addresses_.push_back(static_cast<std::uint32_t>(address - load_address_));
+  if (!own_addresses_.empty()) present_ = callers_.number(own_addresses_);
+  return true;
+}
+
+/// The first request. False: the program has another version of the wire.
+bool ProcessUser::begin(const Request& request) {
+  const bool says_hello = request.what == DSDPV1_BENCH_HELLO;
+  if (!says_hello || request.value != DSDPV1_BENCH_VERSION) {
+    fail(fmt::format("has version {} of dsdpv1_bench_wire.h, expected {}: compile it with this dsdpv1_bench.c",
+                     says_hello ? request.value : 0, DSDPV1_BENCH_VERSION));
+    return false;
+  }
+  load_address_ = request.ticks;
+  program_ = child_->program().string();
+  if (program_.empty()) program_ = options_.arguments[0];
+  return true;
 }
 
 /// Returns false at the program's end.
 bool ProcessUser::serve_one(Cpu& cpu) {
   Request request{};
   if (!receive(&request, sizeof request)) return false;
+  if (!program_.empty() ? !receive_callers(request) : !begin(request)) return false;
   bytes_.resize(std::min(request.length, kMostBytes));
   if (!bytes_.empty() && !receive(bytes_.data(), bytes_.size())) return false;
   Answer answer{};
+  note_act(cpu.now(), request);
   if (!carry_out(cpu, request, answer)) {
     fail(fmt::format("has made a request that this port does not have ({}, address {:X}, length {})", request.what,
                      request.address, request.length));
@@ -68,6 +131,7 @@ bool ProcessUser::serve_one(Cpu& cpu) {
   }
   answer.intr0 = answer.intr0 != 0 || cpu.wait_intr0(cpu.now()) ? 1 : 0;
   if (answer.intr0 != 0) cpu.wait(cpu.timing().interrupt_latency);
+  if (present_) acts_.sample(cpu.now(), *present_, *present_);
   answer.now = static_cast<std::uint64_t>(cpu.now());
   child_->send(&answer, sizeof answer);
   if (answer.length != 0) child_->send(bytes_.data(), answer.length);
@@ -94,7 +158,7 @@ bool ProcessUser::carry_out(Cpu& cpu, const Request& request, Answer& answer) {
   const bool level = request.value != 0;
   if (request.address >= kDpramCells || request.length > kMostBytes) return false;
   switch (request.what) {
-    case DSDPV1_BENCH_HELLO: return request.value == DSDPV1_BENCH_VERSION;
+    case DSDPV1_BENCH_HELLO: return true;
     case DSDPV1_BENCH_READ: answer.value = cpu.read(static_cast<std::uint16_t>(request.address)); return true;
     case DSDPV1_BENCH_WRITE:
       cpu.write(static_cast<std::uint16_t>(request.address), static_cast<std::uint8_t>(request.value));

@@ -1,11 +1,14 @@
 #pragma once
 // Firmware compiled for the host as a user CPU: a process that makes its accesses to the chip through
 // driver/host/dsdpv1_bench.h. Simulated time stands still while it computes.
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "driver/host/dsdpv1_bench_wire.h"
+#include "kinds/dsdpv1/user_cpu/act_log.hpp"
+#include "kinds/dsdpv1/user_cpu/callers.hpp"
 #include "kinds/dsdpv1/user_cpu/child_process.hpp"
 #include "kinds/dsdpv1/user_cpu/handshake_counters.hpp"
 #include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
@@ -18,8 +21,9 @@ namespace dsdpv1::user_cpu {
 constexpr const char* kProcessEnded = "PROCESS_ENDED";
 
 struct ProcessOptions {
-  std::vector<std::string> arguments;  ///< the program's path and its arguments
-  int patience_ms = 0;                 ///< of the host's time without a request; 0: no limit
+  std::vector<std::string> arguments;                           ///< the program's path and its arguments
+  int patience_ms = 0;                                          ///< of the host's time without a request; 0: no limit
+  std::function<PlaceOf(const std::string& program)> lines_of;  ///< null: its places are not known
 };
 
 class ProcessUser : public StationCpu {
@@ -40,6 +44,7 @@ class ProcessUser : public StationCpu {
   bool tells() const override { return false; }
   std::uint64_t outputs_received() const override { return 0; }
   const std::vector<std::uint8_t>& outputs() const override { return no_outputs_; }
+  std::optional<Place> where(const Act& act) const override;
 
  private:
   using Request = dsdpv1_bench_request;
@@ -47,10 +52,14 @@ class ProcessUser : public StationCpu {
 
   void serve(Cpu& cpu);
   bool serve_one(Cpu& cpu);
+  bool receive_callers(const Request& request);
+  bool begin(const Request& request);
+  void note_act(Tick now, const Request& request);
   bool carry_out(Cpu& cpu, const Request& request, Answer& answer);
   bool transfer(const Request& request, Answer& answer);
   bool receive(void* bytes, std::size_t n);
   void fail(const std::string& why);
+  const Place& place_of(std::uint32_t callers) const;
 
   ProcessOptions options_;
   HostPort port_;
@@ -59,7 +68,20 @@ class ProcessUser : public StationCpu {
   HandshakeCounters handshake_;
   std::vector<std::uint8_t> bytes_;  ///< of the present transfer
   std::vector<std::uint8_t> no_outputs_;
-  NativeCpu cpu_;  // destroyed before everything that its fiber uses
+  std::uint64_t load_address_ = 0;  ///< of the program, less that in its file
+  std::string program_;             ///< its file
+  std::vector<std::uint64_t> addresses_;
+  std::vector<std::uint32_t> own_addresses_;  ///< of these those in the file
+  std::optional<std::uint32_t> present_;      ///< the callers' number for the present request
+  struct Look {
+    Tick at = -1;
+    std::uint32_t callers = 0;
+  };
+  std::array<Look, 2> looks_;  ///< the last ones at L_REQ and L_STA
+  mutable Callers callers_;    ///< looks places up when they are asked for ...
+  mutable PlaceOf lines_;
+  mutable ActLog acts_;  ///< ... and takes the samples up to then
+  NativeCpu cpu_;        // destroyed before everything that its fiber uses
 };
 
 }  // namespace dsdpv1::user_cpu

@@ -4,12 +4,13 @@
  * device PORT [FAULT]: a device that sends its two bytes of outputs back as inputs, over the port "parallel", "spi" or
  * "uart". Faults: "ends" and "crashes" after a hundred turns, "hangs" then without a call of its port, "hasty" raises
  * R_STA at once, "blind" after a while, both without a look at the chip's lines, "polls" instead of a handler of INTR0,
- * "talks" more than a pipe holds.
+ * "keeps" keeps the DPRAM in rest(), "talks" more than a pipe holds.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/dsdpv1_internal.h"
 #include "driver/host/dsdpv1_bench.h"
 
 static dsdpv1_device chip;
@@ -45,9 +46,16 @@ static dsdpv1_error open_port(const char* name) {
   return dsdpv1_open(&chip, &port, NULL);
 }
 
+void rest(void);
+
 static void fail_as_wanted(void) {
   for (int line = 0; is("talks") && line < 2000; ++line) printf("line %4d %090d\n", line, line);
   if (is("ends")) exit(3);
+  if (is("keeps")) {
+    dsdpv1_hold(&chip);
+    rest();
+    dsdpv1_release(&chip);
+  }
   if (is("crashes")) abort();
   if (is("hangs"))
     for (;;) {

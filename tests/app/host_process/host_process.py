@@ -33,9 +33,11 @@ PORTS = {"parallel": "{search_window_ms: 1}",
          "uart": "{kind: dsdpv1_rsu, mode: uart, uart_rate: 1.8432M, search_window_ms: 1}"}
 
 
-def build(program):
+def build(program, *options):
+    rest = program.with_suffix(".o")
+    subprocess.run([CC, "-x", "c++", "-fno-exceptions", "-fno-inline", "-g", "-O1", "-Wall", "-Wextra", "-Werror", "-I", TREE, "-c", HERE / "rest.cpp", "-o", rest], check=True)
     sources = [*sorted((TREE / "driver").glob("dsdpv1*.c")), TREE / "driver/host/dsdpv1_bench.c", HERE / "device.c"]
-    subprocess.run([CC, "-std=c99", "-g", "-O1", "-Wall", "-Wextra", "-pedantic", "-Werror", "-I", TREE, *sources, "-o", program], check=True)
+    subprocess.run([CC, "-std=c99", "-g", "-O1", "-Wall", "-Wextra", "-pedantic", "-Werror", "-I", TREE, *sources, rest, "-o", program, *options], check=True)
 
 
 class HostProcess(unittest.TestCase):
@@ -110,6 +112,61 @@ class HostProcess(unittest.TestCase):
             self.assertEqual(self.looks(*options), first)
         for port in ("spi", "uart"):
             self.assertEqual(self.looks(port=port), [])
+
+    def places(self, code, *options, **more):
+        """The places that the run gives for what it finds."""
+        self.run_it("--result", "result.json", "--log", "log.txt", *options, **more)
+        result = json.loads((self.folder / "result.json").read_text())
+        found = [each["where"] for check in result["checks"] if check["id"] == code for each in check["listed"]]
+        return found + [event["where"] for event in result["violated"] if event["code"] == code]
+
+    @staticmethod
+    def line_with(words, file="device.c"):
+        lines = (HERE / file).read_text().splitlines()
+        return [number for number, line in enumerate(lines, 1) if words in line]
+
+    def assert_at(self, places, words, function, file="device.c"):
+        self.assertTrue(places)
+        for place in places:
+            self.assertEqual((place["file"], [place["line"]], place["function"]), (file, self.line_with(words, file), function))
+
+    def test_a_mistake_is_where_the_firmware_called_the_driver(self):
+        for options in ((), ("-no-pie",), ("-O2",)):
+            build(self.folder / "other", *options)
+            with self.subTest(options=options):
+                self.assert_at(self.places("OWNERSHIP_BOTH_OWN", fault="hasty", program="./other"), "dsdpv1_initialise(&chip, &config)", "main")
+                self.assertIn(f"at device.c:{self.line_with('dsdpv1_initialise(')[0]} in main()", (self.folder / "log.txt").read_text())
+
+    def test_an_omission_is_where_the_firmware_was_instead(self):
+        for port, code in (("parallel", "OWNERSHIP_NEVER_RELEASED"), ("spi", "B014_HELD")):
+            with self.subTest(port=port):
+                places = self.places(code, port=port, fault="keeps")
+                self.assert_at(places, "dsdpv1_bench_wait_ns(1000000)", "pass", "rest.cpp")
+                self.assertAlmostEqual(places[0]["stayed_ns"], 11e6, delta=1e5)
+
+    def test_its_end_is_where_it_called_its_port_last(self):
+        for port in PORTS:
+            with self.subTest(port=port):
+                self.assert_at(self.places("PROCESS_ENDED", port=port, fault="ends"), "dsdpv1_bench_wait_ns(100000)", "main")
+
+    def test_a_program_that_another_has_started_in_its_place_has_lines_too(self):
+        (self.folder / "starts").write_text('#!/bin/sh\nexec ./device "$@"\n')
+        (self.folder / "starts").chmod(0o755)
+        self.assert_at(self.places("PROCESS_ENDED", fault="ends", program="./starts"), "dsdpv1_bench_wait_ns(100000)", "main")
+
+    def test_without_debug_information_there_is_an_address(self):
+        build(self.folder / "other", "-s")
+        for place in self.places("PROCESS_ENDED", fault="ends", program="./other"):
+            self.assertEqual((place["file"], place["line"], place["function"]), ("", 0, ""))
+            self.assertGreater(int(place["pc"], 16), 0x1000)
+
+    def test_another_version_of_the_wire_is_refused(self):
+        (self.folder / "old").write_text("#!/usr/bin/env python3\nimport os, socket, struct\nbench = socket.socket(fileno=int(os.environ['DSDPV1_BENCH_FD']))\n"
+                                         "bench.sendall(struct.pack('=IIIIQQ', 1, 0, 1, 0, 0, 0))\nbench.recv(100)\n")
+        (self.folder / "old").chmod(0o755)
+        done = self.run_it(program="./old")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("old has version 1 of dsdpv1_bench_wire.h, expected 2: compile it with this dsdpv1_bench.c", " ".join(done.stdout.split()))
 
     def test_its_end_is_a_violation(self):
         done = self.run_it(fault="ends")

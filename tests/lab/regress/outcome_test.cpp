@@ -49,6 +49,22 @@ TEST(RegressOutcome, FailureIsTheFirstViolationWhenAllExpectationsAreMet) {
   EXPECT_EQ(outcome_of(ended(1), failed).reason, "TIMING_TW at 1.500 us: too early");
 }
 
+TEST(RegressOutcome, FailureHasTheLineOfTheFirmware) {
+  Json failed = result(false);
+  const auto reason = [&failed](const Json& where) {
+    const Json listed = {{{"at_ns", 1500}, {"text", "too long"}, {"where", where}}};
+    failed["checks"] = {{{"id", "A"}, {"violations", 1}, {"slave", "s"}, {"listed", listed}}};
+    return outcome_of(ended(1), failed).reason;
+  };
+  Json where = {{"file", "a.c"}, {"line", 7}, {"function", "take"}, {"pc", "0x08000104"}, {"stayed_ns", nullptr}};
+  EXPECT_EQ(reason(where), "A at 1.500 us: too long, at a.c:7 in take()");
+  where["stayed_ns"] = 1501;
+  EXPECT_EQ(reason(where), "A at 1.500 us: too long, in take() at a.c:7 for 1.501 us");
+  where = {{"file", ""}, {"line", 0}, {"function", ""}, {"pc", "0x08000104"}, {"stayed_ns", nullptr}};
+  EXPECT_EQ(reason(where), "A at 1.500 us: too long, at 0x08000104");
+  EXPECT_EQ(reason(nullptr), "A at 1.500 us: too long");
+}
+
 TEST(RegressOutcome, DifferenceOfALockstepRunIsWhatItSays) {
   EXPECT_EQ(outcome_of(ended(1, "differs at cycle 7\nmore\n"), result(true)).reason, "differs at cycle 7");
 }

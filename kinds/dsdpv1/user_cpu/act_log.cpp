@@ -1,6 +1,6 @@
-#include "kinds/dsdpv1/board/act_log.hpp"
+#include "kinds/dsdpv1/user_cpu/act_log.hpp"
 
-namespace dsdpv1::arm {
+namespace dsdpv1::user_cpu {
 
 void ActLog::take_samples(Tick now, std::uint32_t pc, std::uint32_t lr) {
   const Tick kept = static_cast<Tick>(samples_.size()) * kSamplePeriod;
@@ -19,7 +19,7 @@ const ActLog::Entry* ActLog::last(Tick until, const Is& is) const {
   return nullptr;
 }
 
-std::optional<std::uint32_t> ActLog::instruction(const user_cpu::Act& act) const {
+std::optional<std::uint32_t> ActLog::instruction(const Act& act) const {
   const Entry* found = nullptr;
   if (const auto cell = act.cell) {
     found = last(act.at, [cell](const Entry& each) { return *cell - each.cell < each.written; });
@@ -29,4 +29,4 @@ std::optional<std::uint32_t> ActLog::instruction(const user_cpu::Act& act) const
   return found != nullptr ? std::optional(found->pc) : std::nullopt;
 }
 
-}  // namespace dsdpv1::arm
+}  // namespace dsdpv1::user_cpu

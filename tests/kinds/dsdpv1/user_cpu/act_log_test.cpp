@@ -1,12 +1,12 @@
 // Which instruction an act of the processor belongs to, and where it was while it did nothing.
-#include "kinds/dsdpv1/board/act_log.hpp"
+#include "kinds/dsdpv1/user_cpu/act_log.hpp"
 
 #include <gtest/gtest.h>
 
-namespace dsdpv1::arm {
+namespace dsdpv1::user_cpu {
 namespace {
 
-using user_cpu::Act;
+using bus::Tick;
 
 constexpr Tick kStart = 1000, kPeriod = ActLog::kSamplePeriod;
 
@@ -88,4 +88,4 @@ TEST(ActLog, SleepIsSampledWhenItEndsHoweverLongItWas) {
 }
 
 }  // namespace
-}  // namespace dsdpv1::arm
+}  // namespace dsdpv1::user_cpu

@@ -1,6 +1,6 @@
 #pragma once
-// What a processor did last at the pins of its chip, and where its program was meanwhile: enough to name the line that
-// broke a rule. Nothing of it is done for an instruction that touches neither.
+// What a user CPU did last at the pins of its chip, and where its program was meanwhile: enough to name the line that
+// broke a rule. The board's processor gives addresses of instructions, a host process numbers of its callers.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,12 +11,11 @@
 
 #include "tb/chip/user_cpu/place.hpp"
 
-namespace dsdpv1::arm {
-
-using bus::Tick;
+namespace dsdpv1::user_cpu {
 
 class ActLog {
  public:
+  using Tick = bus::Tick;
   static constexpr std::uint32_t kCallBytes = 4;
   /// A place of the program is kept this often: 100 us, for the last 100 ms.
   static constexpr Tick kSamplePeriod = 100 * bus::kTicksPerUs;
@@ -27,7 +26,7 @@ class ActLog {
   void access(Tick at, std::uint32_t pc, std::uint32_t cell, unsigned count, bool write) {
     add({at, pc, cell, write ? count : 0, false});
   }
-  /// Pins of the chip move; `releases`: R_REQ or R_STA falls.
+  /// Pins of the chip move, or the program cannot go on; `releases`: R_REQ or R_STA falls.
   void pins(Tick at, std::uint32_t pc, bool releases) { add({at, pc, 0, 0, releases}); }
 
   /// When the next sample is due.
@@ -37,8 +36,12 @@ class ActLog {
     if (sample_at_ <= now) take_samples(now, pc, lr);
   }
 
+  /// `place_of(pc)`: a Place. An omission that was too short for a sample is where the program acted next, or last.
+  template <class PlaceOf>
+  std::optional<Place> where(const Act& act, const PlaceOf& place_of) const;
+
   /// The instruction of an act; absent if it is older than what is kept. Not for an omission.
-  std::optional<std::uint32_t> instruction(const user_cpu::Act& act) const;
+  std::optional<std::uint32_t> instruction(const Act& act) const;
 
   /// Where the program was most of the time from `since` to `until`, by the samples: a function, also while it calls
   /// one that calls no other.
@@ -75,6 +78,20 @@ class ActLog {
   Tick sample_at_;
 };
 
+template <class PlaceOf>
+std::optional<Place> ActLog::where(const Act& act, const PlaceOf& place_of) const {
+  if (act.since) {
+    const auto function_of = [&place_of](std::uint32_t pc) { return place_of(pc).function; };
+    if (const auto stay = longest_stay(*act.since, act.at, function_of)) {
+      Place place = place_of(stay->pc);
+      place.stayed = stay->time;
+      return place;
+    }
+  }
+  const std::optional<std::uint32_t> pc = instruction(act);
+  return pc ? std::optional(place_of(*pc)) : std::nullopt;
+}
+
 template <class FunctionOf>
 std::optional<ActLog::Stay> ActLog::longest_stay(Tick since, Tick until, const FunctionOf& function_of) const {
   std::map<std::string, Stay> stays;
@@ -99,4 +116,4 @@ std::optional<ActLog::Stay> ActLog::longest_stay(Tick since, Tick until, const F
   return stay;
 }
 
-}  // namespace dsdpv1::arm
+}  // namespace dsdpv1::user_cpu
