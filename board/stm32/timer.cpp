@@ -148,7 +148,7 @@ void Timer::update() {
   limit_ = words_[kArr];
 }
 
-/// UG: the counter and its prescaler begin again (15.3.2, 15.4.6).
+/// UG: the counter and its prescaler begin again (15.3.2; EGR).
 void Timer::generate(std::uint64_t now) {
   words_[kCnt] = 0;
   if ((words_[kCr1] & kUdis) == 0) {

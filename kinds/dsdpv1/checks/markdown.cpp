@@ -47,8 +47,8 @@ A run with checks takes 1.8 times the host instructions of one without in `power
 For each check and slave: the number of evaluations (`count`) and violations (`violations`, of which `allowed`), the worst margin with
 its time, and a histogram of all margins. The histogram has a bin below 0, then bins 1, 2, 5, 10 ... from 1 ns to 1 s. A margin is the distance of the measured value
 to the limit, positive when kept; times are exact to 1/12 ns. Without a limit the greatest value is kept instead. Checks without a value have no
-margin; their time is that of the first violation. The result file has the first 20 violations of a check (`checks[].listed`), each
-with the last four changes of each pin involved and, with firmware on the ARM board or in a process, its line ([arm_board.md](arm_board.md#lines-of-the-firmware)); all are in the log.
+margin; their time is that of the first violation. The result file has the first 20 violations of a check (`checks[].listed`); all are in
+the log. Each has the last four changes of each pin involved and the line of firmware on the ARM board or in a process ([arm_board.md](arm_board.md#lines-of-the-firmware)).
 
 | field of `checks[]` | meaning |
 |---|---|

@@ -1,6 +1,6 @@
 #pragma once
 // What firmware does on the ARM board and a real board would not forgive: the codes of these violations. Numbers are
-// sections of RM0008 (rev. 20).
+// sections of RM0008 (rev. 21).
 
 namespace dsdpv1::tb {
 

@@ -156,7 +156,7 @@ const std::vector<CodeTable>& dsdpv1_codes() {
       {"The chip", "`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal, `{a:ns}` a time.", chip_codes()},
       {"The driver", "Results of the C driver's calls, with their values.", driver_codes()},
       {"The ARM board",
-       "See [arm_board.md](arm_board.md#what-a-real-board-would-not-forgive). Numbers are sections of RM0008, rev. 20.",
+       "See [arm_board.md](arm_board.md#what-a-real-board-would-not-forgive). Numbers are sections of RM0008, rev. 21.",
        board_codes()},
       {"The host process", "See [C driver on the host](tutorials/c_driver_on_host.md).", process_codes()}};
   return tables;
