@@ -76,13 +76,18 @@ const Place& ProcessUser::place_of(std::uint32_t callers) const {
 /// What moves the chip's pins, or looks at them.
 void ProcessUser::note_act(Tick now, const Request& request) {
   if (!present_) return;
-  const bool is_access = request.what == DSDPV1_BENCH_READ || request.what == DSDPV1_BENCH_WRITE;
-  const bool is_pin = request.what == DSDPV1_BENCH_R_REQ || request.what == DSDPV1_BENCH_R_STA;
-  if (is_access) acts_.access(now, *present_, request.address, 1, request.what == DSDPV1_BENCH_WRITE);
-  if (is_pin) acts_.pins(now, *present_, request.value == 0);
-  if (request.what == DSDPV1_BENCH_L_REQ) looks_[0] = {now, *present_};
-  if (request.what == DSDPV1_BENCH_L_STA) looks_[1] = {now, *present_};
-  if (request.what == DSDPV1_BENCH_EXCHANGE || request.what == DSDPV1_BENCH_SEND) acts_.pins(now, *present_, false);
+  const std::uint32_t from = *present_;
+  switch (request.what) {
+    case DSDPV1_BENCH_READ: return acts_.access(now, from, request.address, 1, false);
+    case DSDPV1_BENCH_WRITE: return acts_.access(now, from, request.address, 1, true);
+    case DSDPV1_BENCH_R_REQ:
+    case DSDPV1_BENCH_R_STA: return acts_.pins(now, from, request.value == 0);
+    case DSDPV1_BENCH_L_REQ: looks_[0] = {now, from}; return;
+    case DSDPV1_BENCH_L_STA: looks_[1] = {now, from}; return;
+    case DSDPV1_BENCH_EXCHANGE:
+    case DSDPV1_BENCH_SEND: return acts_.pins(now, from, false);
+    default: return;
+  }
 }
 
 // ----------------------------------------------------------------------------------------------------------- requests

@@ -3,8 +3,8 @@
 /*
  * device PORT [FAULT]: a device that sends its two bytes of outputs back as inputs, over the port "parallel", "spi" or
  * "uart". Faults: "ends" and "crashes" after a hundred turns, "hangs" then without a call of its port, "hasty" raises
- * R_STA at once, "blind" after a while, both without a look at the chip's lines, "polls" instead of a handler of INTR0,
- * "keeps" keeps the DPRAM in rest(), "talks" more than a pipe holds.
+ * R_STA at once, "blind" after a while, both without a look at the chip's lines, "early" looks at once, "polls" instead
+ * of a handler of INTR0, "keeps" keeps the DPRAM in rest(), "talks" more than a pipe holds.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,7 +40,7 @@ static bool low(void* ctx) {
 static dsdpv1_error open_port(const char* name) {
   port = dsdpv1_bench_port;
   if (is("hasty") || is("blind")) port.get_l_req = port.get_l_sta = low;
-  if (is("hasty")) port.pause = NULL;
+  if (is("hasty") || is("early")) port.pause = NULL;
   if (strcmp(name, "spi") == 0) return dsdpv1_open_spi(&chip, &spi, NULL);
   if (strcmp(name, "uart") == 0) return dsdpv1_open_uart(&chip, &uart, NULL);
   return dsdpv1_open(&chip, &port, NULL);

@@ -137,6 +137,9 @@ class HostProcess(unittest.TestCase):
                 self.assert_at(self.places("OWNERSHIP_BOTH_OWN", fault="hasty", program="./other"), "dsdpv1_initialise(&chip, &config)", "main")
                 self.assertIn(f"at device.c:{self.line_with('dsdpv1_initialise(')[0]} in main()", (self.folder / "log.txt").read_text())
 
+    def test_a_look_that_is_too_early_is_where_it_was_made(self):
+        self.assert_at(self.places("LOOK_IN_WINDOW", fault="early")[:1], "dsdpv1_initialise(&chip, &config)", "main")
+
     def test_an_omission_is_where_the_firmware_was_instead(self):
         for port, code in (("parallel", "OWNERSHIP_NEVER_RELEASED"), ("spi", "B014_HELD")):
             with self.subTest(port=port):
