@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <string_view>
 
 #include "driver/dsdpv1.h"
 #include "io/input/input_error.hpp"
@@ -30,6 +31,12 @@ namespace dsdpv1::tb {
 namespace {
 
 using user_cpu::command::OfChip;
+
+/// The texts of wrong CRCs begin alike.
+bool has_exchanged_crc(const profibus::Event& event) {
+  const bool is_crc = std::string_view(event.reason.row().text).find("CRC {a:4x}") != std::string_view::npos;
+  return is_crc && event.a != event.b && event.a == ((event.b << 8 | event.b >> 8) & 0xFFFF);
+}
 
 std::string said_hold(const OfChip& order) { return "holds the DPRAM for " + time_text(order.duration); }
 std::string said_wrong_crc(const OfChip&) { return "wrong CRC"; }
@@ -87,7 +94,9 @@ class Dsdpv1Kind : public ChipKind {
     static const std::vector<profibus::Reason> all = dsdpv1::reasons();
     return all;
   }
-  std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
+  std::string describe(const profibus::Event& event) const override {
+    return dsdpv1::describe(event) + (has_exchanged_crc(event) ? ": its bytes are exchanged" : "");
+  }
   std::string cell_of(const profibus::Event& event) const override {
     const std::string_view text = event.reason.row().text;
     return text.find("B{a:3x}") != std::string_view::npos ? fmt::format("B{:03X}", event.a) : "";

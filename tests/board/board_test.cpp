@@ -58,7 +58,8 @@ enum Program {
   kWatchdog,
   kWatchdogAsleep,
   kStuck,
-  kAsks
+  kAsks,
+  kCallAstray
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -644,6 +645,12 @@ TEST_F(BoardTest, TheWatchdogResetsAProcessorThatDoesNotReloadIt) {
     EXPECT_GT(wr.at(5).at - wr.at(3).at, 500 * bus::kTicksPerUs) << "it was reloaded once";
     EXPECT_LT(wr.at(5).at - wr.at(3).at, 1000 * bus::kTicksPerUs);
   }
+}
+
+TEST_F(BoardTest, FaultAfterAJumpOutOfTheProgramIsInTheFunctionThatCalledLast) {
+  start(kCallAstray);
+  run();
+  EXPECT_EQ(failed_in, "call_astray");
 }
 
 TEST_F(BoardTest, FirmwareThatOnlyComputesIsStuckAndOneThatSleepsIsNot) {

@@ -1,8 +1,10 @@
 // Which act of the user an event of the chip is about: by it a violation names its line of source.
 #include "kinds/dsdpv1/keys/user_act.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "kinds/dsdpv1/kind.hpp"
 #include "model/dsdpv1/reasons.hpp"
 
 namespace dsdpv1::tb {
@@ -49,6 +51,21 @@ TEST(UserAct, TimerThatEndsIsAnOmissionSinceTheLastTelegram) {
   const auto act = act_of(dsdpv1::Reason::kSpiUTimer, 100);
   ASSERT_TRUE(act);
   EXPECT_EQ(act->since, kAt - 100 * profibus::kTicksPerCycle);
+}
+
+TEST(UserAct, CrcWithExchangedBytesIsToldFromAnotherWrongOne) {
+  const auto text_of = [](profibus::Reason reason, std::uint16_t a, std::uint16_t b) {
+    profibus::Event event;
+    event.reason = reason;
+    event.a = a;
+    event.b = b;
+    return kind_of(Part::kRsu).describe(event);
+  };
+  for (const auto reason : {dpram::Reason::kInputCrc, dsdpv1::Reason::kTelegramCrc}) {
+    EXPECT_THAT(text_of(reason, 0x12AB, 0xAB12), testing::EndsWith("AB12 computed: its bytes are exchanged"));
+    EXPECT_THAT(text_of(reason, 0x12AB, 0xAB13), testing::EndsWith("AB13 computed"));
+  }
+  EXPECT_THAT(text_of(dpram::Reason::kInitLimit, 0x12AB, 0xAB12), testing::Not(testing::HasSubstr("exchanged")));
 }
 
 TEST(UserAct, MastersAndStrapsAreNotTheUser) {

@@ -268,8 +268,10 @@ void Board::ended_by_debugger() {
 }
 
 void Board::failed(const Fault& fault) {
-  fail(now(), fault.pc, fmt::format("{}; LR in {}", fault.text, options_.firmware->lines.at(fault.registers.lr)),
-       fault.registers);
+  const SourceLines& lines = options_.firmware->lines;
+  const bool is_in_function = !lines.line_of(fault.pc).function.empty();  // else a jump has led there
+  fail(now(), is_in_function ? fault.pc : fault.registers.lr - user_cpu::ActLog::kCallBytes,
+       fmt::format("{}; LR in {}", fault.text, lines.at(fault.registers.lr)), fault.registers);
 }
 
 /// The instruction at `pc` is the last act: where() names it.

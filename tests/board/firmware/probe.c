@@ -391,6 +391,13 @@ static void stuck(void) {
   }
 }
 
+/* A pointer to a function that has no Thumb bit. */
+static void call_astray(void) {
+  void (*volatile nowhere)(void) = (void (*)(void))0x08000000u;
+  nowhere();
+  CHIP(0) = 1;
+}
+
 /* The test has told the board that the mailbox is here. */
 static void nonsense(void) {
   volatile dsdpv1_mailbox* box = (volatile dsdpv1_mailbox*)0x20008000u;
@@ -431,7 +438,7 @@ void run(void) {
       nonsense,  lacking,   registers,        clocks_off,        busy,       divided,
       restarted, wide_bus,  multiplexed,      floating_bus,      wrong_pins, outside,
       bank_2,    timer,     timer_while_busy, irq_storm,         watchdog,   watchdog_asleep,
-      stuck,     asks};
+      stuck,     asks,      call_astray};
   edges = 0;
   clocks();
   memory_bus();
