@@ -68,15 +68,15 @@ Explained explain(dsdpv1_error error) {  // NOLINT(readability-function-size): a
       return {"D7, M2.T8-013.0", "See the chip's INIT_ reason in the log; it names the byte."};
     case DSDPV1_ERR_INIT_REFUSED: return {"D7, 4.1.1-3", "Check the read timing of B00A, B00B and B013."};
     case DSDPV1_ERR_INPUT_LENGTH: return {"D10, T2-130", "Pass no more input bytes than max_input."};
-    case DSDPV1_ERR_INPUT_CRC: return {"D5, T4-B00B.2", kWriteTiming};
+    case DSDPV1_ERR_INPUT_CRC: return {"D3, D5, 4.2-5, T4-B00B.2", kWriteTiming};
     case DSDPV1_ERR_OUTPUT_LENGTH:
-      return {"2-16, T2-319", "Make the buffer as large as max_output; if it is, check the read timing."};
+      return {"2-16, T2-028, T2-319", "Make the buffer as large as max_output; if it is, check the read timing."};
     case DSDPV1_ERR_OUTPUT_CRC: return {"D3, T7-B00D.2", kReadTiming};
     case DSDPV1_ERR_DIAG_TYPE: return {"D14, T22-0", "Use one of the five types of table 22."};
     case DSDPV1_ERR_DIAG_LENGTH: return {"D14, T2-228", "Shorten the diagnosis or initialise with a larger max_diag."};
     case DSDPV1_ERR_DIAG_TIMEOUT:
       return {"H5, T10-B010.1", "Check that R_REQ and R_STA fall after each hold; then allow more polls."};
-    case DSDPV1_ERR_DIAG_CRC: return {"D5, T4-B00B.3", kWriteTiming};
+    case DSDPV1_ERR_DIAG_CRC: return {"D3, D5, 4.2-5, T4-B00B.3", kWriteTiming};
     case DSDPV1_ERR_PRM_LENGTH: return {"2-13, T2-410", kReadTiming};
     case DSDPV1_ERR_PRM_CRC: return {"D3, T7-B00D.1", kReadTiming};
     case DSDPV1_ERR_CFG_LENGTH: return {"2-15, T2-500", kReadTiming};
@@ -85,7 +85,7 @@ Explained explain(dsdpv1_error error) {  // NOLINT(readability-function-size): a
     case DSDPV1_ERR_VERDICT_STALE: return {"H7", "Call dsdpv1_service: it hands over the newer block."};
     case DSDPV1_ERR_TABLE:
       return {
-          "M5-slots",
+          "M5-slots, M1-6, V14",
           "Give each slot and index once, 0 <= min_length <= max_length <= 240, services and classes, and data or a "
           "handler for each service."};
     case DSDPV1_ERR_IM0: return {"M1-8", "Give texts of at most 20 and 16 characters."};
