@@ -123,19 +123,44 @@ static dsdpv1_error receive_answer(dsdpv1_uart* port, answer* reply) {
 
 /*
  * If the reply to inputs is destroyed, the chip has still cleared the flag of its content (UA11). That flag is one
- * that was set before and is not set at the next read.
+ * that was set before and is not set at the next read, or one of a block that has come since: INTR0 tells of parameters
+ * and configuration, nothing of requests.
  */
-static void note_destroyed(dsdpv1_uart* port) {
+static void note_destroyed(dsdpv1_device* device) {
+  dsdpv1_uart* port = device->port.uart;
   for (unsigned i = 0; i < 2u; ++i)
     port->at_risk[i] |= *dsdpv1_status_cell(&port->serial, (uint16_t)(DSDPV1_REG_CHIP_COMMAND_1 + i));
+  if (device->intr0_pending) port->at_risk[0] |= DSDPV1_REG_CHIP_COMMAND_1_PRM | DSDPV1_REG_CHIP_COMMAND_1_CFG;
+  port->lost = true;
   port->serial.known = false;
+}
+
+/* An own answer has bit 7 set or is known. A read that is answered twice does no harm (V14). */
+static bool is_request(const uint8_t* bytes, const uint8_t* answered) {
+  if (bytes[0] == DSDPV1_REG_FUNCTION_NUM_READ) return true;
+  return bytes[0] != 0u && (bytes[0] & 0x80u) == 0u && memcmp(bytes, answered, kAcyclicHeader) != 0;
+}
+
+static dsdpv1_error look_for_requests(dsdpv1_device* device) {
+  static const uint16_t areas[2] = {DSDPV1_REG_C1, DSDPV1_REG_C2};
+  dsdpv1_uart* port = device->port.uart;
+  const dsdpv1_wire wire = wire_of(device);
+  for (unsigned i = 0; i < 2u; ++i) {
+    dsdpv1_span data = {NULL, 0};
+    const dsdpv1_error error = dsdpv1_read_cells(device, &wire, areas[i], &data, kAcyclicHeader);
+    if (error != DSDPV1_OK) return error;
+    if (is_request(data.bytes, port->answered[i])) port->news[1] |= (uint8_t)(1u << i);
+  }
+  port->lost = false;
+  return DSDPV1_OK;
 }
 
 static dsdpv1_error know(dsdpv1_device* device) {
   dsdpv1_uart* port = device->port.uart;
   const dsdpv1_wire wire = wire_of(device);
   if (port->serial.known) return DSDPV1_OK;
-  const dsdpv1_error error = dsdpv1_know_status(device, &wire);
+  dsdpv1_error error = port->lost ? look_for_requests(device) : DSDPV1_OK;
+  if (error == DSDPV1_OK) error = dsdpv1_know_status(device, &wire);
   if (error != DSDPV1_OK) return error;
   for (unsigned i = 0; i < 2u; ++i) {
     const unsigned stands = *dsdpv1_status_cell(&port->serial, (uint16_t)(DSDPV1_REG_CHIP_COMMAND_1 + i));
@@ -183,7 +208,7 @@ static dsdpv1_error swap_once(dsdpv1_device* device, const source* from, answer*
 static dsdpv1_error swap(dsdpv1_device* device, const source* from, answer* reply) {
   for (uint8_t retries = device->tuning.telegram_retries;; --retries) {
     const dsdpv1_error error = swap_once(device, from, reply);
-    if (error != DSDPV1_OK && from->address == DSDPV1_REG_INPUT_LENGTH) note_destroyed(device->port.uart);
+    if (error != DSDPV1_OK && from->address == DSDPV1_REG_INPUT_LENGTH) note_destroyed(device);
     if (error == DSDPV1_OK || retries == 0u) return error;
     ++device->port.uart->serial.repetitions;
     recover(device);
@@ -321,6 +346,8 @@ static dsdpv1_error post(dsdpv1_device* device, const dsdpv1_block* block) {
   answer reply = {0, {NULL, 0}};
   dsdpv1_put_crc(device, block);
   if (device->fault != DSDPV1_OK) return device->fault;
+  if (block->address == DSDPV1_REG_C1 || block->address == DSDPV1_REG_C2)
+    (void)memcpy(device->port.uart->answered[block->address == DSDPV1_REG_C2], block->head.bytes, kAcyclicHeader);
   device->port.uart->serial.known = false; /* the flag is set */
   return swap(device, &from, &reply);
 }

@@ -56,9 +56,11 @@ typedef struct dsdpv1_uart {
   bool block_crc;    /* the chip also checks the CRCs of blocks in the DPRAM (SP15) */
   /* ---------------------------------------------------------------------------------------------- the driver's own */
   dsdpv1_serial serial;
-  uint8_t at_risk[2];   /* flags of B00E, B00F that were set when the reply to an exchange was destroyed */
-  uint8_t news[2];      /* flags of B00E, B00F that replies have reported and that are not processed yet */
-  uint16_t outputs_crc; /* of the outputs last given to the application, or the start value */
+  uint8_t at_risk[2];     /* flags of B00E, B00F that were set when the reply to an exchange was destroyed */
+  bool lost;              /* such a reply may have brought what no look had shown */
+  uint8_t answered[2][4]; /* begin of the last answer on C1 and C2, which lies where requests come */
+  uint8_t news[2];        /* flags of B00E, B00F that replies have reported and that are not processed yet */
+  uint16_t outputs_crc;   /* of the outputs last given to the application, or the start value */
   uint8_t bytes[DSDPV1_UART_TELEGRAM];
 } dsdpv1_uart;
 

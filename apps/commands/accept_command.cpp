@@ -32,11 +32,13 @@ constexpr const char* kAcceptHelp =
     "and "
     "applies the stimuli one after the other. The checks judge the firmware (docs/checks.md); the table shows what was "
     "met how often. Phases of interrupts are met by chance: another --seed meets others.\n"
-    "The firmware runs on the ARM board, by its pins. --engine rtl and --view tlm of run are not served.\n"
+    "An ELF file for a Cortex-M3 runs on the ARM board, a program of this computer as a process (docs/tutorials/"
+    "c_driver_on_host.md), both by the chip's pins. --engine rtl and --view tlm of run are not served.\n"
     "\nExamples:\n"
     "  dsdpv1-sim accept my.elf\n"
     "  dsdpv1-sim accept my.elf --gsd my.gsd --module '2 bytes in' --module '2 bytes out' --address 7\n"
     "  dsdpv1-sim accept my.elf --mode spi --seed 5 --report my.html\n"
+    "  dsdpv1-sim accept ./my_device --set user_cpu.arguments=[spi] --mode spi\n"
     "  dsdpv1-sim accept my.elf --only interrupts --only 'newer block'\n"
     "  dsdpv1-sim accept my.elf --scenario my.yaml && dsdpv1-sim run my.yaml --gdb 3333\n"
     "\nExit codes: 0 accepted, 1 not accepted, 2 wrong input, 130 interrupted.\n";
@@ -46,7 +48,8 @@ class Accept : public Command {
   Accept() : Command("accept", "Judge firmware by many stimuli, without a scenario") {}
 
   void options(CLI::App& app) override {
-    app.add_option("ELF", order_.elf, "The firmware, for the ARM board (docs/arm_board.md)");
+    app.add_option("PROGRAM", order_.program, "The firmware, an ELF file: for the ARM board, or for this computer");
+    app.add_flag("--native", native_, "The bench's own user CPU instead of firmware");
     app.add_option("--gsd", order_.gsd, "GSD file of the device (default: that of the examples)");
     app.add_option("--module", order_.modules,
                    "A module that is plugged in, once for each in the order of the slots (default with the examples' "
@@ -86,7 +89,7 @@ class Accept : public Command {
     leave_nothing_on_signals();
     complete();
     const tb::accept::Plan plan = tb::accept::make_plan(order_, scenario_.empty() ? "accept" : scenario_);
-    check_outputs("dsdpv1-sim accept", {{"the firmware", order_.elf}, {"the GSD file", order_.gsd}},
+    check_outputs("dsdpv1-sim accept", {{"the firmware", order_.program}, {"the GSD file", order_.gsd}},
                   {{"--scenario", scenario_}, {"--log", log_}, {"--result", result_}, {"--report", report_}});
     write_wanted(scenario_, plan.text);
     return judge(plan);
@@ -101,7 +104,9 @@ class Accept : public Command {
 
   /// Fills in what depends on other options; throws tb::InputError.
   void complete() {
-    if (order_.elf.empty()) throw tb::InputError("dsdpv1-sim accept: ELF is missing (dsdpv1-sim accept ELF)");
+    if (order_.program.empty() != native_)
+      throw tb::InputError(native_ ? "dsdpv1-sim accept: --native has no PROGRAM, expected one of them"
+                                   : "dsdpv1-sim accept: PROGRAM is missing (dsdpv1-sim accept PROGRAM)");
     check_word("dsdpv1-sim accept: --engine", engine_, {"step", "skip"});
     if (order_.chip.empty()) order_.chip = order_.mode.empty() ? "dsdpv1" : "dsdpv1_rsu";
     if (order_.gsd.empty()) {
@@ -178,7 +183,7 @@ class Accept : public Command {
   std::vector<std::string> set_;
   std::optional<bool> progress_;
   tb::CheckRows rows_ = tb::CheckRows::kViolated;
-  bool list_ = false, quiet_ = false;
+  bool native_ = false, list_ = false, quiet_ = false;
 };
 
 }  // namespace

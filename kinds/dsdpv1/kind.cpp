@@ -49,6 +49,7 @@ std::string said_pause(const OfChip& order) {
   return fmt::format("{} telegrams pause for {}", order.times, time_text(order.duration));
 }
 std::string said_talk_over(const OfChip& order) { return fmt::format("talks over {} replies", order.times); }
+std::string said_spoil_reads(const OfChip&) { return "reads will be wrong"; }
 std::string said_early_r_sta(const OfChip&) { return "R_STA without checking L_REQ and L_STA"; }
 
 class Dsdpv1Kind : public ChipKind {
@@ -142,6 +143,9 @@ class Dsdpv1Kind : public ChipKind {
   }
   bool needs_pins(const scenario::Scenario& scenario) const override {
     const bool serial = static_cast<const Dsdpv1Settings&>(*scenario.chip).mode != HostMode::kParallel;
+    if (std::any_of(scenario.script.begin(), scenario.script.end(),
+                    [](const scenario::Action& action) { return action.word == user_cpu::kSpoilReads; }))
+      return true;
     return serial && std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
                                  [this](const scenario::Slave& slave) { return has_debugger(slave); });
   }
@@ -181,6 +185,13 @@ std::vector<Order> parallel_orders() {
         {"times"}},
        said_early_r_sta,
        true},
+      {{user_cpu::kSpoilReads,
+        "A bit is wrong on its way to the user CPU, where no pin shows it: D, once in the outputs, parameters, "
+        "configuration, C1 and C2 request that it reads next; SPI and UART: in some of the next 16 "
+        "replies.",
+        {"slave"},
+        {}},
+       said_spoil_reads},
   };
 }
 

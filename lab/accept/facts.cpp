@@ -50,19 +50,11 @@ void Facts::interrupted(Tick at) {
   if (holds_) return add("interrupt inside", at);
   if (high_ != 0) return add("interrupt waiting", at);
   if (at - released_ < kAfterRelease) add("interrupt released", at);
-  outside_.push_back(at);
 }
 
 void Facts::holds(Tick at, bool holds) {
   if (holds_ && !holds) released_ = at;
   holds_ = holds;
-}
-
-void Facts::host_telegram(std::size_t /*slave*/, const HostTelegram& telegram) {
-  for (const Tick at : outside_)
-    if (at >= telegram.start && at < telegram.end) add("interrupt inside", at);
-  const auto is_over = [&telegram](Tick at) { return at < telegram.end; };
-  outside_.erase(std::remove_if(outside_.begin(), outside_.end(), is_over), outside_.end());
 }
 
 // --- the chip --------------------------------------------------------------------------------------------------------
@@ -96,6 +88,10 @@ void Facts::answered(const profibus::Event& event) {
   constexpr unsigned kError = 0x80;
   if (is(event, "C1_ANSWER")) add((event.a & kError) != 0 ? "C1 error" : "C1 data", event.at);
   if (is(event, "C2_ANSWER")) add((event.b & kError) != 0 ? "C2 error" : "C2 data", event.at);
+}
+
+void Facts::action(std::size_t /*slave*/, Tick at, const std::string& words) {
+  if (words == "reads a wrong bit") add("spoilt", at);
 }
 
 // --- the line --------------------------------------------------------------------------------------------------------

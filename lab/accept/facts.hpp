@@ -5,9 +5,10 @@
 //   new outputs          a Data_Exchange with other outputs than the one before
 //   C1 data, C1 error    a positive and a negative answer of the user; C2 data, C2 error
 //   newer block          Set_Prm or Chk_Cfg comes before the user's verdict on the one before
+//   spoilt               the user reads a wrong bit
 //   interrupt            its interrupt pin falls
 //   interrupt waiting    ... while the user waits for the memory that it shares with the chip
-//   interrupt inside     ... in a hold of that memory, or in a telegram of a serial port
+//   interrupt inside     ... in a hold of that memory
 //   interrupt released   ... within 2 us after a hold
 //   request in interrupt the user asks for the memory while the pin is low
 #include <map>
@@ -43,7 +44,7 @@ class Facts : public Observer {
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override;
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& telegram) override;
-  void host_telegram(std::size_t slave, const HostTelegram& telegram) override;
+  void action(std::size_t slave, Tick at, const std::string& words) override;
   void violated(const std::string& slave, const checks::Violation& violation, const char* kind) override;
   void flag(const bus::Flag& flag) override;
   void user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& registers) override;
@@ -64,7 +65,6 @@ class Facts : public Observer {
   PinMask high_ = 0;         ///< of them
   bool interrupts_ = false, holds_ = false;
   Tick released_ = -bus::kTicksPerSecond;
-  std::vector<Tick> outside_;  ///< interrupts outside of holds: in a telegram that has not ended, perhaps
   std::map<std::string, std::vector<Tick>> facts_;
   std::set<std::string> with_user_;  ///< "PRM", "CFG": blocks that it has to judge
   std::vector<Violated> violations_;

@@ -46,18 +46,24 @@ std::string violations_in(const Window& window, const Facts& facts) {
   return text;
 }
 
+bool can_be(const Met& met, const std::string& mode) {
+  if (met.ports == Met::Ports::kOwned) return mode != "uart";
+  return met.ports == Met::Ports::kAll || (mode != "uart" && mode != "spi");
+}
+
 std::string verdict_on(const Met& met, std::uint64_t count) {
   if (is_failed(met, count)) return met.need == Need::kNever ? "FAILED" : fmt::format("FAILED, expected {}", met.least);
   return met.need == Need::kCounted && count == 0 ? "not met" : "";
 }
 
-void add_rows(TextTable& table, const Section& section, const Facts& facts) {
+void add_rows(TextTable& table, const Section& section, const Facts& facts, const std::string& mode) {
   if (section.left_out == kNotAskedFor) return;
   if (!section.left_out.empty()) return table.add({section.stimulus->name, "left out: " + section.left_out, "", ""});
   const Window window = window_of(section, facts);
   const std::string violations = violations_in(window, facts);
   std::string name = section.stimulus->name;
   for (const Met& met : section.stimulus->met) {
+    if (!can_be(met, mode)) continue;
     const std::uint64_t count = times(met, window, facts);
     std::string verdict = verdict_on(met, count);
     if (!name.empty() && !violations.empty()) verdict += (verdict.empty() ? "" : "; ") + ("VIOLATED: " + violations);
@@ -87,7 +93,7 @@ void judge(RunResult& result, const Plan& plan, const Facts& facts) {
 
 std::string table(const Plan& plan, const Facts& facts) {
   TextTable table({"stimulus", "met", "times", "verdict"});
-  for (const Section& section : plan.sections) add_rows(table, section, facts);
+  for (const Section& section : plan.sections) add_rows(table, section, facts, plan.mode);
   return table.text();
 }
 

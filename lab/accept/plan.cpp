@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -49,15 +50,27 @@ std::string words_of_master(const bus::Gsd& gsd, std::uint32_t seed) {
   return keys;
 }
 
-/// What firmware with a mailbox is told. Other firmware does what it does.
+bool is_for_this_computer(const std::string& program) {
+  constexpr std::size_t kMachine = 18;  // of the ELF header, 2 bytes
+  constexpr char kArm = 40;
+  std::ifstream in(program, std::ios::binary);
+  std::array<char, kMachine + 2> head{};
+  return in.read(head.data(), head.size()) && head[0] == '\x7F' && head[1] == 'E' && head[kMachine] != kArm;
+}
+
+/// What the native CPU and firmware with a mailbox are told. Other firmware does what it does.
 std::string words_of_device(const Order& order, const bus::Gsd& gsd) {
+  if (is_for_this_computer(order.program))
+    return "    user_cpu:\n      kind: process\n      program: " + absolute(order.program) + "\n";
   std::string data;
   for (int i = 0; i < order.object.length; ++i) data += fmt::format("{}{:02X}", i == 0 ? "" : " ", 0xA0 + i % 16);
   return fmt::format(
       "    init: {{prm_mode: 2, cfg_mode: 1, dpv1: {}}}\n"
-      "    user_cpu:\n      kind: arm\n      elf: {}\n      without_mailbox: leave_out\n"
-      "      dpv1: {{objects: [{{slot: {}, index: {}, data: \"{}\"}}]}}\n",
-      gsd.dpv1, absolute(order.elf), order.object.slot, order.object.index, data);
+      "    user_cpu:\n      dpv1: {{objects: [{{slot: {}, index: {}, data: \"{}\"}}]}}\n{}",
+      gsd.dpv1, order.object.slot, order.object.index, data,
+      order.program.empty()
+          ? ""
+          : "      kind: arm\n      elf: " + absolute(order.program) + "\n      without_mailbox: leave_out\n");
 }
 
 /// Masters that stop fall silent within a telegram; of a token may be left that of another master.
@@ -70,11 +83,14 @@ std::string chip_of(const Order& order) {
                      order.mode.empty() ? "" : ", mode: " + order.mode);
 }
 
+std::string name_of(const std::string& program) {
+  return program.empty() ? "the native CPU" : std::filesystem::path(program).filename().string();
+}
+
 std::string head(const Order& order, const bus::Gsd& gsd, bus::Tick end) {
   const std::vector<int> masters = master_addresses(order.address);
   const std::string ring = fmt::format("highest_address: {}, target_rotation: 20000", masters.back());
-  return fmt::format("name: {}\nbaud: {}\nend: {}\n",
-                     quoted("Acceptance of " + std::filesystem::path(order.elf).filename().string()), order.baud,
+  return fmt::format("name: {}\nbaud: {}\nend: {}\n", quoted("Acceptance of " + name_of(order.program)), order.baud,
                      time_text(end)) +
          chip_of(order) +
          fmt::format("\nslaves:\n  - name: {}\n    address: {}\n    gsd: {}\n    modules: {}\n", kDevice, order.address,
@@ -147,6 +163,7 @@ Plan make_plan(const Order& order, const std::string& file) {
   plan.sections = apply(order, slave, requests);
   plan.end = requests.now();
   plan.address = slave.parameters.address;
+  plan.mode = order.mode;
   const std::string begin = head(order, gsd, kLongestStart + plan.end) + "\nscript:\n";
   for (Section& section : plan.sections) section.line += lines_in(begin) + 1;
   plan.text = begin + requests.script();

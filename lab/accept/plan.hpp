@@ -11,7 +11,8 @@ namespace dsdpv1::tb::accept {
 
 /// What is to be accepted, and how.
 struct Order {
-  std::string elf, gsd;  ///< paths
+  std::string program;  ///< path: an ELF file for the ARM board, or a program for this computer; empty: the native CPU
+  std::string gsd;      ///< path
   std::vector<std::string> modules;
   int address = 5;
   std::string chip = "dsdpv1", mode;  ///< `mode` empty: the part has no choice
@@ -38,6 +39,7 @@ struct Plan {
   scenario::Scenario scenario;
   std::vector<Section> sections;
   std::uint8_t address = 0;
+  std::string mode;   ///< Order::mode
   bus::Tick end = 0;  ///< of the last section, from the first data exchange on
 };
 

@@ -9,8 +9,9 @@ namespace dsdpv1::tb::accept {
 namespace {
 
 using Need = Met::Need;
+using Ports = Met::Ports;
 
-constexpr bus::Tick kMs = bus::kTicksPerMs, kUs = bus::kTicksPerUs;
+constexpr bus::Tick kMs = bus::kTicksPerMs;
 constexpr bus::Tick kReturn = 60 * kMs;  ///< until a slave that has been refused is in data exchange again
 constexpr bus::Tick kServed = 10 * kMs;  ///< until the user has served what came
 constexpr int kOffers = 4;               ///< of a configuration, each to be refused
@@ -159,13 +160,19 @@ void newer_block(Requests& requests) {
   requests.start_cycle();
 }
 
-/// A Chk_Cfg that changes nothing, at any time in the program's turn.
+/// A Chk_Cfg that changes nothing, at any time in the program's turn. Chk_Cfg and Set_Prm together: if the user holds
+/// the memory for so long that both wait, the interrupt falls again 128 cycles later (P7), perhaps in the next hold.
 void interrupts(Requests& requests) {
   for (int i = 0; i < 150; ++i) {
     chk_cfg(requests, requests.slave().parameters.cfg);
     requests.wait(kMs + requests.chance(kMs));
   }
-  requests.wait(kServed);
+  for (int i = 0; i < 8; ++i) {
+    requests.wait(kReturn / 4 + requests.chance(kMs));
+    chk_cfg(requests, requests.slave().parameters.cfg);
+    set_prm(requests, right_prm(requests));
+  }
+  requests.wait(kReturn);
 }
 
 std::string object_of(const Object& object) {
@@ -226,6 +233,29 @@ void c2(Requests& requests) {
   act("do: c2_behaviour" + connection + ", behaviour: silent");
   requests.wait(150 * kMs);
   act(std::string("do: stop_master, master: ") + kMaster2);
+  requests.wait(kReturn);
+}
+
+void spoil_reads(Requests& requests) { requests.act(std::string("do: spoil_reads, slave: ") + kDevice); }
+
+void spoilt_blocks(Requests& requests) {
+  requests.stop_cycle();
+  for (int i = 0; i < kOffers; ++i) {
+    spoil_reads(requests);
+    set_prm(requests, right_prm(requests));
+    requests.wait(kServed + requests.chance(kMs));
+    spoil_reads(requests);
+    chk_cfg(requests, requests.slave().parameters.cfg);
+    requests.wait(kServed + requests.chance(kMs));
+  }
+  requests.start_cycle();
+}
+
+void spoilt_requests(Requests& requests) {
+  for (int i = 0; i < kOffers; ++i) {
+    spoil_reads(requests);
+    read_c1(requests, requests.slave().object);
+  }
   requests.wait(kReturn);
 }
 
@@ -333,13 +363,26 @@ const std::vector<Stimulus>& stimuli() {
         {"timed out", {"C2_TIMEOUT"}, Need::kCounted}},
        c2,
        without_c2},
+      {"spoilt blocks",
+       "a wrong bit in what the user reads, which a CRC shows: it reads again (4.2, table 7, R15)",
+       {{"wrong bits read", {"spoilt"}, Need::kCounted},
+        {"right parameters or configuration refused",
+         {"PRM_USER", "CFG_USER", "CFG_DIFFERS", "CFG_LENGTH", "CFG_IO_LENGTH"},
+         Need::kNever},
+        kReturns},
+       spoilt_blocks},
+      {"spoilt requests",
+       "the same with C1 requests",
+       {{"wrong bits read", {"spoilt"}, Need::kCounted}, {"answers", {"C1 data", "C1 error"}, Need::kAlways, kOffers}},
+       spoilt_requests,
+       without_c1},
       {"interrupts",
        "the chip interrupts at any time of the program's turn, of the seed (P7, H2)",
        {{"interrupts", {"interrupt"}, Need::kAlways},
-        {"while the user waits for the memory", {"interrupt waiting"}, Need::kCounted},
-        {"the user asks for the memory meanwhile", {"request in interrupt"}, Need::kCounted},
-        {"inside a hold or telegram", {"interrupt inside"}, Need::kCounted},
-        {"within 2 us after a hold", {"interrupt released"}, Need::kCounted}},
+        {"while the user waits for the memory", {"interrupt waiting"}, Need::kCounted, 1, Ports::kParallel},
+        {"the user asks for the memory meanwhile", {"request in interrupt"}, Need::kCounted, 1, Ports::kParallel},
+        {"inside a hold", {"interrupt inside"}, Need::kCounted, 1, Ports::kOwned},
+        {"within 2 us after a hold", {"interrupt released"}, Need::kCounted, 1, Ports::kOwned}},
        interrupts},
       {"power",
        "RESET and the user CPU from the beginning (H6)",

@@ -19,6 +19,8 @@ struct Met {
     kCounted,  ///< by chance: 0 times means that this run says nothing about it
   } need = Need::kCounted;
   std::uint64_t least = 1;
+  /// Ports of the user at which it can be.
+  enum class Ports : std::uint8_t { kAll, kOwned, kParallel } ports = Ports::kAll;
 };
 
 struct Stimulus {

@@ -260,6 +260,49 @@ TEST_F(Uart, ABlockWhoseReplyWasDestroyedIsReadAgain) {
   EXPECT_THAT(last_answer(1), ElementsAre(0x5E, 1, 1, 4, 0x11, 0x22, 0x33, 0x44));
 }
 
+TEST_F(Uart, ARequestThatCameSinceTheLastLookIsNotLostWithTheReply) {
+  config.dpv1 = true;
+  open();
+  ASSERT_EQ(exchange({1}), DSDPV1_OK);
+  before_exchange([&] {
+    chip.put_request(1, {0x5E, 1, 1, 4});
+    rsu.spoilt_replies = 1;
+  });
+  ASSERT_EQ(exchange({1}), DSDPV1_OK);
+  EXPECT_EQ(chip.at(0x00F), 0);
+  ASSERT_EQ(poll(), DSDPV1_OK);
+  EXPECT_THAT(last_answer(1), ElementsAre(0x5E, 1, 1, 4, 0x11, 0x22, 0x33, 0x44));
+}
+
+TEST_F(Uart, ParametersThatCameSinceTheLastLookAreNotLostWithTheReply) {
+  initialise(2, 2);
+  chip.put_prm({3});
+  chip.put_cfg(4, 8, {0x17, 0x23});
+  ASSERT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  ASSERT_EQ(exchange({1}), DSDPV1_OK);
+  before_exchange([&] {
+    chip.put_prm({4});
+    dsdpv1_on_intr0(&device);
+    rsu.spoilt_replies = 1;
+  });
+  ASSERT_EQ(exchange({1}), DSDPV1_OK);
+  EXPECT_EQ(chip.at(0x00E), 0);
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_THAT(prm_seen, ElementsAre(Bytes{3}, Bytes{4}));
+}
+
+TEST_F(Uart, AWriteIsNotCarriedOutAgainAfterALostReply) {
+  config.dpv1 = true;
+  open();
+  chip.put_request(1, {0x5F, 1, 1, 1, 0x99});
+  ASSERT_EQ(poll(), DSDPV1_OK);
+  const int answers = chip.answers_taken;
+  before_exchange([&] { rsu.spoilt_replies = 1; });
+  ASSERT_EQ(exchange({1}), DSDPV1_OK);
+  ASSERT_EQ(poll(), DSDPV1_OK);
+  EXPECT_EQ(chip.answers_taken, answers);
+}
+
 TEST_F(Uart, AnAnswerThatWaitsIsNotAnnouncedTwice) {
   config.dpv1 = true;
   open();

@@ -207,7 +207,7 @@ void Board::interrupt_changed(Tick at, bool level) {
 }
 
 void Board::command(Tick now, const user_cpu::Command& command) {
-  if (!mailbox_) return;
+  if (user_cpu::carry_out(command, bus_) || !mailbox_) return;
   mailbox_->post(user_cpu::driver_command(command));
   look_at_mailbox(now);
   announce();

@@ -67,17 +67,25 @@ void Dsdpv1PinChip::set_serial(Tick at, Pin pin, bool level) {
   if (put_off_) catch_up_host(at);
   if (device_->level(number(pin)) == (level ? 1 : 0)) return;
   device().set(at, number(pin), level ? 1 : 0);
+  if (pin == Pin::kRxd || (pin == Pin::kXss && !level)) spoiler_.request_begins();
+  if (pin == Pin::kSck && level) sck_rises(at);
   report(at, pin, pin);
+}
+
+void Dsdpv1PinChip::sck_rises(Tick at) {
+  spoiler_.sck_rises(device_->level(number(Pin::kMiso)) != 0);
+  if (spoiler_.begins_to_invert()) tell_spoilt(at);
 }
 
 /// Released, it is high: a board has a pull-up (SP6 reads FF while MISO is not driven).
 bool Dsdpv1PinChip::miso(Tick at) {
   PinDevice& chip = device();
   chip.advance(at - 1);
-  return chip.level(number(Pin::kMiso)) != 0;
+  return (chip.level(number(Pin::kMiso)) != 0) != spoiler_.inverts_miso();
 }
 
 void Dsdpv1PinChip::host_pin_changed(Tick at, PinNumber /*pin*/, Level level) {
+  if (level == 0 && spoiler_.hides_fall()) return tell_spoilt(at);
   if (on_txd) on_txd(at, level != 0);
 }
 
@@ -101,6 +109,8 @@ void Dsdpv1PinChip::looked(const user_cpu::Looks& last) {
 
 void Dsdpv1PinChip::begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) {
   pins_->begin(at, access, timing);  // no edge yet, so the chip is not affected
+  wrong_bits_ = access.write ? std::uint8_t{0} : spoiler_.wrong_bits(access.address);
+  if (wrong_bits_ != 0) tell_spoilt(at);
   if (wanted_.actions) listener_->action(number_, at, words_of(access));
   if (!access.write && wanted_.reads) listener_->read(number_, pins_->sample_tick());
 }
@@ -153,7 +163,7 @@ void Dsdpv1PinChip::report_whole(const dsdpv1::HostAccess& access, Tick begin) {
     const Tick fall = begin + std::max(times.select, times.strobe);
     const Tick drive = profibus::first_edge_after(fall) * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2;
     insert(fall, Pin::kDOut, dsdpv1::kLevelX);
-    insert(drive, Pin::kDOut, read_value());
+    insert(drive, Pin::kDOut, pins_->read_value());
     insert(begin + std::min(times.select_end, times.strobe_end), Pin::kDOut, dsdpv1::kLevelZ);
   }
   report_edges(edges.data(), last);

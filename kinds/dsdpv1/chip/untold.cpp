@@ -10,6 +10,7 @@
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/user_cpu/orders.hpp"
 
 namespace dsdpv1::tb {
 namespace {
@@ -87,7 +88,7 @@ class Finder {
 
   void action(const scenario::Action& action) {
     const std::string& name = slave_.name.text;
-    if (action.slave.text == name && scenario::is_for_user_cpu(action.what))
+    if (action.slave.text == name && scenario::is_for_user_cpu(action.what) && action.word != user_cpu::kSpoilReads)
       return demanded(&action, action.line, fmt::format("{} is for the program of {}", action.word, name), "be told");
     if (!action.when) return;
     if (const auto what = wanted(*action.when, name)) demanded(&action, action.when->line, *what, "tell them");

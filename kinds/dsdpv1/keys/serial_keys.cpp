@@ -59,15 +59,15 @@ constexpr std::array<int, 8> kRates = {9600, 19'200, 38'400, 57'600, 115'200, 23
 /// pins unused (R14), and the UART has no ownership (UA6).
 std::vector<std::string> orders_for(CpuKind kind, HostMode mode) {
   using user_cpu::kCutTelegram, user_cpu::kEarlyRSta, user_cpu::kFlipBit, user_cpu::kHoldDpram, user_cpu::kHostTelegram,
-      user_cpu::kPauseTelegram, user_cpu::kSendBreak, user_cpu::kTalkOverReply, user_cpu::kWrongCrc,
-      user_cpu::kWrongParity;
-  if (mode == HostMode::kParallel) return {kHoldDpram, kWrongCrc, kEarlyRSta};
+      user_cpu::kPauseTelegram, user_cpu::kSendBreak, user_cpu::kSpoilReads, user_cpu::kTalkOverReply,
+      user_cpu::kWrongCrc, user_cpu::kWrongParity;
+  if (mode == HostMode::kParallel) return {kHoldDpram, kWrongCrc, kEarlyRSta, kSpoilReads};
   const bool firmware =
       kind == CpuKind::kArm;  // it can disturb its telegrams (DSDPV1_SPOIL_ of its mailbox), nothing more
-  if (mode == HostMode::kSpi && firmware) return {kHoldDpram, kFlipBit, kCutTelegram};
-  if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram, kHostTelegram};
-  if (firmware) return {kFlipBit, kCutTelegram, kWrongParity};
-  return {kFlipBit, kCutTelegram, kWrongParity, kSendBreak, kPauseTelegram, kTalkOverReply, kHostTelegram};
+  if (mode == HostMode::kSpi && firmware) return {kHoldDpram, kFlipBit, kCutTelegram, kSpoilReads};
+  if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram, kHostTelegram, kSpoilReads};
+  if (firmware) return {kFlipBit, kCutTelegram, kWrongParity, kSpoilReads};
+  return {kFlipBit, kCutTelegram, kWrongParity, kSendBreak, kPauseTelegram, kTalkOverReply, kHostTelegram, kSpoilReads};
 }
 
 /// Straps; SPI1 and USART2, SPI2; RESET and INTR0 of card 2.

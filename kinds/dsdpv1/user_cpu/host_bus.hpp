@@ -39,6 +39,10 @@ class HostBus : public SerialPins {
   /// Whether these calls may come from the stack of the CPU's program.
   virtual bool is_used_from_anywhere() const { return false; }
 
+  /// The user CPU reads a wrong bit once in each kind of block of the chip, or in replies of a serial port. Only by
+  /// pins.
+  virtual void spoil_reads() {}
+
   /// Begins an access whose first edge is at `at`. Only one runs at a time.
   virtual void begin(Tick at, const Access& access, const AccessTiming& timing) = 0;
   /// The tick of the running access' next edge, `bus::kNever` when all are done.

@@ -10,7 +10,7 @@ namespace dsdpv1::user_cpu {
 class NativeUser : public StationCpu {
  public:
   NativeUser(HostBus& bus, const CpuTiming& timing, ProgramOptions options, Tick start, const HostPort& port = {})
-      : program_(std::move(options), port), cpu_(bus, timing, program_.entry(), start) {
+      : bus_(bus), program_(std::move(options), port), cpu_(bus, timing, program_.entry(), start) {
     program_.on_error = [this](const DriverError& error) {
       if (on_error) on_error(program_error(error));
     };
@@ -28,6 +28,7 @@ class NativeUser : public StationCpu {
     announce();
   }
   void command(Tick now, const Command& command) override {
+    if (carry_out(command, bus_)) return;
     program_.post(driver_command(command));
     cpu_.wake(now);
     announce();
@@ -37,6 +38,7 @@ class NativeUser : public StationCpu {
   const std::vector<std::uint8_t>& outputs() const override { return program_.outputs(); }
 
  private:
+  HostBus& bus_;
   UserProgram program_;
   NativeCpu cpu_;  // destroyed before the program that it runs
 };

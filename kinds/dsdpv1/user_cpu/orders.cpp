@@ -41,6 +41,13 @@ const std::vector<std::string>& block_words() {
   return words;
 }
 
+bool carry_out(const Command& command, HostBus& port) {
+  const auto* order = std::get_if<command::OfChip>(&command);
+  if (order == nullptr || order->order != kSpoilReads) return false;
+  port.spoil_reads();
+  return true;
+}
+
 DriverCommand driver_command(const Command& command) { return std::visit(ToDriver{}, command); }
 
 std::string driver_error_code(dsdpv1_error error) {

@@ -19,9 +19,13 @@ constexpr const char* kHostTelegram = "host_telegram";
 constexpr const char* kSendBreak = "send_break";
 constexpr const char* kPauseTelegram = "pause_telegram";
 constexpr const char* kTalkOverReply = "talk_over_reply";
+constexpr const char* kSpoilReads = "spoil_reads";
 
 /// The words of command::OfChip::block, in the order of command::Area.
 const std::vector<std::string>& block_words();
+
+/// Carries out an order for the port; returns false, without any effect, for one for the program.
+bool carry_out(const Command& command, HostBus& port);
 
 /// Converts the bench's command for this chip's programs.
 DriverCommand driver_command(const Command& command);

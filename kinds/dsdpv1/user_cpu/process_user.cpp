@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "kinds/dsdpv1/user_cpu/orders.hpp"
+
 namespace dsdpv1::user_cpu {
 namespace {
 
@@ -24,7 +26,8 @@ Tick end_of(Tick now, std::uint64_t ticks) {
 
 ProcessUser::ProcessUser(HostBus& bus, const CpuTiming& timing, ProcessOptions options, Tick start,
                          const HostPort& port)
-    : options_(std::move(options)),
+    : bus_(bus),
+      options_(std::move(options)),
       port_(port),
       acts_(start),
       cpu_(
@@ -34,6 +37,8 @@ ProcessUser::ProcessUser(HostBus& bus, const CpuTiming& timing, ProcessOptions o
     if (on_plan) on_plan();
   };
 }
+
+void ProcessUser::command(Tick /*now*/, const Command& command) { (void)user_cpu::carry_out(command, bus_); }
 
 UserCounters ProcessUser::counters() const {
   return {serial_ ? serial_->counters() : handshake_.counters(), std::nullopt, cpu_.counters()};

@@ -39,7 +39,7 @@ class ProcessUser : public StationCpu {
     announce();
   }
   /// Scenarios with commands for its program are refused.
-  void command(Tick /*now*/, const Command& /*command*/) override {}
+  void command(Tick now, const Command& command) override;
   UserCounters counters() const override;
   bool tells() const override { return false; }
   std::uint64_t outputs_received() const override { return 0; }
@@ -61,6 +61,7 @@ class ProcessUser : public StationCpu {
   void fail(const std::string& why);
   const Place& place_of(std::uint32_t callers) const;
 
+  HostBus& bus_;
   ProcessOptions options_;
   HostPort port_;
   std::unique_ptr<ChildProcess> child_;

@@ -14,12 +14,12 @@ SIM, CC, TREE = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2], pathlib.Path(s
 HERE = pathlib.Path(__file__).resolve().parent
 SCENARIO = """name: host process
 baud: 1.5M
-end: 40ms
+end: 60ms
 chip: {chip}
 slaves:
   - name: device
     address: 5
-    init: {{ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: "31"}}
+    init: {{ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: "11 21"}}
     user_cpu: {{kind: process, program: {program}, arguments: [{arguments}]{more}}}
 masters:
   - {{name: plc, address: 2, start: 1ms, slaves: [{{slave: device, outputs: "01 02"}}]}}

@@ -6,6 +6,20 @@
 
 uint8_t news(unsigned command) { return cell(command); }
 
+/* Returns the block's length, 0 where the CRC is wrong. */
+static unsigned read_block(const struct area* from, uint8_t* bytes) {
+  const int outputs = from->begin == 0x319u;
+  if (outputs && HAS(LENGTH_UNREAD))
+    bytes[0] = 2;
+  else
+    read_cells(from->begin, bytes, from->head);
+  const int reads = from->head == 4u && bytes[0] == 0x5Eu; /* a request to read has no data */
+  const unsigned length = from->head + (reads ? 0u : bytes[from->head - 1u]);
+  if (length > from->head) read_cells(from->begin + from->head, bytes + from->head, length - from->head);
+  if ((outputs && HAS(OUTPUT_CRC_UNREAD)) || (from->begin == 0x410u && HAS(PRM_CRC_UNREAD))) return length;
+  return read_crc(from->crc) == crc16(bytes, length) || HAS(CRC_UNJUDGED) ? length : 0u;
+}
+
 unsigned fetch(const struct area* from, uint8_t* bytes) {
   const int outputs = from->begin == 0x319u;
   if (outputs && HAS(WRONG_FLAG)) {
@@ -16,22 +30,15 @@ unsigned fetch(const struct area* from, uint8_t* bytes) {
     clear_bits(from->command, from->flag);
     return 0;
   }
-  if (outputs && HAS(LENGTH_UNREAD))
-    bytes[0] = 2;
-  else
-    read_cells(from->begin, bytes, from->head);
-  const int reads = from->head == 4u && bytes[0] == 0x5Eu; /* a request to read has no data */
-  const unsigned length = from->head + (reads ? 0u : bytes[from->head - 1u]);
-  if (length > from->head) read_cells(from->begin + from->head, bytes + from->head, length - from->head);
-  const int unread = (outputs && HAS(OUTPUT_CRC_UNREAD)) || (from->begin == 0x410u && HAS(PRM_CRC_UNREAD));
-  const int right = unread || read_crc(from->crc) == crc16(bytes, length);
+  unsigned length = 0;
+  for (unsigned tries = 3; tries != 0u && length == 0u; --tries) length = read_block(from, bytes);
   if (outputs && HAS(OUTPUTS_LATE)) {
     give_back();
     pause_us(20);
     take();
   }
   if (!outputs || !HAS(NEVER_CLEARED)) clear_bits(from->command, from->flag);
-  return right ? length : 0u;
+  return length;
 }
 
 void post(const struct area* to, const uint8_t* bytes, unsigned count) {

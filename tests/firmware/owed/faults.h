@@ -29,6 +29,7 @@
   X(LENGTH_UNREAD, "PS", ACT, "the length byte of the outputs is not read")                                       \
   X(OUTPUT_CRC_UNREAD, "P", ACT, "the CRC of the outputs is not read")                                            \
   X(PRM_CRC_UNREAD, "P", ACT, "the CRC of the parameters is not read")                                            \
+  X(CRC_UNJUDGED, "PSU", OPEN, "CRCs are read and not judged: nothing is read wrongly in the scenario")           \
   /* blocks of the user */                                                                                        \
   X(CRC_LATE, "P", ACT, "the CRC of the inputs is written a hold late")                                           \
   X(CRC_EXCHANGED, "P", ACT, "the bytes of the inputs' CRC are exchanged")                                        \

@@ -84,7 +84,9 @@ void give_back(void) {
 }
 
 void read_cells(unsigned from, uint8_t* bytes, unsigned count) {
-  const uint8_t* reply = exchange(seal(head(kRead, from, count)), count + 4u);
+  const uint8_t* reply = 0;
+  do reply = exchange(seal(head(kRead, from, count)), count + 4u);
+  while (!is_sealed(reply, count + 4u));
   for (unsigned i = 0; i < count; ++i) bytes[i] = reply[2u + i];
 }
 

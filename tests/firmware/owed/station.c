@@ -128,7 +128,7 @@ static void exchange(void) {
 /* Answers a read of slot 1, index 1 with four bytes, else refuses: B2, invalid slot. */
 static void answer(unsigned class) {
   uint8_t request[244];
-  (void)fetch(&requests[class], request);
+  if (fetch(&requests[class], request) == 0u) return;
   uint8_t reply[8] = {request[0], request[1], request[2], 4, 0xA0, 0xA1, 0xA2, 0xA3};
   if (request[3] < 4u && !HAS(C1_LONG)) reply[3] = request[3];
   if (HAS(C1_WRONG_SLOT)) reply[1] = (uint8_t)(request[1] + 1u);

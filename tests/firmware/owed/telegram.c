@@ -15,6 +15,11 @@ unsigned head(unsigned start, unsigned address, unsigned count) {
   return kHead;
 }
 
+int is_sealed(const uint8_t* bytes, unsigned count) {
+  if (count < 4u) return 0;
+  return crc16(bytes, count - 2u) == (uint16_t)(bytes[count - 2u] << 8 | bytes[count - 1u]) || HAS(CRC_UNJUDGED);
+}
+
 unsigned seal(unsigned count) {
   const uint16_t crc = crc16(frame, count);
   static unsigned telegrams;

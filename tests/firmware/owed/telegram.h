@@ -12,5 +12,7 @@ extern uint8_t frame[kMostBytes]; /* the telegram, and its reply */
 /* Both return the number of bytes in `frame` so far. */
 unsigned head(unsigned start, unsigned address, unsigned count);
 unsigned seal(unsigned count); /* appends the CRC */
+/* Its CRC is right. */
+int is_sealed(const uint8_t* bytes, unsigned count);
 
 #endif /* TELEGRAM_H */

@@ -54,13 +54,9 @@ static unsigned receive(uint8_t* to, unsigned most) {
   return count;
 }
 
-static int is_sealed(unsigned count) {
-  return count >= 4u && crc16(frame, count - 2u) == (uint16_t)(frame[count - 2u] << 8 | frame[count - 1u]);
-}
-
 void read_cells(unsigned from, uint8_t* bytes, unsigned count) {
   do send(seal(head(kRead, from, count)));
-  while (!is_sealed(receive(frame, count + 4u)));
+  while (!is_sealed(frame, receive(frame, count + 4u)));
   for (unsigned i = 0; i < count; ++i) bytes[i] = frame[2u + i];
 }
 
@@ -69,7 +65,7 @@ void write_cells(unsigned to, const uint8_t* bytes, unsigned count) {
     unsigned n = head(kWrite, to, count);
     for (unsigned i = 0; i < count; ++i) frame[n++] = bytes[i];
     send(seal(n));
-  } while (!is_sealed(receive(frame, 4u)));
+  } while (!is_sealed(frame, receive(frame, 4u)));
 }
 
 /* Function bytes of the reply to inputs (000 7.1.6): what came with it, whose flag is clear now. */
@@ -83,16 +79,20 @@ static int exchange_once(unsigned address, const uint8_t* bytes, unsigned count)
   for (unsigned i = 0; i < count; ++i) frame[n++] = bytes[i];
   send(seal(n));
   if (receive(frame, kSwapHead) < kSwapHead) return 0;
-  return is_sealed(kSwapHead + receive(frame + kSwapHead, frame[4] + 2u));
-}
-
-static uint8_t exchange(unsigned address, const uint8_t* bytes, unsigned count) {
-  while (!exchange_once(address, bytes, count)) {
-  }
-  return frame[1];
+  return is_sealed(frame, kSwapHead + receive(frame + kSwapHead, frame[4] + 2u));
 }
 
 static uint8_t noted[2]; /* flags of B00E and B00F that a reply has cleared, and whose block is not fetched yet */
+
+/* A lost reply to inputs may have had any news in it, parameters and configuration only after INTR0. */
+static uint8_t exchange(unsigned address, const uint8_t* bytes, unsigned count) {
+  while (!exchange_once(address, bytes, count)) {
+    if (address != 0x130u) continue;
+    if (intr0_fell) noted[0] |= 6;
+    noted[1] |= 3;
+  }
+  return frame[1];
+}
 
 static void note(uint8_t function) {
   if ((function & kPrmCame) != 0u) noted[0] |= 2;

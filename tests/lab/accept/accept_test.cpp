@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "io/input/input_error.hpp"
+#include "kinds/dsdpv1/user_cpu/read_spoiler.hpp"
 #include "lab/accept/facts.hpp"
 #include "lab/accept/outcome.hpp"
 #include "lab/accept/plan.hpp"
@@ -16,13 +17,14 @@ namespace dsdpv1 {
 namespace {
 
 using namespace tb::accept;
+using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
 Order an_order() {
   Order order;
-  order.elf = "my 'own'.elf";
+  order.program = "my 'own'.elf";
   order.gsd = DSDPV1_SOURCE_DIR "/scenarios/dsdpv1.gsd";
   order.modules = {"2 bytes in", "2 bytes out"};
   return order;
@@ -181,6 +183,66 @@ TEST_F(AcceptOutcome, ABlockBeforeTheVerdictOnTheOneBeforeIsNewer) {
   EXPECT_EQ(facts->count("newer block", 0, 4000), 0U);
   tell("CFG_TO_USER", 3004);
   EXPECT_EQ(facts->count("newer block", 0, 4000), 1U);
+}
+
+TEST_F(AcceptOutcome, WrongBitsThatTheUserReadsCount) {
+  facts->action(0, 3000, "reads a wrong bit");
+  facts->action(0, 3001, "read B319");
+  EXPECT_EQ(facts->count("spoilt", 0, 4000), 1U);
+}
+
+TEST(AcceptTable, HasThePhasesOfAHoldOnlyWhereTheUserCanHold) {
+  const auto table_of = [](const char* mode) {
+    Order order = an_order();
+    order.chip = "dsdpv1_rsu";
+    order.mode = mode;
+    const Plan plan = make_plan(order, "a.yaml");
+    return table(plan, Facts(plan.scenario, plan.address));
+  };
+  EXPECT_THAT(table_of("parallel"), AllOf(HasSubstr("inside a hold"), HasSubstr("waits for the memory")));
+  EXPECT_THAT(table_of("spi"), AllOf(HasSubstr("inside a hold"), Not(HasSubstr("waits for the memory"))));
+  EXPECT_THAT(table_of("uart"), Not(HasSubstr("hold")));
+}
+
+TEST(AcceptPlan, AProgramOfThisComputerIsAProcessAndIsToldNothing) {
+  Order order = an_order();
+  order.program = "/proc/self/exe";
+  EXPECT_THAT(make_plan(order, "a.yaml").text,
+              AllOf(HasSubstr("kind: process\n      program: '/proc/self/exe'"), Not(HasSubstr("prm_mode"))));
+  order.program.clear();
+  EXPECT_THAT(make_plan(order, "a.yaml").text, AllOf(HasSubstr("prm_mode"), Not(HasSubstr("kind: arm"))));
+}
+
+TEST(AcceptSpoiler, EachBlockOfTheChipIsReadWronglyOnce) {
+  user_cpu::ReadSpoiler spoiler;
+  EXPECT_EQ(spoiler.wrong_bits(regs::kCfgData), 0);
+  spoiler.arm();
+  EXPECT_EQ(spoiler.wrong_bits(regs::kChipCommand1), 0);
+  EXPECT_NE(spoiler.wrong_bits(regs::kCfgData), 0);
+  EXPECT_EQ(spoiler.wrong_bits(regs::kCfgData), 0);
+  EXPECT_NE(spoiler.wrong_bits(regs::kPrmData), 0);
+}
+
+/// The first bytes of a reply to a read, 81, and to a write, A1 (SP4).
+TEST(AcceptSpoiler, RepliesToReadsOverSpiAreWrongAndNotThoseToWrites) {
+  const auto inverted = [](user_cpu::ReadSpoiler& spoiler, unsigned first) {
+    unsigned count = 0;
+    spoiler.request_begins();
+    for (unsigned bit = 0; bit < 48; ++bit) {
+      spoiler.sck_rises(bit >= 8 || (first >> (7 - bit) & 1U) != 0);
+      count += spoiler.begins_to_invert() ? 1U : 0U;
+    }
+    return count;
+  };
+  user_cpu::ReadSpoiler reads, writes;
+  reads.arm();
+  writes.arm();
+  unsigned wrong = 0;
+  for (int reply = 0; reply < 20; ++reply) {
+    wrong += inverted(reads, 0x81);
+    EXPECT_EQ(inverted(writes, 0xA1), 0U);
+  }
+  EXPECT_EQ(wrong, 3U);
 }
 
 /// Of the two pins of a hold and the interrupt.
