@@ -231,7 +231,7 @@ std::optional<user_cpu::BoardReport> Board::board() const {
 }
 
 std::optional<user_cpu::Place> Board::where(const user_cpu::Act& act) const {
-  if (act.look && act.at == look_.at) return place_of(look_.pc);
+  if (act.look && act.at == looked_at()) return place_of(look_.pc);
   return acts_.where(act, [this](std::uint32_t pc) { return place_of(pc); });
 }
 
@@ -326,9 +326,7 @@ std::uint64_t Board::keep_up() {
 }
 
 void Board::left_out(std::uint64_t since, std::uint64_t cycles) {
-  if (look_.cycle <= since) return;  // before the loop
-  look_.cycle += cycles;
-  look_.at = tick_of(look_.cycle);
+  if (look_.cycle > since) look_.cycle += cycles;  // else before the loop
 }
 
 std::uint64_t Board::due_cycle(Tick next) const {
@@ -419,7 +417,7 @@ void Board::update_pins() {
   if (const bool level = handshake.level(kRSta.pin, false); std::exchange(r_sta_, level) != level) {
     handshake_.r_sta(pins_->now(), level);
     acts_.pins(pins_->now(), core_.pc(), !level);
-    pins_->looked({look_.at, look_.at});
+    pins_->looked({looked_at(), looked_at()});
     pins_->set_r_sta(level);
   }
   if (const bool level = ports_.at(reset_pin_.port).level(reset_pin_.pin, true);

@@ -105,7 +105,6 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   };
   /// The last load of L_REQ and L_STA.
   struct Look {
-    Tick at = -1;
     std::uint64_t cycle = 0;
     std::uint32_t pc = 0;
   };
@@ -120,6 +119,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   std::uint64_t keep_up() override;
   void left_out(std::uint64_t since, std::uint64_t cycles) override;
+  Tick looked_at() const { return tick_of(std::max(look_.cycle, since_cycle_)); }
   std::uint64_t due_cycle(Tick next) const;
   Tick stays_until();
   std::optional<std::uint32_t> peek(std::uint32_t address) const override;

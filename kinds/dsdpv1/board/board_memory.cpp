@@ -97,7 +97,7 @@ std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
   polls_ = false;
   if (address >= kBank1 && address < kBank1End) return load_chip(address, bytes);
   const std::uint32_t word = load_word(address & ~3U) >> (address % 4 * 8);
-  if (kLookedAt - address < bytes) look_ = {now(), core_.cycles(), core_.pc()};
+  if (kLookedAt - address < bytes) look_ = {core_.cycles(), core_.pc()};
   return bytes == 4 ? word : word & ((1U << bytes * 8) - 1);
 }
 
