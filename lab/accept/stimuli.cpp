@@ -163,9 +163,9 @@ void newer_block(Requests& requests) {
 /// A Chk_Cfg that changes nothing, at any time in the program's turn. Chk_Cfg and Set_Prm together: if the user holds
 /// the memory for so long that both wait, the interrupt falls again 128 cycles later (P7), perhaps in the next hold.
 void interrupts(Requests& requests) {
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 60; ++i) {
     chk_cfg(requests, requests.slave().parameters.cfg);
-    requests.wait(kMs + requests.chance(kMs));
+    requests.wait(kServed / 2 + requests.chance(kMs));
   }
   for (int i = 0; i < 8; ++i) {
     requests.wait(kReturn / 4 + requests.chance(kMs));
