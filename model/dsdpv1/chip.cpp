@@ -40,6 +40,7 @@ profibus::StationConfig station_of(const Config& config) {
 
 constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0; }
 
+constexpr std::uint64_t kShown = 3;  // of the accesses that were dozed through
 constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
 
 }  // namespace
@@ -527,8 +528,8 @@ void Chip::Impl::wake() {
   update_access_pins();
 }
 
-// Simulates accesses up to and including `until`. While the sequencer dozes, those that end or are the last two are
-// shown.
+// Simulates accesses up to and including `until`. While the sequencer dozes, those that end or are the last three are
+// shown: four changes of a pin, if the last one goes on.
 void Chip::Impl::make_up(Cycle until) {
   const bool shows = shows_late(), owned = sequencer.owns();
   const Cycle before = sequencer.began();
@@ -538,9 +539,10 @@ void Chip::Impl::make_up(Cycle until) {
   const std::uint64_t made = sequencer.accesses() - accesses;
   const Cycle last = sequencer.began();
   if (owned && (made > 0 || !sequencer.owns())) show_end(before);
-  if (made > 1) {
-    show_access(last - sequencer.period());
-    show_end(last - sequencer.period());
+  for (std::uint64_t back = std::min<std::uint64_t>(made, kShown); back > 1; --back) {
+    const Cycle begin = last - static_cast<Cycle>(back - 1) * sequencer.period();
+    show_access(begin);
+    show_end(begin);
   }
   if (made > 0) show_access(last);
   if (made > 0 && !sequencer.owns()) show_end(last);

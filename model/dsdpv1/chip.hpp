@@ -130,7 +130,7 @@ class Chip {
   /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it. With `late`,
   /// those of L_REQ and L_STA in accesses that find no work and no request of the user may be reported later, with
   /// their ticks, before a change of another output or of the host's pins, and before level() and status() return; of
-  /// several such accesses in sequence only the last two.
+  /// several such accesses in sequence only the last three.
   void watch(const PinSink& sink, std::uint32_t pins, bool late = false);
   void on_event(const profibus::EventSink& sink);
 

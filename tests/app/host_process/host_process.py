@@ -140,6 +140,14 @@ class HostProcess(unittest.TestCase):
     def test_a_look_that_is_too_early_is_where_it_was_made(self):
         self.assert_at(self.places("LOOK_IN_WINDOW", fault="early")[:1], "dsdpv1_initialise(&chip, &config)", "main")
 
+    def test_what_is_told_of_mistakes_is_alike_in_every_engine_and_view(self):
+        for fault in ("hasty", "blind", "early", "keeps"):
+            told = set()
+            for options in ((), ("--engine", "step"), ("--view", "tlm")):
+                self.run_it("--log", "log.txt", *options, fault=fault)
+                told.add((self.folder / "log.txt").read_text())
+            self.assertEqual(len(told), 1, fault)
+
     def test_an_omission_is_where_the_firmware_was_instead(self):
         for port, code in (("parallel", "OWNERSHIP_NEVER_RELEASED"), ("spi", "B014_HELD")):
             with self.subTest(port=port):
