@@ -137,8 +137,9 @@ static void note_destroyed(dsdpv1_device* device) {
 
 /* An own answer has bit 7 set or is known. A read that is answered twice does no harm (V14). */
 static bool is_request(const uint8_t* bytes, const uint8_t* answered) {
-  if (bytes[0] == DSDPV1_REG_FUNCTION_NUM_READ) return true;
-  return bytes[0] != 0u && (bytes[0] & 0x80u) == 0u && memcmp(bytes, answered, kAcyclicHeader) != 0;
+  bool differs = bytes[0] == DSDPV1_REG_FUNCTION_NUM_READ;
+  for (unsigned i = 0; i < (unsigned)kAcyclicHeader; ++i) differs = differs || bytes[i] != answered[i];
+  return differs && bytes[0] != 0u && (bytes[0] & 0x80u) == 0u;
 }
 
 static dsdpv1_error look_for_requests(dsdpv1_device* device) {
@@ -346,8 +347,9 @@ static dsdpv1_error post(dsdpv1_device* device, const dsdpv1_block* block) {
   answer reply = {0, {NULL, 0}};
   dsdpv1_put_crc(device, block);
   if (device->fault != DSDPV1_OK) return device->fault;
-  if (block->address == DSDPV1_REG_C1 || block->address == DSDPV1_REG_C2)
-    (void)memcpy(device->port.uart->answered[block->address == DSDPV1_REG_C2], block->head.bytes, kAcyclicHeader);
+  if (block->address != DSDPV1_REG_DIAG)
+    (void)memcpy(device->port.uart->answered[block->address == DSDPV1_REG_C2 ? 1u : 0u], block->head.bytes,
+                 kAcyclicHeader);
   device->port.uart->serial.known = false; /* the flag is set */
   return swap(device, &from, &reply);
 }

@@ -4,7 +4,7 @@ over each port. No run may have a violation.
 
     campaign.py SIM CC FIRMWARE_FOLDER [--seeds N] [--first SEED] [--only O2:spi,...] [--jobs N]
 
-Prints a row for each kind and port, and how many runs have met what accept leaves to chance.
+Prints a row for each kind and port, and how many runs have met what accept leaves to chance; after Ctrl-C, of the runs so far.
 """
 import argparse
 import collections
@@ -93,6 +93,15 @@ def print_chances(met, pairs):
         print(f"{what:<66}" + " ".join(f"{counts[pair]:>{len(pair[0]) + 2}}" for pair in pairs))
 
 
+def note(results, rows, met):
+    for (kind, port, seed), done, seconds in results:
+        rows[kind, port].add(done, seconds)
+        for what, count in chances(done.stdout):
+            met[what][kind, port] += count != 0
+        if done.returncode != 0:
+            print(f"{kind} {port}, seed {seed}: exit {done.returncode}\n{done.stdout}{done.stderr}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("sim")
@@ -108,19 +117,17 @@ def main():
     with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         campaign = Campaign(arguments, build_process(arguments.cc, pathlib.Path(name)))
         jobs = [(*pair, seed) for seed in range(arguments.first, arguments.first + arguments.seeds) for pair in pairs]
-        for (kind, port, seed), done, seconds in pool.map(campaign.run, jobs):
-            rows[kind, port].add(done, seconds)
-            for what, count in chances(done.stdout):
-                met[what][kind, port] += count != 0
-            if done.returncode != 0:
-                print(f"{kind} {port}, seed {seed}: exit {done.returncode}\n{done.stdout}{done.stderr}", flush=True)
+        try:
+            note(pool.map(campaign.run, jobs), rows, met)
+        except KeyboardInterrupt:
+            pool.shutdown(wait=False, cancel_futures=True)
     print("kind     port      runs  failed  violations  s a run")
     for (kind, port), row in rows.items():
         print(f"{kind:<8} {port:<8} {row.runs:>5} {row.failed:>7} {row.violations:>11} {row.seconds / max(row.runs, 1):>8.1f}")
     print_chances(met, pairs)
-    failed, violations = sum(row.failed for row in rows.values()), sum(row.violations for row in rows.values())
-    print(f"\n{len(jobs)} runs, {failed} failed, {violations} violations")
-    return 1 if failed else 0
+    runs, failed, violations = (sum(getattr(row, name) for row in rows.values()) for name in ("runs", "failed", "violations"))
+    print(f"\n{runs} runs, {failed} failed, {violations} violations" + ("" if runs == len(jobs) else f"; interrupted, {len(jobs) - runs} runs are missing"))
+    return 0 if failed == 0 and runs == len(jobs) else 1
 
 
 if __name__ == "__main__":
