@@ -58,27 +58,30 @@ const Journal::Tally& Journal::tally(std::size_t slave, const profibus::Event& e
   return kept->tally;
 }
 
+template <class Where>
 void Journal::happened(const Tally& tally, Tick at, const std::string& words, const profibus::Event* event,
-                       const std::optional<user_cpu::Place>& where) {
+                       const Where& where) {
   const auto text = [&] { return event != nullptr ? scenario_.kind->describe(*event) : words; };
   const Occurrence& sample = tally.sample;
   const bool violation = sample.severity == profibus::Severity::kViolation;
   observers_.counted(at, sample.station, sample.code, violation, ++*tally.count);
   if (violation) ++(sample.allowed ? allowed_ : violations_);
-  if (tally.repeated != nullptr) tally.repeated->add(at, text, where);
+  const bool lists = kept_.size() < RunResult::kKept, first = tally.repeated != nullptr && tally.repeated->count == 0;
+  const std::optional<user_cpu::Place> place = lists || first || log_ ? where() : std::nullopt;
+  if (tally.repeated != nullptr) tally.repeated->add(at, text, place);
   if (log_) {
     LogEntry entry{at, sample.station, sample.allowed ? "allowed" : name(sample.severity), text(), sample.code};
-    entry.where = where;
+    entry.where = place;
     log(entry);
   }
-  if (kept_.size() == RunResult::kKept) {
+  if (!lists) {
     ++occurrences_dropped_;
     return;
   }
   kept_.push_back({sample, event != nullptr ? std::optional(*event) : std::nullopt});
   kept_.back().occurrence.at = at;
   kept_.back().occurrence.text = words;
-  kept_.back().occurrence.where = where;
+  kept_.back().occurrence.where = place;
 }
 
 void Journal::violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
@@ -94,9 +97,13 @@ void Journal::violated(const std::string& slave, const checks::Violation& violat
 }
 
 void Journal::event(std::size_t slave, const profibus::Event& event) {
-  const bool done_by_user = profibus::severity(event.reason) != profibus::Severity::kInfo;
-  const std::optional<user_cpu::Act> act = done_by_user ? scenario_.kind->act_of(event) : std::nullopt;
-  happened(tally(slave, event), event.at, {}, &event, act ? observers_.where(slave, *act) : std::nullopt);
+  happened(
+      tally(slave, event), event.at, {}, &event,
+      [&]() -> std::optional<user_cpu::Place> {
+        const bool done_by_user = profibus::severity(event.reason) != profibus::Severity::kInfo;
+        const std::optional<user_cpu::Act> act = done_by_user ? scenario_.kind->act_of(event) : std::nullopt;
+        return act ? observers_.where(slave, *act) : std::nullopt;
+      });
 }
 
 void Journal::telegram(const HeardTelegram& telegram) {
@@ -108,12 +115,13 @@ void Journal::flag(const bus::Flag& flag) {
   const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
   happened(
       tally("bus", scenario::flag_code(flag.kind), wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo),
-      flag.at, flag.text);
+      flag.at, flag.text, nullptr, [] { return std::nullopt; });
 }
 
 void Journal::error(std::size_t slave, const user_cpu::ProgramError& error) {
-  happened(tally(name_of(slave), error.code, severity_of(*scenario_.kind, error.code)), error.at, error.text, nullptr,
-           error.where);
+  happened(
+      tally(name_of(slave), error.code, severity_of(*scenario_.kind, error.code)), error.at, error.text, nullptr,
+      [&error] { return error.where; });
 }
 
 void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, bool changed) {
@@ -121,8 +129,9 @@ void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, boo
 }
 
 void Journal::user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& /*registers*/) {
-  happened(tally(name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation), at, why, nullptr,
-           observers_.where(slave, user_cpu::Act::done(at)));
+  happened(
+      tally(name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation), at, why, nullptr,
+      [&] { return observers_.where(slave, user_cpu::Act::done(at)); });
 }
 
 void Journal::host_telegram(std::size_t slave, const HostTelegram& telegram) {

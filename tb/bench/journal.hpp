@@ -68,8 +68,9 @@ class Journal : public Observer {
               const std::string& place = {});
   const Tally& tally(std::size_t slave, const profibus::Event& event);
   /// An error of the program, a flag of the monitor; or `event`, one of the chip, whose text is made on demand.
-  void happened(const Tally& tally, Tick at, const std::string& text, const profibus::Event* event = nullptr,
-                const std::optional<user_cpu::Place>& where = std::nullopt);
+  /// `where()` gives the place of the user's act; it is asked only when it is listed or logged.
+  template <class Where>
+  void happened(const Tally& tally, Tick at, const std::string& text, const profibus::Event* event, const Where& where);
 
   const scenario::Scenario& scenario_;
   const Observers& observers_;
