@@ -22,6 +22,7 @@ import sys
 
 import check
 import data as source
+from known_tests import KnownTests
 import pages
 import results
 
@@ -34,7 +35,8 @@ def used_names(data):
 
 def texts(root, data):
     run = results.read_record(root / results.RECORD)
-    return {"docs/conformance.md": pages.conformance(root, data, run), "docs/test_plan.md": pages.test_plan(data),
+    known = KnownTests(root)
+    return {"docs/conformance.md": pages.conformance(root, known, data, run), "docs/test_plan.md": pages.test_plan(known, data),
             "docs/architecture.md": pages.architecture(root, data)}
 
 
@@ -69,7 +71,7 @@ def judge(run):
 
 
 def report(root, data, page, run):
-    page.write_text(pages.conformance(root, data, run), encoding="utf-8")
+    page.write_text(pages.conformance(root, KnownTests(root), data, run), encoding="utf-8")
     clauses = [clause for document in data.documents for clause in document.clauses]
     number, _, reasoned, neither, good, bad, absent = pages.counts(clauses, run)
     print(f"conformance: {number} clauses: {good} passed, {bad} failed, {absent} not run, {reasoned} cannot have a test, {neither} have none: {page}")

@@ -50,12 +50,12 @@ def test_cases(report):
 
 
 def words(case):
-    """By what a test case may be named: instance/Suite.Test/parameter has Suite, Suite.Test, .Test and /parameter."""
+    """By what a test case may be named: instance/Suite.Test/parameter has Suite, Suite.Test and /parameter."""
     parts = case.split("/")
     for number, part in enumerate(parts):
-        suite, dot, test = part.partition(".")
+        suite, dot, _ = part.partition(".")
         if dot:
-            yield from [part, suite, f".{test}"]
+            yield from [part, suite]
             yield from (f"/{parameter}" for parameter in parts[number + 1:])
             return
     yield case
@@ -74,7 +74,7 @@ def run_of(report, names, commit, date):
             by_word.setdefault(word, []).append(case)
     run = Run(commit, date, sum(cases.values()), len(cases))
     for name in names:
-        mine = by_word.get(wanted(name)) or by_word.get(f".{name}", [])  # a suite, or a test that many suites have
+        mine = by_word.get(wanted(name), [])
         run.results[name] = Result(sum(cases[case] for case in mine), len(mine), sorted(case for case in mine if not cases[case]))
     return run
 
