@@ -158,6 +158,52 @@ TEST_F(RsuUart, IntervalByRegister) {
   EXPECT_FALSE(heard_with(1003)) << "above 07: UIV";
 }
 
+// UA3 at 1.8432 Mbit/s: each code, by the strap and by B019. 3.5, 1, 2, 5, 10, 20, 50 and 100 characters of 286 cycles;
+// a start edge one cycle beyond them is in time.
+TEST(RsuUartInterval, OfEachCodeByStrapAndByRegister) {
+  const Cycle intervals[] = {1001, 286, 572, 1430, 2860, 5720, 14'300, 28'600};
+  const Bytes telegram = read_telegram(0x000, 1);
+  for (Level code = 0; code < 8; ++code) {
+    for (const bool by_register : {false, true}) {
+      if (by_register && code == 0) continue;  // 00 is no code: the strap
+      SCOPED_TRACE(std::to_string(code) + (by_register ? " B019" : " UIV"));
+      Straps straps = uart();
+      straps.interval = by_register ? (code == 7 ? 1 : 7) : code;
+      RsuBench bench(straps);
+      bench.power_on();
+      if (by_register) bench.poke(0x019, static_cast<std::uint8_t>(code));
+      for (const Cycle late : {1, 2}) {
+        bench.forget_events();
+        bench.send(part_of(telegram, 0, 3));
+        bench.run_cycles(intervals[code] + late);
+        bench.send(part_of(telegram, 3, 3));
+        bench.run_cycles(30'000);
+        EXPECT_EQ(!bench.changes(Pin::kTxd).empty(), late == 1);
+        EXPECT_EQ(bench.count(R::kTelegramCut) > 0, late == 2);
+      }
+    }
+  }
+}
+
+// 7.1.6, note 4.
+TEST_F(RsuUart, EachReservedBitOfTheAddressIsAnError) {
+  for (unsigned bit = 11; bit < 16; ++bit) {
+    const auto address = static_cast<std::uint16_t>(0x130U | 1U << bit);
+    EXPECT_EQ(bench_.talk(read_telegram(address, 1)), with_crc({0xE1, 0x02})) << bit;
+    EXPECT_EQ(bench_.talk(exchange_telegram(0, address, {0})), with_crc({0x01, 0x80, 0x02})) << bit;
+  }
+  EXPECT_EQ(bench_.talk(read_telegram(0x7FF, 1)), with_crc({0x81, 0x00, 0x00}));
+}
+
+// 7.1.6, note 2: bit 1 alone has a meaning.
+TEST_F(RsuUart, ReservedBitsOfTheFunctionAreNotLookedAt) {
+  for (const std::uint8_t function : Bytes{0x01, 0x04, 0x08, 0x10, 0x20, 0x40, 0x80, 0xFF}) {
+    EXPECT_EQ(bench_.talk(exchange_telegram(function, 0x130, {0})).at(1), 0x00) << int{function};
+    EXPECT_EQ(bench_.talk(exchange_telegram(function, 0x227, {0, 0})).at(1), (function & 0x02) != 0 ? 0x00 : 0x80)
+        << int{function};
+  }
+}
+
 TEST_F(RsuUart, GlitchWithinSilence) {
   const Bytes telegram = read_telegram(0x000, 1);
   bench_.send(part_of(telegram, 0, 3));

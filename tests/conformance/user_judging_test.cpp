@@ -469,5 +469,20 @@ TEST_F(ByUser, UnlockEndsTheJudging) {
   EXPECT_TRUE(diagnosis(bench).prm_req);
 }
 
+// H7. A check reports it: VERDICT_UNFETCHED.
+TEST_F(ByUser, AVerdictOnABlockThatTheUserHasNotFetchedIsTakenLikeAnyOther) {
+  wait_for_prm_verdict();
+  ASSERT_EQ(bench.peek(regs::kChipCommand1) & 0x02, 0x02);
+  bench.verdict(true, std::nullopt);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
+  EXPECT_EQ(bench.peek(regs::kChipCommand1) & 0x02, 0x02) << "B00E.1 is the user's to clear";
+  ASSERT_TRUE(bench.check_cfg().short_acknowledge());
+  bench.chip_accesses(3);
+  ASSERT_EQ(bench.peek(regs::kChipCommand1) & 0x04, 0x04);
+  bench.verdict(std::nullopt, false);
+  expect_refused(bench, false);
+  EXPECT_EQ(bench.peek(regs::kChipCommand1) & 0x04, 0x04);
+}
+
 }  // namespace
 }  // namespace dsdpv1::conformance
