@@ -9,7 +9,7 @@ ORIGIN = "<!-- Generated from docs/conformance/*.yaml by docs/conformance/genera
 CONFORMANCE = """# Conformance, clause by clause
 
 Each line is one statement of the two documents about this chip. It names the ruling of [chip.md](../docs/chip.md) or
-[chip_rsu.md](../docs/chip_rsu.md) that interprets it, its first file in the model and in the reference RTL, the tests that assert it after the program that has them, and their results in the last recorded run. The
+[chip_rsu.md](../docs/chip_rsu.md) that interprets it, its first file in the model and in the reference RTL, the tests that assert it, after the program that has them. Then come their results in the last recorded run. The
 documents are Chinese; the lines are our words, and the documents take precedence.
 
 *Clause*: section, table (T) or figure (F) of the document, and after the dash the statement; in tables the cell, bit or row. Clauses of the
@@ -90,7 +90,9 @@ def summary(data, run):
     for name, owners in [*[(document.title, document.clauses) for document in data.documents], ("Rulings", data.rulings.values())]:
         text += row(name, *map(str, counts(owners, run)))
     if run.commit:
-        return text + f"\nResults are those of the run of commit {run.commit}, {run.date}: {run.passed} of all {run.total} tests passed.\n"
+        text += f"\nResults are those of the run of commit {run.commit}, {run.date}: {run.passed} of all {run.total} tests passed."
+        newer, named = len(run.newer(data.test_names)), len(data.test_names)
+        return text + f" Rulings and clauses name {named} tests; {newer or 'none'} {'are' if newer > 1 else 'is'} newer than this run (*not run*).\n"
     return text + "\nNo run has been recorded yet (`./run conformance --record`).\n"
 
 

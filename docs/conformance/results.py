@@ -37,6 +37,10 @@ class Run:
         return Result(sum(each.passed for each in found), sum(each.total for each in found),
                       [name for each in found for name in each.failed])
 
+    def newer(self, names):
+        """Of these names those that the run does not know. A suite that has grown since is not among them."""
+        return [name for name in names if self.results.get(name, Result(0, 0)).total == 0]
+
 
 # -------------------------------------------------------------------------------------------------------- JUnit reports
 def short_name(case):

@@ -342,6 +342,20 @@ TEST_F(RsuUart, ExchangeErrors) {
   EXPECT_EQ(bench_.talk(wrong), with_crc({0x01, 0x80, 0x01}));
 }
 
+// 7.1.5, the first field; UA7, UA8.
+TEST(RsuUartTarget, IsTheCardAndItsReplyBearsItsAddress) {
+  for (const Level own : {Level{1}, Level{2}}) {
+    Straps straps = uart();
+    straps.address = own;
+    RsuBench bench(straps);
+    bench.power_on();
+    for (std::uint8_t card = 0; card < 4; ++card) {
+      const Bytes reply = bench.talk(exchange_telegram(0, 0x130, {0}, card));
+      EXPECT_EQ(reply, card == own ? with_crc({card, 0x00, 0x03, 0x19, 0x01, 0x00}) : Bytes{}) << own << " " << card;
+    }
+  }
+}
+
 // UA10 to UA12: one area a reply, in this order; its flag is cleared. The chip clears none of them before a user took
 // it.
 TEST_F(RsuUart, NewsInTheirOrder) {

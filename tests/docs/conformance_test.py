@@ -297,6 +297,20 @@ class Conformance(small_project.SmallProject):
         self.generate("--record", "--run", self.root / "build/tests.xml")
         self.assertIn("FAILED Core.Works", self.text("docs/conformance.md"))
 
+    def test_tests_that_are_newer_than_the_recorded_run(self):
+        self.generate()
+        self.assertIn("4 of the 4 tests that rulings and clauses name are newer than this run, as Core; ./run test, then", self.generate("--released")[1])
+        self.generate("--record", "--run", self.root / "build/tests.xml")
+        self.assertIn("Rulings and clauses name 4 tests; none is newer than this run (*not run*).", self.text("docs/conformance.md"))
+        self.assertEqual(self.generate("--released"), (0, "conformance: right\n"))
+        self.write("tests/core_test.cpp", "TEST_F(Core, Works) {\nTEST_F(Core, Rests) {\n")
+        self.change(SHEET, "ruled: [P1]", "ruled: [P1], tests: [Core.Rests]")
+        self.generate()
+        self.assertIn("Rulings and clauses name 5 tests; 1 is newer than this run (*not run*).", self.text("docs/conformance.md"))
+        self.assertEqual(self.generate("--check")[0], 0)
+        self.assertEqual(self.generate("--released"), (1, "docs/conformance/last_run.txt:1: 1 of the 5 tests that rulings and clauses name are newer than "
+                                                          "this run, as Core.Rests; ./run test, then ./run conformance --record\n"))
+
     def test_a_run_of_which_nobody_knows_the_commit(self):
         (self.root / "build/tests.commit").unlink()
         status, output = self.generate("--record", "--run", self.root / "build/tests.xml")
