@@ -48,7 +48,6 @@ module dp_slave #(
   output logic        left_o,           // DATA_EXCH is left at this edge
   output logic        dpv1_o,           // DPV1_Enable of the Set_Prm in force
   output answer_t     answer_o,
-  output logic        readdressed_o,    // the telegram changes the own address
   output logic [31:0] answer_diag_o,    // station status 1 to 3, Master_Add; the first lowest
   output logic [15:0] ident_o,
   output logic [7:0]  min_tsdr_o,
@@ -366,7 +365,6 @@ module dp_slave #(
     .mail_data_o(mail_data_o));
 
   assign data_exch_o = in_data_exch;
-  assign readdressed_o = set_address;
   assign left_o = leave || end_leave;
   assign dpv1_o = in_force.dpv1;
   assign ident_o = initial_q.ident;

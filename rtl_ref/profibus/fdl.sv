@@ -30,7 +30,6 @@ module fdl (
   output logic        trigger_holder_o,
   output service_t    service_o,
   input  answer_t     answer_i,
-  input  logic        readdressed_i,  // the telegram changes the own address
   input  logic [31:0] answer_diag_i,
   input  logic [15:0] ident_i,
   output logic        builder_busy_o,
@@ -42,7 +41,7 @@ module fdl (
   output logic [7:0]  send_length_o   // characters, from the second edge after the decision on
 );
   // Signals that depend only on the telegram are stable long before the decision, so they pass through registers
-  logic own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcb_q, fcv_q, same_series_q, same_saps_q, same_rest_q;
+  logic own, own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcb_q, fcv_q, same_series_q, same_saps_q, same_rest_q;
   logic from_nobody_q;  // SA 127
   logic kind_q, default_sap_q;
   logic memory_valid_q;
@@ -70,8 +69,9 @@ module fdl (
   assign same_length = memory_data_length_q == length_i || `FAULT(115);
   assign same_fcs = memory_fcs_q == fcs_i || `FAULT(116);
 
+  assign own = da_i[6:0] == address_i;
   always_ff @(posedge clk_i) begin
-    own_q <= da_i[6:0] == address_i;
+    own_q <= own;
     broadcast_q <= da_i[6:0] == 7'd127;
     from_nobody_q <= sa_i[6:0] == 7'd127;
     request_q <= fc_i[6] && (synced_i || `FAULT(38));
@@ -135,7 +135,7 @@ module fdl (
       built_q <= 1'b0;
     end else begin
       if (sends && (fcv_q || !`FAULT(117))) begin
-        memory_valid_q <= counts && (content || !readdressed_i || `FAULT(164));
+        memory_valid_q <= counts;
         memory_sa_q <= sa_i[6:0];
         memory_fc_q <= fc_i;
         memory_saps_q <= saps;
@@ -144,6 +144,7 @@ module fdl (
       end
       built_q <= sends;
       if (built_q) length_q <= built_length;
+      if (built_q && !own && !content && !`FAULT(164)) memory_valid_q <= 1'b0;  // the request has changed it
       if (unanswered && (content ? `FAULT(119) : !`FAULT(160))) memory_valid_q <= 1'b0;
       if (forget_i && !`FAULT(41)) memory_valid_q <= 1'b0;
       if (decide_i && ignored_q && `FAULT(109)) memory_valid_q <= 1'b0;

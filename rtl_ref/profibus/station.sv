@@ -83,7 +83,7 @@ module station #(
 
   // ---- telegrams and services: those of DPV1 are msac's, all others the DP slave's
   logic from_holder, builder_busy, send;
-  logic data_exch, left, prm_dpv1, msac_replies, readdressed;
+  logic data_exch, left, prm_dpv1, msac_replies;
   service_t service;
   answer_t answer, slave_answer, msac_answer;
   dp_status_t status;
@@ -99,7 +99,7 @@ module station #(
     .fcb_rule_i(fcb_rule_i), .clk_i(clk_i), .rst_ni(rst_ni), .decide_i(decide), .searching_i(searching), .forget_i(restart), .abort_i(init),
     .sd_i(sd), .synced_i(synced), .da_i(da), .sa_i(sa), .fc_i(fc), .dsap_i(dsap), .ssap_i(ssap), .saps_ok_i(saps_ok),
     .length_i(length), .fcs_i(fcs), .address_i(status.address), .from_holder_i(from_holder), .any_telegram_o(any_telegram),
-    .trigger_o(trigger), .trigger_holder_o(trigger_holder), .service_o(service), .answer_i(answer), .readdressed_i(readdressed), .answer_diag_i(answer_diag),
+    .trigger_o(trigger), .trigger_holder_o(trigger_holder), .service_o(service), .answer_i(answer), .answer_diag_i(answer_diag),
     .ident_i(ident), .builder_busy_o(builder_busy), .builder_index_o(builder_index), .builder_data_i(builder_data), .send_o(send),
     .send_index_i(send_index), .send_data_o(send_data), .send_length_o(send_length));
 
@@ -111,7 +111,7 @@ module station #(
     .wd_factor_1_o(wd_factor_1), .wd_factor_2_o(wd_factor_2), .wd_base_1ms_o(wd_base_1ms),
     .begin_i(tg_begin), .data_valid_i(data_valid), .data_index_i(data_index), .data_i(data), .head_i(head),
     .length_i(length), .sa_i(sa[6:0]), .service_i(service), .dsap_i(dsap), .from_holder_o(from_holder), .data_exch_o(data_exch),
-    .left_o(left), .dpv1_o(prm_dpv1), .answer_o(slave_answer), .readdressed_o(readdressed), .answer_diag_o(answer_diag), .ident_o(ident),
+    .left_o(left), .dpv1_o(prm_dpv1), .answer_o(slave_answer), .answer_diag_o(answer_diag), .ident_o(ident),
     .min_tsdr_o(min_tsdr), .answer_busy_i(builder_busy), .answer_index_i(builder_index), .answer_data_o(slave_data));
 
   msac u_msac (
