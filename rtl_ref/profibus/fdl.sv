@@ -98,7 +98,7 @@ module fdl (
                     (content ? same_saps_q && same_rest_q : !sdn_q || `FAULT(163));
   end
 
-  logic legal, execute, sends;
+  logic legal, execute, answered, sends;
   assign any_telegram_o = decide_i && kind_q && synced_i && !(from_nobody_q && `FAULT(110));
   assign legal = decide_i && !searching_i && legal_q;
   assign trigger_o = (legal && own_q) || (decide_i && !searching_i && ignored_q && `FAULT(108));
@@ -110,8 +110,10 @@ module fdl (
   assign service_o.srd = srd_q;
   assign service_o.sdn = sdn_q;
   assign service_o.default_sap = default_sap_q;
-  assign sends = execute && answer_i.kind != ANS_NONE;
-  assign send_o = (legal && repetition_q) || sends;
+  // Every service but an SDN has an answer: so the sender need not wait for the kind of it
+  assign answered = !sdn_q || (`FAULT(84) && answer_i.kind != ANS_NONE);
+  assign sends = execute && answered;
+  assign send_o = legal && (answered || (repetition_q && `FAULT(163)));
 
   logic [7:0] built_length;
   logic built_q;  // the edge after the decision
