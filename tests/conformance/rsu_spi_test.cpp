@@ -500,6 +500,7 @@ TEST(RsuSpiUTimer, IsNotOpenByDefault) {
   bench.power_on();
   bench.claim();
   bench.write(0x015, {0x01});
+  bench.read(0x100, 1);  // would start it
   bench.run_cycles(100'000);
   EXPECT_EQ(bench.peek(0x014) & 2, 2);
   EXPECT_EQ(bench.count(R::kSpiUTimer), 0);
