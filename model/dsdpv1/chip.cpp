@@ -34,6 +34,7 @@ profibus::StationConfig station_of(const Config& config) {
   station.search_window = config.search_window_ms * profibus::kCyclesPerMs;
   station.search_window_bits = config.search_window_bits;
   station.baud_control = config.baud_control_ms * profibus::kCyclesPerMs;
+  station.fcb_rule = config.fcb_rule == 0 ? profibus::FcbRule::kLetter : profibus::FcbRule::kContent;
   station.capacities = dpram::kCapacities;
   return station;
 }
@@ -348,7 +349,7 @@ void Chip::Impl::rising_edge(Cycle cycle) {
     if (live) {
       eval_serial(cycle);
     } else {
-      host.eval(cycle, sequencer.owns() || !sequencer.started_up());
+      host.eval(cycle, sequencer.owns(), sequencer.started_up());
       plans.host = host.next();
     }
     plans.sequencer = sequencer.next();
@@ -404,7 +405,7 @@ bool Chip::Impl::only_settles(Cycle cycle) const {
 }
 
 void Chip::Impl::settle_writes(Cycle cycle) {
-  host.eval(cycle, !sequencer.started_up());
+  host.eval(cycle, false, sequencer.started_up());
   plans.host = host.next();
 }
 

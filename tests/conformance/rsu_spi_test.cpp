@@ -265,6 +265,21 @@ TEST_F(RsuSpi, OtherBitsOfB014AreIgnored) {
   EXPECT_EQ(bench_.count(R::kReadOnlyWritten), 1) << "B014 is not among them";
 }
 
+// P6, over a telegram: one event for each byte that sets bits.
+TEST_F(RsuSpi, BitsThatOnlyTheChipSetsAreReported) {
+  bench_.claim();
+  const Cycle before = bench_.cycle();
+  bench_.write(0x00A, {0x01, 0x02, 0, 0, 0x04, 0x80});
+  EXPECT_EQ(bench_.count(R::kBitSet), 4);
+  EXPECT_GT(bench_.last(R::kBitSet).at, before * 250);
+  EXPECT_EQ(bench_.last(R::kBitSet).a, 0x00F);
+  EXPECT_EQ(bench_.last(R::kBitSet).b, 0x80);
+  EXPECT_EQ(bench_.last(R::kBitSet).c, 0x80);
+  bench_.write(0x00E, {0x00, 0xC0});
+  EXPECT_EQ(bench_.count(R::kBitSet), 5);
+  EXPECT_EQ(bench_.last(R::kBitSet).c, 0x40);
+}
+
 TEST_F(RsuSpi, WithoutClaimItIsCarriedOutAndReported) {
   EXPECT_EQ(bench_.read(0x000, 4), (Bytes{0x01, 0x0D, 0x07, 0x01}));
   EXPECT_EQ(bench_.last(R::kSpiNoClaim).a, 0);

@@ -384,6 +384,36 @@ TEST_F(RsuUart, NewsInTheirOrder) {
   EXPECT_EQ(inputs(), with_crc({0x01, 0x00, 0x03, 0x19, 0x02, 0x01, 0xAA})) << "whether new or not";
 }
 
+// P6: a telegram over B00A to B00F, one event for each byte that sets bits. The chip's own clearing in an exchange is
+// none.
+TEST_F(RsuUart, BitsThatOnlyTheChipSetsAreReported) {
+  bench_.talk(write_telegram(0x00A, {0x01, 0x02, 0x00, 0x00, 0x07, 0x03}));
+  EXPECT_EQ(bench_.count(R::kBitSet), 4);
+  EXPECT_EQ(bench_.last(R::kBitSet).a, 0x00F);
+  EXPECT_EQ(bench_.last(R::kBitSet).c, 0x03);
+  bench_.talk(exchange_telegram(0, 0x130, {0}));
+  bench_.talk(write_telegram(0x00E, {0x00, 0x00}));
+  EXPECT_EQ(bench_.count(R::kBitSet), 4);
+}
+
+// UA12, as the vendor's main loop is reported to compute it: the length byte plus five.
+TEST_F(RsuUart, CrcOfEveryReplyCoversItsLengthPlusFive) {
+  bench_.poke(0x410, 2), bench_.poke(0x411, 0x11), bench_.poke(0x412, 0x12);
+  bench_.poke(0x500, 9), bench_.poke(0x501, 8), bench_.poke(0x502, 2), bench_.poke(0x503, 0x13),
+      bench_.poke(0x504, 0x23);
+  bench_.poke(0x5D0, 0x5F), bench_.poke(0x5D3, 3);
+  bench_.poke(0x6D0, 0x51), bench_.poke(0x6D3, 1);
+  bench_.poke(0x319, 1), bench_.poke(0x31A, 0xAA);
+  bench_.poke(0x00E, 0x07), bench_.poke(0x00F, 0x03);
+  for (const int area : {0x410, 0x500, 0x5D0, 0x6D0, 0x319}) {
+    const Bytes reply = bench_.talk(exchange_telegram(0, 0x130, {0}));
+    ASSERT_GT(reply.size(), 5U);
+    EXPECT_EQ(reply[2] << 8 | reply[3], area);
+    EXPECT_EQ(reply.size(), reply[4] + 7U);
+    EXPECT_EQ(with_crc(part_of(reply, 0, reply[4] + 5U)), reply);
+  }
+}
+
 TEST_F(RsuUart, LengthsAreLimited) {
   const auto size_with = [&](std::uint16_t length_cell, std::uint8_t length, std::uint16_t flag_cell,
                              std::uint8_t flag) {
@@ -415,6 +445,8 @@ TEST(RsuUartParameter, CfgLength) {
   const Bytes reply = bench.talk(exchange_telegram(0, 0x130, {0}));
   EXPECT_EQ(part_of(reply, 0, 5), (Bytes{0x01, 0x20, 0x05, 0x00, 0x07}));
   EXPECT_EQ(reply.size(), 16U) << "nine data bytes";
+  EXPECT_EQ(reply.size(), reply[4] + 9U) << "the length plus five ends two bytes before the CRC (UA12)";
+  EXPECT_NE(part_of(reply, 0, reply[4] + 7U), with_crc(part_of(reply, 0, reply[4] + 5U)));
 }
 
 TEST(RsuUartParameter, MinTsdr) {
