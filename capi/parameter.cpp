@@ -23,7 +23,25 @@ std::vector<std::int64_t> numbers_of(std::string list) {
   return numbers;
 }
 
+/// A word as a number: its place.
+std::int64_t place_of(const std::string& word, const Field& field) {
+  const auto& words = field.type.words;
+  const auto found = std::find_if(words.begin(), words.end(), [&](const auto& each) { return each.text == word; });
+  return found - words.begin();
+}
+
+std::string text_of(std::int64_t value, const Field& field) {
+  if (field.type.kind != tb::keys::Kind::kWord) return std::to_string(value);
+  return field.type.words.at(static_cast<std::size_t>(value)).text;
+}
+
 void add(std::vector<Parameter>& all, const Field& field) {
+  if (field.type.kind == tb::keys::Kind::kWord)
+    all.push_back({field.name,
+                   &field,
+                   {},
+                   {0, static_cast<std::int64_t>(field.type.words.size()) - 1},
+                   place_of(field.default_text, field)});
   if (field.type.kind == tb::keys::Kind::kInteger)
     all.push_back({field.name, &field, {}, field.type.range, std::stoll(field.default_text)});
   if (field.type.kind != tb::keys::Kind::kList || field.type.element != tb::keys::Kind::kInteger) return;
@@ -54,7 +72,7 @@ void set_parameters(const dpsim_parameter* values, std::size_t count, const Kind
     const Parameter& parameter = find(kind.parameters, values[i].name);
     need_range(values[i].name, values[i].value, parameter.range.min, parameter.range.max);
     if (!parameter.element) {
-      parameter.field->read(&settings, YAML::Node(std::to_string(values[i].value)), {});
+      parameter.field->read(&settings, YAML::Node(text_of(values[i].value, *parameter.field)), {});
       continue;
     }
     const auto list = lists.try_emplace(parameter.field, numbers_of(parameter.field->default_text)).first;

@@ -207,7 +207,7 @@
 #define DSDPV1_REG_CFG_MODE_USER 0x02U  // The user judges: verdict in B00C.1, handed over with B010.6.
 
 // Values of diag_type
-#define DSDPV1_REG_DIAG_TYPE_EXTENDED 0x00U  // Low priority, extended diagnosis.
+#define DSDPV1_REG_DIAG_TYPE_EXTENDED 0x00U  // Low priority, extended diagnosis; ends external diagnosis (Ext_Diag 0).
 #define DSDPV1_REG_DIAG_TYPE_EXTERNAL_GONE 0x01U  // High priority, external diagnosis: the station has no error.
 #define DSDPV1_REG_DIAG_TYPE_EXTERNAL_PRESENT 0x81U  // High priority, external diagnosis: the station has an error (Ext_Diag).
 #define DSDPV1_REG_DIAG_TYPE_STATIC_GONE 0x02U  // High priority, static diagnosis: the station has no error.

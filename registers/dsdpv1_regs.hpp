@@ -218,7 +218,7 @@ inline constexpr std::uint8_t kCfgModeEqual = 0x01;  // The chip judges: configu
 inline constexpr std::uint8_t kCfgModeUser = 0x02;  // The user judges: verdict in B00C.1, handed over with B010.6.
 
 // Values of diag_type
-inline constexpr std::uint8_t kDiagTypeExtended = 0x00;  // Low priority, extended diagnosis.
+inline constexpr std::uint8_t kDiagTypeExtended = 0x00;  // Low priority, extended diagnosis; ends external diagnosis (Ext_Diag 0).
 inline constexpr std::uint8_t kDiagTypeExternalGone = 0x01;  // High priority, external diagnosis: the station has no error.
 inline constexpr std::uint8_t kDiagTypeExternalPresent = 0x81;  // High priority, external diagnosis: the station has an error (Ext_Diag).
 inline constexpr std::uint8_t kDiagTypeStaticGone = 0x02;  // High priority, static diagnosis: the station has no error.

@@ -207,7 +207,7 @@ localparam logic [7:0] DSDPV1_REG_CFG_MODE_EQUAL = 8'h1;  // The chip judges: co
 localparam logic [7:0] DSDPV1_REG_CFG_MODE_USER = 8'h2;  // The user judges: verdict in B00C.1, handed over with B010.6.
 
 // Values of diag_type
-localparam logic [7:0] DSDPV1_REG_DIAG_TYPE_EXTENDED = 8'h0;  // Low priority, extended diagnosis.
+localparam logic [7:0] DSDPV1_REG_DIAG_TYPE_EXTENDED = 8'h0;  // Low priority, extended diagnosis; ends external diagnosis (Ext_Diag 0).
 localparam logic [7:0] DSDPV1_REG_DIAG_TYPE_EXTERNAL_GONE = 8'h1;  // High priority, external diagnosis: the station has no error.
 localparam logic [7:0] DSDPV1_REG_DIAG_TYPE_EXTERNAL_PRESENT = 8'h81;  // High priority, external diagnosis: the station has an error (Ext_Diag).
 localparam logic [7:0] DSDPV1_REG_DIAG_TYPE_STATIC_GONE = 8'h2;  // High priority, static diagnosis: the station has no error.

@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 /// Plays until the fault shows.
 class Hunt {
  public:
-  Hunt(const Fault& fault, const CampaignOptions& options) : kill_{fault, false, "", 0, 0, ""}, options_(options) {}
+  Hunt(const Fault& fault, const CampaignOptions& options) : kill_{fault, false, "", 0, 0, ""}, options_(options) {
+    set_parameters(options_.play, fault.set);
+  }
 
   bool directed(const NamedStimulus& stimulus) {
     const PlayResult result = play(stimulus.stimulus, make_, options_.play);
@@ -49,7 +51,7 @@ class Hunt {
   }
 
   Kill kill_;
-  const CampaignOptions& options_;
+  CampaignOptions options_;
   MakeTop make_ = [this] { return reference_top(options_.play, kill_.fault.number, 1)(); };
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
@@ -71,8 +73,12 @@ std::vector<Fault> read_faults(const std::string& path) {
     if (line.empty() || line[0] == '#') continue;
     std::istringstream words(line);
     Fault fault;
-    if (!(words >> fault.number >> fault.block >> fault.stimulus) || !std::getline(words >> std::ws, fault.text))
+    std::string played;
+    if (!(words >> fault.number >> fault.block >> played) || !std::getline(words >> std::ws, fault.text))
       throw tb::InputError(path, number, "is no fault, expected: number, block, stimulus, what is wrong");
+    std::istringstream parts(played);
+    std::getline(parts, fault.stimulus, ',');
+    for (std::string each; std::getline(parts, each, ',');) fault.set.push_back(each);
     faults.push_back(std::move(fault));
   }
   return faults;

@@ -10,6 +10,7 @@ namespace dsdpv1::cosim {
 struct Fault {
   unsigned number = 0;
   std::string block, stimulus, text;  ///< the directed stimulus that is played first
+  std::vector<std::string> set = {};  ///< settings of the chip for its hunt, as chip.fcb_rule=content
 };
 /// A list as rtl_ref/dsdpv1/faults.txt; throws tb::InputError.
 std::vector<Fault> read_faults(const std::string& path);

@@ -23,6 +23,11 @@ def check_files(root, kind, owner, what):
             yield f"{owner.where}: {what}: there is no file {name} in {' or '.join(room or './' for room in ROOTS[kind])}"
 
 
+def check_suites(known):
+    for name, programs in sorted(known.shared().items()):
+        yield f"tests/: suite {name} is in {' and '.join(programs)}; rename one, so that a row can name it"
+
+
 def check_tests(known, found, where, what):
     for test in found:
         if not known.has(test.name):
@@ -121,6 +126,7 @@ def check_plan(data, known):
 
 def check(root, data):
     known = KnownTests(root)
+    yield from check_suites(known)
     yield from check_rulings(root, data, known)
     for document in data.documents:
         yield from check_places(document)

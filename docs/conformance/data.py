@@ -98,6 +98,12 @@ class Data:
     index: list
     texts: list = field(default_factory=list)  # (text, where): in which backquotes may name tests, too
 
+    @property
+    def test_names(self):
+        """All that rulings and clauses name."""
+        clauses = [clause for document in self.documents for clause in document.clauses]
+        return sorted({test.name for owner in [*self.rulings.values(), *clauses] for test in owner.tests})
+
 
 # ------------------------------------------------------------------------------------------------------- YAML with lines
 class Map(dict):

@@ -3,6 +3,7 @@
 
     generate.py                             write them; exit 1 and a line per fault when the data are not true or not complete
     generate.py --check                     write nothing; exit 1 also when one of them is stale
+    generate.py --released              as --check, and exit 1 when a test that they name is newer than the recorded run
     generate.py --report PAGE --run TESTS   write the conformance page with the results of a run, TESTS being ctest's JUnit report; exit 1
                                             when a test of a clause failed or was not run
     generate.py --record --run TESTS        take these results into last_run.txt, then write them
@@ -22,19 +23,15 @@ import sys
 
 import check
 import data as source
+from known_tests import KnownTests
 import pages
 import results
 
 
-def used_names(data):
-    """All names of tests in rulings and clauses."""
-    clauses = [clause for document in data.documents for clause in document.clauses]
-    return sorted({test.name for owner in [*data.rulings.values(), *clauses] for test in owner.tests})
-
-
 def texts(root, data):
     run = results.read_record(root / results.RECORD)
-    return {"docs/conformance.md": pages.conformance(root, data, run), "docs/test_plan.md": pages.test_plan(data),
+    known = KnownTests(root)
+    return {"docs/conformance.md": pages.conformance(root, known, data, run), "docs/test_plan.md": pages.test_plan(known, data),
             "docs/architecture.md": pages.architecture(root, data)}
 
 
@@ -50,13 +47,20 @@ def stale(root, data):
             yield f"{name}:1: stale; ./run generate writes it again"
 
 
+def unrecorded(root, data):
+    newer = results.read_record(root / results.RECORD).newer(data.test_names)
+    if newer:
+        yield (f"{results.RECORD}:1: {len(newer)} of the {len(data.test_names)} tests that rulings and clauses name are newer than this run, as {newer[0]}; "
+               "./run test, then ./run conformance --record")
+
+
 def run_of(report, data):
     commit = report.with_suffix(".commit")
     for path in (report, commit):
         if not path.exists():
             raise source.BadData(f"{path}:1: there is no such file; ./run test makes it")
     date = datetime.datetime.fromtimestamp(report.stat().st_mtime, datetime.timezone.utc).date().isoformat()
-    return results.run_of(report, used_names(data), commit.read_text(encoding="utf-8").strip(), date)
+    return results.run_of(report, data.test_names, commit.read_text(encoding="utf-8").strip(), date)
 
 
 def judge(run):
@@ -69,7 +73,7 @@ def judge(run):
 
 
 def report(root, data, page, run):
-    page.write_text(pages.conformance(root, data, run), encoding="utf-8")
+    page.write_text(pages.conformance(root, KnownTests(root), data, run), encoding="utf-8")
     clauses = [clause for document in data.documents for clause in document.clauses]
     number, _, reasoned, neither, good, bad, absent = pages.counts(clauses, run)
     print(f"conformance: {number} clauses: {good} passed, {bad} failed, {absent} not run, {reasoned} cannot have a test, {neither} have none: {page}")
@@ -82,6 +86,7 @@ def main():
     parser.add_argument("--root", type=pathlib.Path, default=here)
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--check", action="store_true")
+    what.add_argument("--released", action="store_true")
     what.add_argument("--report", type=pathlib.Path, metavar="PAGE")
     what.add_argument("--record", action="store_true")
     parser.add_argument("--run", type=pathlib.Path, metavar="TESTS")
@@ -92,8 +97,10 @@ def main():
     try:
         data = source.load(root)
         faults = list(check.check(root, data))
-        if arguments.check:
+        if arguments.check or arguments.released:
             faults += stale(root, data)
+            if arguments.released:
+                faults += unrecorded(root, data)
         elif arguments.report:
             faults += report(root, data, arguments.report, run_of(arguments.run, data))
         else:

@@ -9,7 +9,7 @@ ORIGIN = "<!-- Generated from docs/conformance/*.yaml by docs/conformance/genera
 CONFORMANCE = """# Conformance, clause by clause
 
 Each line is one statement of the two documents about this chip. It names the ruling of [chip.md](../docs/chip.md) or
-[chip_rsu.md](../docs/chip_rsu.md) that interprets it, its first file in the model and in the reference RTL, the tests that assert it, and their results in the last recorded run. The
+[chip_rsu.md](../docs/chip_rsu.md) that interprets it, its first file in the model and in the reference RTL, the tests that assert it, after the program that has them. Then come their results in the last recorded run. The
 documents are Chinese; the lines are our words, and the documents take precedence.
 
 *Clause*: section, table (T) or figure (F) of the document, and after the dash the statement; in tables the cell, bit or row. Clauses of the
@@ -26,8 +26,14 @@ def files(root, kind, names):
     return ", ".join(f"[{path.split('/')[-1]}](../{path})" for path in paths if path) or "-"
 
 
-def tests(found):
-    return ", ".join(f"`{test.name}`" + (f" ({test.note})" if test.note else "") for test in found)
+def tests(known, found):
+    """Each after its program, which is named once where several follow each other."""
+    text, last = [], None
+    for test in found:
+        program = known.program(test.name)
+        text.append((f"{program}: " if program != last else "") + f"`{test.name}`" + (f" ({test.note})" if test.note else ""))
+        last = program
+    return ", ".join(text)
 
 
 def cell(text):
@@ -54,18 +60,18 @@ def shown(result):
 
 
 # ---------------------------------------------------------------------------------------------------------- conformance
-def clause_row(root, clause, run):
+def clause_row(root, known, clause, run):
     if clause.tests:
-        asserted, last = tests(clause.tests), shown(run.of(clause.tests))
+        asserted, last = tests(known, clause.tests), shown(run.of(clause.tests))
     else:
         asserted, last = (f"*none: {clause.reason}*" if clause.reason else "**NO TEST**"), "-"
     return row(anchored(clause.name), clause.says, ", ".join(clause.rulings) or "-", files(root, "model", clause.model),
                files(root, "rtl", clause.rtl), asserted, last)
 
 
-def part_text(root, part, run):
+def part_text(root, known, part, run):
     lines = [f"\n### {part.title}\n\n", head("clause", "what it says", "ruling", "model", "RTL", "tests", "last run")]
-    return "".join(lines + [clause_row(root, clause, run) for clause in part.clauses])
+    return "".join(lines + [clause_row(root, known, clause, run) for clause in part.clauses])
 
 
 def counts(owners, run):
@@ -84,7 +90,9 @@ def summary(data, run):
     for name, owners in [*[(document.title, document.clauses) for document in data.documents], ("Rulings", data.rulings.values())]:
         text += row(name, *map(str, counts(owners, run)))
     if run.commit:
-        return text + f"\nResults are those of the run of commit {run.commit}, {run.date}: {run.passed} of all {run.total} tests passed.\n"
+        text += f"\nResults are those of the run of commit {run.commit}, {run.date}: {run.passed} of all {run.total} tests passed."
+        newer, named = len(run.newer(data.test_names)), len(data.test_names)
+        return text + f" Rulings and clauses name {named} tests; {newer or 'none'} {'are' if newer > 1 else 'is'} newer than this run (*not run*).\n"
     return text + "\nNo run has been recorded yet (`./run conformance --record`).\n"
 
 
@@ -98,7 +106,7 @@ def missing(data):
     return text + "".join(row(clause.name, clause.reason) for clause in reasoned)
 
 
-def rulings(root, data, run):
+def rulings(root, known, data, run):
     cited = {name: [] for name in data.rulings}
     for document in data.documents:
         for clause in document.clauses:
@@ -108,34 +116,34 @@ def rulings(root, data, run):
     text += head("ruling", "clauses", "model", "RTL", "tests", "last run")
     for ruling in data.rulings.values():
         text += row(ruling.name, ", ".join(cited[ruling.name]) or "-", files(root, "model", ruling.model),
-                    files(root, "rtl", ruling.rtl), tests(ruling.tests), shown(run.of(ruling.tests)))
+                    files(root, "rtl", ruling.rtl), tests(known, ruling.tests), shown(run.of(ruling.tests)))
     return text
 
 
-def conformance(root, data, run):
+def conformance(root, known, data, run):
     text = ORIGIN + CONFORMANCE + summary(data, run) + missing(data)
     for document in data.documents:
         text += f"\n## {document.title}\n\n{document.text.strip()}\n"
-        text += "".join(part_text(root, part, run) for part in document.parts)
-    return text + rulings(root, data, run)
+        text += "".join(part_text(root, known, part, run) for part in document.parts)
+    return text + rulings(root, known, data, run)
 
 
 # ------------------------------------------------------------------------------------------------------------ test plan
-def plan_section(data, section):
+def plan_section(known, data, section):
     text = f"\n## {section.title}\n" if section.title else ""
     if section.text:
         text += "\n" + section.text.strip() + "\n"
     if section.rulings:
         text += "\n" + head("ruling", "tests")
-        text += "".join(row(each.name, tests(each.tests)) for each in data.rulings.values() if letters(each.name) == section.rulings)
+        text += "".join(row(each.name, tests(known, each.tests)) for each in data.rulings.values() if letters(each.name) == section.rulings)
     if section.rows:
         text += "\n" + head(*section.head)
-        text += "".join(row(*[tests(each) if isinstance(each, list) else each for each in cells]) for cells in section.rows)
+        text += "".join(row(*[tests(known, each) if isinstance(each, list) else each for each in cells]) for cells in section.rows)
     return text
 
 
-def test_plan(data):
-    return ORIGIN + "# Test plan\n" + "".join(plan_section(data, section) for section in data.plan)
+def test_plan(known, data):
+    return ORIGIN + "# Test plan\n" + "".join(plan_section(known, data, section) for section in data.plan)
 
 
 # --------------------------------------------------------------------------------------------------------- architecture

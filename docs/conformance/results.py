@@ -37,6 +37,10 @@ class Run:
         return Result(sum(each.passed for each in found), sum(each.total for each in found),
                       [name for each in found for name in each.failed])
 
+    def newer(self, names):
+        """Of these names those that the run does not know. A suite that has grown since is not among them."""
+        return [name for name in names if self.results.get(name, Result(0, 0)).total == 0]
+
 
 # -------------------------------------------------------------------------------------------------------- JUnit reports
 def short_name(case):
@@ -50,12 +54,12 @@ def test_cases(report):
 
 
 def words(case):
-    """By what a test case may be named: instance/Suite.Test/parameter has Suite, Suite.Test, .Test and /parameter."""
+    """By what a test case may be named: instance/Suite.Test/parameter has Suite, Suite.Test and /parameter."""
     parts = case.split("/")
     for number, part in enumerate(parts):
-        suite, dot, test = part.partition(".")
+        suite, dot, _ = part.partition(".")
         if dot:
-            yield from [part, suite, f".{test}"]
+            yield from [part, suite]
             yield from (f"/{parameter}" for parameter in parts[number + 1:])
             return
     yield case
@@ -74,7 +78,7 @@ def run_of(report, names, commit, date):
             by_word.setdefault(word, []).append(case)
     run = Run(commit, date, sum(cases.values()), len(cases))
     for name in names:
-        mine = by_word.get(wanted(name)) or by_word.get(f".{name}", [])  # a suite, or a test that many suites have
+        mine = by_word.get(wanted(name), [])
         run.results[name] = Result(sum(cases[case] for case in mine), len(mine), sorted(case for case in mine if not cases[case]))
     return run
 

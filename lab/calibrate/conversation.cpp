@@ -142,7 +142,7 @@ void measure_idle(Conversation& all, const TimeBase& time) {
   }
 }
 
-/// The bytes that the chip compares (S26), including the FCS.
+/// What S26 compares by content, including the FCS.
 bool same_frame(const LineTelegram& a, const LineTelegram& b) {
   const bus::Telegram &first = a.telegram, &second = b.telegram;
   const auto fcs = [](const LineTelegram& each) { return each.bytes[each.bytes.size() - 2]; };
@@ -150,14 +150,21 @@ bool same_frame(const LineTelegram& a, const LineTelegram& b) {
          first.data.size() == second.data.size() && fcs(a) == fcs(b);
 }
 
-/// A request whose answer depends on the one before. That may be a request that was not read, or one before the
-/// capture.
+/// What it compares by the letter: the one before is not forgotten, and FCB has not changed.
+bool same_fcb(const LineTelegram& a, const LineTelegram& b) {
+  const unsigned first = a.telegram.fc, second = b.telegram.fc;
+  return a.telegram.sa == b.telegram.sa && (first & (bus::fc::kFcv | bus::fc::kFcb)) != 0 &&
+         ((first ^ second) & bus::fc::kFcb) == 0;
+}
+
+/// A request whose answer depends on the one before, in either form of S26. That may be a request that was not read, or
+/// one before the capture.
 void find_repetitions(Conversation& all) {
   const Exchange* before = nullptr;
   for (Exchange& exchange : all.exchanges) {
     if (exchange.is_request() && (exchange.request->telegram.fc & bus::fc::kFcv) != 0) {
       exchange.same = before != nullptr && before->request->right && same_frame(*before->request, *exchange.request);
-      exchange.repeats = exchange.same || before == nullptr || !before->request->right;
+      exchange.repeats = before == nullptr || !before->request->right || same_fcb(*before->request, *exchange.request);
     }
     if (exchange.answer != nullptr) before = &exchange;
   }

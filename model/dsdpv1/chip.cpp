@@ -34,6 +34,7 @@ profibus::StationConfig station_of(const Config& config) {
   station.search_window = config.search_window_ms * profibus::kCyclesPerMs;
   station.search_window_bits = config.search_window_bits;
   station.baud_control = config.baud_control_ms * profibus::kCyclesPerMs;
+  station.fcb_rule = config.fcb_rule == 0 ? profibus::FcbRule::kLetter : profibus::FcbRule::kContent;
   station.capacities = dpram::kCapacities;
   return station;
 }
@@ -171,6 +172,7 @@ struct Chip::Impl {
   Level d_out = kLevelZ, miso = kLevelZ;
   SerialPorts serial;  // after the members that every chip uses at each edge
   const Config config;
+  bool host_acts = false;  // at the present edge
 };
 
 // --- inputs ----------------------------------------------------------------------------------------------------------
@@ -346,12 +348,14 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   if (due(plans.host, cycle)) {
     make_up(cycle - 1);
     sequencer.wake(cycle - 1);  // the user's write may be a command
+    host_acts = true;
     if (live) {
       eval_serial(cycle);
     } else {
-      host.eval(cycle, sequencer.owns() || !sequencer.started_up());
+      host.eval(cycle, sequencer.owns(), sequencer.started_up());
       plans.host = host.next();
     }
+    host_acts = false;
     plans.sequencer = sequencer.next();
   }
   if (released) release(cycle);
@@ -405,7 +409,7 @@ bool Chip::Impl::only_settles(Cycle cycle) const {
 }
 
 void Chip::Impl::settle_writes(Cycle cycle) {
-  host.eval(cycle, !sequencer.started_up());
+  host.eval(cycle, false, sequencer.started_up());
   plans.host = host.next();
 }
 
@@ -548,8 +552,9 @@ void Chip::Impl::make_up(Cycle until) {
   if (made > 0 && !sequencer.owns()) show_end(last);
 }
 
+// The host port acts before the sequencer: an event's listener that asks then finds the sequencer as it was before.
 void Chip::Impl::catch_up() {
-  make_up(done());
+  make_up(host_acts ? done() - 1 : done());
   if (sequencer.dozing()) update_access_pins();
 }
 
@@ -626,8 +631,9 @@ template <class Archive>
 void Chip::Impl::store(Archive& archive) {
   auto& [its_engine, its_log, its_ram, its_station, its_host, its_handshake, its_interrupt, its_sequencer, its_sink,
          its_watched, its_prompt, its_now, its_edge, its_plans, its_other_plans, its_reset, runs, its_req, its_sta,
-         its_rxd, its_outputs, is_live, its_d, its_miso, its_serial, its_config] = *this;
-  archive.given(its_engine, its_log, its_sink, its_watched, its_prompt, its_edge, its_other_plans, its_config);
+         its_rxd, its_outputs, is_live, its_d, its_miso, its_serial, its_config, its_host_acts] = *this;
+  archive.given(its_engine, its_log, its_sink, its_watched, its_prompt, its_edge, its_other_plans, its_config,
+                its_host_acts);
   archive.within(Tick{0}, Tick{1} << 62, its_now);
   archive(its_ram, its_station, its_host, its_handshake, its_interrupt, its_sequencer, its_serial, its_plans);
   archive(its_reset, runs, its_req, its_sta, its_rxd, is_live);

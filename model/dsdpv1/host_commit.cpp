@@ -100,6 +100,8 @@ bool HostCommit::is_possible() const {
 
 void HostCommit::put(regs::Address address, std::uint8_t byte, Cycle now) {
   if (chips_own(address)) log_.at_cycle(now, Reason::kReadOnlyWritten, address, byte);
+  if (const unsigned set = bits_set(address, ram_.read(address), byte); set != 0)
+    log_.at_cycle(now, Reason::kBitSet, address, byte, set);
   ram_.write(address, byte);
 }
 

@@ -171,9 +171,20 @@ void HostPort::lines_changed(Tick at) {
   if (write_count_ > 0) write_at(write_count_ - 1).good = false;  // it settles 3 edges later, so it is still in flight
 }
 
-void HostPort::settle(const Write& write) {
+// P6. Before the start-up the content is not known.
+void HostPort::settle(const Write& write, bool started_up) {
+  const unsigned set = bits_set(write.address, ram_.read(write.address), write.value);
+  if (set != 0 && started_up)
+    log_.at_tick(write.settles * profibus::kTicksPerCycle, Reason::kBitSet, write.address, write.value, set);
   ram_.write(write.address, write.value);
   if (!write.good) ram_.mark_unknown(write.address);
+}
+
+/// When the first write settles that may set a bit of the chip's.
+Cycle HostPort::next_judged() const {
+  for (unsigned i = 0; i < write_count_; ++i)
+    if (chip_sets_bits(write_at(i).address)) return write_at(i).settles;
+  return profibus::kNever;
 }
 
 // --- accesses as a whole ---------------------------------------------------------------------------------------------
@@ -192,8 +203,13 @@ bool HostPort::is_plain_but_for_hold(Tick begin, const HostAccess& access) const
   const HostAccess::Times& times = access.times();
   const Tick change = begin + (access.is_write() ? std::min(times.address, times.data) : times.address);
   if (!hold_reported_ && change - captured_ < kTd) return false;
-  if (access.is_write()) return write_count_ < kWritesInFlight && !chips_own(access.address());
+  if (access.is_write()) return write_count_ < kWritesInFlight && !chips_own(access.address()) && !may_set_bits(access);
   return !in_flight(access.address()) && !ram_.unknown(access.address());
+}
+
+bool HostPort::may_set_bits(const HostAccess& access) const {
+  const regs::Address address = access.address();
+  return chip_sets_bits(address) && (in_flight(address) || bits_set(address, ram_.read(address), access.value()) != 0);
 }
 
 void HostPort::write_at_once(Tick begin, const HostAccess& access) {
@@ -229,14 +245,14 @@ Level HostPort::read_unheld(Tick begin, const HostAccess& access, bool unreadabl
 
 // --- the rising edge -------------------------------------------------------------------------------------------------
 
-void HostPort::eval(Cycle now, bool unreadable) {
+void HostPort::eval(Cycle now, bool owned, bool started_up) {
   if (now == sample_at_) {
-    sampled_ = sample(now, unreadable);
+    sampled_ = sample(now, owned || !started_up);
     sample_at_ = profibus::kNever;
     drive_at_ = now * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2;
   }
   while (write_count_ > 0 && write_at(0).settles <= now) {
-    settle(write_at(0));
+    settle(write_at(0), started_up);
     first_write_ = (first_write_ + 1) % kWritesInFlight;
     --write_count_;
   }

@@ -1,6 +1,7 @@
 #pragma once
 // The asynchronous 8-bit user port (5.2, figure 6, table 15; rulings P5, P6, P8, P11, P12): CSR, RD, WR, A and D with
 // tick resolution, the DPRAM with cycle resolution.
+#include <algorithm>
 #include <array>
 
 #include "model/dpram/ram.hpp"
@@ -40,12 +41,12 @@ class HostPort {
   void tell_unheld(Tick fall, const HostAccess& access);
   Level read_unheld(Tick begin, const HostAccess& access, bool unreadable);
 
-  /// The rising edge of `now`: writes that settle, the address of a read. `unreadable`, as before the edge: L_STA is
-  /// high, or the start-up has not begun (P12, H6).
-  void eval(Cycle now, bool unreadable);
+  /// The rising edge of `now`: writes that settle, the address of a read. As before the edge, `owned`: L_STA is high
+  /// (P12), `started_up`: the start-up access has begun (H6).
+  void eval(Cycle now, bool owned, bool started_up);
   Cycle next() const;
-  /// As next(), without writes that settle while the user owns the DPRAM.
-  Cycle next_seen() const { return holds() ? sample_at_ : next(); }
+  /// As next(), without writes that settle while the user owns the DPRAM, except those that may be reported then.
+  Cycle next_seen() const { return holds() ? std::min(sample_at_, next_judged()) : next(); }
   /// The falling edge at which D is driven.
   Tick drive_at() const { return drive_at_; }
   void drive();
@@ -96,9 +97,11 @@ class HostPort {
   void check_tw(Tick at);
   void capture(Tick at);
   bool check_capture(Tick at);
-  void settle(const Write& write);
+  void settle(const Write& write, bool started_up);
+  Cycle next_judged() const;
   Level sample(Cycle now, bool unreadable);
   bool in_flight(regs::Address address) const;
+  bool may_set_bits(const HostAccess& access) const;
   void write_at_once(Tick begin, const HostAccess& access);
   void read_at_once(Tick begin, const HostAccess& access);
   void check_owner(Tick at);

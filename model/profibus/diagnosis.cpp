@@ -23,8 +23,11 @@ bool Diagnosis::known_type(std::uint8_t type) {
 
 void Diagnosis::set_user(std::uint8_t type, const std::uint8_t* bytes, int size) {
   user_.assign(bytes, size);
-  if (type == kExtGone || type == kExtPresent) ext_diag_ = type == kExtPresent;
-  if (type == kStatGone || type == kStatPresent) stat_diag_ = type == kStatPresent;
+  const bool is_static = type == kStatGone || type == kStatPresent;
+  if (is_static)
+    stat_diag_ = type == kStatPresent;
+  else
+    ext_diag_ = type == kExtPresent;  // 00 takes external diagnosis back, too (D9)
   if (type != kExtended) unread_ = true;
 }
 

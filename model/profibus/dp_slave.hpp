@@ -36,6 +36,8 @@ class DpSlave {
   /// Evaluates the C2 timers at `now` (V12); the next end of one of them.
   void eval_timers(Cycle now) { msac2_.eval(now); }
   Cycle next_timer() const { return msac2_.next(); }
+  /// The search has ended: a watchdog that waited runs now (S29).
+  void rate_found(Cycle now);
   /// The watchdog of the holding master has expired (S1).
   void watchdog_expired(Cycle now);
 
@@ -63,13 +65,14 @@ class DpSlave {
 
   template <class Archive>
   void store(Archive& archive) {
-    auto& [log, watchdog, capacities, mail, config, state, address, address_locked, master, prm, prm_awaited,
+    auto& [log, watchdog, capacities, mail, config, state, address, address_locked, master, prm, judged, prm_awaited,
            cfg_awaited, min_tsdr, cfg, outputs, inputs, diagnosis, msac1, msac2, data_exchanges, outputs_replaced] =
         *this;
     archive.given(log, watchdog, capacities, mail);
     archive.within(DpState::kOffline, DpState::kDataExch, state);
     archive.within(0, 0xFF, min_tsdr);
-    archive(config, address, address_locked, master, prm, prm_awaited, cfg_awaited, cfg, outputs, inputs, diagnosis);
+    archive(config, address, address_locked, master, prm, judged, prm_awaited, cfg_awaited, cfg, outputs, inputs,
+            diagnosis);
     archive(msac1, msac2, data_exchanges, outputs_replaced);
   }
 
@@ -122,6 +125,7 @@ class DpSlave {
   void refuse_prm(Cycle now, Reason reason, bool not_supported, unsigned a = 0, unsigned b = 0, unsigned c = 0);
   void accept_prm(Cycle now, const PrmRequest& prm);
   void set_min_tsdr(std::uint8_t bits);
+  void tell_watchdog(Cycle now);
   // check_cfg.cpp
   Reply check_cfg(Cycle now, const Request& request);
   bool check_cfg_bytes(Cycle now, const Request& request, const CfgLengths& lengths);
@@ -144,7 +148,8 @@ class DpSlave {
   std::uint8_t address_ = 0;
   bool address_locked_ = false;
   std::uint8_t master_ = kNoMaster;
-  PrmRequest prm_;  // in force, or awaiting the user's verdict
+  PrmRequest prm_;     // in force
+  PrmRequest judged_;  // awaiting the user's verdict (S15)
   bool prm_awaited_ = false, cfg_awaited_ = false;
   int min_tsdr_ = kMinTsdr;
   Block<kMaxCfg> cfg_;  // the configuration in use, or awaiting the verdict

@@ -40,22 +40,49 @@ bool Fdl::take_saps(Cycle now, const Telegram& telegram, Request& request) {
   return true;
 }
 
+bool Fdl::same_content(const Telegram& telegram, const Request& request) const {
+  return memory_.fc == telegram.fc && memory_.fcs == telegram.fcs && memory_.dsap == request.dsap &&
+         memory_.ssap == request.ssap && memory_.size == request.size;
+}
+
 bool Fdl::repetition(const Telegram& telegram, const Request& request) const {
-  return memory_.valid && memory_.sa == request.sa && memory_.fc == telegram.fc && memory_.fcs == telegram.fcs &&
-         memory_.dsap == request.dsap && memory_.ssap == request.ssap && memory_.size == request.size;
+  if ((telegram.fc & fc::kFcv) == 0 || !memory_.valid || memory_.sa != request.sa) return false;
+  if (rule_ == FcbRule::kContent) return same_content(telegram, request);
+  return !request.sdn() && ((telegram.fc ^ memory_.fc) & fc::kFcb) == 0;
+}
+
+// `moved`: the request has changed the station's address.
+bool Fdl::remembers(std::uint8_t code, bool moved) const {
+  if (rule_ == FcbRule::kContent) return (code & fc::kFcv) != 0;
+  return (code & (fc::kFcv | fc::kFcb)) != 0 && !moved;
+}
+
+void Fdl::log_repetition(Cycle now, const Telegram& telegram, const Request& request) {
+  if (same_content(telegram, request))
+    log_.at_cycle(now, Reason::kRepetition, request.sa);
+  else
+    log_.at_cycle(now, Reason::kFcbNotToggled, request.sa, telegram.fc, static_cast<unsigned>(request.dsap));
 }
 
 const Frame* Fdl::execute(Cycle now, const Telegram& telegram, const Request& request, DpSlave& slave) {
   if (repetition(telegram, request)) {
-    log_.at_cycle(now, Reason::kRepetition, request.sa);
+    log_repetition(now, telegram, request);
     return &answer_;
   }
   const std::uint8_t address = slave.address();  // Set_Slave_Address is answered from the old one (S25)
   const Reply reply = slave.handle(now, request);
-  if (reply.kind == Reply::Kind::kNothing) return nullptr;
+  if (reply.kind == Reply::Kind::kNothing) {
+    if (rule_ == FcbRule::kLetter && request.da != kBroadcast) forget();
+    return nullptr;
+  }
   build_frame(request, reply, address, answer_);
-  memory_ = {
-      (telegram.fc & fc::kFcv) != 0, request.sa, telegram.fc, telegram.fcs, request.dsap, request.ssap, request.size};
+  memory_ = {remembers(telegram.fc, slave.address() != address),
+             request.sa,
+             telegram.fc,
+             telegram.fcs,
+             request.dsap,
+             request.ssap,
+             request.size};
   return &answer_;
 }
 

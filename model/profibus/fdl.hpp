@@ -8,9 +8,12 @@
 
 namespace dsdpv1::profibus {
 
+/// Which request with FCV = 1 is a repetition: the one with SA and FCB of the last, or with all that S26 compares.
+enum class FcbRule : std::uint8_t { kLetter, kContent };
+
 class Fdl {
  public:
-  explicit Fdl(EventLog& log) : log_(log) {}
+  Fdl(EventLog& log, FcbRule rule) : log_(log), rule_(rule) {}
 
   /// Forgets the last request and its answer.
   void forget() { memory_.valid = false; }
@@ -23,13 +26,13 @@ class Fdl {
 
   template <class Archive>
   void store(Archive& archive) {
-    auto& [log, memory, frame] = *this;
-    archive.given(log);
+    auto& [log, rule, memory, frame] = *this;
+    archive.given(log, rule);
     archive(memory, frame);
   }
 
  private:
-  /// The values that identify a repeated request (S26).
+  /// The values that identify a repeated request; the letter needs only SA and FCB of them (S26).
   struct Memory {
     bool valid = false;
     std::uint8_t sa = 0, fc = 0, fcs = 0;
@@ -43,8 +46,12 @@ class Fdl {
   };
   bool take_saps(Cycle now, const Telegram& telegram, Request& request);
   bool repetition(const Telegram& telegram, const Request& request) const;
+  bool same_content(const Telegram& telegram, const Request& request) const;
+  bool remembers(std::uint8_t code, bool moved) const;
+  void log_repetition(Cycle now, const Telegram& telegram, const Request& request);
 
   EventLog& log_;
+  const FcbRule rule_;
   Memory memory_;
   Frame answer_;  // the last one
 };

@@ -5,7 +5,8 @@ namespace dsdpv1::profibus {
 
 // Requests without data (S13).
 Reply DpSlave::read_only(Cycle now, const Request& request) {
-  if (request.dsap == sap::kReadInputs && state_ != DpState::kDataExch) return refuse_state(now, request, request.dsap);
+  const bool of_exchange = request.dsap == sap::kReadInputs || request.dsap == sap::kReadOutputs;
+  if (of_exchange && state_ != DpState::kDataExch) return refuse_state(now, request, request.dsap);
   if (request.size > 0) {
     log_.at_cycle(now, Reason::kSapData, static_cast<unsigned>(request.dsap), static_cast<unsigned>(request.size),
                   request.sa);

@@ -45,7 +45,7 @@ Reply DpSlave::set_prm(Cycle now, const Request& request) {
   if (config_.prm_mode == Judging::kUser) {
     log_.at_cycle(now, Reason::kPrmJudged, request.sa, static_cast<unsigned>(prm.user_size));
     enter(now, DpState::kWaitPrm);  // the holding master still holds the slave, and the watchdog keeps running (S15)
-    prm_ = prm;
+    judged_ = prm;
     prm_awaited_ = true;
     cfg_awaited_ = false;
   } else {
@@ -122,13 +122,22 @@ void DpSlave::accept_prm(Cycle now, const PrmRequest& prm) {
   prm_ = prm;
   master_ = prm.master;
   set_min_tsdr(prm.min_tsdr);
-  if (prm.watchdog) {
-    log_.at_cycle(now, Reason::kWatchdogOn, prm.watchdog_factor, prm.watchdog_base_ms);
+  if (prm.watchdog)
     watchdog_.dp_control(now, Watchdog::time_of(prm.watchdog_factor, prm.watchdog_base_ms));
-  } else {
+  else
     watchdog_.baud_control(now);
-  }
+  tell_watchdog(now);
   enter(now, DpState::kWaitCfg);
+}
+
+void DpSlave::rate_found(Cycle now) {
+  watchdog_.rate_found(now);
+  tell_watchdog(now);
+}
+
+void DpSlave::tell_watchdog(Cycle now) {
+  if (watchdog_.state() == Watchdog::State::kDpControl)
+    log_.at_cycle(now, Reason::kWatchdogOn, prm_.watchdog_factor, prm_.watchdog_base_ms);
 }
 
 void DpSlave::set_min_tsdr(std::uint8_t bits) {
@@ -141,7 +150,7 @@ void DpSlave::prm_verdict(Cycle now, bool good) {
   else if (!prm_awaited_)
     log_.at_cycle(now, Reason::kVerdictUnexpected, 0);
   else if (good)
-    accept_prm(now, prm_);
+    accept_prm(now, judged_);
   else
     refuse_prm(now, Reason::kPrmUserRefused, false);
 }

@@ -20,7 +20,7 @@ Station::Station(EventLog& log, const StationConfig& config)
       watchdog_(config.baud_control),
       user_(*this),
       slave_(log, watchdog_, config.capacities, user_.mail()),
-      fdl_(log) {}
+      fdl_(log, config.fcb_rule) {}
 
 void Station::reset() {
   slave_.reset();
@@ -161,7 +161,7 @@ void Station::lock(Cycle now) {
   telegrams_.set_quiet(false);
   log_.at_cycle(now, Reason::kBaudFound, static_cast<unsigned>(search_.index().code()));
   user_.mail().baud = {{now}, search_.index()};
-  watchdog_.rate_found(now);
+  slave_.rate_found(now);
 }
 
 // --- telegrams -------------------------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@ struct StationConfig {
   Cycle search_window = 50 * kCyclesPerMs;
   Cycle search_window_bits = 4000;
   Cycle baud_control = 600 * kCyclesPerMs;
+  FcbRule fcb_rule = FcbRule::kLetter;
   Capacities capacities;
 };
 

@@ -14,6 +14,7 @@ module dsdpv1 (
   input  logic [31:0] search_window_ms_i,
   input  logic [31:0] search_window_bits_i,
   input  logic [31:0] baud_control_ms_i,
+  input  logic [31:0] fcb_rule_i,
 `else
 module dsdpv1 #(
   parameter integer ACCESS_INTERVAL = 48,       // cycles from one DPRAM access to the next (H1)
@@ -24,7 +25,8 @@ module dsdpv1 #(
   parameter integer INTR_GAP = 64,              // P7
   parameter integer SEARCH_WINDOW_MS = 50,      // S1
   parameter integer SEARCH_WINDOW_BITS = 4000,  // S1
-  parameter integer BAUD_CONTROL_MS = 600       // S1
+  parameter integer BAUD_CONTROL_MS = 600,      // S1
+  parameter integer FCB_RULE = 0                // S26; 0 letter, 1 content
 ) (
 `endif
   `FAULT_PORT
@@ -59,7 +61,7 @@ module dsdpv1 #(
   assign rst_n = release_q[1];
 
   /* verilator lint_off UNUSED */  // the upper bits of most
-  logic [31:0] access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap;
+  logic [31:0] access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap, fcb_rule;
   /* verilator lint_on UNUSED */
   logic [31:0] search_window_ms, search_window_bits, baud_control_ms;
   assign access_interval = `LIMIT(ACCESS_INTERVAL, access_interval_i);
@@ -71,6 +73,7 @@ module dsdpv1 #(
   assign search_window_ms = `LIMIT(SEARCH_WINDOW_MS, search_window_ms_i);
   assign search_window_bits = `LIMIT(SEARCH_WINDOW_BITS, search_window_bits_i);
   assign baud_control_ms = `LIMIT(BAUD_CONTROL_MS, baud_control_ms_i);
+  assign fcb_rule = `LIMIT(FCB_RULE, fcb_rule_i);
 
   logic user_holds, chip_owns;
   handshake u_handshake (
@@ -108,7 +111,7 @@ module dsdpv1 #(
   ) u_station (
     `FAULT_CONNECT
     .rts_lead_i(rts_lead[5:0]), .rts_trail_i(rts_trail[5:0]), .search_window_ms_i(search_window_ms),
-    .search_window_bits_i(search_window_bits), .baud_control_ms_i(baud_control_ms), .clk_i(clk_i), .rst_ni(rst_n),
+    .search_window_bits_i(search_window_bits), .baud_control_ms_i(baud_control_ms), .fcb_rule_i(fcb_rule[0]), .clk_i(clk_i), .rst_ni(rst_n),
     .pbrxd_i(pbrxd_i), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o), .br_o(br_o), .pbf_o(pbf_o), .ready_o(ready_o),
     .commands_i(commands), .hears_o(hears));
 

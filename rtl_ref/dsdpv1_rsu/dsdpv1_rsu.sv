@@ -15,6 +15,7 @@ module dsdpv1_rsu (
   input  logic [31:0] search_window_ms_i,
   input  logic [31:0] search_window_bits_i,
   input  logic [31:0] baud_control_ms_i,
+  input  logic [31:0] fcb_rule_i,
   input  logic [31:0] spi_reply_gap_i,
   input  logic [31:0] spi_write_gap_i,
   input  logic [31:0] serial_block_crc_i,
@@ -33,6 +34,7 @@ module dsdpv1_rsu #(
   parameter integer SEARCH_WINDOW_MS = 50,      // S1
   parameter integer SEARCH_WINDOW_BITS = 4000,  // S1
   parameter integer BAUD_CONTROL_MS = 600,      // S1
+  parameter integer FCB_RULE = 0,               // S26; 0 letter, 1 content
   parameter integer SPI_REPLY_GAP = 0,          // bytes (SP6); 0 to 16
   parameter integer SPI_WRITE_GAP = 128,        // cycles (SP9); 0 to 4800
   parameter integer SERIAL_BLOCK_CRC = 0,       // 1: block CRCs are judged in SPI and UART mode, too (SP15)
@@ -89,7 +91,7 @@ module dsdpv1_rsu #(
   assign rst_n = release_q[1];
 
   /* verilator lint_off UNUSED */  // the upper bits of most
-  logic [31:0] access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap;
+  logic [31:0] access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap, fcb_rule;
   logic [31:0] spi_reply_gap, spi_write_gap, serial_block_crc, u_timer, uart_min_tsdr, uart_cfg_length;
   /* verilator lint_on UNUSED */
   logic [31:0] search_window_ms, search_window_bits, baud_control_ms;
@@ -102,6 +104,7 @@ module dsdpv1_rsu #(
   assign search_window_ms = `LIMIT(SEARCH_WINDOW_MS, search_window_ms_i);
   assign search_window_bits = `LIMIT(SEARCH_WINDOW_BITS, search_window_bits_i);
   assign baud_control_ms = `LIMIT(BAUD_CONTROL_MS, baud_control_ms_i);
+  assign fcb_rule = `LIMIT(FCB_RULE, fcb_rule_i);
 
   assign spi_reply_gap = `LIMIT(SPI_REPLY_GAP, spi_reply_gap_i);
   assign spi_write_gap = `LIMIT(SPI_WRITE_GAP, spi_write_gap_i);
@@ -173,7 +176,7 @@ module dsdpv1_rsu #(
   ) u_station (
     `FAULT_CONNECT
     .rts_lead_i(rts_lead[5:0]), .rts_trail_i(rts_trail[5:0]), .search_window_ms_i(search_window_ms),
-    .search_window_bits_i(search_window_bits), .baud_control_ms_i(baud_control_ms), .clk_i(clk_i), .rst_ni(rst_n),
+    .search_window_bits_i(search_window_bits), .baud_control_ms_i(baud_control_ms), .fcb_rule_i(fcb_rule[0]), .clk_i(clk_i), .rst_ni(rst_n),
     .pbrxd_i(pbrxd_i), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o), .br_o(br_o), .pbf_o(pbf_o), .ready_o(ready_o),
     .commands_i(commands), .hears_o(hears));
 

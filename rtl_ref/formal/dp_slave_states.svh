@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Bound into dp_slave: its states and what may hold in each (S13, S15, S18), and that Global_Control is heard only
-// from the holder in DATA_EXCH.
+// Bound into dp_slave: its states and what may hold in each (S13, S15, S18), that Global_Control is heard only
+// from the holder in DATA_EXCH, and that a Set_Prm with WD_On is supervised there, wherever it was accepted (S29).
 reg init_before = 1'b0, initialised_before = 1'b0, control_before = 1'b0;
 always @(posedge clk_i) begin
   init_before <= init;
@@ -20,4 +20,5 @@ always @* begin
   if (state_q == DP_OFFLINE) assert (!held_q);
   if (status_o.global_control) assert (control_before);
   if (sync_q || freeze_q) assert (state_q == DP_DATA_EXCH);
+  if (state_q == DP_DATA_EXCH && in_force.wd_on) assert (dp_control_i);
 end

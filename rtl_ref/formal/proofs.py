@@ -30,7 +30,7 @@ class Proof:
 def states(block, file, edit, **more):
     """No state machine of a block leaves its legal states, whatever its inputs do."""
     return Proof(name=f"{block}_states", title=f"{block}: legal states only", top=more.pop("top", block),
-                 bind={file: f"{block}_states"}, edit=(file, *edit), **more)
+                 bind={file: f"{block}_states", **more.pop("more_binds", {})}, edit=(file, *edit), **more)
 
 
 def serial(name, title, top, bind, **more):
@@ -113,11 +113,11 @@ PROOFS = (
     states("dpram_sequencer", SEQUENCER, ("SEQ_COMMIT, SEQ_FLAG, SEQ_ERRORS: state_d = SEQ_CHOICE;", "SEQ_COMMIT, SEQ_FLAG: state_d = SEQ_CHOICE;"),
            cut_wires=("w:boot_q",)),
     states("dp_slave", "profibus/dp_slave.sv", ("if (leave) begin\n      sync_d = 1'b0;", "if (leave) begin"),
-           top="station",
+           top="station", more_binds={"profibus/station.sv": "every_request_answered"},
            cut_cells=("c:u_uart_rx", "c:u_uart_tx", "c:u_telegram_rx", "fdl/c:u_builder", "fdl/c:u_answers",
                       "*dp_slave*/c:u_buffers", "*dp_slave*/c:u_set_prm", "*dp_slave*/c:u_check_cfg",
                       "dp_service/c:u_global_control", "*dp_slave*/c:u_diagnosis"),
-           cut_wires=("w:u_baud_search.window_of_rate", "w:u_watchdog.last_q")),
+           cut_wires=("w:u_baud_search.window_of_rate", "w:u_watchdog.last_q"), faults=(84, 153)),
     states("msac1", "profibus/msac1.sv",
            ("state_b == ANSWERED && !`FAULT(66)) state_d = IDLE;", "state_b == ANSWERED) state_d = state_b + 2'd1;")),
     states("msac2_channel", "profibus/msac2_channel.sv",

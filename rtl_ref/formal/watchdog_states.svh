@@ -2,4 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into watchdog.
 initial assume (!rst_ni);
-always @* assert (state_q <= WD_DP_CONTROL);
+always @* begin
+  assert (state_q <= WD_DP_CONTROL);
+  if (waits_q) assert (state_q == WD_OFF);
+end

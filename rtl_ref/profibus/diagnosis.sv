@@ -20,15 +20,16 @@ module diagnosis (
 );
   logic ext_q, stat_q, waiting_q;
   logic [7:0] length_q;
-  logic external, static_diag, legal;
+  logic external, static_diag, extended, legal;
 
   assign external = diagnosis_i.kind == DIAG_EXTERNAL;
   assign static_diag = diagnosis_i.kind == DIAG_STATIC;
+  assign extended = diagnosis_i.kind == DIAG_EXTENDED;  // ends external diagnosis
   assign legal = diagnosis_i.kind != DIAG_UNKNOWN;
   assign store_o = diagnosis_i.commit && legal && diagnosis_i.length <= max_length_i;
 
-  assign ext_diag_now_o = store_o && external ? diagnosis_i.present : ext_q;
-  assign stat_diag_now_o = store_o && static_diag && !`FAULT(26) ? diagnosis_i.present : stat_q;
+  assign ext_diag_now_o = store_o && (external || (extended && !`FAULT(158))) ? external && diagnosis_i.present : ext_q;
+  assign stat_diag_now_o = store_o && ((static_diag && !`FAULT(26)) || (extended && `FAULT(159))) ? static_diag && diagnosis_i.present : stat_q;
   assign waiting_now_o = waiting_q || (store_o && (external || static_diag));
   assign length_now_o = store_o ? diagnosis_i.length : length_q;
 

@@ -136,15 +136,11 @@ module dp_service (
             end
           end
         end
-        SAP_READ_INPUTS: begin
-          if (in_data_exch) begin
+        SAP_READ_INPUTS, SAP_READ_OUTPUTS: begin
+          if (in_data_exch || (wait_cfg && `FAULT(156)) || (has_data && `FAULT(157))) begin
             if (has_data) fc = FC_RR;
-            else source = SRC_INPUTS;
+            else source = dsap_i == SAP_READ_INPUTS ? SRC_INPUTS : SRC_OUTPUTS;
           end
-        end
-        SAP_READ_OUTPUTS: begin
-          if (has_data) fc = FC_RR;
-          else source = SRC_OUTPUTS;
         end
         SAP_GET_CFG: begin
           if (has_data) fc = FC_RR;

@@ -6,6 +6,7 @@
 
 module fdl (
   `FAULT_PORT
+  input  logic        fcb_rule_i,     // S26: 0 letter, 1 content
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        decide_i,
@@ -40,33 +41,37 @@ module fdl (
   output logic [7:0]  send_length_o   // characters, from the second edge after the decision on
 );
   // Signals that depend only on the telegram are stable long before the decision, so they pass through registers
-  logic own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcv_q, same_saps_q, same_rest_q;
+  logic own, own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcb_q, fcv_q, same_series_q, same_saps_q, same_rest_q;
   logic from_nobody_q;  // SA 127
   logic kind_q, default_sap_q;
   logic memory_valid_q;
   logic [7:0] length_q;
   logic [3:0] function_code;
-  logic fcv;
+  logic fcb, fcv, content;
   assign function_code = fc_i[3:0];
+  assign fcb = fc_i[5];
   assign fcv = fc_i[4];
+  assign content = fcb_rule_i || `FAULT(165);
 
-  // The fields that identify a repetition of the last request (S26): SAPs, or their absence; SA, FC, length and FCS
+  // The fields that identify a repetition of the last request (S26): SA and FCB; for content also FC, SAPs or their absence, length and FCS
   logic [17:0] saps, memory_saps_q;
   logic [7:0] memory_data_length_q, memory_fcs_q, dsap, ssap;
   logic [6:0] memory_sa_q, memory_fc_q;
   assign dsap = da_i[7] ? dsap_i : 8'd0;
   assign ssap = sa_i[7] ? ssap_i : 8'd0;
   assign saps = {da_i[7], sa_i[7], dsap, ssap};
-  logic same_sa, same_fc, same_dsap, same_ssap, same_length, same_fcs;
+  logic same_sa, same_fcb, same_fc, same_dsap, same_ssap, same_length, same_fcs;
   assign same_sa = memory_sa_q == sa_i[6:0] || `FAULT(112);
+  assign same_fcb = memory_fc_q[5] == fcb || `FAULT(39);
   assign same_fc = memory_fc_q == fc_i || `FAULT(39);
   assign same_dsap = {memory_saps_q[17], memory_saps_q[15:8]} == {saps[17], saps[15:8]} || `FAULT(113);
   assign same_ssap = {memory_saps_q[16], memory_saps_q[7:0]} == {saps[16], saps[7:0]} || `FAULT(114);
   assign same_length = memory_data_length_q == length_i || `FAULT(115);
   assign same_fcs = memory_fcs_q == fcs_i || `FAULT(116);
 
+  assign own = da_i[6:0] == address_i;
   always_ff @(posedge clk_i) begin
-    own_q <= da_i[6:0] == address_i;
+    own_q <= own;
     broadcast_q <= da_i[6:0] == 7'd127;
     from_nobody_q <= sa_i[6:0] == 7'd127;
     request_q <= fc_i[6] && (synced_i || `FAULT(38));
@@ -78,19 +83,22 @@ module fdl (
                 function_code != 4'hD;  // S29
     fdl_status_q <= function_code == 4'h9;
     default_sap_q <= !da_i[7];
+    fcb_q <= fcb;
     fcv_q <= fcv;
+    same_series_q <= same_sa && same_fcb && !`FAULT(40);
     same_saps_q <= same_dsap && same_ssap;
-    same_rest_q <= same_sa && same_fc && same_length && same_fcs && !`FAULT(40);
+    same_rest_q <= same_fc && same_length && same_fcs;
   end
 
   logic legal_q, repetition_q, ignored_q;
   always_ff @(posedge clk_i) begin
     legal_q <= kind_q && (own_q || (broadcast_q && sdn_q)) && request_q && saps_ok_q && (!from_nobody_q || `FAULT(107));
     ignored_q <= kind_q && own_q && request_q && saps_ok_q && from_nobody_q;
-    repetition_q <= own_q && (fcv_q || `FAULT(118)) && memory_valid_q && same_saps_q && same_rest_q;
+    repetition_q <= own_q && (fcv_q || `FAULT(118)) && memory_valid_q && same_series_q &&
+                    (content ? same_saps_q && same_rest_q : !sdn_q || `FAULT(163));
   end
 
-  logic legal, execute, sends;
+  logic legal, execute, answered, sends;
   assign any_telegram_o = decide_i && kind_q && synced_i && !(from_nobody_q && `FAULT(110));
   assign legal = decide_i && !searching_i && legal_q;
   assign trigger_o = (legal && own_q) || (decide_i && !searching_i && ignored_q && `FAULT(108));
@@ -102,8 +110,10 @@ module fdl (
   assign service_o.srd = srd_q;
   assign service_o.sdn = sdn_q;
   assign service_o.default_sap = default_sap_q;
-  assign sends = execute && answer_i.kind != ANS_NONE;
-  assign send_o = (legal && repetition_q) || sends;
+  // Every service but an SDN has an answer: so the sender need not wait for the kind of it
+  assign answered = !sdn_q || (`FAULT(84) && answer_i.kind != ANS_NONE);
+  assign sends = execute && answered;
+  assign send_o = legal && (answered || (repetition_q && `FAULT(163)));
 
   logic [7:0] built_length;
   logic built_q;  // the edge after the decision
@@ -112,8 +122,9 @@ module fdl (
   assign from_dsap = sa_i[7] && da_i[7];
 
   // There is one answer: the memory, valid or not, and what is sent
-  logic counts;
-  assign counts = fcv_q || `FAULT(118);
+  logic counts, unanswered;
+  assign counts = fcv_q || (!content && fcb_q && !`FAULT(162)) || `FAULT(118);
+  assign unanswered = execute && (own_q || `FAULT(161)) && sdn_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       memory_valid_q <= 1'b0;
@@ -135,7 +146,8 @@ module fdl (
       end
       built_q <= sends;
       if (built_q) length_q <= built_length;
-      if (execute && sdn_q && `FAULT(119)) memory_valid_q <= 1'b0;
+      if (built_q && !own && !content && !`FAULT(164)) memory_valid_q <= 1'b0;  // the request has changed it
+      if (unanswered && (content ? `FAULT(119) : !`FAULT(160))) memory_valid_q <= 1'b0;
       if (forget_i && !`FAULT(41)) memory_valid_q <= 1'b0;
       if (decide_i && ignored_q && `FAULT(109)) memory_valid_q <= 1'b0;
     end

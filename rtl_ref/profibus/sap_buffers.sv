@@ -280,7 +280,7 @@ module sap_buffers (
         source_user_q <= answer_source_i == SRC_INPUTS ? (`FAULT(33) ? in1_b : in2_b) :
                          answer_source_i == SRC_DIAG ? diag_b : {1'b0, init_q};
         source_zero_q <= (answer_source_i == SRC_INPUTS && in2_zero_b) ||
-                         (answer_source_i == SRC_OUTPUTS && (out2_zero_q || commit_accept_cfg_i || end_leave_i));
+                         (answer_source_i == SRC_OUTPUTS && (out2_zero_q || commit_accept_cfg_i));
       end
 
       if (init_i.commit) begin

@@ -15,6 +15,7 @@ module station #(
   input  logic [31:0] search_window_ms_i,    // S1
   input  logic [31:0] search_window_bits_i,
   input  logic [31:0] baud_control_ms_i,
+  input  logic        fcb_rule_i,            // S26
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        pbrxd_i,
@@ -95,7 +96,7 @@ module station #(
 
   fdl u_fdl (
     `FAULT_CONNECT
-    .clk_i(clk_i), .rst_ni(rst_ni), .decide_i(decide), .searching_i(searching), .forget_i(restart), .abort_i(init),
+    .fcb_rule_i(fcb_rule_i), .clk_i(clk_i), .rst_ni(rst_ni), .decide_i(decide), .searching_i(searching), .forget_i(restart), .abort_i(init),
     .sd_i(sd), .synced_i(synced), .da_i(da), .sa_i(sa), .fc_i(fc), .dsap_i(dsap), .ssap_i(ssap), .saps_ok_i(saps_ok),
     .length_i(length), .fcs_i(fcs), .address_i(status.address), .from_holder_i(from_holder), .any_telegram_o(any_telegram),
     .trigger_o(trigger), .trigger_holder_o(trigger_holder), .service_o(service), .answer_i(answer), .answer_diag_i(answer_diag),

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Watchdog (8.1; S1, S22): BAUD_CONTROL watches for telegrams to this station, DP_CONTROL for those of the holding master.
+// Watchdog (8.1; S1, S22, S29): BAUD_CONTROL watches for telegrams to this station, DP_CONTROL for those of the holding master.
 //
 // One timer of three nested counters, base time x WD_Fact_1 x WD_Fact_2; BAUD_CONTROL uses the innermost only. It is loaded one edge
 // after its start, and its end is seen one edge ahead, so that neither lengthens the path through a decision.
@@ -44,7 +44,12 @@ module watchdog (
   assign baud_control = baud_control_ms_i * 32'd48000 - 32'd2;
   assign dp_base = base_1ms_i && !`FAULT(15) ? BASE_1MS : BASE_10MS;
 
-  // In the order of the cycle: commit, end, telegram. No rate, no watchdog: while searching nothing starts it.
+  // No rate, no watchdog: while it is searched, one that a verdict starts waits for it. Its time waits in the parameters in use.
+  logic waits_q, waits, starts;
+  assign waits = state_q == WD_OFF && (waits_q || commit_dp_i) && !`FAULT(153);
+  assign starts = `FAULT(155) ? waits_q : waits;
+
+  // In the order of the cycle: commit, end, telegram.
   logic dp_state;
   always_comb begin
     state_d = state_q;
@@ -74,8 +79,9 @@ module watchdog (
       end
     end
     if (found_i) begin
-      state_d = WD_BAUD_CONTROL;
-      load_baud = 1'b1;
+      state_d = starts ? WD_DP_CONTROL : WD_BAUD_CONTROL;
+      load_dp = starts;
+      load_baud = !starts;
     end
     if (stop_i || baud_end_o) begin
       state_d = WD_OFF;
@@ -111,7 +117,7 @@ module watchdog (
       inner_q <= 8'd0;
       inner_start_q <= 8'd0;
       outer_q <= 8'd0;
-      {last_q, load_dp_q, load_baud_q} <= 3'b000;
+      {last_q, load_dp_q, load_baud_q, waits_q} <= 4'b0000;
     end else begin
       state_q <= state_d;
       base_q <= base_d;
@@ -119,6 +125,7 @@ module watchdog (
       outer_q <= outer_d;
       load_dp_q <= load_dp;
       load_baud_q <= load_baud;
+      waits_q <= waits && !found_i && (!stop_i || `FAULT(154));
       last_q <= !load_dp && !load_baud && !load_dp_q && !load_baud_q && base_q == 32'd1 && inner_q == 8'd0 && outer_q == 8'd0;
       if (load_dp_q) begin
         base_start_q <= dp_base;

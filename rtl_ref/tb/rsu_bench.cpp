@@ -13,6 +13,7 @@ RsuBench::RsuBench(const Chip& chip, bool starts) {
   top.search_window_ms_i = 50;
   top.search_window_bits_i = 4000;
   top.baud_control_ms_i = 600;
+  top.fcb_rule_i = 0;
   top.spi_reply_gap_i = chip.reply_gap;
   top.spi_write_gap_i = chip.write_gap;
   top.serial_block_crc_i = chip.block_crc;

@@ -91,7 +91,7 @@ std::vector<Choice> master_choices() {
   return {
       {"set_outputs", "The master sends these outputs from the next cycle on.", {"slave", "bytes"}, {"master"}},
       {"read_inputs", "The master reads the inputs (SAP 56).", {}, reads},
-      {"read_outputs", "The master reads the outputs (SAP 57).", {}, reads},
+      {"read_outputs", "The master reads the outputs (SAP 57), in data exchange.", {}, reads},
       {"get_cfg", "The master reads the configuration (SAP 59).", {}, reads},
       {"slave_diag", "The master reads the diagnosis (SAP 60).", {}, reads},
       {"set_slave_address",

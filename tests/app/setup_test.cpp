@@ -25,6 +25,9 @@ TEST(Setup, StationFollowsTheGsdAndItsModules) {
   EXPECT_EQ(station.max_diag, 238);
   EXPECT_EQ(station.max_cfg, 200) << "the chip's, the GSD does not say it";
   EXPECT_TRUE(station.sync);
+  EXPECT_EQ(station.max_prm, 237) << "mode 0: at most so many";
+  const auto exact = parse(R"(gsd: dsdpv1.gsd, modules: ["2 words in, filtered"], init: {prm_mode: 1})", "slave: demo");
+  EXPECT_EQ(tb::Setup(exact).station(exact.slaves[0]).max_prm, 3 + 2) << "mode 1: what the GSD has for both parts";
 }
 
 TEST(Setup, InitOverridesTheGsd) {

@@ -52,7 +52,7 @@ Bytes all_bytes() {
   return bytes;
 }
 
-TEST(Uart, ParityIsEven) {
+TEST(UartCharacter, ParityIsEven) {
   EXPECT_FALSE(even_parity(0x00));
   EXPECT_TRUE(even_parity(0x01));
   EXPECT_FALSE(even_parity(0x03));

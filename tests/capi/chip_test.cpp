@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
@@ -148,6 +149,31 @@ TEST(CapiChip, ParametersOfTheRulingsAreThoseThatTheChipTakes) {
   ok(dpsim_chip_advance(made, 10'200 * kCycle));
   ok(dpsim_chip_peek(made, 4, &cell));
   EXPECT_EQ(cell, 0xC5);
+}
+
+/// In scenarios fcb_rule is a word.
+TEST(CapiChip, AParameterThatIsAWordIsItsPlace) {
+  auto info = sized<dpsim_parameter_info>();
+  for (size_t i = 0; std::string(info.name == nullptr ? "" : info.name) != "fcb_rule"; ++i)
+    ok(dpsim_parameter_get(nullptr, i, &info));
+  EXPECT_EQ(info.minimum, 0);
+  EXPECT_EQ(info.maximum, 1);
+  EXPECT_EQ(info.default_value, 0) << "letter";
+  dpsim_parameter content = {"fcb_rule", 2};
+  auto options = sized<dpsim_chip_options>();
+  options.parameters = &content;
+  options.parameter_count = 1;
+  dpsim_chip* made = nullptr;
+  EXPECT_NE(dpsim_chip_create(&options, &made), DPSIM_OK);
+  content.value = 1;
+  ok(dpsim_chip_create(&options, &made));
+  const Owned<dpsim_chip> chip(made);
+  ok(dpsim_chip_create(nullptr, &made));
+  const Owned<dpsim_chip> usual(made);
+  std::vector<uint8_t> state(DPSIM_MAX_CHIP_STATE);
+  size_t size = 0;
+  ok(dpsim_chip_save(chip.get(), state.data(), state.size(), &size));
+  EXPECT_EQ(dpsim_chip_restore(usual.get(), state.data(), size), DPSIM_ERR_INPUT) << "another fcb_rule";
 }
 
 TEST(CapiChip, ParametersOfTheRsuAreNumbersAndItsStrapsArePins) {

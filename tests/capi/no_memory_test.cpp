@@ -26,7 +26,7 @@ void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 namespace dsdpv1::capi_test {
 namespace {
 
-TEST(CapiError, WithoutMemoryNothingIsMadeAndNothingIsLost) {
+TEST(CapiMemory, WithoutMemoryNothingIsMadeAndNothingIsLost) {
   dpsim_bus* bus = nullptr;
   blocks_left = 0;
   const dpsim_status status = dpsim_bus_create(nullptr, &bus);

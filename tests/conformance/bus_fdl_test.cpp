@@ -15,14 +15,27 @@ constexpr std::uint8_t kFcb0 = 0x5D;     ///< FCB = 0, FCV = 1
 constexpr std::uint8_t kFcb1 = 0x7D;     ///< FCB = 1, FCV = 1
 constexpr std::uint8_t kNoCount = 0x4D;  ///< FCB = 0, FCV = 0
 
+dsdpv1::Config with_rule(std::uint32_t fcb_rule) {
+  dsdpv1::Config config = quick_search();
+  config.fcb_rule = fcb_rule;
+  return config;
+}
+
 class Fdl : public testing::Test {
  protected:
+  explicit Fdl(std::uint32_t fcb_rule = 0) : bench(with_rule(fcb_rule)) {}
   Exchange dx(std::uint8_t fc, const Bytes& outputs = {1, 2}, std::uint8_t master = 2) {
     return send_fc(bench, fc, kNoSap, kNoSap, outputs, master);
   }
   std::uint64_t executed() const { return bench.chip.status().data_exchanges; }
 
-  SlaveBench bench{quick_search()};
+  SlaveBench bench;
+};
+
+/// Repetitions by content (S26), the ruling until an audit.
+class FdlContent : public Fdl {
+ protected:
+  FdlContent() : Fdl(1) {}
 };
 
 // --- FDL status
@@ -89,7 +102,7 @@ TEST_F(Fdl, StartOfASeriesIsAlwaysExecuted) {
   EXPECT_EQ(executed(), before + 4);
 }
 
-TEST_F(Fdl, FirstOfASeriesIsNotRemembered) {
+TEST_F(FdlContent, FirstOfASeriesIsNotRemembered) {
   bench.to_data_exch();
   dx(kFirst);
   const auto before = executed();
@@ -102,7 +115,7 @@ TEST_F(Fdl, FirstOfASeriesIsNotRemembered) {
 }
 
 // S26: a repetition is the same frame again. Each case differs from the request in one thing only.
-TEST_F(Fdl, RequestWithTheSameFrameCountButAnotherContentIsExecuted) {
+TEST_F(FdlContent, RequestWithTheSameFrameCountButAnotherContentIsExecuted) {
   constexpr std::uint8_t kLowFcb0 = 0x5C;
   bench.to_data_exch();
   struct Case {
@@ -138,7 +151,7 @@ TEST_F(Fdl, RequestWithTheSameFrameCountButAnotherContentIsExecuted) {
 }
 
 // The sums of these telegrams agree where SAP or SA differ: the FCS alone would take them for the same.
-TEST_F(Fdl, RequestWithTheSameFcsButAnotherSapOrSourceIsExecuted) {
+TEST_F(FdlContent, RequestWithTheSameFcsButAnotherSapOrSourceIsExecuted) {
   bench.to_data_exch();
   dx(kFirst);
   const auto fcs = [](const bus::Telegram& telegram) {
@@ -163,7 +176,7 @@ TEST_F(Fdl, RequestWithTheSameFcsButAnotherSapOrSourceIsExecuted) {
   }
 }
 
-TEST_F(Fdl, DataExchangeWithTheSameFcsButAnotherFunctionCodeIsExecuted) {
+TEST_F(FdlContent, DataExchangeWithTheSameFcsButAnotherFunctionCodeIsExecuted) {
   bench.to_data_exch();
   dx(kFirst);
   EXPECT_TRUE(dx(0x5C, {1, 4}).answered());  // low priority, 0x5D is high
@@ -172,7 +185,7 @@ TEST_F(Fdl, DataExchangeWithTheSameFcsButAnotherFunctionCodeIsExecuted) {
   EXPECT_EQ(output_area(bench), (Bytes{1, 3}));
 }
 
-TEST_F(Fdl, RequestWithTheSameFcsButAnotherSsapOrLengthHasItsOwnAnswer) {
+TEST_F(FdlContent, RequestWithTheSameFcsButAnotherSsapOrLengthHasItsOwnAnswer) {
   bench.to_data_exch();
   dx(kFirst);
   EXPECT_EQ(send_fc(bench, kFcb0, kNoSap, 62, {1, 5}).answer().dsap, 62);
@@ -181,7 +194,7 @@ TEST_F(Fdl, RequestWithTheSameFcsButAnotherSsapOrLengthHasItsOwnAnswer) {
   EXPECT_TRUE(is_rr(send_fc(bench, kFcb1, 60, 62, {0})));
 }
 
-TEST_F(Fdl, BytesInAnotherOrderAreTakenForTheSame) {
+TEST_F(FdlContent, BytesInAnotherOrderAreTakenForTheSame) {
   bench.to_data_exch();
   const Exchange first = dx(kFcb0, {1, 2});
   const auto before = executed();
@@ -189,7 +202,7 @@ TEST_F(Fdl, BytesInAnotherOrderAreTakenForTheSame) {
   EXPECT_EQ(executed(), before);
 }
 
-TEST_F(Fdl, MasterThatLostItsPlaceGetsTheServiceThatItAsksFor) {
+TEST_F(FdlContent, MasterThatLostItsPlaceGetsTheServiceThatItAsksFor) {
   bench.to_data_exch();
   dx(kFirst);
   ASSERT_TRUE(dx(kFcb0).answered());
@@ -201,7 +214,7 @@ TEST_F(Fdl, MasterThatLostItsPlaceGetsTheServiceThatItAsksFor) {
   EXPECT_EQ(bench.count(Reason::kRepetition), 0);
 }
 
-TEST_F(Fdl, EveryOtherAnsweredRequestEndsTheMemory) {
+TEST_F(FdlContent, EveryOtherAnsweredRequestEndsTheMemory) {
   bench.to_data_exch();
   dx(kFirst);
   const std::pair<const char*, std::function<void()>> others[] = {
@@ -288,7 +301,7 @@ TEST_F(Fdl, FcvWithoutASeriesIsExecuted) {
   EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
 }
 
-TEST_F(Fdl, SdnIsNoRepetitionAndLeavesTheMemory) {
+TEST_F(FdlContent, SdnIsNoRepetitionAndLeavesTheMemory) {
   bench.to_data_exch();
   ASSERT_TRUE(dx(kFirst).answered());
   ASSERT_TRUE(dx(kFcb0).answered());
@@ -371,6 +384,231 @@ TEST_F(Fdl, TelegramWithoutTSynCutByTheAnswerIsCounted) {
   EXPECT_TRUE(dx(kFirst).answered());
   EXPECT_EQ(bench.count(Reason::kFaultyUnsynced), 1);
 }
+
+// --- repetitions in both forms of S26
+
+/// `letter()`: SA and FCB decide, else the content does.
+class FcbRule : public Fdl, public testing::WithParamInterface<std::uint32_t> {
+ protected:
+  FcbRule() : Fdl(GetParam()) {}
+  bool letter() const { return GetParam() == 0; }
+
+  /// The request is answered by its own service, not from memory.
+  void expect_executed(std::uint8_t fc, const char* what = "") {
+    const auto before = executed();
+    EXPECT_TRUE(dx(fc).answered());
+    EXPECT_EQ(executed(), before + 1) << what;
+  }
+  void expect_repetition(const Exchange& first, std::uint8_t fc, const char* what = "") {
+    const auto before = executed();
+    EXPECT_EQ(dx(fc).raw, first.raw) << what;
+    EXPECT_EQ(executed(), before) << what;
+  }
+  Exchange diagnosis(std::uint8_t fc, std::uint8_t master = 2) { return send_fc(bench, fc, 60, 62, {}, master); }
+  Exchange prm(std::uint8_t fc) { return send_fc(bench, fc, 61, 62, Prm{}.bytes()); }
+  void sdn(std::uint8_t da, std::uint8_t fc, int dsap) {
+    bench.requester.send(bench.timeline, bus::make_telegram(da, 2, fc, {0, 0}, optional_sap(dsap), 62),
+                         {.wants_answer = false});
+    bench.run_for(bench.requester.bit() * 20);
+  }
+};
+
+TEST_P(FcbRule, RepetitionIsTheOldAnswerAndExecutesNothing) {
+  bench.to_data_exch();
+  bench.give_inputs({0x11, 0x22});
+  dx(kFirst);
+  const Exchange first = dx(kFcb0);
+  bench.give_inputs({0x33, 0x44});
+  for (int i = 0; i < 3; ++i) expect_repetition(first, kFcb0);
+  EXPECT_EQ(bench.count(Reason::kRepetition), 3);
+  EXPECT_EQ(bench.count(Reason::kFcbNotToggled), 0);
+  EXPECT_EQ(dx(kFcb1).answer().data, (Bytes{0x33, 0x44}));
+}
+
+TEST_P(FcbRule, NewOutputsWithTheOldFcb) {
+  bench.to_data_exch();
+  bench.give_inputs({0x11, 0x22});
+  dx(kFirst);
+  const Exchange first = dx(kFcb0, {1, 2});
+  bench.give_inputs({0x33, 0x44});
+  const Exchange second = dx(kFcb0, {3, 4});
+  settle(bench);
+  EXPECT_EQ(second.raw == first.raw, letter());
+  EXPECT_EQ(output_area(bench), letter() ? (Bytes{1, 2}) : (Bytes{3, 4}));
+  EXPECT_EQ(bench.count(Reason::kRepetition), 0);
+  ASSERT_EQ(bench.count(Reason::kFcbNotToggled), letter() ? 1 : 0);
+  if (!letter()) return;
+  const profibus::Event& told = bench.last(Reason::kFcbNotToggled);
+  EXPECT_EQ(told.a, 2);
+  EXPECT_EQ(told.b, kFcb0);
+  EXPECT_EQ(
+      dsdpv1::describe(told),
+      "request of 2 (FC 5D, SAP none) with the FCB of the one before: not executed, the last answer is sent again");
+}
+
+TEST_P(FcbRule, AnotherServiceWithTheOldFcb) {
+  bench.to_data_exch();
+  dx(kFirst);
+  const Exchange first = dx(kFcb0);
+  const Exchange second = diagnosis(kFcb0);
+  EXPECT_EQ(second.raw == first.raw, letter());
+  EXPECT_EQ(second.answer().data.size(), letter() ? 2U : 6U);
+  if (letter()) EXPECT_EQ(bench.last(Reason::kFcbNotToggled).c, 60);
+}
+
+TEST_P(FcbRule, FirstOfASeriesIsTheOneBefore) {
+  bench.to_wait_prm();
+  const Exchange first = diagnosis(kFirst);
+  const Exchange second = prm(kFcb1);
+  EXPECT_EQ(second.raw == first.raw, letter());
+  EXPECT_EQ(bench.count(Reason::kPrmAccepted), letter() ? 0 : 1);
+  EXPECT_TRUE(is_sc(prm(kFcb0)));
+  EXPECT_EQ(bench.count(Reason::kPrmAccepted), letter() ? 1 : 2);
+}
+
+TEST_P(FcbRule, FirstOfASeriesAgainWithFcvIsNotTheSameTelegram) {
+  bench.to_data_exch();
+  dx(kFirst);
+  const auto before = executed();
+  dx(kFcb1);
+  EXPECT_EQ(executed(), before + (letter() ? 0 : 1));
+  EXPECT_EQ(bench.count(Reason::kFcbNotToggled), letter() ? 1 : 0);
+  dx(kFcb0);
+  EXPECT_EQ(executed(), before + (letter() ? 1 : 2)) << "the next of the series is new";
+}
+
+TEST_P(FcbRule, FirstOfASeriesIsExecutedEachTime) {
+  bench.to_data_exch();
+  for (int i = 0; i < 4; ++i) expect_executed(kFirst);
+}
+
+TEST_P(FcbRule, RequestWithoutFrameCountEndsTheMemory) {
+  bench.to_data_exch();
+  dx(kFcb0);
+  bench.fdl_status();
+  expect_executed(kFcb0, "FDL status");
+  dx(kNoCount);
+  expect_executed(kFcb0, "SRD");
+}
+
+TEST_P(FcbRule, SdnToTheOwnAddress) {
+  bench.to_data_exch();
+  struct Case {
+    const char* what;
+    std::uint8_t fc;
+    int dsap;
+  };
+  for (const Case& each : {Case{"Global_Control", 0x46, 58},
+                           Case{"Global_Control with the FCB of the request", 0x56, 58}, Case{"ignored", 0x46, 61}}) {
+    const Exchange first = dx(kFcb0);
+    const int commands = bench.count(Reason::kGlobalControl);
+    sdn(5, each.fc, each.dsap);
+    EXPECT_EQ(bench.count(Reason::kGlobalControl), commands + (each.dsap == 58 ? 1 : 0)) << each.what;
+    letter() ? expect_executed(kFcb0, each.what) : expect_repetition(first, kFcb0, each.what);
+    dx(kFcb1);
+  }
+}
+
+TEST_P(FcbRule, SdnToAllLeavesTheMemory) {
+  bench.to_data_exch();
+  const Exchange first = dx(kFcb0);
+  sdn(bus::kBroadcast, 0x46, 58);
+  sdn(bus::kBroadcast, 0x56, 58);
+  expect_repetition(first, kFcb0);
+  EXPECT_EQ(bench.count(Reason::kGlobalControl), 2);
+}
+
+TEST_P(FcbRule, AnotherMasterHasAServiceOfItsOwn) {
+  bench.to_data_exch();
+  dx(kFirst);
+  dx(kFcb0);
+  const Exchange other = diagnosis(kFcb0, 3);
+  ASSERT_TRUE(is_data(other));
+  EXPECT_EQ(other.answer().data.size(), 6U);
+  expect_executed(kFcb0, "the memory is the other's");
+}
+
+TEST_P(FcbRule, RefusalIsRemembered) {
+  bench.to_data_exch();
+  ASSERT_TRUE(is_rs(send_fc(bench, kFcb1, 40, 62, {})));
+  EXPECT_EQ(kind_of(diagnosis(kFcb1)), letter() ? "RS" : "DL");
+}
+
+TEST_P(FcbRule, ChangeOfTheAddressEndsTheMemory) {
+  bench.to_wait_prm();
+  ASSERT_TRUE(is_sc(send_fc(bench, kFcb0, 55, 62, {42, 0x0C, 0xC9, 0})));
+  bench.address = 42;
+  const Exchange exchange = diagnosis(kFcb0);
+  ASSERT_TRUE(is_data(exchange)) << kind_of(exchange);
+  EXPECT_EQ(exchange.answer().sa, 42);
+  EXPECT_TRUE(is_sc(prm(kFcb1)));
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
+}
+
+TEST_P(FcbRule, IgnoredOnesLeaveTheMemory) {
+  bench.to_data_exch();
+  const Exchange first = dx(kFcb0);
+  const auto ignored = [this](const Bytes& bytes, int idle_bits, Reason reason) {
+    bench.requester.send(bench.timeline, bytes, {.idle_bits = idle_bits, .wants_answer = false});
+    bench.run_for(bench.requester.bit() * 60);
+    EXPECT_EQ(bench.count(reason), 1) << profibus::code(reason);
+  };
+  Bytes faulty = bus::encode(bus::make_telegram(5, 2, kFcb1, {3, 4}));
+  faulty.at(faulty.size() - 2) ^= 1;
+  ignored(faulty, bus::kSynBits, Reason::kFcs);
+  bench.requester.send(bench.timeline, bus::make_telegram(9, 2, kFcb1, {1}), {.wants_answer = false});
+  ignored(bus::encode(bus::make_telegram(5, 2, kFcb1, {3, 4})), 20, Reason::kNoSyn);
+  ignored(bus::encode(bus::make_telegram(5, 9, 0x08, {1})), bus::kSynBits, Reason::kResponse);
+  ignored(bus::encode(bus::make_telegram(5, 127, kFcb1, {3, 4})), bus::kSynBits, Reason::kSa127);
+  ignored({0x68, 4, 4, 0x68, 0x85, 0x82, kFcb1, 60, static_cast<std::uint8_t>(0x85 + 0x82 + kFcb1 + 60), 0x16},
+          bus::kSynBits, Reason::kSapBytes);
+  expect_repetition(first, kFcb0);
+}
+
+TEST_P(FcbRule, InitialisationAndResetEndTheMemory) {
+  bench.to_data_exch();
+  for (const bool reset : {false, true}) {
+    dx(kFirst);
+    ASSERT_TRUE(dx(kFcb0).answered());
+    if (reset) {
+      bench.chip.set(bench.now(), Pin::kReset, 0);
+      bench.power_on();
+    }
+    ASSERT_TRUE(bench.initialise());
+    bench.find_baud(0);
+    EXPECT_TRUE(is_rs(dx(kFcb0))) << reset;
+  }
+  EXPECT_EQ(bench.count(Reason::kRepetition), 0);
+}
+
+TEST_P(FcbRule, RetryAfterTheWatchdogGetsTheOldAnswer) {
+  Prm watched;
+  watched.status = 0x88;  // lock, WD_On
+  watched.wd1 = watched.wd2 = 1;
+  bench.to_data_exch({}, watched);
+  const Exchange first = dx(kFcb0);
+  bench.run_ms(12);
+  ASSERT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  expect_repetition(first, kFcb0);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+}
+
+TEST_P(FcbRule, PollOfC2AgainMovesNoChannel) {
+  bench.power_on();
+  bench.enable_dpv1(true);
+  ASSERT_TRUE(bench.initialise());
+  bench.find_baud(0);
+  const Bytes initiate = {0x57, 0, 0, 0, 0, 100, 1, 0, 0, 0, 0, 0, 0, 0};
+  ASSERT_TRUE(is_data(send_fc(bench, kFirst, 0x31, 0x32, initiate)));
+  const Exchange connected = send_fc(bench, kFcb0, 0x30, 0x32, {});
+  ASSERT_EQ(connected.answer().data.at(0), 0x57);
+  EXPECT_EQ(send_fc(bench, kFcb0, 0x30, 0x32, {}).raw, connected.raw);
+  EXPECT_EQ(bench.count(Reason::kRepetition), 1);
+  EXPECT_TRUE(is_sc(send_fc(bench, kFcb1, 0x30, 0x32, {}))) << "nothing more to fetch";
+}
+
+INSTANTIATE_TEST_SUITE_P(S26, FcbRule, testing::Values(0U, 1U),
+                         [](const auto& at) { return at.param == 0 ? "Letter" : "Content"; });
 
 // --- source address 127 (S32)
 

@@ -18,6 +18,32 @@ class Watchdog : public testing::Test {
     if (one_ms) prm.user = {0x04};
     return prm;
   }
+  /// In data exchange with a watchdog of 10 x 1 x 10 ms, which the user has accepted.
+  void accept_by_user() {
+    Init init;
+    init.prm_mode = 2;
+    bench.to_wait_prm(init);
+    judge(prm(10, 1, false));
+    bench.verdict(true, std::nullopt);
+    ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
+    ASSERT_TRUE(is_data(ask(bench, kNoSap, {1, 2})));
+  }
+  /// A Set_Prm that the user has then; the cycle of its decision.
+  Cycle judge(const Prm& prm) {
+    const Cycle decision = soon();
+    send_decided_at(bench, decision, 0, bus::make_telegram(5, 2, kSrdFirst, prm.bytes(), 61, 62), true);
+    EXPECT_EQ(bench.last(Reason::kPrmJudged).at, decision * kCycleTicks);
+    bench.chip_accesses(3);
+    return decision;
+  }
+  void expect_expiry(Cycle end, unsigned factors, unsigned base_ms) {
+    bench.run_until(end * kCycleTicks);
+    const profibus::Event& expired = bench.last(Reason::kWatchdogExpired);
+    EXPECT_EQ(expired.at, end * kCycleTicks);
+    EXPECT_EQ(expired.a, 2);
+    EXPECT_EQ(expired.b, factors);
+    EXPECT_EQ(expired.c, base_ms);
+  }
   Cycle soon() const { return bench.now() / kCycleTicks + 2000; }
   void dx_decided_at(Cycle decision, std::uint8_t master = 2) {
     send_decided_at(bench, decision, 0, bus::make_telegram(5, master, kSrdFirst, {1, 2}), true);
@@ -38,6 +64,7 @@ TEST_F(Watchdog, TimeIsTheProductOfTheFactorsInTheBaseThatSetPrmChose) {
                            {5, 6, true, 30},
                            {1, 1, false, 10},
                            {2, 3, false, 60},
+                           {2, 3, true, 6},
                            {255, 1, true, 255}}) {
     SlaveBench one(quick_search());
     one.to_data_exch({}, prm(each.wd1, each.wd2, each.one_ms));
@@ -48,8 +75,44 @@ TEST_F(Watchdog, TimeIsTheProductOfTheFactorsInTheBaseThatSetPrmChose) {
     EXPECT_EQ(one.dp_state(), DpState::kDataExch) << each.ms;
     one.run_until(end);
     EXPECT_EQ(one.dp_state(), DpState::kWaitPrm) << each.ms;
-    EXPECT_EQ(one.last(Reason::kWatchdogExpired).at, end);
+    const profibus::Event& expired = one.last(Reason::kWatchdogExpired);
+    EXPECT_EQ(expired.at, end);
+    EXPECT_EQ(expired.a, 2);
+    EXPECT_EQ(expired.b, static_cast<unsigned>(each.wd1 * each.wd2));
+    EXPECT_EQ(expired.c, each.one_ms ? 1 : 10);
   }
+}
+
+// --- while the user judges nothing of a Set_Prm is in force (S15)
+
+TEST_F(Watchdog, ItsEndNamesTheSetPrmThatStartedIt) {
+  accept_by_user();
+  EXPECT_EQ(bench.last(Reason::kWatchdogOn).a, 10);
+  EXPECT_EQ(bench.last(Reason::kWatchdogOn).b, 10);
+  const Cycle decision = judge(prm(8, 5, true));
+  expect_expiry(decision + 100 * kMs, 10, 10);
+  bench.verdict(true, std::nullopt);
+  EXPECT_EQ(bench.last(Reason::kVerdictUnexpected).a, 0);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+}
+
+TEST_F(Watchdog, ItsEndNamesTheNewOneAfterTheVerdict) {
+  accept_by_user();
+  judge(prm(8, 5, true));
+  bench.verdict(true, std::nullopt);
+  const Tick accepted = bench.last(Reason::kPrmAccepted).at;
+  EXPECT_EQ(bench.last(Reason::kWatchdogOn).a, 40);
+  EXPECT_EQ(bench.last(Reason::kWatchdogOn).b, 1);
+  expect_expiry(accepted / kCycleTicks + 40 * kMs, 40, 1);
+}
+
+TEST_F(Watchdog, EndsSilentlyWithTheRefusalOfTheNewOne) {
+  accept_by_user();
+  judge(prm(8, 5, true));
+  bench.verdict(false, std::nullopt);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  bench.run_ms(110);
+  EXPECT_EQ(bench.count(Reason::kWatchdogExpired), 0);
 }
 
 TEST_F(Watchdog, LongestTimeIsSixHundredAndFiftySeconds) {
@@ -126,7 +189,8 @@ TEST_F(Watchdog, ClearsTheOutputsReleasesTheMasterAndCounts) {
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0}));
   EXPECT_EQ(offline_count(bench), 1);
   EXPECT_EQ(bench.peek(0x012), 0x04);
-  EXPECT_EQ(ask(bench, bus::sap::kReadOutputs).answer().data, (Bytes{0, 0}));
+  EXPECT_EQ(output_area(bench), (Bytes{0, 0}));
+  EXPECT_TRUE(is_rs(ask(bench, bus::sap::kReadOutputs))) << "S13";
   EXPECT_TRUE(is_rs(ask(bench, kNoSap, {1, 2})));
   EXPECT_EQ(bench.chip.level(Pin::kBr), 1) << "the baud rate stays";
 }

@@ -77,7 +77,7 @@ TEST_F(Address, Of126IsNoAddressToBeParameterisedAt) {
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
   EXPECT_EQ(diag(bench), (Bytes{0x02, 0x05, 0, 255, 0x0C, 0xC9})) << "no fault";
   EXPECT_TRUE(is_data(ask(bench, 59)));
-  EXPECT_TRUE(is_data(ask(bench, 57)));
+  EXPECT_TRUE(is_rs(ask(bench, 57))) << "S13";
   EXPECT_TRUE(bench.fdl_status().answered());
   const Bytes initiate = {0x57, 0, 0, 0, 0, 100, 1, 0, 0, 0, 0, 0, 0, 0};
   EXPECT_TRUE(is_data(send_fc(bench, kSrdFirst, 0x31, 0x32, initiate, 1))) << "C2 (V7)";
@@ -157,6 +157,26 @@ TEST_F(Address, IsNotLockedByAZeroNoAddChg) {
   bench.address = 42;
   EXPECT_TRUE(is_sc(ask(bench, 55, request(43, 0))));
   EXPECT_TRUE(answers_at(43));
+}
+
+// S5: any value but 00, and the user has no cell that tells him the new address.
+TEST_F(Address, IsLockedByEveryNoAddChgButZero) {
+  bench.to_wait_prm();
+  bench.chip_accesses(2);
+  for (const int no_add_chg : {0x01, 0x7F, 0x80, 0xFE, 0xFF}) {
+    const std::size_t interrupts = bench.changes(Pin::kIntr0).size();
+    EXPECT_TRUE(is_sc(ask(bench, 55, request(42, no_add_chg)))) << no_add_chg;
+    bench.address = 42;
+    EXPECT_TRUE(is_rs(ask(bench, 55, request(43)))) << no_add_chg;
+    EXPECT_EQ(bench.last(Reason::kAddressDisabled).a, 1);
+    EXPECT_EQ(bench.last(Reason::kAddressDisabled).b, 1);
+    bench.chip_accesses(3);
+    EXPECT_EQ(bench.peek(0x021), 5) << "the user's own";
+    EXPECT_EQ(bench.peek(0x00E, 2), (Bytes{0, 0}));
+    EXPECT_EQ(bench.changes(Pin::kIntr0).size(), interrupts);
+    ASSERT_TRUE(bench.initialise());  // ends the lock
+    bench.find_baud(0);
+  }
 }
 
 TEST_F(Address, IsServedOnlyInWaitPrm) {

@@ -153,6 +153,21 @@ TEST_F(CheckCfg, LengthsAboveB027AndB028AreRefused) {
   expect_refused({0x13, 0x25, 0x10}, Reason::kCfgIoLength);
 }
 
+// D8: modes 0 and 1 only.
+TEST_F(CheckCfg, LengthsAboveB027AndB028AreTheUsersToJudgeInModeTwo) {
+  Init init;
+  init.cfg_mode = 2;
+  init.max_input = 4;
+  init.max_output = 6;
+  bench.to_wait_cfg(init);
+  EXPECT_TRUE(is_sc(cfg({0x14, 0x26})));
+  settle(bench);
+  EXPECT_EQ(bench.count(Reason::kCfgIoLength), 0);
+  EXPECT_EQ(bench.peek(0x500, 3), (Bytes{7, 5, 2}));
+  bench.verdict(std::nullopt, true);
+  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
+}
+
 TEST_F(CheckCfg, MoreThan244BytesAreRefused) {
   bench.to_wait_cfg();
   expect_accepted({0x40, 0x7F, 0x40, 0x79}, 244, 0);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/conformance/master_side.hpp"
+#include "tests/conformance/user_helpers.hpp"
 
 namespace dsdpv1::conformance {
 namespace {
@@ -118,12 +119,80 @@ TEST_F(Diagnosis, ExtendedIsLowPriorityAndSetsNoBit) {
   EXPECT_EQ(diag(bench), (Bytes{0x00, 0x04, 0, 2, 0x0C, 0xC9, 0x03, 0xAA, 0xBB}));
 }
 
-TEST_F(Diagnosis, ExtendedLeavesTheBitsOfTheOthers) {
+// D9. Until an audit type 00 left Ext_Diag, too.
+TEST_F(Diagnosis, ExtendedEndsExternalAndLeavesStatic) {
   bench.to_data_exch();
   bench.give_diag(0x81, {1});
   bench.give_diag(0x82, {2});
   bench.give_diag(0x00, {3});
-  EXPECT_EQ(diag(bench), (Bytes{0x08, 0x06, 0, 2, 0x0C, 0xC9, 3}));
+  EXPECT_EQ(diag(bench), (Bytes{0x00, 0x06, 0, 2, 0x0C, 0xC9, 3}));
+  EXPECT_EQ(priority(), "DH") << "static diagnosis stands";
+  bench.give_diag(0x02, {4});
+  EXPECT_EQ(priority(), "DH");
+  diag(bench);
+  EXPECT_EQ(priority(), "DL");
+}
+
+TEST_F(Diagnosis, ExtendedEndsExternalWithoutAWordToTheMaster) {
+  bench.to_data_exch();
+  bench.give_diag(0x81, {1});
+  diag(bench);
+  bench.give_diag(0x00, {});
+  EXPECT_EQ(priority(), "DL") << "low priority, also when it clears the bit";
+  EXPECT_EQ(diag(bench), (Bytes{0x00, 0x04, 0, 2, 0x0C, 0xC9}));
+  bench.give_diag(0x81, {2});
+  EXPECT_EQ(priority(), "DH");
+  EXPECT_EQ(diag(bench), (Bytes{0x08, 0x04, 0, 2, 0x0C, 0xC9, 2}));
+}
+
+TEST_F(Diagnosis, ExtendedLeavesWhatTheHolderHasNotRead) {
+  bench.to_data_exch();
+  bench.give_diag(0x81, {1});
+  bench.give_diag(0x00, {3});
+  EXPECT_EQ(priority(), "DH");
+  EXPECT_EQ(diag(bench), (Bytes{0x00, 0x04, 0, 2, 0x0C, 0xC9, 3}));
+  EXPECT_EQ(priority(), "DL");
+}
+
+TEST_F(Diagnosis, RefusedExtendedLeavesExtDiag) {
+  bench.to_data_exch();
+  bench.give_diag(0x81, {1});
+  bench.give_diag(0x00, {2}, 0x0100);
+  bench.give_diag(0x00, Bytes(33, 0));
+  EXPECT_EQ(bench.count(dpram::Reason::kDiagCrc), 1);
+  EXPECT_EQ(bench.count(Reason::kDiagLength), 1);
+  EXPECT_EQ(diag(bench), (Bytes{0x08, 0x04, 0, 2, 0x0C, 0xC9, 1}));
+}
+
+// The commit comes before the decision of the same cycle.
+TEST_F(Diagnosis, ExtendedIsSeenByTheReadThatIsDecidedInItsCycle) {
+  const auto held = [](SlaveBench& one) {
+    one.to_data_exch();
+    one.give_diag(0x81, {1});
+    one.run_cycles(200);
+    one.acquire();
+    one.write_block(dsdpv1::regs::kDiag, {0x00, 1, 3}, dsdpv1::regs::kDiagCrc);
+    one.write(dsdpv1::regs::kUserCommand1, dsdpv1::regs::kUserCommand1Diag);
+    one.run_for(100 * kCycleTicks - one.now() % kCycleTicks);  // the next access is overdue
+  };
+  SlaveBench dry(quick_search());
+  held(dry);
+  const Tick released = dry.now();
+  dry.chip_accesses();
+  const profibus::Cycle to_commit = (dry.last(Reason::kDiagAccepted).at - released) / kCycleTicks;
+  for (const int later : {-1, 0, 1}) {
+    SlaveBench one(quick_search());
+    held(one);
+    const profibus::Cycle decision = one.now() / kCycleTicks + 3000;
+    Script script(one);
+    const Tick release = (decision + later - to_commit) * kCycleTicks;
+    script.set(release, Pin::kRSta, 0);
+    script.set(release, Pin::kRReq, 0);
+    const Exchange exchange = send_decided_at(one, decision, 0, bus::make_telegram(5, 2, kSrdFirst, {}, 60, 62), true);
+    ASSERT_EQ(one.last(Reason::kDiagAccepted).at, (decision + later) * kCycleTicks);
+    ASSERT_TRUE(is_data(exchange));
+    EXPECT_EQ(exchange.answer().data.at(0), later > 0 ? 0x08 : 0x00) << later;
+  }
 }
 
 TEST_F(Diagnosis, WaitsVisiblyAlsoWithoutInputs) {
@@ -173,7 +242,7 @@ TEST_F(Diagnosis, HighPriorityEndsWithTheReadAloneNotWithAnExtendedOneOrALostExc
   bench.to_data_exch();
   bench.give_diag(0x81, {1});
   bench.give_diag(0x00, {2});
-  EXPECT_EQ(priority(), "DH") << "type 00 takes nothing back";
+  EXPECT_EQ(priority(), "DH") << "type 00 is no read";
   ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
   ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
   EXPECT_EQ(priority(), "DH");

@@ -148,6 +148,45 @@ TEST_F(SetPrm, WhatTheInitialisationSupportsIsAccepted) {
   }
 }
 
+// S6: "supported" leaves the choice to the master; what it chose decides on its first Clear (S19).
+TEST_F(SetPrm, FailSafeIsTheMastersChoiceWhereItIsSupported) {
+  struct Case {
+    const char* what;
+    std::uint8_t command;
+    Bytes user;
+    bool accepted, clears;
+  };
+  for (const Case& each :
+       {Case{"neither", 0x00, {0x00}, true, false}, Case{"only the master", 0x00, {0x40}, false, false},
+        Case{"only the slave", 0x08, {0x00}, true, false}, Case{"only the slave, 7 bytes", 0x08, {}, true, false},
+        Case{"both", 0x08, {0x40}, true, true}}) {
+    SCOPED_TRACE(each.what);
+    SlaveBench one(quick_search());
+    Init init;
+    init.command = each.command;
+    one.to_wait_prm(init);
+    EXPECT_TRUE(is_sc(ask(one, 61, with(0x80, each.user).bytes())));
+    EXPECT_EQ(diag(one).at(0) & (kPrmFault | kNotSupported), each.accepted ? 0 : kPrmFault | kNotSupported);
+    ASSERT_EQ(one.dp_state(), each.accepted ? DpState::kWaitCfg : DpState::kWaitPrm);
+    EXPECT_EQ(one.count(Reason::kPrmFailSafe), each.accepted ? 0 : 1);
+    if (!each.accepted) continue;
+    ASSERT_TRUE(is_sc(ask(one, 62, {0x11, 0x21})));
+    EXPECT_EQ(kind_of(ask(one, kNoSap, {})), each.clears ? "DL" : "RR");
+    EXPECT_EQ(one.count(Reason::kFailSafeClear), each.clears ? 1 : 0);
+    EXPECT_EQ(one.dp_state(), each.clears ? DpState::kDataExch : DpState::kWaitPrm);
+    EXPECT_EQ(diag(one).at(0) & 0x04, each.clears ? 0x00 : 0x04) << "Cfg_Fault";
+  }
+}
+
+TEST_F(SetPrm, FailSafeOfTheMasterIsSeenByAUserThatJudges) {
+  Init init;
+  init.prm_mode = 2;
+  bench.to_wait_prm(init);
+  EXPECT_TRUE(is_sc(prm(with(0x80, {0x40}))));
+  settle(bench);
+  EXPECT_EQ(bench.peek(0x410, 2), (Bytes{1, 0x40}));
+}
+
 TEST_F(SetPrm, WithDpv1NeedsB005AndTenBytes) {
   bench.power_on();
   bench.enable_dpv1(true);

@@ -43,7 +43,7 @@ const Row kRows[] = {
     {"Data_Exchange", kNoSap, {1, 2}, "RS", {"RS", "RS"}, {"DL", "RS"}},
     {"Set_Slave_Address", 55, {9, 0x0C, 0xC9, 0}, "SC", {"RS", "RS"}, {"RS", "RS"}},
     {"Read_Inputs", 56, {}, "RS", {"RS", "RS"}, {"DL", "DL"}},
-    {"Read_Outputs", 57, {}, "DL", {"DL", "DL"}, {"DL", "DL"}},
+    {"Read_Outputs", 57, {}, "RS", {"RS", "RS"}, {"DL", "DL"}},
     {"Get_Cfg", 59, {}, "DL", {"DL", "DL"}, {"DL", "DL"}},
     {"Slave_Diag", 60, {}, "DL", {"DL", "DL"}, {"DL", "DL"}},
     {"Set_Prm", 61, {0x80, 0, 0, 11, 0x0C, 0xC9, 0}, "SC", {"SC", "RS"}, {"SC", "RS"}},
@@ -86,7 +86,7 @@ TEST(Services, DataBytesToTheReadingSapsAreAnsweredRrOnceTheStateAllowsTheServic
       for (const Bytes& data : {Bytes{0}, Bytes(244, 0x5A)}) {
         SlaveBench bench(quick_search());
         bring(bench, situation);
-        const bool served = sap != 56 || situation == Situation::kDataExch;
+        const bool served = sap > 57 || situation == Situation::kDataExch;
         const DpState before = bench.dp_state();
         const std::size_t events = bench.chip.events().size();
         const Exchange exchange = ask(bench, sap, data, kOther);
@@ -111,17 +111,41 @@ TEST(Services, RefusedSlaveDiagDoesNotCountAsRead) {
   EXPECT_EQ(kind_of(ask(bench, kNoSap, {1, 2})), "DH");
 }
 
-TEST(Services, ReadOutputsOutsideOfDataExchangeSendsZeros) {
+/// RS, and the refusal names SAP, state and master.
+void expect_no_outputs(SlaveBench& bench, int state, std::uint8_t master) {
+  EXPECT_EQ(kind_of(ask(bench, 57, {}, master)), "RS");
+  EXPECT_EQ(bench.last(Reason::kSapState).a, 57);
+  EXPECT_EQ(bench.last(Reason::kSapState).b, state);
+  EXPECT_EQ(bench.last(Reason::kSapState).c, master);
+}
+
+TEST(Services, ReadOutputsIsRefusedOutsideOfDataExchange) {
   SlaveBench bench(quick_search());
   bring(bench, Situation::kWaitPrm);
-  EXPECT_EQ(ask(bench, 57, {}, kOther).answer().data, (Bytes{0, 0}));
+  expect_no_outputs(bench, 1, kHolder);
+  expect_no_outputs(bench, 1, 9);
   ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
-  EXPECT_EQ(ask(bench, 57).answer().data, (Bytes{0, 0}));
+  expect_no_outputs(bench, 2, kHolder);
+  expect_no_outputs(bench, 2, 9);
   ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
+  EXPECT_EQ(ask(bench, 57).answer().data, (Bytes{0, 0})) << "before the first data exchange";
   ASSERT_TRUE(is_data(ask(bench, kNoSap, {0x56, 0x78})));
-  EXPECT_EQ(ask(bench, 57, {}, kOther).answer().data, (Bytes{0x56, 0x78}));
+  EXPECT_EQ(ask(bench, 57).answer().data, (Bytes{0x56, 0x78}));
+  EXPECT_EQ(ask(bench, 57, {}, 9).answer().data, (Bytes{0x56, 0x78}));
+  tell(bench, bus::kBroadcast, 58, {0x02, 0});
+  EXPECT_EQ(ask(bench, 57).answer().data, (Bytes{0, 0})) << "Clear_Data";
   ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
-  EXPECT_EQ(ask(bench, 57).answer().data, (Bytes{0, 0})) << "WAIT_CFG again";
+  expect_no_outputs(bench, 2, kHolder);
+}
+
+TEST(Services, ReadOutputsWithoutAnyIsScInDataExchangeAndRsBefore) {
+  Init init;
+  init.cfg = {0x11};
+  SlaveBench bench(quick_search());
+  bench.to_wait_cfg(init);
+  EXPECT_EQ(kind_of(ask(bench, 57)), "RS");
+  ASSERT_TRUE(is_sc(ask(bench, 62, init.cfg)));
+  EXPECT_EQ(kind_of(ask(bench, 57)), "SC");
 }
 
 TEST(Services, RefusalsByStateNameSapStateAndMaster) {

@@ -170,6 +170,8 @@ TEST_F(C2, ChannelIsOnlyForItsMasterAndSsap50) {
   EXPECT_TRUE(is_rs(send_fc(bench, kSrdFirst, kFirstChannel, 51, {}, kClass2)));
   EXPECT_TRUE(is_rs(c2(kFirstChannel, {0x58, 0, 0, 0}, 9))) << "nor may another master abort it";
   EXPECT_TRUE(registry(0x30).connected);
+  ASSERT_EQ(connect(), kSecondChannel);
+  EXPECT_TRUE(is_rs(send_fc(bench, kSrdFirst, kSecondChannel, 51, {}, kClass2)));
   for (const int sap : {0, 1, 46, 0x32}) EXPECT_TRUE(is_rs(c2(sap))) << sap;
 }
 

@@ -89,16 +89,18 @@ inline Bytes output_area(SlaveBench& bench) { return bench.peek(0x31A, bench.pee
 
 /// Sends at a time such that the chip decides the telegram at this cycle (S10: 1 bit time after its last stop bit),
 /// and runs two bit times beyond its end or that of the answer.
-inline void send_decided_at(SlaveBench& bench, profibus::Cycle decision, int baud, const bus::Telegram& telegram,
-                            bool wants_answer = false) {
+inline Exchange send_decided_at(SlaveBench& bench, profibus::Cycle decision, int baud, const bus::Telegram& telegram,
+                                bool wants_answer = false) {
   constexpr profibus::Cycle kSynchroniser = 3;  // P9: a change at the tick of edge k is seen by k+1 and used at k+3
   const Tick bit = bus::baud(baud).bit;
   const Bytes bytes = bus::encode(telegram);
   const Tick bits = static_cast<Tick>(bytes.size() - 1) * bus::kCharacterBits + 12;
   bench.requester.set_baud(baud);
-  bench.requester.send(bench.timeline, bytes,
-                       {.at = (decision - 1 - kSynchroniser) * kCycleTicks - bits * bit, .wants_answer = wants_answer});
+  Exchange exchange = bench.requester.send(
+      bench.timeline, bytes,
+      {.at = (decision - 1 - kSynchroniser) * kCycleTicks - bits * bit, .wants_answer = wants_answer});
   bench.run_for(bit * 2);
+  return exchange;
 }
 
 /// Lets the chip's accesses carry everything to the DPRAM.

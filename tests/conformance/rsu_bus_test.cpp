@@ -49,6 +49,14 @@ class RsuUartOnBus : public ::testing::Test {
     send(write_telegram(address, data));
     bench_.run_cycles(26 * 11 * 8);
   }
+  Bytes talk(const Bytes& request) {
+    const Tick from = bench_.now();
+    send(request);
+    bench_.run_cycles(26 * 11 * 40);
+    for (const PinChange& change : bench_.changes(Pin::kTxd))
+      if (change.at >= from) return sent_since(change.at);
+    return {};
+  }
   Bytes sent_since(Tick from) {
     const std::vector<PinChange> txd = bench_.changes(Pin::kTxd);
     const auto level_at = [&](Tick at) {
@@ -101,15 +109,7 @@ TEST_F(RsuUartOnBus, WorkedExampleToTheCycle) {
 TEST_F(RsuUartOnBus, NewParametersAndConfiguration) {
   ASSERT_TRUE(bench_.data_exchange({0xAA}).answered());
   bench_.run_cycles(200);
-  Tick from = bench_.now();
-  const auto exchange = [&] {
-    from = bench_.now();
-    send(exchange_telegram(0, 0x130, {0x01, 0x12}));
-    bench_.run_cycles(26 * 11 * 40);
-    for (const PinChange& change : bench_.changes(Pin::kTxd))
-      if (change.at >= from) return sent_since(change.at);
-    return Bytes{};
-  };
+  const auto exchange = [&] { return talk(exchange_telegram(0, 0x130, {0x01, 0x12})); };
   EXPECT_EQ(part_of(exchange(), 0, 4), (Bytes{0x01, 0x11, 0x04, 0x10}));
   EXPECT_EQ(exchange(), with_crc({0x01, 0x21, 0x05, 0x00, 0x05, 0x01, 0x01, 0x02, 0x10, 0x20}));
   EXPECT_EQ(exchange(), with_crc({0x01, 0x01, 0x03, 0x19, 0x02, 0x01, 0xAA}));
@@ -133,6 +133,138 @@ TEST_F(RsuUartOnBus, VerdictByAWrite) {
   write(0x010, {0x40});
   bench_.run_cycles(200);
   EXPECT_EQ(bench_.dp_state(), DpState::kWaitPrm) << "refused";
+}
+
+// UA13 and 7.1.6, note 3: bit 0 is DATA_EXCH, also beside the error's bit 7.
+TEST_F(RsuUartOnBus, BitZeroOfTheFunctionIsDataExchange) {
+  ASSERT_EQ(bench_.dp_state(), DpState::kDataExch);
+  EXPECT_EQ(talk(exchange_telegram(0, 0x319, {1})), with_crc({0x01, 0x81, 0x02}));
+  EXPECT_EQ(part_of(talk(exchange_telegram(2, 0x227, {0, 0})), 0, 4), (Bytes{0x01, 0x01, 0x03, 0x19}));
+  ASSERT_TRUE(bench_.set_prm({}).answered());
+  ASSERT_EQ(bench_.dp_state(), DpState::kWaitCfg);
+  EXPECT_EQ(talk(exchange_telegram(0, 0x319, {1})), with_crc({0x01, 0x80, 0x02}));
+  EXPECT_EQ(part_of(talk(exchange_telegram(2, 0x227, {0, 0})), 0, 4), (Bytes{0x01, 0x00, 0x03, 0x19}));
+}
+
+/// The same slave with its host at the SPI port.
+class RsuSpiOnBus : public ::testing::Test {
+ protected:
+  RsuSpiOnBus() {
+    bench_.chip.set(0, Pin::kMode, 1);
+    bench_.chip.set(0, Pin::kAdr, 1);
+  }
+  void SetUp() override { bench_.power_on(); }
+  /// One frame of XSS and the silence that a write needs after it; the reply, of so many bytes.
+  Bytes ask(Bytes mosi, std::size_t reply) {
+    const std::size_t request = mosi.size();
+    mosi.resize(request + reply, 0xFF);
+    Bytes miso;
+    bench_.chip.set(bench_.now(), Pin::kXss, 0);
+    for (const std::uint8_t out : mosi) {
+      unsigned in = 0;
+      for (int bit = 7; bit >= 0; --bit) {
+        bench_.chip.set(bench_.now(), Pin::kMosi, static_cast<Level>(out >> bit & 1));
+        bench_.run_for(600);
+        in = in << 1 | (bench_.chip.level(Pin::kMiso) == 1 ? 1U : 0U);
+        bench_.chip.set(bench_.now(), Pin::kSck, 1);
+        bench_.run_for(600);
+        bench_.chip.set(bench_.now(), Pin::kSck, 0);
+      }
+      miso.push_back(static_cast<std::uint8_t>(in));
+    }
+    bench_.run_for(600);
+    bench_.chip.set(bench_.now(), Pin::kXss, 1);
+    bench_.run_for(33'000);
+    return part_of(miso, request, reply);
+  }
+  /// Cells, in one ownership; then the chip's next accesses.
+  void write(std::initializer_list<std::pair<std::uint16_t, Bytes>> cells) {
+    while (ask(write_telegram(0x014, {0x02}), 4) != with_crc({0xA1, 0x00})) {
+    }
+    for (const auto& [address, data] : cells)
+      EXPECT_EQ(ask(write_telegram(address, data), 4), with_crc({0xA1, 0x00})) << address;
+    EXPECT_EQ(ask(write_telegram(0x014, {0x00}), 4), with_crc({0xA1, 0x00}));
+    bench_.run_cycles(600);
+  }
+  Bytes read(std::uint16_t address, std::uint8_t length) {
+    const Bytes reply = ask(read_telegram(address, length), length + 4U);
+    EXPECT_EQ(reply, with_crc(part_of(reply, 0, length + 2U)));
+    EXPECT_EQ(part_of(reply, 0, 2), (Bytes{0x81, 0x00}));
+    return part_of(reply, 2, length);
+  }
+  /// SPI's read and write, as often as an access of the chip refuses it.
+  Bytes exchange(const Bytes& inputs, std::size_t outputs) {
+    for (;;) {
+      const Bytes reply = ask(inputs_telegram(inputs), 5 + outputs);
+      if (part_of(reply, 0, 4) == with_crc({0xE1, 0x00})) continue;
+      bench_.run_cycles(600);
+      return reply;
+    }
+  }
+  void initialise(std::uint8_t judged) {
+    Init init;
+    init.cfg = {0x10, 0x20};
+    init.prm_mode = init.cfg_mode = judged;
+    write({{0x005, {0x1D}}, {0x020, init.block()}, {0x010, {0x04}}});
+    ASSERT_EQ(read(0x00A, 1), Bytes{0x01});
+    bench_.find_baud();
+  }
+  SlaveBench bench_{rsu()};
+};
+
+// SP18 and 6.2.4: each kind of data by its cells and flags, as in parallel mode.
+TEST_F(RsuSpiOnBus, BlocksVerdictsAndAcyclicAnswersAreByCells) {
+  initialise(kUserJudges);
+  Prm prm;
+  prm.user = {0x80, 0, 0};
+  ASSERT_TRUE(bench_.set_prm(prm).short_acknowledge());
+  bench_.run_cycles(600);
+  EXPECT_EQ(read(0x00E, 1), Bytes{0x02});
+  EXPECT_EQ(read(0x410, 4), (Bytes{3, 0x80, 0, 0}));
+  write({{0x00E, {0x00}}, {0x00C, {0x00}}, {0x010, {0x80}}});
+  EXPECT_EQ(bench_.dp_state(), DpState::kWaitCfg);
+  ASSERT_TRUE(bench_.check_cfg({0x10, 0x20}).short_acknowledge());
+  bench_.run_cycles(600);
+  EXPECT_EQ(read(0x500, 5), (Bytes{1, 1, 2, 0x10, 0x20}));
+  write({{0x00E, {0x00}}, {0x00C, {0x00}}, {0x010, {0x40}}});
+  ASSERT_EQ(bench_.dp_state(), DpState::kDataExch);
+  write({{0x130, {1, 0x55}}, {0x227, {0x81, 1, 0xAA}}, {0x010, {0x03}}});
+  const Bytes diagnosis = bench_.slave_diag();
+  EXPECT_EQ(diagnosis.back(), 0xAA);
+  EXPECT_EQ(diagnosis.front(), 0x08) << "Ext_Diag";
+  EXPECT_EQ(bench_.data_exchange({0xB7}).answer().data, Bytes{0x55});
+  bench_.run_cycles(600);
+  EXPECT_EQ(read(0x319, 2), (Bytes{1, 0xB7}));
+  ASSERT_TRUE(bench_.srd(0x33, 0x33, {0x5E, 1, 2, 3}).short_acknowledge());
+  bench_.run_cycles(600);
+  EXPECT_EQ(read(0x00F, 1), Bytes{0x01});
+  EXPECT_EQ(read(0x5D0, 4), (Bytes{0x5E, 1, 2, 3}));
+  write({{0x5D0, {0x5E, 1, 2, 1, 0x77}}, {0x00F, {0x00}}, {0x011, {0x01}}});
+  EXPECT_EQ(read(0x010, 2), (Bytes{0, 0})) << "the chip has cleared the flags";
+  EXPECT_EQ(bench_.srd(0x33, 0x33, {}).answer().data, (Bytes{0x5E, 1, 2, 1, 0x77}));
+}
+
+// SP16 and 6.3.3: without a claim, in every DP state; inputs of a wrong length are refused, the outputs come all the
+// same.
+TEST_F(RsuSpiOnBus, ReadAndWriteIsServedInEveryDpState) {
+  const Bytes none = with_crc({0xC1, 0x00, 0x00});
+  EXPECT_EQ(exchange({0x11}, 0), none) << "OFFLINE";
+  initialise(0);
+  EXPECT_EQ(bench_.dp_state(), DpState::kWaitPrm);
+  EXPECT_EQ(exchange({0x12}, 0), none);
+  ASSERT_TRUE(bench_.set_prm({}).answered());
+  EXPECT_EQ(bench_.dp_state(), DpState::kWaitCfg);
+  EXPECT_EQ(exchange({0x13}, 0), none);
+  ASSERT_TRUE(bench_.check_cfg({0x10, 0x20}).answered());
+  ASSERT_TRUE(bench_.data_exchange({0xAA}).answered());
+  bench_.run_cycles(600);
+  const Bytes outputs = with_crc({0xC1, 0x00, 0x01, 0xAA});
+  EXPECT_EQ(exchange({0x14}, 1), outputs);
+  EXPECT_EQ(bench_.data_exchange({0xAA}).answer().data, Bytes{0x14});
+  EXPECT_EQ(exchange({0x15, 0x16}, 1), outputs);
+  EXPECT_EQ(bench_.count(profibus::Reason::kInputLength), 1);
+  EXPECT_EQ(bench_.data_exchange({0xAA}).answer().data, Bytes{0x14}) << "the earlier ones stay";
+  EXPECT_EQ(bench_.count(dsdpv1::Reason::kSpiNoClaim), 1) << "that of B00A's read";
 }
 
 }  // namespace

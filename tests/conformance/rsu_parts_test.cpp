@@ -144,8 +144,11 @@ TEST(RsuPorts, OwnershipIsPlainRamInUartMode) {
   straps.mode = HostMode::kUart;
   RsuBench bench(straps);
   bench.power_on();
-  EXPECT_EQ(bench.talk(write_telegram(0x014, {0xFF})), with_crc({0xA1, 0x00}));
-  EXPECT_EQ(bench.peek(0x014), 0xFF);
+  for (const std::uint16_t cell : {std::uint16_t{0x014}, std::uint16_t{0x018}}) {
+    EXPECT_EQ(bench.talk(write_telegram(cell, {0xFF})), with_crc({0xA1, 0x00}));
+    EXPECT_EQ(bench.talk(read_telegram(cell, 1)), with_crc({0x81, 0x00, 0xFF}));
+    EXPECT_EQ(bench.peek(cell), 0xFF) << cell;
+  }
 }
 
 TEST(RsuPorts, ModeChangesWithEachReset) {

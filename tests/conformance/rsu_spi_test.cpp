@@ -103,6 +103,12 @@ TEST_F(RsuSpi, ErrorBits) {
   EXPECT_EQ(bench_.peek(0x100, 300), Bytes(300, 0)) << "nothing is carried out";
 }
 
+// 6.2.2: bits 15 to 11 of the address are reserved.
+TEST_F(RsuSpi, EachReservedBitOfTheAddressIsAnError) {
+  for (unsigned bit = 11; bit < 16; ++bit)
+    EXPECT_EQ(bench_.ask(read_telegram(static_cast<std::uint16_t>(0x123U | 1U << bit), 1), 4), error(0x02)) << bit;
+}
+
 TEST_F(RsuSpi, LongestTelegrams) {
   bench_.claim();
   Bytes data(245);
@@ -123,6 +129,16 @@ TEST_F(RsuSpi, StartBytesThatAreNone) {
   }
   EXPECT_EQ(bench_.count(R::kTelegramStart), 6);
   EXPECT_EQ(bench_.read(0x000, 1), Bytes{1});
+}
+
+TEST_F(RsuSpi, WithoutXssNothingIsHeardOrSaid) {
+  bench_.forget_events();
+  bench_.clock(write_telegram(0x100, {9}));
+  bench_.clock(Bytes(4, 0xFF));
+  EXPECT_EQ(bench_.level(Pin::kMiso), kLevelZ);
+  EXPECT_TRUE(bench_.changes(Pin::kMiso).empty());
+  EXPECT_EQ(bench_.peek(0x100), 0);
+  EXPECT_EQ(bench_.read(0x000, 1), Bytes{1}) << "the next frame begins anew";
 }
 
 TEST_F(RsuSpi, OtherCardsAreNotAnswered) {
@@ -249,6 +265,21 @@ TEST_F(RsuSpi, OtherBitsOfB014AreIgnored) {
   EXPECT_EQ(bench_.count(R::kReadOnlyWritten), 1) << "B014 is not among them";
 }
 
+// P6, over a telegram: one event for each byte that sets bits.
+TEST_F(RsuSpi, BitsThatOnlyTheChipSetsAreReported) {
+  bench_.claim();
+  const Cycle before = bench_.cycle();
+  bench_.write(0x00A, {0x01, 0x02, 0, 0, 0x04, 0x80});
+  EXPECT_EQ(bench_.count(R::kBitSet), 4);
+  EXPECT_GT(bench_.last(R::kBitSet).at, before * 250);
+  EXPECT_EQ(bench_.last(R::kBitSet).a, 0x00F);
+  EXPECT_EQ(bench_.last(R::kBitSet).b, 0x80);
+  EXPECT_EQ(bench_.last(R::kBitSet).c, 0x80);
+  bench_.write(0x00E, {0x00, 0xC0});
+  EXPECT_EQ(bench_.count(R::kBitSet), 5);
+  EXPECT_EQ(bench_.last(R::kBitSet).c, 0x40);
+}
+
 TEST_F(RsuSpi, WithoutClaimItIsCarriedOutAndReported) {
   EXPECT_EQ(bench_.read(0x000, 4), (Bytes{0x01, 0x0D, 0x07, 0x01}));
   EXPECT_EQ(bench_.last(R::kSpiNoClaim).a, 0);
@@ -353,6 +384,20 @@ TEST_F(RsuSpi, GapAfterAWrite) {
         EXPECT_EQ(bench_.last(R::kSpiWriteGap).c, heard ? 0 : 1);
       }
     }
+  }
+}
+
+// 6.3.3, second remark: the same 2.7 us after a read and write, right or refused.
+TEST_F(RsuSpi, GapAfterAReadAndWrite) {
+  for (const Tick gap : {31'740, 32'400}) {
+    bench_.forget_events();
+    bench_.run_until(bench_.now() + 50'000);
+    bench_.spi(inputs_telegram({1}));
+    bench_.run_until(bench_.now() - 1200 + gap);  // from the last bit's rise
+    Bytes mosi = read_telegram(0x000, 1);
+    mosi.resize(11, 0xFF);
+    EXPECT_EQ(part_of(bench_.spi(mosi), 6, 5), gap < 32'400 ? Bytes(5, 0xFF) : with_crc({0x81, 0x00, 0x01})) << gap;
+    EXPECT_EQ(bench_.count(R::kSpiWriteGap), gap < 32'400 ? 1 : 0) << gap;
   }
 }
 
@@ -462,6 +507,18 @@ TEST(RsuSpiParameter, ReplyGap) {
     EXPECT_EQ(part_of(miso, gap, 8), with_crc({0x81, 0x00, 0x01, 0x0D, 0x07, 0x01}));
     EXPECT_EQ(part_of(miso, gap + 8, 2), Bytes(2, 0xFF));
   }
+}
+
+// "Not open for the time being": without the parameter B015 opens nothing.
+TEST(RsuSpiUTimer, IsNotOpenByDefault) {
+  RsuBench bench;
+  bench.power_on();
+  bench.claim();
+  bench.write(0x015, {0x01});
+  bench.read(0x100, 1);  // would start it
+  bench.run_cycles(100'000);
+  EXPECT_EQ(bench.peek(0x014) & 2, 2);
+  EXPECT_EQ(bench.count(R::kSpiUTimer), 0);
 }
 
 // SP17: from the last judgement with a right CRC; ends, and the telegram of that cycle is without claim.

@@ -158,6 +158,52 @@ TEST_F(RsuUart, IntervalByRegister) {
   EXPECT_FALSE(heard_with(1003)) << "above 07: UIV";
 }
 
+// UA3 at 1.8432 Mbit/s: each code, by the strap and by B019. 3.5, 1, 2, 5, 10, 20, 50 and 100 characters of 286 cycles;
+// a start edge one cycle beyond them is in time.
+TEST(RsuUartInterval, OfEachCodeByStrapAndByRegister) {
+  const Cycle intervals[] = {1001, 286, 572, 1430, 2860, 5720, 14'300, 28'600};
+  const Bytes telegram = read_telegram(0x000, 1);
+  for (Level code = 0; code < 8; ++code) {
+    for (const bool by_register : {false, true}) {
+      if (by_register && code == 0) continue;  // 00 is no code: the strap
+      SCOPED_TRACE(std::to_string(code) + (by_register ? " B019" : " UIV"));
+      Straps straps = uart();
+      straps.interval = by_register ? (code == 7 ? 1 : 7) : code;
+      RsuBench bench(straps);
+      bench.power_on();
+      if (by_register) bench.poke(0x019, static_cast<std::uint8_t>(code));
+      for (const Cycle late : {1, 2}) {
+        bench.forget_events();
+        bench.send(part_of(telegram, 0, 3));
+        bench.run_cycles(intervals[code] + late);
+        bench.send(part_of(telegram, 3, 3));
+        bench.run_cycles(30'000);
+        EXPECT_EQ(!bench.changes(Pin::kTxd).empty(), late == 1);
+        EXPECT_EQ(bench.count(R::kTelegramCut) > 0, late == 2);
+      }
+    }
+  }
+}
+
+// 7.1.6, note 4.
+TEST_F(RsuUart, EachReservedBitOfTheAddressIsAnError) {
+  for (unsigned bit = 11; bit < 16; ++bit) {
+    const auto address = static_cast<std::uint16_t>(0x130U | 1U << bit);
+    EXPECT_EQ(bench_.talk(read_telegram(address, 1)), with_crc({0xE1, 0x02})) << bit;
+    EXPECT_EQ(bench_.talk(exchange_telegram(0, address, {0})), with_crc({0x01, 0x80, 0x02})) << bit;
+  }
+  EXPECT_EQ(bench_.talk(read_telegram(0x7FF, 1)), with_crc({0x81, 0x00, 0x00}));
+}
+
+// 7.1.6, note 2: bit 1 alone has a meaning.
+TEST_F(RsuUart, ReservedBitsOfTheFunctionAreNotLookedAt) {
+  for (const std::uint8_t function : Bytes{0x01, 0x04, 0x08, 0x10, 0x20, 0x40, 0x80, 0xFF}) {
+    EXPECT_EQ(bench_.talk(exchange_telegram(function, 0x130, {0})).at(1), 0x00) << int{function};
+    EXPECT_EQ(bench_.talk(exchange_telegram(function, 0x227, {0, 0})).at(1), (function & 0x02) != 0 ? 0x00 : 0x80)
+        << int{function};
+  }
+}
+
 TEST_F(RsuUart, GlitchWithinSilence) {
   const Bytes telegram = read_telegram(0x000, 1);
   bench_.send(part_of(telegram, 0, 3));
@@ -296,6 +342,20 @@ TEST_F(RsuUart, ExchangeErrors) {
   EXPECT_EQ(bench_.talk(wrong), with_crc({0x01, 0x80, 0x01}));
 }
 
+// 7.1.5, the first field; UA7, UA8.
+TEST(RsuUartTarget, IsTheCardAndItsReplyBearsItsAddress) {
+  for (const Level own : {Level{1}, Level{2}}) {
+    Straps straps = uart();
+    straps.address = own;
+    RsuBench bench(straps);
+    bench.power_on();
+    for (std::uint8_t card = 0; card < 4; ++card) {
+      const Bytes reply = bench.talk(exchange_telegram(0, 0x130, {0}, card));
+      EXPECT_EQ(reply, card == own ? with_crc({card, 0x00, 0x03, 0x19, 0x01, 0x00}) : Bytes{}) << own << " " << card;
+    }
+  }
+}
+
 // UA10 to UA12: one area a reply, in this order; its flag is cleared. The chip clears none of them before a user took
 // it.
 TEST_F(RsuUart, NewsInTheirOrder) {
@@ -322,6 +382,36 @@ TEST_F(RsuUart, NewsInTheirOrder) {
   EXPECT_EQ(inputs(), with_crc({0x01, 0x00, 0x03, 0x19, 0x02, 0x01, 0xAA}));
   EXPECT_EQ(bench_.peek(0x00E), 0x00);
   EXPECT_EQ(inputs(), with_crc({0x01, 0x00, 0x03, 0x19, 0x02, 0x01, 0xAA})) << "whether new or not";
+}
+
+// P6: a telegram over B00A to B00F, one event for each byte that sets bits. The chip's own clearing in an exchange is
+// none.
+TEST_F(RsuUart, BitsThatOnlyTheChipSetsAreReported) {
+  bench_.talk(write_telegram(0x00A, {0x01, 0x02, 0x00, 0x00, 0x07, 0x03}));
+  EXPECT_EQ(bench_.count(R::kBitSet), 4);
+  EXPECT_EQ(bench_.last(R::kBitSet).a, 0x00F);
+  EXPECT_EQ(bench_.last(R::kBitSet).c, 0x03);
+  bench_.talk(exchange_telegram(0, 0x130, {0}));
+  bench_.talk(write_telegram(0x00E, {0x00, 0x00}));
+  EXPECT_EQ(bench_.count(R::kBitSet), 4);
+}
+
+// UA12, as the vendor's main loop is reported to compute it: the length byte plus five.
+TEST_F(RsuUart, CrcOfEveryReplyCoversItsLengthPlusFive) {
+  bench_.poke(0x410, 2), bench_.poke(0x411, 0x11), bench_.poke(0x412, 0x12);
+  bench_.poke(0x500, 9), bench_.poke(0x501, 8), bench_.poke(0x502, 2), bench_.poke(0x503, 0x13),
+      bench_.poke(0x504, 0x23);
+  bench_.poke(0x5D0, 0x5F), bench_.poke(0x5D3, 3);
+  bench_.poke(0x6D0, 0x51), bench_.poke(0x6D3, 1);
+  bench_.poke(0x319, 1), bench_.poke(0x31A, 0xAA);
+  bench_.poke(0x00E, 0x07), bench_.poke(0x00F, 0x03);
+  for (const int area : {0x410, 0x500, 0x5D0, 0x6D0, 0x319}) {
+    const Bytes reply = bench_.talk(exchange_telegram(0, 0x130, {0}));
+    ASSERT_GT(reply.size(), 5U);
+    EXPECT_EQ(reply[2] << 8 | reply[3], area);
+    EXPECT_EQ(reply.size(), reply[4] + 7U);
+    EXPECT_EQ(with_crc(part_of(reply, 0, reply[4] + 5U)), reply);
+  }
 }
 
 TEST_F(RsuUart, LengthsAreLimited) {
@@ -355,6 +445,8 @@ TEST(RsuUartParameter, CfgLength) {
   const Bytes reply = bench.talk(exchange_telegram(0, 0x130, {0}));
   EXPECT_EQ(part_of(reply, 0, 5), (Bytes{0x01, 0x20, 0x05, 0x00, 0x07}));
   EXPECT_EQ(reply.size(), 16U) << "nine data bytes";
+  EXPECT_EQ(reply.size(), reply[4] + 9U) << "the length plus five ends two bytes before the CRC (UA12)";
+  EXPECT_NE(part_of(reply, 0, reply[4] + 7U), with_crc(part_of(reply, 0, reply[4] + 5U)));
 }
 
 TEST(RsuUartParameter, MinTsdr) {

@@ -1,6 +1,7 @@
 // Judging of parameters and configuration: tables 13 and 14; rulings D4, D8, D15, H7, S7, S15 to S17, P7.
 #include <tuple>
 
+#include "tests/conformance/master_side.hpp"
 #include "tests/conformance/user_helpers.hpp"
 
 namespace dsdpv1::conformance {
@@ -400,22 +401,212 @@ TEST_F(ByUser, MoreThan237BytesAreAPrmFaultInEveryMode) {
   EXPECT_EQ(bench.slave_diag().at(0) & 0x40, 0x40);
 }
 
-TEST_F(ByUser, VerdictWhileTheRateIsSearchedStartsNoWatchdog) {
+// --- a watchdog that waits for the rate (S29)
+// --------------------------------------------------------------------------
+
+/// BAUD_CONTROL of 5 ms, so that a master that is silent loses the rate soon.
+dsdpv1::Config quick_loss() {
   dsdpv1::Config config;
   config.baud_control_ms = 5;
-  SlaveBench lost(config);
-  lost.to_wait_prm(judged_by(2, 0));
-  Prm watched = with_user({});
-  watched.status |= 0x08;
-  watched.wd1 = watched.wd2 = 1;
-  ASSERT_TRUE(lost.set_prm(watched).short_acknowledge());
-  lost.run_ms(10);
-  ASSERT_EQ(lost.chip.status().baud_index.code(), 15);
-  lost.verdict(true, std::nullopt);
-  EXPECT_EQ(lost.dp_state(), DpState::kWaitCfg);
+  return config;
+}
+
+Prm watched(int wd1, int wd2, bool wd_on = true) {
+  Prm prm = with_user({0x04});  // WD_Base 1 ms
+  prm.status = wd_on ? 0x88 : 0x80;
+  prm.wd1 = static_cast<std::uint8_t>(wd1);
+  prm.wd2 = static_cast<std::uint8_t>(wd2);
+  return prm;
+}
+
+/// The user has a Set_Prm to judge, and the rate has been lost meanwhile.
+void lose_the_rate(SlaveBench& bench, const Prm& prm) {
+  bench.to_wait_prm(judged_by(2, 0));
+  ASSERT_TRUE(bench.set_prm(prm).short_acknowledge());
+  bench.run_ms(10);
+  ASSERT_EQ(bench.count(Reason::kBaudLost), 1);
+  ASSERT_EQ(bench.peek(0x012) >> 4, 0xF);
+}
+
+void accept_in_the_search(SlaveBench& bench, const Prm& prm) {
+  lose_the_rate(bench, prm);
+  bench.verdict(true, std::nullopt);
+  ASSERT_EQ(bench.count(Reason::kPrmAccepted), 1);
+  ASSERT_EQ(bench.dp_state(), DpState::kWaitCfg);
+  ASSERT_EQ(bench.count(Reason::kWatchdogOn), 0);
+}
+
+Tick after_ms(Tick begin, Cycle ms) { return begin + ms * kMs * kCycleTicks; }
+
+void expect_expiry_at(SlaveBench& bench, Tick end, DpState before) {
+  bench.run_until(end - 1);
+  EXPECT_EQ(bench.dp_state(), before);
+  bench.run_until(end);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  EXPECT_EQ(bench.last(Reason::kWatchdogExpired).at, end);
+}
+
+TEST_F(ByUser, VerdictWhileTheRateIsSearchedRunsNoWatchdogUntilTheRateIsFound) {
+  SlaveBench lost(quick_loss());
+  accept_in_the_search(lost, watched(1, 1));
   lost.run_ms(20);
-  EXPECT_EQ(lost.count(profibus::Reason::kWatchdogExpired), 0);
-  EXPECT_EQ(lost.count(profibus::Reason::kBaudSearch), 2) << "one search, undisturbed";
+  EXPECT_EQ(lost.count(Reason::kWatchdogOn), 0);
+  EXPECT_EQ(lost.count(Reason::kWatchdogExpired), 0);
+  EXPECT_EQ(lost.count(Reason::kBaudSearch), 2) << "one search, undisturbed";
+  lost.find_baud();
+  EXPECT_EQ(lost.count(Reason::kWatchdogOn), 1);
+}
+
+TEST_F(ByUser, WatchdogOfAVerdictInTheSearchStartsWithTheRate) {
+  SlaveBench lost(quick_loss());
+  accept_in_the_search(lost, watched(10, 10));
+  lost.find_baud();
+  EXPECT_EQ(lost.last(Reason::kWatchdogOn).at, lost.last(Reason::kBaudFound).at);
+  EXPECT_EQ(lost.last(Reason::kWatchdogOn).a, 100);
+  EXPECT_EQ(lost.last(Reason::kWatchdogOn).b, 1);
+  const auto& events = lost.chip.events();
+  EXPECT_EQ(events.at(events.size() - 2).reason, Reason::kBaudFound) << "in this order";
+  EXPECT_EQ(lost.slave_diag(), (Bytes{0x02, 0x0C, 0, 2, 0x0C, 0xC9}));
+  ASSERT_TRUE(lost.check_cfg().short_acknowledge());
+  const Cycle decision = lost.now() / kCycleTicks + 2000;
+  send_decided_at(lost, decision, 0, bus::make_telegram(5, 2, kSrdFirst, {0x12, 0x34}), true);
+  lost.chip_accesses();
+  EXPECT_EQ(lost.fetch_outputs(), (Bytes{0x12, 0x34}));
+  expect_expiry_at(lost, after_ms(decision * kCycleTicks, 100), DpState::kDataExch);
+  EXPECT_EQ(lost.last(Reason::kWatchdogExpired).a, 2);
+  EXPECT_EQ(lost.last(Reason::kWatchdogExpired).b, 100);
+  EXPECT_EQ(lost.last(Reason::kWatchdogExpired).c, 1);
+  EXPECT_EQ(lost.chip.level(Pin::kPbf), 1);
+  lost.chip_accesses();
+  EXPECT_EQ(lost.fetch_outputs(), (Bytes{0, 0})) << "the outputs do not stand without a master";
+  EXPECT_EQ(offline_count(lost), 1);
+}
+
+TEST_F(ByUser, WatchdogOfAVerdictInTheSearchReleasesTheSlaveOfADeadMaster) {
+  SlaveBench lost(quick_loss());
+  accept_in_the_search(lost, watched(5, 4));
+  lost.find_baud();
+  const Tick end = after_ms(lost.last(Reason::kBaudFound).at, 20);
+  for (int i = 0; i < 5; ++i) {
+    lost.run_ms(3);
+    EXPECT_TRUE(lost.requester.send(lost.timeline, bus::make_telegram(5, 3, kFdlStatus)).answered());
+  }
+  EXPECT_TRUE(is_rs(ask(lost, bus::sap::kSetPrm, watched(1, 1).bytes(), 3)));
+  expect_expiry_at(lost, end, DpState::kWaitCfg);
+  EXPECT_EQ(offline_count(lost), 0) << "data exchange was not left (S29)";
+  EXPECT_TRUE(is_sc(ask(lost, bus::sap::kSetPrm, watched(1, 1).bytes(), 3)));
+}
+
+TEST_F(ByUser, VerdictInTheSearchWithoutWdOnLeavesNoWatchdogWaiting) {
+  SlaveBench lost(quick_loss());
+  accept_in_the_search(lost, watched(10, 10, false));
+  lost.find_baud();
+  EXPECT_EQ(lost.count(Reason::kWatchdogOn), 0);
+  EXPECT_EQ(lost.slave_diag(), (Bytes{0x02, 0x04, 0, 2, 0x0C, 0xC9}));
+}
+
+TEST_F(ByUser, WrongVerdictInTheSearchLeavesNoWatchdogWaiting) {
+  SlaveBench lost(quick_loss());
+  lose_the_rate(lost, watched(10, 10));
+  lost.verdict(false, std::nullopt);
+  lost.find_baud();
+  EXPECT_EQ(lost.count(Reason::kWatchdogOn), 0);
+  EXPECT_EQ(lost.slave_diag(), (Bytes{0x42, 0x05, 0, 255, 0x0C, 0xC9}));
+}
+
+TEST_F(ByUser, WaitingWatchdogEndsWithANewInitialisation) {
+  SlaveBench lost(quick_loss());
+  accept_in_the_search(lost, watched(2, 1));
+  ASSERT_TRUE(lost.initialise(judged_by(0, 0)));
+  lost.find_baud();
+  EXPECT_EQ(lost.count(Reason::kWatchdogOn), 0);
+  ASSERT_TRUE(lost.set_prm(with_user({})).short_acknowledge());
+  lost.run_ms(4);
+  EXPECT_EQ(lost.count(Reason::kWatchdogExpired), 0);
+  EXPECT_EQ(lost.dp_state(), DpState::kWaitCfg);
+}
+
+/// The user holds the DPRAM with a right verdict in it.
+void hold_a_verdict(SlaveBench& bench) {
+  bench.acquire();
+  bench.write(regs::kUserStatus1, 0);
+  bench.write(regs::kUserCommand1, regs::kUserCommand1PrmVerdict);
+  bench.run_for(100 * kCycleTicks - bench.now() % kCycleTicks);  // the next access is overdue
+}
+
+/// From the release of a hold that is longer than T to the commit of its verdict, in cycles.
+Cycle release_to_commit() {
+  SlaveBench bench(quick_loss());
+  lose_the_rate(bench, watched(3, 1));
+  hold_a_verdict(bench);
+  const Tick released = bench.now();
+  bench.chip_accesses();
+  return (bench.last(Reason::kPrmAccepted).at - released) / kCycleTicks;
+}
+
+/// The verdict takes effect in this cycle.
+void plan_verdict(SlaveBench& bench, Script& script, Cycle commit) {
+  const Tick release = (commit - release_to_commit()) * kCycleTicks;
+  script.set(release, Pin::kRSta, 0);
+  script.set(release, Pin::kRReq, 0);
+  ASSERT_GT(release, bench.now());
+}
+
+TEST_F(ByUser, WatchdogOfAVerdictAroundTheCycleOfTheRateStartsWithTheLaterOfThem) {
+  for (const Cycle later : {-1, 0, 1}) {
+    SlaveBench lost(quick_loss());
+    lose_the_rate(lost, watched(3, 1));
+    hold_a_verdict(lost);
+    const Cycle found = lost.now() / kCycleTicks + 3000;
+    Script script(lost);
+    plan_verdict(lost, script, found + later);
+    send_decided_at(lost, found, 0, bus::make_telegram(100, 2, kFdlStatus));
+    lost.run_cycles(300);
+    ASSERT_EQ(lost.last(Reason::kBaudFound).at, found * kCycleTicks);
+    ASSERT_EQ(lost.last(Reason::kPrmAccepted).at, (found + later) * kCycleTicks);
+    const Tick begin = std::max(found, found + later) * kCycleTicks;
+    EXPECT_EQ(lost.last(Reason::kWatchdogOn).at, begin) << later;
+    expect_expiry_at(lost, after_ms(begin, 3), DpState::kWaitCfg);
+  }
+}
+
+TEST_F(ByUser, VerdictInTheCycleInWhichBaudControlEndsComesFirst) {
+  for (const Cycle later : {0, 1}) {
+    SlaveBench lost(quick_loss());
+    lost.to_wait_prm(judged_by(2, 0));
+    ASSERT_TRUE(lost.set_prm(watched(3, 1)).short_acknowledge());
+    const Cycle end = lost.last(Reason::kPrmJudged).at / kCycleTicks + 5 * kMs;
+    lost.run_ms(4);
+    hold_a_verdict(lost);
+    Script script(lost);
+    plan_verdict(lost, script, end + later);
+    run_to_cycle(lost, end + 300);
+    ASSERT_EQ(lost.last(Reason::kPrmAccepted).at, (end + later) * kCycleTicks);
+    EXPECT_EQ(lost.count(Reason::kBaudLost), later == 0 ? 0 : 1);
+    EXPECT_EQ(lost.count(Reason::kWatchdogOn), later == 0 ? 1 : 0);
+    if (later == 0) expect_expiry_at(lost, after_ms(end * kCycleTicks, 3), DpState::kWaitCfg);
+  }
+}
+
+TEST_F(ByUser, RefusedSetPrmLeavesNothingOfItsGroup) {
+  Prm first = with_user({}), second = with_user({});
+  first.group = 0x01;
+  second.group = 0x02;
+  const auto take = [this](const Prm& prm, bool right) {
+    ASSERT_TRUE(is_sc(ask(bench, bus::sap::kSetPrm, prm.bytes())));
+    bench.chip_accesses(3);
+    bench.verdict(right, std::nullopt);
+  };
+  bench.to_wait_prm(judged_by(2, 0));
+  take(first, true);
+  ASSERT_TRUE(is_sc(ask(bench, bus::sap::kChkCfg, {0x11, 0x21})));
+  take(second, false);
+  take(first, true);
+  ASSERT_TRUE(is_sc(ask(bench, bus::sap::kChkCfg, {0x11, 0x21})));
+  bench.global_control(0x02, 0x02);
+  EXPECT_EQ(bench.count(Reason::kGlobalControl), 0);
+  bench.global_control(0x02, 0x01);
+  EXPECT_EQ(bench.count(Reason::kGlobalControl), 1);
 }
 
 TEST_F(ByUser, CheckCfgInDataExchangeNeedsNoVerdict) {
@@ -467,6 +658,21 @@ TEST_F(ByUser, UnlockEndsTheJudging) {
   EXPECT_EQ(bench.count(Reason::kVerdictUnexpected), 1);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
   EXPECT_TRUE(diagnosis(bench).prm_req);
+}
+
+// H7. A check reports it: VERDICT_UNFETCHED.
+TEST_F(ByUser, AVerdictOnABlockThatTheUserHasNotFetchedIsTakenLikeAnyOther) {
+  wait_for_prm_verdict();
+  ASSERT_EQ(bench.peek(regs::kChipCommand1) & 0x02, 0x02);
+  bench.verdict(true, std::nullopt);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
+  EXPECT_EQ(bench.peek(regs::kChipCommand1) & 0x02, 0x02) << "B00E.1 is the user's to clear";
+  ASSERT_TRUE(bench.check_cfg().short_acknowledge());
+  bench.chip_accesses(3);
+  ASSERT_EQ(bench.peek(regs::kChipCommand1) & 0x04, 0x04);
+  bench.verdict(std::nullopt, false);
+  expect_refused(bench, false);
+  EXPECT_EQ(bench.peek(regs::kChipCommand1) & 0x04, 0x04);
 }
 
 }  // namespace

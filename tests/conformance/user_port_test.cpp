@@ -87,6 +87,12 @@ class UserPort : public testing::Test {
     EXPECT_EQ(bench.count(dsdpv1::Reason::kReadUnknown), unknown + 2);
   }
 
+  void expect_bits_set(std::uint16_t cell, std::uint8_t written, unsigned bits) const {
+    EXPECT_EQ(bench.last(dsdpv1::Reason::kBitSet).a, cell);
+    EXPECT_EQ(bench.last(dsdpv1::Reason::kBitSet).b, written);
+    EXPECT_EQ(bench.last(dsdpv1::Reason::kBitSet).c, bits);
+  }
+
   SlaveBench bench;
 };
 
@@ -499,14 +505,87 @@ TEST_F(UserPort, TheLastOfTwoWritesToTheSameCellWins) {
 
 // --- who may write, and when -----------------------------------------------------------------------------------------
 
+// P6: only the chip sets bits of these.
+constexpr std::uint16_t kStatusCells[] = {0x00A, 0x00B, 0x00E, 0x00F};
+bool is_status(std::uint16_t cell) {
+  return std::find(std::begin(kStatusCells), std::end(kStatusCells), cell) != std::end(kStatusCells);
+}
+
+TEST_F(UserPort, SettingABitOfTheChipsStatusIsReportedClearingIsNot) {
+  const auto write = [this](std::uint16_t cell, std::uint8_t value) {
+    const int before = bench.count(dsdpv1::Reason::kBitSet);
+    bench.write(cell, value);
+    bench.run_cycles(4);
+    EXPECT_EQ(bench.peek(cell), value) << "carried out";
+    return bench.count(dsdpv1::Reason::kBitSet) - before;
+  };
+  for (const std::uint16_t cell : kStatusCells) {
+    SCOPED_TRACE(cell);
+    write(cell, 0x00);
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      const auto value = static_cast<std::uint8_t>(1U << bit);
+      EXPECT_EQ(write(cell, value), 1);
+      expect_bits_set(cell, value, value);
+      EXPECT_EQ(write(cell, value), 0) << "nothing changes";
+      EXPECT_EQ(write(cell, 0x00), 0);
+      EXPECT_EQ(write(cell, 0x00), 0);
+    }
+    EXPECT_EQ(write(cell, 0x25), 1);
+    EXPECT_EQ(write(cell, 0x05), 0);
+    EXPECT_EQ(write(cell, 0x85), 1);
+    expect_bits_set(cell, 0x85, 0x80);
+  }
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kReadOnlyWritten), 0);
+}
+
+// "Before" is when the byte reaches the RAM, not when WR rises.
+TEST_F(UserPort, SettingABitIsJudgedAfterTheWritesInFlight) {
+  write_shaped(next_rise(), 0x00B, 0x01, {});
+  ASSERT_EQ(bench.count(dsdpv1::Reason::kBitSet), 1);
+  bench.chip.set(bench.now(), Pin::kA, 0x00B);
+  bench.chip.set(bench.now(), Pin::kCsr, 0);
+  Tick rise = 0;
+  for (const Level value : {Level{0}, Level{1}}) {
+    bench.chip.set(bench.now(), Pin::kDIn, value);
+    bench.chip.set(bench.now(), Pin::kWr, 0);
+    bench.run_for(200);
+    rise = bench.now();
+    bench.chip.set(rise, Pin::kWr, 1);
+    bench.run_for(200);
+  }
+  bench.chip.set(bench.now(), Pin::kCsr, 1);
+  bench.run_cycles(8);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kBitSet), 2);
+  expect_bits_set(0x00B, 0x01, 0x01);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kBitSet).at, seen_at(rise) * kCycleTicks) << "when it settles (P8)";
+}
+
+TEST_F(UserPort, WritingBackABitThatTheChipHasSetIsNotReported) {
+  bench.release();
+  ASSERT_TRUE(bench.initialise());
+  bench.give_inputs({1, 2}, 1);
+  ASSERT_EQ(bench.peek(0x00B), 0x04);
+  bench.poke(0x00B, 0x04);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kBitSet), 0);
+  bench.give_inputs({1, 2});
+  ASSERT_EQ(bench.peek(0x00B), 0x00);
+  bench.poke(0x00B, 0x04);
+  bench.run_cycles(4);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kBitSet), 1);
+}
+
 TEST_F(UserPort, WritesToTheChipsCellsAreReportedAndCarriedOut) {
   for (const regs::Cell& cell : regs::kMap) {
-    const int before = bench.count(dsdpv1::Reason::kReadOnlyWritten);
+    const int before = bench.count(dsdpv1::Reason::kReadOnlyWritten), set = bench.count(dsdpv1::Reason::kBitSet);
+    const auto old = bench.peek(cell.first);
     bench.write(cell.first, 0xE7);
     bench.run_cycles(4);
     EXPECT_EQ(bench.peek(cell.first), 0xE7) << cell.name;
     const bool reported = cell.chip_writes && !cell.user_writes;  // P6; reserved cells belong to neither side (P13)
     EXPECT_EQ(bench.count(dsdpv1::Reason::kReadOnlyWritten) - before, reported ? 1 : 0) << cell.name;
+    const bool of_status = is_status(cell.first);
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kBitSet) - set, of_status ? 1 : 0) << cell.name;
+    if (of_status) expect_bits_set(cell.first, 0xE7, 0xE7U & ~static_cast<unsigned>(old));
   }
   EXPECT_EQ(bench.last(dsdpv1::Reason::kReadOnlyWritten).a, 0x5CB);
   EXPECT_EQ(bench.last(dsdpv1::Reason::kReadOnlyWritten).b, 0xE7);

@@ -24,7 +24,7 @@ struct Bench {
       const Tick now = half_ * 125;
       if (half_ % 2 == 0) {
         const Cycle cycle = now / 250;
-        if (!sparse || cycle >= port.next()) port.eval(cycle, chip_owns);
+        if (!sparse || cycle >= port.next()) port.eval(cycle, chip_owns, true);
       } else if (port.drive_at() <= now) {
         port.drive();
       }
@@ -55,7 +55,7 @@ TEST(HostPortBlock, InResetItNeitherWritesNorReads) {
   port.set(1200, Pin::kWr, 0);
   port.set(1600, Pin::kWr, 1);
   port.set(2000, Pin::kRd, 0);
-  for (Cycle now = 4; now < 20; ++now) port.eval(now, false);
+  for (Cycle now = 4; now < 20; ++now) port.eval(now, false, true);
   EXPECT_EQ(dpram.read(0x130), 0);
   EXPECT_EQ(port.d_out(), kLevelZ);
   EXPECT_TRUE(recorder.events.empty());

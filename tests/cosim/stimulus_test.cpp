@@ -69,7 +69,7 @@ TEST(Stimulus, AnActionOfUserOrBoardIsAimedAtAPartOfAnAccess) {
 }
 
 /// For RESET and the host's first edges, at each port; random coincidences are not counted.
-TEST(RandomCases, AimAtEachPartOfAnAccess) {
+TEST(RandomAims, AimAtEachPartOfAnAccess) {
   const std::size_t parts = tb::kind_of(Part::kRsu).random()->words().access_parts.size();
   for (const char* mode : kModes) {
     std::set<const char*> reset, host;

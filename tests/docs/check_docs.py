@@ -10,6 +10,7 @@
     check_docs.py bare             the times in README.md are those of docs/trust/bare.tsv, and its commands those that were measured
     check_docs.py update_bare      writes these times again
     check_docs.py packages         the tables of docs/install.md are those of packages.txt and ./run deps --commands
+    check_docs.py marks            each ruling of docs/chip.md has one mark, which says how far the documents support it
     check_docs.py house            docs/img/house.svg is drawn from the table of arrows in docs/architecture.md
     check_docs.py picture SIM      docs/img/power_on_12m.svg and handshake.svg are drawn from what dsdpv1-sim writes
     check_docs.py update SIM       writes the figures of README.md, the pictures and the tables again
@@ -363,6 +364,20 @@ def update_packages(root):
     path.write_text(PACKAGES.sub(lambda block: block.group(1) + tables_of_packages(root), path.read_text(encoding="utf-8")), encoding="utf-8")
 
 
+# --------------------------------------------------------------------------------------------------------------- marks
+RULING = re.compile(r'^- \*\*([A-Z]\d+)\*\*(?:<a id="[^"]+"></a>)? ?(?:\[([^\]]*)\])?(?= |$)', re.M)
+MARKS = ("documented", "documented in part", "firmware", "departed", "silent")
+
+
+def check_marks(root):
+    path = root / "docs/chip.md"
+    text = path.read_text(encoding="utf-8")
+    for ruling in RULING.finditer(text):
+        if ruling.group(2) not in MARKS:
+            what = f"has the mark [{ruling.group(2)}]" if ruling.group(2) else "has no mark"
+            yield fault(root, path, text, ruling.start(), f"{ruling.group(1)} {what}, expected one of {', '.join(MARKS)}")
+
+
 def update(root, sim):
     update_trust(root)
     draw(root, sim, root)
@@ -378,12 +393,12 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "mentions", "table", "trust", "snippets", "bare", "update_bare", "packages", "house", "picture", "sweep", "regress", "update"])
+    parser.add_argument("what", choices=["links", "files", "mentions", "table", "trust", "snippets", "bare", "update_bare", "packages", "marks", "house", "picture", "sweep", "regress", "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
     with_sim = {"picture": check_picture, "sweep": check_sweep, "regress": check_regress, "update": update}
     without = {"links": check_links, "files": check_files, "mentions": check_mentions, "table": check_table, "trust": check_trust,
-               "snippets": check_snippets, "bare": check_bare, "update_bare": update_bare, "packages": check_packages, "house": check_house}
+               "snippets": check_snippets, "bare": check_bare, "update_bare": update_bare, "packages": check_packages, "marks": check_marks, "house": check_house}
     if arguments.what in with_sim:
         if arguments.sim is None:
             parser.error(f"{arguments.what} needs the path of dsdpv1-sim")

@@ -24,7 +24,7 @@ RIGHT = {
                            "2026-01-02\tc\tsource\t173\t137.0\t60\t210\t400\t2\t0.3\n",
     "packages.txt": "# all\n\n# to build\n[tools]\ncmake\ng++\n",
     "run": "#!/bin/sh\nprintf 'demo\\ttools\\nsim\\ttools\\n'\n",
-    "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
+    "docs/chip.md": "# Chip\n## Its rulings\n- **P1** [silent] a\n- **V1** [documented in part] b\n",
     "model/core.cpp": "// docs/chip.md#its-rulings, P1; docs/tutorials/one.md; not mydocs/two.md\n",
     "examples/one.cpp": "// one\nint main() {}\n",
 }
@@ -42,7 +42,7 @@ class Project(small_project.SmallProject):
     def faults(self):
         found = []
         for check in (check_docs.check_links, check_docs.check_files, check_docs.check_mentions, check_docs.check_table, check_docs.check_trust, check_docs.check_snippets,
-                      check_docs.check_bare, check_docs.check_packages):
+                      check_docs.check_bare, check_docs.check_packages, check_docs.check_marks):
             found += check(self.root)
         return found
 
@@ -82,6 +82,14 @@ class Project(small_project.SmallProject):
     def test_a_bare_name_that_no_file_has(self):
         self.change("README.md", "`core.cpp`", "`heart.cpp`")
         self.expect("there is no heart.cpp")
+
+    def test_a_ruling_without_a_mark(self):
+        self.change("docs/chip.md", "[silent] ", "")
+        self.expect("docs/chip.md:3: P1 has no mark")
+
+    def test_a_mark_that_the_page_does_not_explain(self):
+        self.change("docs/chip.md", "[documented in part]", "[written]")
+        self.expect("docs/chip.md:4: V1 has the mark [written]")
 
     def test_a_group_with_another_package(self):
         self.change("packages.txt", "g++\n", "ninja\n")

@@ -33,7 +33,7 @@ RIGHT = {
     "rtl_ref/core.sv": "",
     "scenarios/one.yaml": "",
     "tests/core_test.cpp": "TEST_F(Core, Works) {\n",
-    "tests/CMakeLists.txt": "function(try name)\n  add_test(NAME Install.${name}\n)\nendfunction()\ntry(Core x)\n",
+    "tests/CMakeLists.txt": "set(more more_test.cpp)\ndsdpv1_test(core_test core_test.cpp ${more})\nfunction(try name)\n  add_test(NAME Install.${name}\n)\nendfunction()\ntry(Core x)\n",
     "build/tests.commit": "1a2b3c4\n",
     "build/tests.xml": '<testsuite><testcase name="Core.Works" status="run"/><testcase name="Install.Core" status="run"/>'
                        '<testcase name="All/Scenarios.Pass/one  # GetParam() = &quot;one.x&quot;" status="run"/>'
@@ -73,12 +73,12 @@ class Conformance(small_project.SmallProject):
         self.assertEqual(self.generate("--check"), (0, "conformance: right\n"))
         page = self.text("docs/conformance.md")
         self.assertIn("| <a id=\"1\"></a>1 | a number | P1 | [core.cpp](../model/core.cpp) | [core.sv](../rtl_ref/core.sv) | "
-                      "`Core.Works` (when on), `Install.Core` | not run |", page)
-        self.assertIn("| <a id=\"t1-a\"></a>T1-A | one\\|two | - | [core.cpp](../model/core.cpp) | - | `scenarios/one.yaml` | not run |", page)
+                      "core_test: `Core.Works` (when on), ctest: `Install.Core` | not run |", page)
+        self.assertIn("| <a id=\"t1-a\"></a>T1-A | one\\|two | - | [core.cpp](../model/core.cpp) | - | ctest: `scenarios/one.yaml` | not run |", page)
         self.assertIn("| T2 | not modelled |", page)
-        self.assertIn("| <a id=\"m1-1\"></a>M1-1 | the same | - | [core.cpp](../model/core.cpp) | - | `scenarios/one.yaml` | not run |", page)
-        self.assertIn("| P1 | `Core.Works` (when on), `Install.Core` |", self.text("docs/test_plan.md"))
-        self.assertIn("| all | `Core.Works` |", self.text("docs/test_plan.md"))
+        self.assertIn("| <a id=\"m1-1\"></a>M1-1 | the same | - | [core.cpp](../model/core.cpp) | - | ctest: `scenarios/one.yaml` | not run |", page)
+        self.assertIn("| P1 | core_test: `Core.Works` (when on), ctest: `Install.Core` |", self.text("docs/test_plan.md"))
+        self.assertIn("| all | core_test: `Core.Works` |", self.text("docs/test_plan.md"))
 
     def test_a_page_that_is_stale_or_missing(self):
         self.generate()
@@ -113,6 +113,18 @@ class Conformance(small_project.SmallProject):
         page = self.text("docs/conformance.md")
         self.assertIn("Neither a test nor a reason: 1.\n", page)
         self.assertIn("| <a id=\"1\"></a>1 | a number | - | [core.cpp](../model/core.cpp) | - | **NO TEST** | - |", page)
+
+    def test_a_test_needs_its_suite_and_a_file_that_is_no_scenario_is_none(self):
+        for name in ("Works", "model/core.cpp"):
+            self.change(SHEET, "[scenarios/one.yaml]", f"[{name}]")
+            self.expect(f"{SHEET}:8: clause T1-A: there is no test {name}", f"M1-1: there is no test {name}")
+            self.change(SHEET, f"[{name}]", "[scenarios/one.yaml]")
+
+    def test_a_suite_in_two_programs(self):
+        self.write("tests/more_test.cpp", "TEST(Core, Else) {\n")
+        self.expect()
+        self.change("tests/CMakeLists.txt", "function(try", "dsdpv1_test(other_test more_test.cpp)\nfunction(try")
+        self.expect("tests/: suite Core is in core_test and other_test; rename one")
 
     def test_a_repeated_clause_without_a_test(self):
         self.change(SHEET, "tests: [scenarios/one.yaml]", "tests: []")
@@ -254,7 +266,7 @@ class Conformance(small_project.SmallProject):
                                                f"{self.root}/build/page.md\n"))
         self.assertIn("`Install.Core` | 2 of 2 |", page)
         self.assertIn("`scenarios/one.yaml` | 1 of 1 |", page)
-        self.assertIn("| V1 | - | [core.cpp](../model/core.cpp) | - | `Core` | 2 of 2 |", page)
+        self.assertIn("| V1 | - | [core.cpp](../model/core.cpp) | - | core_test: `Core` | 2 of 2 |", page)
         self.assertIn("run of commit 1a2b3c4,", page)
         self.assertIn("4 of all 4 tests passed", page)
         self.assertFalse((self.root / "docs/conformance.md").exists())
@@ -271,7 +283,7 @@ class Conformance(small_project.SmallProject):
         status, output, page = self.report()
         self.assertEqual(status, 1)
         self.assertIn("named by rulings and clauses, but not run: scenarios/one.yaml\n", output)
-        self.assertIn("`scenarios/one.yaml` | not run |", page)
+        self.assertIn("ctest: `scenarios/one.yaml` | not run |", page)
 
     def test_a_recorded_run_is_shown_until_the_next_is_recorded(self):
         self.assertEqual(self.generate("--record", "--run", self.root / "build/tests.xml")[0], 0)
@@ -284,6 +296,20 @@ class Conformance(small_project.SmallProject):
         self.assertEqual(self.text("docs/conformance.md"), recorded)
         self.generate("--record", "--run", self.root / "build/tests.xml")
         self.assertIn("FAILED Core.Works", self.text("docs/conformance.md"))
+
+    def test_tests_that_are_newer_than_the_recorded_run(self):
+        self.generate()
+        self.assertIn("4 of the 4 tests that rulings and clauses name are newer than this run, as Core; ./run test, then", self.generate("--released")[1])
+        self.generate("--record", "--run", self.root / "build/tests.xml")
+        self.assertIn("Rulings and clauses name 4 tests; none is newer than this run (*not run*).", self.text("docs/conformance.md"))
+        self.assertEqual(self.generate("--released"), (0, "conformance: right\n"))
+        self.write("tests/core_test.cpp", "TEST_F(Core, Works) {\nTEST_F(Core, Rests) {\n")
+        self.change(SHEET, "ruled: [P1]", "ruled: [P1], tests: [Core.Rests]")
+        self.generate()
+        self.assertIn("Rulings and clauses name 5 tests; 1 is newer than this run (*not run*).", self.text("docs/conformance.md"))
+        self.assertEqual(self.generate("--check")[0], 0)
+        self.assertEqual(self.generate("--released"), (1, "docs/conformance/last_run.txt:1: 1 of the 5 tests that rulings and clauses name are newer than "
+                                                          "this run, as Core.Rests; ./run test, then ./run conformance --record\n"))
 
     def test_a_run_of_which_nobody_knows_the_commit(self):
         (self.root / "build/tests.commit").unlink()

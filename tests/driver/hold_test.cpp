@@ -7,12 +7,12 @@ using testing::ElementsAre;
 
 class Hold : public DriverTest {};
 
-TEST(Crc, ExampleOfTheDatasheet) {
+TEST(DriverCrc, ExampleOfTheDatasheet) {
   const std::uint8_t bytes[] = {0x02, 0x07};
   EXPECT_EQ(dsdpv1_crc(DSDPV1_CRC_START, bytes, 2), 0x1241);
 }
 
-TEST(Crc, ContinuesOverSeveralPieces) {
+TEST(DriverCrc, ContinuesOverSeveralPieces) {
   const std::uint8_t bytes[] = {0x02, 0x07, 0xFF, 0x00, 0x55};
   const std::uint16_t first = dsdpv1_crc(DSDPV1_CRC_START, bytes, 3);
   EXPECT_EQ(dsdpv1_crc(first, bytes + 3, 2), dsdpv1_crc(DSDPV1_CRC_START, bytes, 5));

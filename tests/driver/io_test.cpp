@@ -7,7 +7,7 @@ using testing::ElementsAre;
 
 class Exchange : public DriverTest {};
 class InputErrors : public DriverTest {};
-class Diagnosis : public DriverTest {};
+class DriverDiagnosis : public DriverTest {};
 
 TEST_F(Exchange, BothDirectionsInOneHold) {
   initialise();
@@ -196,7 +196,7 @@ TEST_F(InputErrors, OfANullDeviceAreRefused) {
   EXPECT_EQ(chip.holds, 0);
 }
 
-TEST_F(Diagnosis, AreaByteForByte) {
+TEST_F(DriverDiagnosis, AreaByteForByte) {
   initialise();
   const Bytes data = {0x03, 0x11, 0x22};
   ASSERT_EQ(dsdpv1_set_diagnosis(&device, DSDPV1_DIAG_EXTERNAL, data.data(), 3), DSDPV1_OK);
@@ -206,7 +206,7 @@ TEST_F(Diagnosis, AreaByteForByte) {
   EXPECT_THAT(chip.bytes(0x317, 2), ElementsAre(crc >> 8, crc & 0xFF));
 }
 
-TEST_F(Diagnosis, AllFiveTypes) {
+TEST_F(DriverDiagnosis, AllFiveTypes) {
   initialise();
   for (const auto type : {DSDPV1_DIAG_EXTENDED, DSDPV1_DIAG_EXTERNAL_GONE, DSDPV1_DIAG_EXTERNAL,
                           DSDPV1_DIAG_STATIC_GONE, DSDPV1_DIAG_STATIC}) {
@@ -216,21 +216,21 @@ TEST_F(Diagnosis, AllFiveTypes) {
   EXPECT_EQ(dsdpv1_set_diagnosis(&device, static_cast<dsdpv1_diag_type>(0x80), nullptr, 0), DSDPV1_ERR_DIAG_TYPE);
 }
 
-TEST_F(Diagnosis, LongerThanInitialised) {
+TEST_F(DriverDiagnosis, LongerThanInitialised) {
   initialise();
   const Bytes data(10);
   EXPECT_EQ(dsdpv1_set_diagnosis(&device, DSDPV1_DIAG_STATIC, data.data(), 10), DSDPV1_ERR_DIAG_LENGTH);
   EXPECT_EQ(chip.holds, 0);
 }
 
-TEST_F(Diagnosis, NotTaken) {
+TEST_F(DriverDiagnosis, NotTaken) {
   initialise();
   chip.takes_commands = false;
   device.tuning.init_polls = 5;
   EXPECT_EQ(dsdpv1_set_diagnosis(&device, DSDPV1_DIAG_STATIC, nullptr, 0), DSDPV1_ERR_DIAG_TIMEOUT);
 }
 
-TEST_F(Diagnosis, WrittenAgainAfterACrcError) {
+TEST_F(DriverDiagnosis, WrittenAgainAfterACrcError) {
   initialise();
   int errors = 2;
   chip.before_access = [&] {

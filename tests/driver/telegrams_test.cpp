@@ -12,7 +12,7 @@ class Spi : public AcyclicTest {
   FakePort port_kind() const override { return FakePort::kSpi; }
 };
 
-class Uart : public AcyclicTest {
+class DriverUart : public AcyclicTest {
  protected:
   FakePort port_kind() const override { return FakePort::kUart; }
   /// The chip does `what` right before the next exchange telegram: after the host has read its flags.
@@ -190,7 +190,7 @@ TEST_F(Spi, CallFromAnInterruptDuringAHoldIsRefused) {
 
 // ---------------------------------------------------------------------------------------------------------------- UART
 
-TEST_F(Uart, ExchangeIsALookAndAnExchangeTelegram) {
+TEST_F(DriverUart, ExchangeIsALookAndAnExchangeTelegram) {
   initialise();
   chip.put_outputs({0xAA});
   rsu.requests.clear();
@@ -199,7 +199,7 @@ TEST_F(Uart, ExchangeIsALookAndAnExchangeTelegram) {
   EXPECT_THAT(rsu.requests[1], ElementsAre(0x41, 0x00, 0x01, 0x30, 0x02, 0x01, 0x55, 0xAB, 0x18)) << "section 10";
 }
 
-TEST_F(Uart, DiagnosisAndAnswersAreExchangesWithTheirFunctionAndAddress) {
+TEST_F(DriverUart, DiagnosisAndAnswersAreExchangesWithTheirFunctionAndAddress) {
   config.dpv1 = true;
   open();
   rsu.requests.clear();
@@ -211,7 +211,7 @@ TEST_F(Uart, DiagnosisAndAnswersAreExchangesWithTheirFunctionAndAddress) {
               ElementsAre(0x41, 0, 6, 0xD0, 8, 0x5E));
 }
 
-TEST_F(Uart, ABlockThatComesAfterTheLookIsNotWipedOut) {
+TEST_F(DriverUart, ABlockThatComesAfterTheLookIsNotWipedOut) {
   initialise(2, 2);
   ASSERT_EQ(exchange({1}), DSDPV1_OK);
   before_exchange([&] { chip.put_prm({4}); });
@@ -221,7 +221,7 @@ TEST_F(Uart, ABlockThatComesAfterTheLookIsNotWipedOut) {
   EXPECT_THAT(prm_seen, ElementsAre(Bytes{4}));
 }
 
-TEST_F(Uart, ANewerBlockThatComesWhileItsFlagIsTakenIsJudged) {
+TEST_F(DriverUart, ANewerBlockThatComesWhileItsFlagIsTakenIsJudged) {
   initialise(2, 2);
   chip.put_prm({1});
   before_exchange([&] { chip.put_prm({2}); });
@@ -229,7 +229,7 @@ TEST_F(Uart, ANewerBlockThatComesWhileItsFlagIsTakenIsJudged) {
   EXPECT_THAT(prm_seen.back(), ElementsAre(2));
 }
 
-TEST_F(Uart, OutputsThatComeAfterTheLookAreGivenToTheApplication) {
+TEST_F(DriverUart, OutputsThatComeAfterTheLookAreGivenToTheApplication) {
   initialise();
   chip.put_outputs({1});
   ASSERT_EQ(exchange({1}), DSDPV1_OK);
@@ -242,14 +242,14 @@ TEST_F(Uart, OutputsThatComeAfterTheLookAreGivenToTheApplication) {
   EXPECT_EQ(chip.at(0x00E), 0);
 }
 
-TEST_F(Uart, OutputsBeforeDataExchangeAreNotNew) {
+TEST_F(DriverUart, OutputsBeforeDataExchangeAreNotNew) {
   initialise();
   rsu.data_exchange = false;
   ASSERT_EQ(exchange({1}), DSDPV1_OK);
   EXPECT_FALSE(result.outputs_new);
 }
 
-TEST_F(Uart, ABlockWhoseReplyWasDestroyedIsReadAgain) {
+TEST_F(DriverUart, ABlockWhoseReplyWasDestroyedIsReadAgain) {
   config.dpv1 = true;
   open();
   chip.put_request(1, {0x5E, 1, 1, 4});
@@ -260,7 +260,7 @@ TEST_F(Uart, ABlockWhoseReplyWasDestroyedIsReadAgain) {
   EXPECT_THAT(last_answer(1), ElementsAre(0x5E, 1, 1, 4, 0x11, 0x22, 0x33, 0x44));
 }
 
-TEST_F(Uart, ARequestThatCameSinceTheLastLookIsNotLostWithTheReply) {
+TEST_F(DriverUart, ARequestThatCameSinceTheLastLookIsNotLostWithTheReply) {
   config.dpv1 = true;
   open();
   ASSERT_EQ(exchange({1}), DSDPV1_OK);
@@ -274,7 +274,7 @@ TEST_F(Uart, ARequestThatCameSinceTheLastLookIsNotLostWithTheReply) {
   EXPECT_THAT(last_answer(1), ElementsAre(0x5E, 1, 1, 4, 0x11, 0x22, 0x33, 0x44));
 }
 
-TEST_F(Uart, ParametersThatCameSinceTheLastLookAreNotLostWithTheReply) {
+TEST_F(DriverUart, ParametersThatCameSinceTheLastLookAreNotLostWithTheReply) {
   initialise(2, 2);
   chip.put_prm({3});
   chip.put_cfg(4, 8, {0x17, 0x23});
@@ -291,7 +291,7 @@ TEST_F(Uart, ParametersThatCameSinceTheLastLookAreNotLostWithTheReply) {
   EXPECT_THAT(prm_seen, ElementsAre(Bytes{3}, Bytes{4}));
 }
 
-TEST_F(Uart, AWriteIsNotCarriedOutAgainAfterALostReply) {
+TEST_F(DriverUart, AWriteIsNotCarriedOutAgainAfterALostReply) {
   config.dpv1 = true;
   open();
   chip.put_request(1, {0x5F, 1, 1, 1, 0x99});
@@ -303,7 +303,7 @@ TEST_F(Uart, AWriteIsNotCarriedOutAgainAfterALostReply) {
   EXPECT_EQ(chip.answers_taken, answers);
 }
 
-TEST_F(Uart, AnAnswerThatWaitsIsNotAnnouncedTwice) {
+TEST_F(DriverUart, AnAnswerThatWaitsIsNotAnnouncedTwice) {
   config.dpv1 = true;
   open();
   chip.takes_commands = false;
@@ -317,7 +317,7 @@ TEST_F(Uart, AnAnswerThatWaitsIsNotAnnouncedTwice) {
   EXPECT_EQ(chip.at(0x011), 0x40);
 }
 
-TEST_F(Uart, HistoryThatStandsIsNotWaitedFor) {
+TEST_F(DriverUart, HistoryThatStandsIsNotWaitedFor) {
   initialise();
   const auto telegrams = [this] {
     rsu.requests.clear();
@@ -329,7 +329,7 @@ TEST_F(Uart, HistoryThatStandsIsNotWaitedFor) {
   EXPECT_EQ(telegrams(), without);
 }
 
-TEST_F(Uart, WaitsForAReplyAsLongAsTheRateAsks) {
+TEST_F(DriverUart, WaitsForAReplyAsLongAsTheRateAsks) {
   rsu.deaf = 1000;
   device.tuning.ready_polls = 1;
   EXPECT_EQ(dsdpv1_wait_ready(&device), DSDPV1_ERR_NO_REPLY);

@@ -138,7 +138,7 @@ TEST(GsdSetup, RefusesAChosenModuleWithACutOffIdentifier) {
   EXPECT_EQ(only_error(set_up(file.gsd.value(), {})), "test.gsd: identifier 0xC2 wants 4 more bytes, 1 follow");
 }
 
-TEST(SetPrm, HasIdentAndWatchdogInItsSevenBytes) {
+TEST(GsdSetPrm, HasIdentAndWatchdogInItsSevenBytes) {
   EXPECT_EQ(bus::set_prm_bytes(0x0CC9, {}, {0x80}), (Bytes{0x88, 10, 10, 11, 0x0C, 0xC9, 0x00, 0x80}));
   bus::SetPrmHead head;
   head.wd_fact_1 = 0;

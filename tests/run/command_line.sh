@@ -45,7 +45,7 @@ refuses "no file of the project" edit nowhere.cpp
 refuses "expected --quick" test --fast
 refuses "again is one argument too many, expected one of --quick" test --quick again
 refuses "expected default fast library debug coverage fuzz" build release
-refuses "expected --record" conformance now
+refuses "expected --record --released" conformance now
 refuses "unknown argument --chekc, expected --check --record" release --chekc
 refuses "unknown argument now, expected --out FOLDER" demo now
 refuses "debug is one argument too many, expected one of default fast" build fast debug

@@ -28,6 +28,12 @@ constexpr std::array<FlagByte, 8> kFlags = {{
     {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2 | regs::kUserCommand2InputClear, false},
 }};
 
+/// The user only clears bits of these, reserved ones too (P6).
+bool is_cleared_only(Address address) {
+  return address == regs::kChipStatus1 || address == regs::kChipStatus2 || address == regs::kChipCommand1 ||
+         address == regs::kChipCommand2;
+}
+
 bool is_command_of_chip(Address address) { return address == regs::kChipCommand1 || address == regs::kChipCommand2; }
 bool is_command_of_user(Address address) { return address == regs::kUserCommand1 || address == regs::kUserCommand2; }
 
@@ -134,8 +140,7 @@ void CellRules::check_what_chip_did(const Access& access) {
 // --- writes ----------------------------------------------------------------------------------------------------------
 
 void CellRules::wrote(const Access& access) {
-  recorder_.kept(Check::kCellOfChip, access.at, !only_chip_writes_[access.address],
-                 [&] { return fmt::format("the user writes B{:03X}", access.address); });
+  check_whose_cell(access);
   if (access.address == regs::kAccessCount) count_written(access);
   if (access.address >= kFirstFlags && access.address <= kLastFlags) {
     const std::optional<std::uint8_t> before = look(access.address);
@@ -150,6 +155,16 @@ void CellRules::wrote(const Access& access) {
     if (access.address >= block.first && access.address <= block.crc + 1) hold_.written.set(i);
   }
   learn(access.address, access.value);
+}
+
+void CellRules::check_whose_cell(const Access& access) {
+  const std::optional<std::uint8_t> before = look(access.address);
+  const bool judged = is_cleared_only(access.address) && before && access.value;
+  const std::uint8_t set = judged ? bits(*access.value & ~*before) : std::uint8_t{0};
+  recorder_.kept(Check::kCellOfChip, access.at, !only_chip_writes_[access.address] && set == 0, [&] {
+    return set == 0 ? fmt::format("the user writes B{:03X}", access.address)
+                    : fmt::format("the user sets bits {:02X} of B{:03X}", set, access.address);
+  });
 }
 
 void CellRules::count_written(const Access& access) {

@@ -46,6 +46,7 @@ class CellRules {
 
   void read(const Access& access);
   void wrote(const Access& access);
+  void check_whose_cell(const Access& access);
   void count_read(const Access& access);
   void count_written(const Access& access);
   void note_read_of_block(Address address);

@@ -19,6 +19,7 @@ struct Asked {
   const Exchange& exchange;
 
   bool to(std::uint8_t sap) const { return request.dsap == sap; }
+  bool reads_exchange() const { return to(bus::sap::kReadInputs) || to(bus::sap::kReadOutputs); }
   bool is_srd() const { return request.function() == bus::fc::kSrdLow || request.function() == bus::fc::kSrdHigh; }
   bool acknowledged() const { return answer.kind == TelegramKind::kSc; }
   bool is_status(std::uint8_t fc) const { return answer.kind == TelegramKind::kSd1 && answer.fc == fc; }
@@ -56,21 +57,20 @@ const std::vector<Rule> kRules = {
        return a.refused() || (a.request.data.size() > kMost ? a.no_resource() : a.acknowledged());
      }},
     {{"S13",
-      "outside of data exchange the default SAP and SAP 56 are refused",
+      "outside of data exchange the default SAP and SAPs 56 and 57 are refused",
       {wire::kPbrxd, wire::kPbtxd, wire::kPbf}},
      [](const Asked& a) {
-       return a.is_srd() && a.scene.record.sees(wire::kPbf) && (!a.request.dsap || a.to(sap::kReadInputs)) &&
+       return a.is_srd() && a.scene.record.sees(wire::kPbf) && (!a.request.dsap || a.reads_exchange()) &&
               a.outside_exchange();
      },
      [](const Asked& a) { return a.refused(); }},
-    {{"S13", "SAPs 57, 59 and 60 answer requests with data RR", line()},
+    {{"S13", "SAPs 59 and 60 answer requests with data RR", line()},
      [](const Asked& a) {
-       return a.is_srd() && !a.request.data.empty() &&
-              (a.to(sap::kReadOutputs) || a.to(sap::kGetCfg) || a.to(sap::kSlaveDiag));
+       return a.is_srd() && !a.request.data.empty() && (a.to(sap::kGetCfg) || a.to(sap::kSlaveDiag));
      },
      [](const Asked& a) { return a.no_resource(); }},
-    {{"S13", "SAP 56 answers requests with data RR, or RS", line()},
-     [](const Asked& a) { return a.is_srd() && !a.request.data.empty() && a.to(sap::kReadInputs); },
+    {{"S13", "SAPs 56 and 57 answer requests with data RR, or RS", line()},
+     [](const Asked& a) { return a.is_srd() && !a.request.data.empty() && a.reads_exchange(); },
      [](const Asked& a) { return a.refused() || a.no_resource(); }},
     {{"S13", "Slave_Diag is answered with data, Get_Cfg with data or, without modules, SC", line()},
      [](const Asked& a) {
@@ -231,7 +231,7 @@ void measure_telegrams(const Scene& scene, Found& found) {
       if (exchange.request->telegram.wants_answer()) before = nullptr;
       continue;
     }
-    judge_rules(scene, exchange, found);
+    if (exchange.same || !exchange.repeats) judge_rules(scene, exchange, found);  // else it may be another's answer
     if (before != nullptr) judge_repetition(scene, *before, exchange, found);
     before = &exchange;
   }

@@ -85,10 +85,25 @@ namespace {
 using ChipKeys = ObjectOf<Dsdpv1Settings>;
 using C = Dsdpv1Settings;
 
+const std::vector<WordFor<std::uint32_t>>& fcb_rule_words() {
+  static const std::vector<WordFor<std::uint32_t>> words = {
+      {0, "letter", "the same SA and FCB as the request before"},
+      {1, "content", "the same telegram as the request before, the ruling until an audit"}};
+  return words;
+}
+
+void add_parameter(ChipKeys& o, const char* key, std::uint32_t Config::*member, Range range, const char* unit,
+                   const char* text) {
+  if (member == &Config::fcb_rule)
+    o.word(key, member, fcb_rule_words(), "Which request with FCV = 1 is a repetition (S26).");
+  else
+    o.integer(key, member, range, unit, text);
+}
+
 ChipKeys plain_chip_keys() {
   ChipKeys o("chip", "The parameters of the chip that the rulings mark (p), for all slaves of the scenario.");
 #define DSDPV1_PARAMETER(name, initial, least, most, unit, ruling, text) \
-  o.integer(#name, &C::name, {least, most}, unit, text " (" ruling ").");
+  add_parameter(o, #name, &C::name, {least, most}, unit, text " (" ruling ").");
 #define DSDPV1_RSU_PARAMETER(...)
 #define DSDPV1_RSU_LIST(...)
 #include "model/dsdpv1/parameters.inc"

@@ -50,10 +50,11 @@ class Dsdpv1Cases : public RandomCases {
     constexpr std::uint64_t kOwnNumbers = 0x5EA5C4;  // a separate sequence from the case's stimulus
     Random random(seed ^ kOwnNumbers);
     std::vector<std::string> settings;
-    if (!random.one_in(3)) return settings;
-    for (const Limit& each : kLimits)
-      if (const int value = random.between(each.least, each.most); value != each.usual)
-        settings.push_back(setting(each, value));
+    if (random.one_in(3))
+      for (const Limit& each : kLimits)
+        if (const int value = random.between(each.least, each.most); value != each.usual)
+          settings.push_back(setting(each, value));
+    if (random.one_in(2)) settings.emplace_back("chip.fcb_rule=content");
     return settings;
   }
   Stimulus make_case(std::uint64_t seed, const tb::OwnSettings& chip) const override {

@@ -2,6 +2,7 @@
 // interval, breaks, characters during the chip's reply.
 #include "kinds/dsdpv1/random/host_verbs.hpp"
 #include "kinds/dsdpv1/random/random_serial.hpp"
+#include "model/dsdpv1/config.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace dsdpv1::cosim {
@@ -10,6 +11,9 @@ namespace {
 constexpr int kInterval = 0x019, kTsdr = 0x01A;
 constexpr int kQuick = 6;  // UBR: 460.8 kbit/s
 constexpr int kInputs = 0x130, kDiagnosis = 0x227, kC1 = 0x5D0, kC2 = 0x6D0;
+
+/// The interval of a code, in half characters (UA3).
+int halves_of(int code) { return static_cast<int>(dsdpv1::Config{}.uart_gaps.at(static_cast<std::size_t>(code))); }
 
 class RandomUart : public RandomSerial {
  public:
@@ -51,7 +55,6 @@ void RandomUart::send(const bus::Bytes& telegram, int reply) {
 }
 
 void RandomUart::break_it(Action& action) {
-  constexpr int kHalves[] = {7, 2, 4, 10, 20, 40, 100, 200};
   constexpr int kHalfCharacter = 5500;  // millibits
   const auto at = static_cast<std::size_t>(random_.below(static_cast<int>(action.bytes.size())));
   switch (random_.below(6)) {
@@ -61,7 +64,7 @@ void RandomUart::break_it(Action& action) {
     case 3:
       action.faults.gap_before = at;
       action.faults.gap_millibits =
-          random_.one_in(2) ? kHalves[uiv_] * kHalfCharacter + random_.between(-600, 600) : random_.below(60'000);
+          random_.one_in(2) ? halves_of(uiv_) * kHalfCharacter + random_.between(-600, 600) : random_.below(60'000);
       break;
     case 4:
       action.faults.truncate_after = at;

@@ -134,6 +134,7 @@ void SituationWatch::event(const profibus::Event& event) {
   if (event.reason == Reason::kGlobalControl) global_control(event.a);
   if (event.reason == Reason::kGcSync) sync_ = false;
   if (event.reason == Reason::kGcFreeze) freeze_ = false;
+  if (event.reason == Reason::kFcbNotToggled) service_.clear();  // the answer is another service's (S26)
 }
 
 /// S24, S4, S27. A later event refuses what Set_Prm has not requested.

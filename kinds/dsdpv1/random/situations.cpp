@@ -100,7 +100,7 @@ bool begins(const std::string& text, const char* with) { return text.rfind(with,
 /// The port cannot have such an event, whatever its host does (R14, SP15, UA6).
 bool is_foreign(const std::string& code, Part part, HostMode mode) {
   const bool parallel = mode == HostMode::kParallel;
-  const bool strap = code == "STRAP_CHANGED", shared = code == "HOST_READ_ONLY";
+  const bool strap = code == "STRAP_CHANGED", shared = code == "HOST_READ_ONLY" || code == "HOST_SETS_BIT";
   if (begins(code, "SPI_")) return mode != HostMode::kSpi;
   if (begins(code, "UART_")) return mode != HostMode::kUart;
   if (begins(code, "TELEGRAM_")) return parallel;
@@ -128,7 +128,7 @@ Words services() {
       {"Data_Exchange", {"RS", "RS", "data,data of high priority,SC,high priority,RR,RS"}},
       {"Set_Slave_Add", {"SC,RR,RS", "RS", "RS"}},
       {"RD_Inp", {"RS", "RS", "data,SC,RR"}},
-      {"RD_Outp", {"data,SC,RR", "data,SC,RR", "data,SC,RR"}},
+      {"RD_Outp", {"RS", "RS", "data,SC,RR"}},
       {"Get_Cfg", {"data,SC,RR", "data,SC,RR", "data,RR"}},
       {"Slave_Diag", {"data,RR", "data,RR", "data,RR"}},
       {"Set_Prm", {"SC,RS", "SC,RS", "SC,RS"}},

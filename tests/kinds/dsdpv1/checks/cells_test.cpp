@@ -329,6 +329,15 @@ const Case kCases[] = {
      [](Board& board) { board.write(0x012, 0x01); }},
     {"CellOfChipPrm", Check::kCellOfChip, [](Board& board) { board.write(0x31A, 0x01); },
      [](Board& board) { board.write(0x411, 0x01); }},
+    {"CellOfChipBit", Check::kCellOfChip,
+     [](Board& board) {
+       board.read(0x00B, 0x84);
+       board.write(0x00B, 0x80);
+     },
+     [](Board& board) {
+       board.read(0x00B, 0x04);
+       board.write(0x00B, 0x84);
+     }},
 };
 
 void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }

@@ -48,6 +48,18 @@ TEST(CalibrateTelegrams, AnotherFcbIsNoRepetition) {
   EXPECT_EQ(claim(result, "P3", "outputs are taken").verdict, Verdict::kContradicted);
 }
 
+// By the letter of S26 it is one: the chip may send the old answer.
+TEST(CalibrateTelegrams, AnotherServiceWithTheSameFcbIsNotJudged) {
+  MadeCapture capture(k1M5, {wire::kBr, wire::kPbf});
+  capture.find_rate();
+  capture.set(wire::kPbf, false);
+  capture.exchange(data_exchange({1}, fc::kFcv), data_answer({2}));
+  Telegram prm = srd(bus::sap::kSetPrm, {0x80, 0, 0, 11, 0, 0, 0});
+  prm.fc = data_exchange({}, fc::kFcv).fc;
+  capture.exchange(prm, data_answer({2}));
+  EXPECT_EQ(contradicted(capture.judge()), "");
+}
+
 TEST(CalibrateTelegrams, ARepetitionCountsThoughWhatIsBetweenWasIllegible) {
   MadeCapture capture(k1M5, {wire::kBr, wire::kPbf});
   capture.find_rate();
@@ -84,12 +96,14 @@ TEST(CalibrateTelegrams, SetSlaveAddressIsRrOnlyBeyondFourBytes) {
 }
 
 TEST(CalibrateTelegrams, RequestsWithDataToSapsThatAreAlwaysServedAreRr) {
-  for (const std::uint8_t each : {sap::kReadOutputs, sap::kGetCfg, sap::kSlaveDiag}) {
-    EXPECT_EQ(verdict(srd(each, {1}), status(fc::kRr), "S13", "57, 59 and 60"), Verdict::kConfirmed) << int{each};
-    EXPECT_EQ(verdict(srd(each, {1}), status(fc::kRs), "S13", "57, 59 and 60"), Verdict::kContradicted) << int{each};
+  for (const std::uint8_t each : {sap::kGetCfg, sap::kSlaveDiag}) {
+    EXPECT_EQ(verdict(srd(each, {1}), status(fc::kRr), "S13", "SAPs 59 and 60"), Verdict::kConfirmed) << int{each};
+    EXPECT_EQ(verdict(srd(each, {1}), status(fc::kRs), "S13", "SAPs 59 and 60"), Verdict::kContradicted) << int{each};
   }
-  EXPECT_EQ(verdict(srd(sap::kReadInputs, {1}), status(fc::kRs), "S13", "SAP 56 answers"), Verdict::kConfirmed);
-  EXPECT_EQ(verdict(srd(sap::kReadInputs, {1}), bus::make_sc(), "S13", "SAP 56 answers"), Verdict::kContradicted);
+  for (const std::uint8_t each : {sap::kReadInputs, sap::kReadOutputs}) {
+    EXPECT_EQ(verdict(srd(each, {1}), status(fc::kRs), "S13", "56 and 57 answer"), Verdict::kConfirmed) << int{each};
+    EXPECT_EQ(verdict(srd(each, {1}), bus::make_sc(), "S13", "56 and 57 answer"), Verdict::kContradicted) << int{each};
+  }
 }
 
 TEST(CalibrateTelegrams, OnlyGetCfgMayHaveNothingToSend) {

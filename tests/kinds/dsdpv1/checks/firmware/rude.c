@@ -43,6 +43,11 @@ static void break_a_rule(void) {
   take();
   port_dpram_write(DSDPV1_REG_VERSION, DSDPV1_REG_VERSION_RESET);
   release();
+#elif defined RUDE_SETS_STATUS_BIT
+  take();
+  const uint8_t status = port_dpram_read(DSDPV1_REG_CHIP_STATUS_2);
+  port_dpram_write(DSDPV1_REG_CHIP_STATUS_2, status | 0x80u);
+  release();
 #elif defined RUDE_FLAG_BY_USER
   take();
   const uint8_t flags = port_dpram_read(DSDPV1_REG_CHIP_COMMAND_2);
