@@ -23,9 +23,10 @@ extern "C" {
 
 typedef int32_t dpsim_bound;
 enum {
-  DPSIM_BOUND_MIN = 0, /**< the least allowed value: margin = value - limit */
-  DPSIM_BOUND_MAX = 1, /**< the greatest: margin = limit - value */
-  DPSIM_BOUND_RULE = 2 /**< no value: kept or violated */
+  DPSIM_BOUND_MIN = 0,  /**< the least allowed value: margin = value - limit */
+  DPSIM_BOUND_MAX = 1,  /**< the greatest: margin = limit - value */
+  DPSIM_BOUND_RULE = 2, /**< no value: kept or violated */
+  DPSIM_BOUND_MOST = 3  /**< the greatest number: limit and values are no ticks, there are no margins */
 };
 
 #define DPSIM_NO_LIMIT INT64_MAX /**< only measured, never violated */

@@ -76,7 +76,9 @@ std::string headline(const RunResult& result, const std::vector<Row>& rows) {
   return named_line("checks", fmt::format("{} of {} kept", kept, rows.size()));
 }
 
-std::string time_or_dash(std::optional<Tick> time, std::string (*text)(Tick)) { return time ? text(*time) : "-"; }
+std::string value_or_dash(const checks::Rule& rule, std::optional<Tick> value) {
+  return value ? value_text(rule, *value) : "-";
+}
 
 /// With several slaves a column names the one with the worst value.
 std::string table_of(const RunResult& result, const std::vector<Row>& rows) {
@@ -92,9 +94,9 @@ std::string table_of(const RunResult& result, const std::vector<Row>& rows) {
                                       number(row.count),
                                       number(row.violations),
                                       number(row.allowed),
-                                      time_or_dash(worst.worst_margin, bus::short_time),
-                                      time_or_dash(worst.worst_value, bus::short_time),
-                                      time_or_dash(worst.at, bus::moment_text)};
+                                      value_or_dash(*row.rule, worst.worst_margin),
+                                      value_or_dash(*row.rule, worst.worst_value),
+                                      worst.at ? bus::moment_text(*worst.at) : "-"};
     if (several) cells.push_back(row.worst->slave);
     table.add(cells);
   }

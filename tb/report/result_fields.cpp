@@ -200,16 +200,19 @@ void violation_fields(Fields& out, const checks::Violation& violation) {
 void check_fields(Fields& out, const CheckResult& check) {
   const checks::Rule rule = check.rule != nullptr ? *check.rule : checks::Rule();
   const bool limited = rule.bound != checks::Bound::kRule && check.limit.value != checks::kNoLimit;
+  const bool counts = rule.bound == checks::Bound::kMost;
   out.field("id", rule.id, "of docs/checks.md");
   out.field("slave", check.slave, "at which");
   out.field("rule", rule.rule, "in words");
   out.field("clause", rule.clause, "its source");
-  out.time("limit_ns", only_if(limited, check.limit.value), "null: the rule has none");
+  out.time("limit_ns", only_if(limited && !counts, check.limit.value), "null: the rule has none");
+  out.field("limit_number", only_if(limited && counts, check.limit.value), "of a rule about a number; null: of others");
   out.field("count", check.record.count, "number of evaluations");
   out.field("violations", check.record.violations, "number of violations");
   out.field("allowed", check.allowed, "violations that the scenario allows");
   out.time("worst_margin_ns", check.record.worst_margin, "negative: violated");
-  out.time("worst_value_ns", check.record.worst_value, "the time measured there");
+  out.time("worst_value_ns", counts ? std::nullopt : check.record.worst_value, "the time measured there");
+  out.field("worst_number", counts ? check.record.worst_value : std::nullopt, "of a rule about a number: the greatest");
   out.time("at_ns", check.record.at, "time of the worst margin");
   out.list("histogram", bins_of(check.record.histogram), bin_fields, "a class of margins that is not empty",
            "distribution of the margins");

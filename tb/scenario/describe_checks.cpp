@@ -41,6 +41,16 @@ const ObjectOf<CheckLimit>& greatest_keys() {
   return keys;
 }
 
+const ObjectOf<CheckLimit>& number_keys() {
+  static const ObjectOf<CheckLimit> keys = [] {
+    ObjectOf<CheckLimit> o =
+        limit_keys("check with a greatest number", "A check whose number must not exceed a limit.");
+    o.integer("max", &CheckLimit::max, {0, 1'000'000}, "", "The limit (default: that of docs/checks.md).");
+    return o;
+  }();
+  return keys;
+}
+
 const ObjectOf<CheckLimit>& rule_keys() {
   static const ObjectOf<CheckLimit> keys =
       limit_keys("check without a value", "A check without a value: its rule is kept or not.");
@@ -51,6 +61,7 @@ const ObjectOf<CheckLimit>& keys_of(Bound bound) {
   switch (bound) {
     case Bound::kMin: return least_keys();
     case Bound::kMax: return greatest_keys();
+    case Bound::kMost: return number_keys();
     case Bound::kRule: break;
   }
   return rule_keys();

@@ -21,7 +21,7 @@ class Rule:
     rule: str  # what must hold
     clause: str
     advice: str
-    bound: str  # "min", "max": of a value; "rule": kept or not
+    bound: str  # "min", "max": of a value; "most": of a number; "rule": kept or not
     limit: typing.Optional[int]
 
 
@@ -55,7 +55,7 @@ def rules(kind: typing.Optional[str] = None) -> typing.Tuple[Rule, ...]:
     for index in range(lib.dpsim_rule_count(raw)):
         info = filled(lib.dpsim_rule_get, _c.dpsim_rule_info, raw, index)
         limit = None if info.bound == _c.DPSIM_BOUND_RULE or info.limit == _c.DPSIM_NO_LIMIT else info.limit
-        found.append(Rule(text(info.name), text(info.rule), text(info.clause), text(info.advice), ("min", "max", "rule")[info.bound], limit))
+        found.append(Rule(text(info.name), text(info.rule), text(info.clause), text(info.advice), ("min", "max", "rule", "most")[info.bound], limit))
     return tuple(found)
 
 

@@ -128,7 +128,7 @@ void FreshData::exchanged(const Request& request, bool inputs) {
   if (exchange_ && at - *exchange_ > recorder_.limit(Check::kOutputsFetched).value) leave();
   if (exchange_) interval_ = at - *exchange_;
   exchange_ = at;
-  if (request.outputs) {
+  if (request.outputs && (!fetching_ || *fetching_ < at)) {  // not fetched before the answer was over
     overwritten_ += outputs_.since() ? 1 : 0;
     outputs_.begins(at);
   }
@@ -171,13 +171,27 @@ void FreshData::outputs_in(const UserHold& hold) {
   const bool cleared = (flags.fetched() & regs::kChipCommand1Output) != 0;
   const bool found_clear = flags.looked_at() && (flags.after & regs::kChipCommand1Output) == 0 && outputs_.since() &&
                            hold.began > *outputs_.since();
-  if (cleared)
+  if (cleared) {
+    overwritten_until(hold.ended);
     met(outputs_, Check::kOutputsFetched, hold.ended, "B00E.0 cleared");
-  else if (found_clear)
+    fetching_ = hold.began;
+  } else if (found_clear) {
     outputs_.ends();
+  }
   if (cleared || found_clear) overwritten_ = 0;
 }
 
-void FreshData::finish(Tick end) { pass(end); }
+void FreshData::overwritten_until(Tick at) {
+  const std::optional<Tick> since = outputs_.since();
+  if (since)
+    recorder_.value(
+        Check::kOutputsOverwritten, *since, Tick{overwritten_}, [] { return std::string("outputs in a row"); },
+        Act::omitted(*since, at));
+}
+
+void FreshData::finish(Tick end) {
+  pass(end);
+  overwritten_until(end);
+}
 
 }  // namespace dsdpv1::checks

@@ -48,6 +48,7 @@ class FreshData {
   std::optional<Tick> exchanging_at(Tick at) const;
   void met(Duty& duty, Check check, Tick at, const char* what);
   void outputs_in(const UserHold& hold);
+  void overwritten_until(Tick at);
 
   Recorder& recorder_;
   const OwnStation& station_;
@@ -56,7 +57,8 @@ class FreshData {
   bool open_ = false;                          ///< and it has not been answered yet
   std::optional<Tick> exchange_, interval_;    ///< the last executed Data_Exchange, time between the last two
   Duty outputs_, inputs_;
-  unsigned overwritten_ = 0;  ///< outputs that came while earlier ones waited
+  unsigned overwritten_ = 0;      ///< outputs that came while earlier ones waited
+  std::optional<Tick> fetching_;  ///< begin of the last hold that fetched outputs
 };
 
 }  // namespace dsdpv1::checks

@@ -36,6 +36,7 @@ checks:
   TIMING_TS: {min: 15ns}                  # more than the datasheet asks for
   OWNERSHIP_NEVER_RELEASED: {max: 1ms}
   INTR0_SERVICE: {max: 200us}             # has no limit by default
+  OUTPUTS_OVERWRITTEN: {max: 3}           # nor has this one, a number
   COUNT_BY_USER: {enabled: false}
 ```
 
@@ -54,6 +55,7 @@ the log. Each has the last four changes of each pin involved and the line of fir
 |---|---|
 | `id`, `slave`, `rule`, `clause` | the check and the slave |
 | `limit_ns` | limit in force, `null` for none |
+| `limit_number`, `worst_number` | limit and greatest value of a rule about a number (OUTPUTS_OVERWRITTEN), which has no margins; else `null` |
 | `count`, `violations`, `allowed` | as above |
 | `worst_margin_ns`, `worst_value_ns`, `at_ns` | the worst margin, the value measured then, and when; `null` when not evaluated |
 | `histogram` | bins that are not empty: `from_ns` (`null`: violated), `to_ns`, `count` |
@@ -117,8 +119,9 @@ valid first byte the end is unknown. Violations show the margin in bit times too
   defaults.
 - What the user means to do later. BLOCK_SERVED, VERDICT_GIVEN, OUTPUTS_FETCHED and INPUTS_RENEWED report an omission when their time has passed, at the next hold or telegram, or at the end of the
   run; a shorter run shows nothing. A scenario with a user that is silent on purpose allows or disables them. 1000 random scenarios of right users, over each port,
-  give no violation (`RightUsers`). The time of such a violation is that from which the action was owed.
+  evaluate all checks of U1 to U11 and violate none (`RightUsers`, nightly). The time of such a violation is that from which the action was owed.
 - Whether outputs came for the user. OUTPUTS_FETCHED takes each Data_Exchange of the station that was answered, not repeated and had outputs, until the user looks and finds B00E.0 clear.
+  OUTPUTS_OVERWRITTEN counts the later ones of them, when the user clears B00E.0 and at the end of the run.
 - What the chip refuses. USER_REFUSED takes it from the chip's events. RTL without a core beside it and the checker of the C API have none: a report leaves it out there, its count is 0.
 - The number of lost outputs. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one
   replaced before the user fetched them (cleared B00E.0). The chip may have been held off, or the user was slower than the master. The
@@ -135,6 +138,7 @@ std::string limit_text(const Rule& rule) {
   if (rule.bound == Bound::kRule) return "-";
   if (rule.limit == kNoLimit) return "at most: none";
   const char* const word = rule.bound == Bound::kMin ? "at least" : "at most";
+  if (rule.bound == Bound::kMost) return fmt::format("{} {}", word, rule.limit);
   const Tick thousandths = rule.limit * 1000 / bus::kTicksPerNs;
   std::string number = fmt::format("{}.{:03}", thousandths / 1000, thousandths % 1000);
   number.erase(number.find_last_not_of('0') + 1);

@@ -16,6 +16,7 @@ enum class Bound : std::uint8_t {
   kMin,   ///< the least allowed value: margin = value - limit
   kMax,   ///< the greatest allowed value: margin = limit - value
   kRule,  ///< no value: kept or not
+  kMost,  ///< the greatest allowed number, not a time: without margins
 };
 
 /// Only measured, never violated.
@@ -24,7 +25,7 @@ constexpr Tick kNoLimit = bus::kNever;
 struct Rule {
   const char* id;  ///< stable: in scenarios, logs and result files
   Bound bound;
-  Tick limit;          ///< default, in ticks of 1/12 ns; kNoLimit, or 0 for Bound::kRule
+  Tick limit;          ///< default, in ticks of 1/12 ns, for Bound::kMost a number; kNoLimit, or 0 for Bound::kRule
   std::uint32_t pins;  ///< pins whose history is shown with a violation, a bit for each pin of the chip
   const char* rule;    ///< what must hold, one sentence without its stop
   const char* clause;  ///< of the datasheet, and rulings
@@ -54,7 +55,7 @@ inline bool operator!=(CheckId a, CheckId b) { return a.index != b.index; }
 /// The limit in a run: the default, or the scenario's.
 struct Limit {
   bool on = true;
-  Tick value = 0;  ///< for Bound::kMin and Bound::kMax, ticks
+  Tick value = 0;  ///< for Bound::kMin and kMax ticks, for kMost a number
 };
 
 class Limits {

@@ -9,6 +9,10 @@
 
 namespace dsdpv1::checks {
 
+std::string value_text(const Rule& rule, Tick value) {
+  return rule.bound == Bound::kMost ? fmt::format("{}", value) : bus::short_time(value);
+}
+
 std::string history_text(const Violation& violation) {
   std::string text;
   for (const PinChange& change : violation.history)
@@ -25,14 +29,16 @@ Tick Recorder::margin(CheckId check, Tick measured) const {
 bool Recorder::add(CheckId check, Tick at, Tick measured) {
   Record& record = records_.at(check.index);
   ++record.count;
-  if (limits_[check].value == kNoLimit) {
+  const bool limited = limits_[check].value != kNoLimit;
+  const Tick left = limited ? margin(check, measured) : 0;
+  record.violations += left < 0 ? 1 : 0;
+  if (!limited || is_number(check)) {
     if (!record.worst_value || measured > *record.worst_value) {
       record.worst_value = measured;
       record.at = at;
     }
-    return true;
+    return left >= 0;
   }
-  const Tick left = margin(check, measured);
   const std::size_t bin = record.histogram.add(left);
   kept_.at(check.index) = left < 0 ? Kept{} : Kept{measured, bin};
   if (!record.worst_margin || left < *record.worst_margin) {
@@ -40,7 +46,6 @@ bool Recorder::add(CheckId check, Tick at, Tick measured) {
     record.worst_value = measured;
     record.at = at;
   }
-  record.violations += left < 0 ? 1 : 0;
   return left >= 0;
 }
 
@@ -53,12 +58,11 @@ bool Recorder::add_outcome(CheckId check, Tick at, bool is_kept) {
 }
 
 void Recorder::report_value(CheckId check, Tick at, Tick measured, const std::string& context, const Act& act) {
-  const Tick left = margin(check, measured);
-  std::string text =
-      fmt::format("{} of {} {}", bus::short_time(measured), rule(check).bound == Bound::kMin ? "at least" : "at most",
-                  bus::short_time(limits_[check].value));
+  std::string text = fmt::format("{} of {} {}", value_text(rule(check), measured),
+                                 rule(check).bound == Bound::kMin ? "at least" : "at most",
+                                 value_text(rule(check), limits_[check].value));
   if (!context.empty()) text += ", " + context;
-  report(check, at, left, std::move(text), act);
+  report(check, at, is_number(check) ? std::nullopt : std::optional(margin(check, measured)), std::move(text), act);
 }
 
 void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::string text, const Act& act) {

@@ -15,14 +15,15 @@ namespace dsdpv1::checks {
 
 using user_cpu::Act;
 
-/// The results of a check so far. Values and margins are ticks of 1/12 ns.
+/// The results of a check so far. Values and margins are ticks of 1/12 ns; values of Bound::kMost are numbers.
 struct Record {
-  std::uint64_t count = 0;           ///< how often it was evaluated
-  std::uint64_t violations = 0;      ///< how often it failed
-  std::optional<Tick> worst_margin;  ///< the least one, positive = kept; absent without a limit, and for Bound::kRule
-  std::optional<Tick> worst_value;   ///< measured then; without a limit the greatest one
-  std::optional<Tick> at;            ///< when that was; for Bound::kRule the first violation
-  Histogram histogram;               ///< of margins
+  std::uint64_t count = 0;       ///< how often it was evaluated
+  std::uint64_t violations = 0;  ///< how often it failed
+  std::optional<Tick>
+      worst_margin;                 ///< the least one, positive = kept; absent without a limit, and for kRule and kMost
+  std::optional<Tick> worst_value;  ///< measured then; without a limit and for kMost the greatest one
+  std::optional<Tick> at;           ///< when that was; for Bound::kRule the first violation
+  Histogram histogram;              ///< of margins
 };
 
 struct Violation {
@@ -36,6 +37,9 @@ struct Violation {
   std::optional<user_cpu::Place> where = {};  ///< of the act in the user's program, if that is known
 };
 
+/// A value of a check: "62.500 ns", or "12".
+std::string value_text(const Rule& rule, Tick value);
+
 /// "SCK=1 -62.500 ns, XSS=1 0.000 ns": the violation's history, with times relative to it.
 std::string history_text(const Violation& violation);
 
@@ -45,7 +49,7 @@ class Recorder {
   Recorder(const RuleTable& rules, Limits limits, const PinHistory& history)
       : rules_(rules), limits_(std::move(limits)), history_(history), records_(rules.size()), kept_(rules.size()) {}
 
-  /// A measured value of a check with Bound::kMin or kMax; `context()` describes the case, called only for a violation.
+  /// A value of a check with Bound::kMin, kMax or kMost; `context()` describes the case, called only for a violation.
   /// `act`: of the user, if not at `at`; Act::omitted if the user should have done something.
   template <class Context>
   void value(CheckId check, Tick at, Tick measured, const Context& context, const std::optional<Act>& act = {}) {
@@ -91,6 +95,7 @@ class Recorder {
   void report_value(CheckId check, Tick at, Tick measured, const std::string& context, const Act& act);
   void report(CheckId check, Tick at, std::optional<Tick> margin, std::string text, const Act& act);
   Tick margin(CheckId check, Tick measured) const;
+  bool is_number(CheckId check) const { return rule(check).bound == Bound::kMost; }
   const Rule& rule(CheckId check) const { return rules_.at(check.index); }
 
   const RuleTable& rules_;

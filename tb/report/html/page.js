@@ -120,6 +120,11 @@ function times() {
   for (const each of run.times) histogram(grid, each);
 }
 
+// Of a rule about a number that, of others a time.
+function orNumber(number, ns) {
+  return number === null ? nsText(ns) : countText(number);
+}
+
 function checks() {
   const part = section("checks", "Checks");
   if (!result.checks.length) return part.append("p").text("No check was on.");
@@ -133,7 +138,7 @@ function checks() {
     const details = parent.append("details");
     details.append("summary").text("Numbers");
     table(details, ["check", "count #", "violations #", "expected #", "limit #", "worst value #", "worst margin #", "when #", "clause"],
-      own.map(each => [{code: each.id}, countText(each.count), countText(each.violations), countText(each.allowed), nsText(each.limit_ns), nsText(each.worst_value_ns),
+      own.map(each => [{code: each.id}, countText(each.count), countText(each.violations), countText(each.allowed), orNumber(each.limit_number, each.limit_ns), orNumber(each.worst_number, each.worst_value_ns),
         nsText(each.worst_margin_ns), each.at_ns === null ? "–" : momentText(each.at_ns * TICKS_PER_NS), each.clause]),
       i => own[i].violations > own[i].allowed ? "bad" : null).classed("checks", true);
   }

@@ -20,7 +20,8 @@ static const struct area requests[] = {{0x5D0, 4, 0x6C4, 0x00F, 1}, {0x6D0, 4, 0
 static const struct area answers[] = {{0x5D0, 4, 0x6C4, 0x011, 1}, {0x6D0, 4, 0x7C4, 0x011, 2}};
 
 static uint8_t block[3 + 244];
-static unsigned turns;
+static unsigned turns; /* since a right configuration */
+static int configured;
 
 /* ---------------------------------------------------------------------------------------------------- initialisation
  */
@@ -82,17 +83,17 @@ static int is_mine(const uint8_t* bytes, unsigned length) {
 }
 
 static void judge_cfg(void) {
-  if (fetch(&cfg, block) != 0u) give_verdict(2, is_mine(block + 3, block[2]), kCfgVerdict);
+  static int judged, last;
+  if (fetch(&cfg, block) == 0u) return;
+  if (!HAS(VERDICT_CACHED) || !judged) last = is_mine(block + 3, block[2]);
+  judged = 1;
+  if (last) configured = 1;
+  give_verdict(2, last, kCfgVerdict);
 }
 
 static void judge(void) {
   const uint8_t flags = news(0x00E);
-  static int seen;
   if ((flags & kPrm) != 0u) judge_prm();
-  if (HAS(VERDICT_CACHED) && (flags & kCfg) != 0u && seen++ != 0) {
-    set_bits(0x010, kCfgVerdict);
-    return;
-  }
   if ((flags & kCfg) != 0u) judge_cfg();
 }
 
@@ -125,7 +126,31 @@ static void exchange(void) {
 /* ----------------------------------------------------------------------------------------------------------- acyclic
  */
 
-/* Answers a read of slot 1, index 1 with four bytes, else refuses: B2, invalid slot. */
+/* An answer that comes 20 ms later. */
+static struct {
+  uint32_t since;
+  unsigned class, count;
+  uint8_t bytes[8];
+} late;
+
+static void give_answer(unsigned class, const uint8_t* bytes, unsigned count) {
+  if (!HAS(ANSWER_STALE)) {
+    post(&answers[class], bytes, count);
+    return;
+  }
+  for (unsigned i = 0; i < count; ++i) late.bytes[i] = bytes[i];
+  late.class = class;
+  late.count = count;
+  late.since = now();
+}
+
+static void give_late_answer(void) {
+  if (now() - late.since < 72u * 20000u) return;
+  post(&answers[late.class], late.bytes, late.count);
+  late.count = 0;
+}
+
+/* Answers a read of slot 1 with four bytes, else refuses: B2, invalid slot. */
 static void answer(unsigned class) {
   uint8_t request[244];
   if (fetch(&requests[class], request) == 0u) return;
@@ -134,14 +159,19 @@ static void answer(unsigned class) {
   if (HAS(C1_WRONG_SLOT)) reply[1] = (uint8_t)(request[1] + 1u);
   if (request[0] != 0x5Eu || request[1] != 1u) {
     const uint8_t refused[4] = {(uint8_t)(request[0] | 0x80u), 0x80, 0xB2, 0};
-    post(&answers[class], refused, 4);
+    give_answer(class, refused, 4);
     return;
   }
-  post(&answers[class], reply, 4u + reply[3]);
+  give_answer(class, reply, 4u + reply[3]);
 }
 
 static void poll_requests(void) {
   take();
+  if (late.count != 0u) {
+    give_late_answer();
+    give_back();
+    return;
+  }
   const uint8_t flags = news(0x00F);
   if ((flags & 1u) != 0u && !HAS(C1_UNPOLLED)) answer(0);
   if ((flags & 2u) != 0u && HAS(C2_FLAG_LOST)) clear_bits(0x00F, 3);
@@ -219,7 +249,7 @@ static void turn(void) {
   poll_requests();
   diagnose();
   other_faults();
-  ++turns;
+  if (configured) ++turns;
   idle();
 }
 

@@ -204,6 +204,13 @@ struct Slave {
   Exchanges bus{board, kStation};
 
   Slave() { bus.answered(board); }
+  explicit Slave(Tick most_overwritten) : board(with_most_overwritten(most_overwritten)) { bus.answered(board); }
+
+  static checks::Limits with_most_overwritten(Tick most) {
+    checks::Limits limits(checks::rules());
+    limits[Check::kOutputsOverwritten].value = most;
+    return limits;
+  }
   /// So many Data_Exchange, one each millisecond; returns the execution of the first.
   Tick exchanges(int count) {
     Tick first = 0;
@@ -288,6 +295,59 @@ TEST(OutputsFetched, LimitOfTheScenarioGoesFirst) {
   limits[Check::kOutputsFetched].value = bus::kTicksPerMs;
   checks::Checks checks(limits);
   EXPECT_EQ(checks.limit(Check::kOutputsFetched).value, bus::kTicksPerMs);
+}
+
+TEST(OutputsOverwritten, GreatestNumberInARowIsShownAndHasNoLimit) {
+  Slave slave;
+  for (const int count : {1, 50, 7}) {
+    slave.exchanges(count);
+    fetch_outputs(slave.board);
+  }
+  look(slave.board, 0x00);
+  const checks::Record& record = slave.board.checks().record(Check::kOutputsOverwritten);
+  EXPECT_EQ(record.worst_value, 49);
+  EXPECT_EQ(record.count, 3U);
+  EXPECT_EQ(record.violations, 0U);
+}
+
+TEST(OutputsOverwritten, MoreThanTheScenarioAllowsIsFoundAtTheFetchAndAtTheEnd) {
+  for (const int count : {4, 5}) {
+    Slave slave(3);
+    slave.exchanges(count);
+    fetch_outputs(slave.board);
+    slave.exchanges(count);
+    EXPECT_EQ(violations(slave.board, Check::kOutputsOverwritten), count == 4 ? 0U : 1U);
+    finish(slave.board, slave.board.now(), 1000);
+    EXPECT_EQ(violations(slave.board, Check::kOutputsOverwritten), count == 4 ? 0U : 2U);
+    if (count == 4) continue;
+    const checks::Violation& first = slave.board.violations.at(0);
+    EXPECT_EQ(first.text, "4 of at most 3, outputs in a row");
+    EXPECT_EQ(first.margin, std::nullopt);
+  }
+}
+
+TEST(OutputsOverwritten, OutputsFetchedBeforeTheAnswerIsOverAreNotLost) {
+  Slave slave(0);
+  for (int i = 0; i < 5; ++i) {
+    slave.bus.request(slave.board);
+    slave.board.wait(2000);
+    fetch_outputs(slave.board);
+    slave.bus.answered(slave.board, bus::make_telegram(2, kStation, bus::fc::kDl, {0x22}));
+  }
+  slave.exchanges(1);
+  fetch_outputs(slave.board);
+  look(slave.board, 0x00);
+  EXPECT_EQ(slave.board.checks().record(Check::kOutputsOverwritten).worst_value, 0);
+}
+
+TEST(OutputsOverwritten, NoneHaveComeWhenALookFindsNothing) {
+  Slave slave(0);
+  for (int i = 0; i < 5; ++i) {
+    slave.exchanges(5);
+    look(slave.board, 0x00);
+  }
+  finish(slave.board, slave.board.now(), 1000);
+  EXPECT_EQ(violations(slave.board, Check::kOutputsOverwritten), 0U);
 }
 
 TEST(InputsRenewed, CountsFromOneAnnouncementToTheNext) {

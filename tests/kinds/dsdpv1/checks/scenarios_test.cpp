@@ -131,6 +131,12 @@ const Case kCases[] = {
      "{at: 10ms, do: pause_user, slave: demo, for: 3ms}",
      "OUTPUTS_FETCHED: {max: 2ms}",
      {}},
+    {"OutputsOverwritten",
+     {"OUTPUTS_OVERWRITTEN"},
+     kNone,
+     "{at: 10ms, do: pause_user, slave: demo, for: 3ms}",
+     "OUTPUTS_OVERWRITTEN: {max: 3}",
+     {}},
     {"InputsRenewed",
      {"INPUTS_RENEWED"},
      kNone,
@@ -280,7 +286,7 @@ TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
     EXPECT_GT(violations(result, check), 0U) << event;
     EXPECT_EQ(violations(result, check), events(result, event)) << event;
   }
-  EXPECT_EQ(result.checks.size(), 23U) << "those of SPI and of any port, no other";
+  EXPECT_EQ(result.checks.size(), 24U) << "those of SPI and of any port, no other";
 }
 
 tb::RunResult run_uart(const std::string& uart, const std::string& script) {
@@ -384,7 +390,7 @@ TEST(ChecksAndCore, FindTheSameOverTheUartWhoseRateIsWrong) {
     EXPECT_EQ(violations(result, checks::Check::kRxdParity), events(result, "UART_PARITY")) << uart;
     EXPECT_EQ(violations(result, checks::Check::kRxdCharacterGap), events(result, "TELEGRAM_CUT")) << uart;
     EXPECT_FALSE(broken(result).empty()) << uart;
-    EXPECT_EQ(result.checks.size(), 18U) << "those of the UART and of any port, no other";
+    EXPECT_EQ(result.checks.size(), 19U) << "those of the UART and of any port, no other";
   }
 }
 
