@@ -56,6 +56,8 @@ class RtlFaults : public Command {
     const std::string list = given_or_own(list_, "/" + files.faults);
     const std::string folder = given_or_own(directed_, "/" + files.stimuli);
     const std::vector<cosim::Fault> faults = cosim::read_faults(list);
+    for (const cosim::Fault& each : faults)
+      cosim::chip_settings(kind, each.set);  // wrong ones are told before the hunt
     const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, kind);
     check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", tsv_}});
     WantedFile tsv(tsv_);

@@ -32,6 +32,12 @@ TEST_P(DirectedRsuStimulus, DoesNotDifferAndReachesWhatItIsFor) {
   plays(GetParam(), "--chip dsdpv1_rsu --replay tests/cosim/stimuli/dsdpv1_rsu/");
 }
 
+TEST(RepetitionStimulus, DoesNotDifferInEitherFormOfFcbRule) {
+  const std::string replay = " --replay tests/cosim/stimuli/dsdpv1/";
+  plays({"repetition", {"REPETITION 3", "FCB_NOT_TOGGLED 17"}}, "--set chip.fcb_rule=letter" + replay);
+  plays({"repetition", {"REPETITION 4"}}, "--set chip.fcb_rule=content" + replay);
+}
+
 void PrintTo(const Directed& each, std::ostream* out) { *out << each.name; }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -39,8 +45,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Directed{"init_limits", {"INIT_LENGTH 3", "INIT_LIMIT 9", "INIT_CFG 3", "INITIALISED 1"}},
         Directed{"verdicts", {"PRM_USER 2", "CFG_USER 2", "PRM_OK 6", "CFG_OK 4", "VERDICT_UNEXPECTED 4"}},
+        Directed{"verdict_in_search", {"PRM_OK 4", "BAUD_FOUND 7", "WD_ON 2", "WD_EXPIRED 2"}},
+        Directed{"verdict_at_the_lock", {"PRM_OK 10", "BAUD_LOST 7", "WD_ON 10"}},
+        Directed{"diagnosis", {"DIAG 9", "DIAG_LENGTH 1", "DIAG_TYPE 1"}},
         Directed{"service_lengths",
-                 {"ADDRESS 2", "ADDRESS_TOO_LONG 1", "CFG_TOO_LONG 1", "DX_FAIL_SAFE 1", "DX_LENGTH 1", "SAP_DATA 8"}},
+                 {"ADDRESS 2", "ADDRESS_TOO_LONG 1", "CFG_TOO_LONG 1", "DX_FAIL_SAFE 1", "DX_LENGTH 1", "SAP_DATA 7"}},
         Directed{"longest_blocks", {"PRM_OK 1", "CFG_OK 1", "DIAG 3", "Slave_Diag 3"}},
         Directed{"banks", {"Check_Cfg 19", "Global_Control 14", "CFG_OK 10"}},
         Directed{"bit_patterns",

@@ -28,7 +28,7 @@ constexpr std::array<FlagByte, 8> kFlags = {{
     {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2 | regs::kUserCommand2InputClear, false},
 }};
 
-/// The user only clears bits of these, reserved ones too (P6).
+/// The user only clears bits of these, also reserved ones (P6).
 bool is_cleared_only(Address address) {
   return address == regs::kChipStatus1 || address == regs::kChipStatus2 || address == regs::kChipCommand1 ||
          address == regs::kChipCommand2;
@@ -159,8 +159,9 @@ void CellRules::wrote(const Access& access) {
 
 void CellRules::check_whose_cell(const Access& access) {
   const std::optional<std::uint8_t> before = look(access.address);
-  const bool judged = is_cleared_only(access.address) && before && access.value;
-  const std::uint8_t set = judged ? bits(*access.value & ~*before) : std::uint8_t{0};
+  std::uint8_t set = 0;  // FLAG_BY_USER judges the others
+  if (is_cleared_only(access.address) && before && access.value)
+    set = bits(*access.value & ~*before & ~kFlags.at(access.address - kFirstFlags).chip_sets);
   recorder_.kept(Check::kCellOfChip, access.at, !only_chip_writes_[access.address] && set == 0, [&] {
     return set == 0 ? fmt::format("the user writes B{:03X}", access.address)
                     : fmt::format("the user sets bits {:02X} of B{:03X}", set, access.address);

@@ -67,7 +67,7 @@ The core itself reports violations (`HOST_...`, `HANDSHAKE_BOTH_OWN` of [reasons
 says. The checks are written separately, from the same rulings. If both judge the same, they find the same number
 (`ChecksAndCore`). These pairs are equal. Handshake: OWNERSHIP_BOTH_OWN and `HANDSHAKE_BOTH_OWN`, OWNERSHIP_NOT_OWNER and `HOST_NOT_OWNER`. Timing: TIMING_TS and `HOST_TS`, TIMING_TD and
 `HOST_TD_SETUP` or `HOST_D_FLOATING`, the two holds and `HOST_TD_HOLD` (for A or D, whichever changes first), TIMING_CSR and `HOST_CSR_EARLY`, TIMING_TC and
-`HOST_TC`, TIMING_TW and `HOST_TW`, TIMING_READ_BACK and `HOST_READ_IN_FLIGHT`. Content: CELL_OF_CHIP and `HOST_READ_ONLY` or `HOST_SETS_BIT` (of a cell that the user has read in the hold), CRC_WRITTEN and the refusals
+`HOST_TC`, TIMING_TW and `HOST_TW`, TIMING_READ_BACK and `HOST_READ_IN_FLIGHT`. Content: CELL_OF_CHIP and `HOST_READ_ONLY`, CELL_OF_CHIP (reserved bits) or FLAG_BY_USER and `HOST_SETS_BIT` where the user has read the cell in the hold, CRC_WRITTEN and the refusals
 `..._CRC`. `HANDSHAKE_HELD_THROUGH_RESET` has no check: the user is not judged in reset, and a hold through it counts from its end. The checks add margins where
 nothing is violated, and rules that no chip can see.
 
