@@ -151,14 +151,15 @@ def soak():
 FAULTS = """
 ## Planted faults
 
-`./run faults` plants one fault after the other into the model, its SystemC modules, the driver and the checks: a limit that is one too large,
+`./run faults` plants one fault after the other into the model, its SystemC modules, the driver, the checks and the ARM board: a limit that is one too large,
 a cycle too many, a wrong bit, a missing transition. Each is built in a separate folder, and the tests of the ordinary suite run until one fails. A fault
-that no test finds fails the command. The lists are `tests/planted/model.yaml`, `systemc.yaml`, `driver.yaml` and `checks.yaml`. The last has one fault for each check of
+that no test finds fails the command. The lists are `tests/planted/model.yaml`, `systemc.yaml`, `driver.yaml`, `checks.yaml` and `board.yaml`. That of the checks has one fault for each of
 [checks.md](checks.md). The command also checks that the same tests, built the same way, pass without a fault. The tests run in a fixed order, so
 the table names the first test that found a fault, not the only one. `./run nightly` plants all faults; for the RTL there is `./run rtl-faults` ([cosim.md](cosim.md)).
 
 """
-FAULT_TITLES = {"model": "The model", "systemc": "The SystemC modules", "driver": "The driver", "checks": "The checks, each fault named after its check"}
+FAULT_TITLES = {"model": "The model", "systemc": "The SystemC modules", "driver": "The driver", "checks": "The checks, each fault named after its check",
+                "board": "The ARM board"}
 
 
 def entries(name):
@@ -183,7 +184,8 @@ def fault_rows(name, found):
 
 def faults():
     found = {(row[1], row[2]): row for row in results("faults.tsv")}
-    heads = {"model": ["fault", "where", "rules", "what is wrong"], "systemc": ["fault", "where", "what is wrong"], "driver": ["fault", "rules", "what is wrong"], "checks": ["check", "what is wrong"]}
+    heads = {"model": ["fault", "where", "rules", "what is wrong"], "systemc": ["fault", "where", "what is wrong"], "driver": ["fault", "rules", "what is wrong"], "checks": ["check", "what is wrong"],
+             "board": ["fault", "what is wrong"]}
     text = FAULTS
     for name, title in FAULT_TITLES.items():
         rows = list(fault_rows(name, found))

@@ -7,7 +7,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = pathlib.Path(__file__).resolve().parent
-NAMES = ("model", "systemc", "driver", "checks")
+NAMES = ("model", "systemc", "driver", "checks", "board")
 RULING_PAGES = ("docs/chip.md", "docs/chip_rsu.md")
 KEYS = {"name", "block", "file", "replace", "by", "what", "rule"}
 NEEDED = {"name", "file", "replace", "by", "what"}

@@ -121,6 +121,7 @@ class Lists(unittest.TestCase):
         counts = {name: len(lists.read(name)) for name in lists.NAMES}
         self.assertGreaterEqual(counts["model"], 60)
         self.assertGreaterEqual(counts["driver"], 20)
+        self.assertGreaterEqual(counts["board"], 10)
         checks = (lists.ROOT / "kinds/dsdpv1/checks/check_table.inc").read_text(encoding="utf-8")
         self.assertEqual({fault.name for fault in lists.read("checks")}, set(re.findall(r'^X\(\w+, "(\w+)"', checks, re.M)))
 

@@ -25,6 +25,7 @@ STAGES = {
               Stage("cosim_rtl_test", names="All/Directed"), Stage("conformance_dpv1_campaign")),
     "systemc": (*(Stage(f"systemc_{name}_test") for name in SYSTEMC), SCENARIOS),
     "driver": (Stage("driver_test"), Stage("user_cpu_test"), SCENARIOS),
+    "board": (Stage("arm_test"), Stage("app_arm_board_test", calls_sim=True), SCENARIOS),
     "checks": (Stage("checks_test"), Stage("user_cpu_test"), SCENARIOS),
 }
 SECONDS = 600  # per stage: the time limit of its tests

@@ -87,7 +87,7 @@ void Checks::reset_pin(Tick at, bool level) {
   holding_ = false;
   hold_end_.reset();
   ownership_.reset(at, in_reset_);
-  port_.reset();
+  port_.reset(in_reset_);
   cells_.reset();
   station_.reset();
   service_.reset();

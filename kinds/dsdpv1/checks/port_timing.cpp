@@ -16,7 +16,8 @@ constexpr Tick edge_after(Tick at) { return (at / kCycle + 1) * kCycle; }
 
 }  // namespace
 
-void PortTiming::reset() {
+void PortTiming::reset(bool low) {
+  in_reset_ = low;
   csr_early_.reset();
   csr_due_.reset();
   a_hold_.reset();
@@ -59,6 +60,8 @@ void PortTiming::write_strobe(Tick at, bool level) {
   wr_ = level;
   if (!level) {
     wr_fell_ = at;
+    csr_early_.reset();
+  } else if (in_reset_) {
     csr_early_.reset();
   } else if (!csr_ || csr_early_ == at) {
     capture(at);

@@ -39,8 +39,8 @@ class PortTiming {
  public:
   PortTiming(Recorder& recorder, AccessSink& sink) : recorder_(recorder), sink_(sink) {}
 
-  /// RESET is low: the chip drops an access that has begun. Levels are kept.
-  void reset();
+  /// RESET falls or rises: the chip drops an access that has begun, and takes none while it is low. Levels are kept.
+  void reset(bool low);
   /// A change of CSR, RD, WR, A, D_IN or D_OUT.
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   /// The next read samples D at `sample`.
@@ -67,6 +67,7 @@ class PortTiming {
 
   Recorder& recorder_;
   AccessSink& sink_;
+  bool in_reset_ = false;
   bool csr_ = true, rd_ = true, wr_ = true, accessing_ = false;
   dsdpv1::Level a_ = 0, d_in_ = dsdpv1::kLevelZ, d_out_ = dsdpv1::kLevelZ;
   Tick a_changed_ = 0, d_changed_ = 0;

@@ -36,6 +36,7 @@ static void start_fsmc(void) {
 }
 
 void port_start(void) {
+  /* TELLS(GPIO_UNCLOCKED) */
   WORD(PORTC_CLEAR) = R_REQ | R_STA;
   const uint32_t pins = HAS(OPEN_DRAIN) ? 0x77u : HAS(ALTERNATE) ? 0xBBu : 0x33u;
   WORD(PORTC_LOW) = pins << 24 | 0x444444u;

@@ -14,6 +14,7 @@ enum { kSpare = 3, kOwnership = 0x014 };
 
 void port_start(void) {
   WORD(0x40021018u) |= 1u << 12; /* SPI1 */
+  /* TELLS(GPIO_UNCLOCKED) */
   WORD(PORTA_SET) = 1u << 4;
   WORD(PORTA_LOW) = 0xB8B34444u;
   WORD(PORTA_SET) = 1u << 6;

@@ -204,6 +204,7 @@ static void idle(void) { pause_us(HAS(HELD_ALWAYS) ? 2 : 100); }
 
 static uint32_t* volatile settings; /* null */
 
+/* TELLS(STRAY_STORE) */
 static void remember(void) { settings[4] = turns; }
 
 static void other_faults(void) {

@@ -17,6 +17,7 @@ static uint8_t last_inputs[3]; /* length 0 at first */
 
 void port_start(void) {
   WORD(0x4002101Cu) |= 1u << 17; /* USART2 */
+  /* TELLS(GPIO_UNCLOCKED) */
   WORD(PORTA_SET) = 1u << 3;
   WORD(PORTA_LOW) = 0x44448B44u;
   WORD(USART_BRR) = 20;

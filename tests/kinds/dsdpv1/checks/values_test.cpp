@@ -464,6 +464,27 @@ TEST(Reset, WhatItBreaksOffIsNotJudged) {
   EXPECT_TRUE(board.violations.empty()) << board.violations.front().text;
 }
 
+/// The user CPU's pins go to rest at the tick at which RESET falls.
+TEST(Reset, AWriteThatItCutsOffIsNotJudged) {
+  Board board;
+  board.ask();
+  board.set(Pin::kA, 0x132);
+  board.set(Pin::kCsr, 0);
+  board.wait(300);
+  board.set(Pin::kWr, 0);
+  board.set(Pin::kDIn, 0x1C);
+  board.wait(158);
+  board.set(Pin::kReset, 0);
+  for (const Pin pin : {Pin::kCsr, Pin::kWr}) board.set(pin, 1);
+  board.set(Pin::kA, 0x7FF);
+  board.set(Pin::kDIn, dsdpv1::kLevelZ);
+  for (const Pin pin : {Pin::kRReq, Pin::kRSta}) board.set(pin, 0);
+  board.wait(1000);
+  board.set(Pin::kReset, 1);
+  board.checks().finish(board.now());
+  EXPECT_TRUE(board.violations.empty()) << board.violations.front().text;
+}
+
 TEST(History, NamesTheLastChangesOfThePinsInvolvedInOrder) {
   Board board;
   sync_window(board, -1);
