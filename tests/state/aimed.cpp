@@ -575,6 +575,7 @@ class Master {
 };
 
 constexpr std::uint8_t kSrd = 0x5D, kSrdOther = 0x7D;  // with FCV; FCB 0 and 1
+constexpr std::uint8_t kStatus = 0x49;                 // FDL status: the request after it is no repetition (S26)
 constexpr unsigned kIdent = 0x0CC9;                    // ident number of the scenarios' slaves
 
 /// Parameters of Set_Prm; `options` is DPV1_Status_1. Their Min T_SDR differs from the slave's present one.
@@ -583,18 +584,21 @@ Bytes parameters(std::uint8_t options) {
 }
 
 /// The scenario's slave in data exchange; the user has released the DPRAM.
-Script in_data_exchange(std::string name) {
+Script in_data_exchange(std::string name, std::uint32_t baud_control_ms = 600) {
   static const Recorded scenario = [] {
     Recorded slave = recorded("power_on_12m").at(0);
     slave.config.intr_gap = 20'000;  // longer than some telegrams
     return slave;
   }();
-  Script script(std::move(name), scenario, 3 * kMs);  // the scenario guarantees data exchange here
+  Recorded slave = scenario;
+  slave.config.baud_control_ms = baud_control_ms;
+  Script script(std::move(name), slave, 3 * kMs);  // the scenario guarantees data exchange here
   for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr, Pin::kPbrxd}) script.set(pin, 1);
   script.set(Pin::kDIn, kLevelZ);
   script.wait(10 * kCycle);
   for (const Pin pin : {Pin::kRReq, Pin::kRSta}) script.set(pin, 0);
   script.wait(2000 * kCycle);  // the last telegram of the scenario's master is over
+  Master(script, 2, 5).ask(kStatus, {}, {}, false);
   return script;
 }
 
@@ -643,7 +647,7 @@ void read_status(Script& script) {
   give(script);
 }
 
-/// A C1 request while the user has not yet cleared a C2 flag.
+/// A C1 request that the chip refuses, and one while the user has not yet cleared a C2 flag.
 Aimed acyclic_flags() {
   const Recorded scenario = recorded("dpv1_c1").at(0);
   Script script("acyclic_flags", scenario, 69 * kMs);
@@ -651,6 +655,9 @@ Aimed acyclic_flags() {
   script.set(Pin::kPbrxd, 1);
   script.wait(200 * kBit);
   Master master(script, 2, 5, kBit, 100);
+  master.ask(kStatus, {}, {}, false);
+  master.ask(kSrd, {51, 51}, {0x5E, 1, 1});  // too short: the chip keeps its own answer (V9)
+  master.ask(kSrdOther, {51, 51}, {});
   write(script, {{regs::kChipCommand2, regs::kChipCommand2C2}});
   master.ask(kSrd, {51, 51}, {0x5E, 1, 1, 4});
   read_status(script);
@@ -694,7 +701,25 @@ Aimed judged_late() {
   master.ask(kSrd, {62, 62}, {0x17, 0x27});
   judge(regs::kUserCommand1CfgVerdict);
   master.ask(kSrdOther, {}, {1, 2, 3, 4, 5, 6, 7, 8});
-  master.ask(kSrd, {}, {});
+  master.tell_all({58, 62}, {0x08, 0x01});
+  master.ask(kSrd, {60, 62}, {});
+  master.ask(kSrdOther, {}, {});
+  return script.done(2000 * kCycle);
+}
+
+/// Parameters that the user judges after the rate has been lost: their watchdog waits for the rate (S29).
+Aimed waiting_watchdog() {
+  Script script = in_data_exchange("waiting_watchdog", 2);
+  Master master(script, 2, 5);
+  Bytes unlock = parameters(0);
+  unlock[0] = 0x40;
+  master.ask(kSrd, {61, 62}, unlock, false);
+  master.ask(kSrdOther, {61, 62}, parameters(0x04), false);
+  script.wait(5 * kMs / 2);
+  write(script, {{regs::kUserStatus1, 0}, {regs::kUserCommand1, regs::kUserCommand1PrmVerdict}});
+  script.wait(300 * kCycle);
+  script.mark();
+  master.ask(kStatus, {}, {});
   return script.done(2000 * kCycle);
 }
 
@@ -731,8 +756,8 @@ Aimed held_mail() {
   script.mark_cycles(4);
   script.wait(10 * kCycle);
   for (int i = 0; i < 3; ++i) master.ask(i % 2 == 0 ? kSrd : kSrdOther, {}, Bytes(8, static_cast<std::uint8_t>(i)));
-  master.ask(kSrd, {61, 62}, parameters(0));
-  master.ask(kSrdOther, {62, 62}, {0x17, 0x27});
+  master.ask(kSrdOther, {61, 62}, parameters(0));
+  master.ask(kSrd, {62, 62}, {0x17, 0x27});
   script.mark();
   for (const Pin pin : {Pin::kRReq, Pin::kRSta}) {
     script.set(pin, 0);
@@ -740,7 +765,7 @@ Aimed held_mail() {
     script.mark_cycles(4);
   }
   script.mark_cycles(120);
-  master.ask(kSrd, {60, 62}, {});
+  master.ask(kSrdOther, {60, 62}, {});
   return script.done(2000 * kCycle);
 }
 
@@ -759,7 +784,7 @@ Aimed frozen() {
   Master master(script, 2, 5);
   for (const std::uint8_t command : Bytes{0x08, 0x20, 0x04, 0x10}) {
     master.tell_all({58, 62}, {command, 0x01});
-    master.ask(command == 0x20 ? kSrdOther : kSrd, {}, Bytes(8, command));
+    master.ask(command == 0x20 || command == 0x10 ? kSrdOther : kSrd, {}, Bytes(8, command));
   }
   return script.done(2000 * kCycle);
 }
@@ -869,6 +894,7 @@ std::vector<Aimed> aimed() {
   all.push_back(exact_read());
   for (const Pin pin : {Pin::kRReq, Pin::kRSta}) all.push_back(pulses(pin));
   all.push_back(judged_late());
+  all.push_back(waiting_watchdog());
   all.push_back(repetitions());
   all.push_back(held_mail());
   all.push_back(unsupported());
