@@ -119,7 +119,7 @@ TEST_F(Outputs, ViolationThatIsNotAllowedFailsTheRun) {
   write("s.yaml",
         text +
             "expect: none\nallow: [{event: HOST_TS}, {event: HOST_TD_SETUP}, {event: HOST_READ_UNKNOWN}, {event: "
-            "HOST_READ_IN_FLIGHT}]\n");
+            "HOST_READ_IN_FLIGHT}, {event: HOST_SETS_BIT}]\n");
   EXPECT_EQ(run("--checks report").status, 0);
 }
 
