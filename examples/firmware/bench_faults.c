@@ -105,14 +105,26 @@ static void raise_one_after_the_other(uint32_t cycles) {
   GPIOC->BSRR = kRStaBit;
 }
 
+/* Four cycles a pass, then a cycle for each that is left: a loop that reads CYCCNT has no finer step than ten. */
+static void spend(uint32_t cycles) {
+  enum { kPass = 4 };
+  for (uint32_t left = cycles / kPass; left != 0u; --left) __asm__ volatile("");
+  switch (cycles % kPass) {
+    case 3: __asm__ volatile("nop\n\tnop\n\tnop"); break;
+    case 2: __asm__ volatile("nop\n\tnop"); break;
+    case 1: __asm__ volatile("nop"); break;
+    default: break;
+  }
+}
+
 /*
- * The chip accesses the DPRAM once a microsecond, 72 cycles, and at once after a release. Waits some cycles longer
- * each time, so that some of a series coincide with an access.
+ * The chip accesses the DPRAM once a microsecond, 72 cycles, and at once after a release. Waits a cycle longer each
+ * time, so that some of a series coincide with an access.
  */
 static void wander(void) {
-  enum { kStep = 5, kSteps = 15 };
+  enum { kSteps = 97 };
   static uint32_t step;
-  board_wait(step * kStep);
+  spend(step);
   step = (step + 1u) % kSteps;
 }
 
