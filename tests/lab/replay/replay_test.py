@@ -254,6 +254,12 @@ def shifted_answer(folder):
 def unlock(folder):
     """A Set_Prm that unlocks the slave does not change its min_TSDR (S17): it still answers after 11 bit times. One with neither Lock nor Unlock
     does (S28)."""
+    def again(packet):
+        """The same request as the first of a series, so that it is no repetition (S26)."""
+        request = pcapng.Packet(packet.block()[8:-4])
+        request.change(6, 0x6D)
+        return request
+
     def at_end(packets, *telegrams):
         """After the last packet, each 60 bit times after the one before, answers 11.2."""
         now = packets[-1].ns + len(packets[-1].data) * 11e9 / 12e6
@@ -270,12 +276,12 @@ def unlock(folder):
         head, packets = pcapng.read(record(folder))
         del packets[answers(packets)[-1] + 1:]
         prm, diag = first_to(packets, 61), first_to(packets, 60)
-        request = pcapng.Packet(packets[prm].block()[8:-4])
+        request = again(packets[prm])
         request.change(9, lock)
         request.change(9 + 3, 100)
         # Unlocked it shows the diagnosis from before the start; with another min_TSDR only it continues to exchange.
         asked, answer = packets[diag:diag + 2] if lock else packets[-2:]
-        at_end(packets, (request, 60), (packets[prm + 1], 11.2 if lock else 100.2), (asked, 60), (answer, 11.2))
+        at_end(packets, (request, 60), (packets[prm + 1], 11.2 if lock else 100.2), (again(asked), 60), (answer, 11.2))
         pcapng.write(folder / "planted.pcapng", head, packets)
         result, _ = replayed(folder, "planted.pcapng", status=None)
         expect(f"Set_Prm with {lock:02X}", [each["verdict"] for each in result["differences"]], verdicts)
