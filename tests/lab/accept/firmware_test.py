@@ -20,13 +20,14 @@ import owed  # noqa: E402
 EXAMPLE = {"right": []}
 PAGE = pathlib.Path(__file__).resolve().parents[3] / "docs" / "accept.md"
 SPOILT = ["--only", "spoilt blocks", "--only", "spoilt requests"]
-# Case: fault, port, options, and the line that tells it from right firmware.
+# Case: fault, port, options, and what tells it from right firmware. Over SPI the flags that the firmware writes back may be the wrong bits.
 PLANTED = {"parallel": ("NONE", "parallel", [], ""),
            "spi": ("NONE", "spi", ["--mode", "spi", *SPOILT, "--only", "outputs", "--only", "newer block", "--only", "restart"], ""),
            "uart": ("NONE", "uart", ["--mode", "uart"], ""),
            "wrong": ("CFG_ACCEPTED", "parallel", ["--only", "wrong configuration"], "wrong configuration: Cfg_Fault at least 4; seen: 0 times"),
            "unjudged_parallel": ("CRC_UNJUDGED", "parallel", SPOILT, "spoilt blocks: right parameters or configuration refused never"),
-           "unjudged_spi": ("CRC_UNJUDGED", "spi", ["--mode", "spi", *SPOILT], "spoilt blocks: right parameters or configuration refused never"),
+           "unjudged_spi": ("CRC_UNJUDGED", "spi", ["--mode", "spi", *SPOILT],
+                            r"spoilt blocks(: right parameters or configuration refused never| wrong bits read \d+ VIOLATED: \d+ HOST_SETS_BIT)"),
            "unjudged_uart": ("CRC_UNJUDGED", "uart", ["--mode", "uart", *SPOILT], "spoilt requests: answers at least 4")}
 
 
@@ -60,7 +61,7 @@ def wrong(done, case):
         print(f"docs/accept.md shows: {line}")
         return True
     told = PLANTED[case][3] if case in PLANTED else ""
-    return done.returncode != (1 if told else 0) or told not in " ".join(done.stdout.split())
+    return done.returncode != (1 if told else 0) or not re.search(told, " ".join(done.stdout.split()))
 
 
 def main():
