@@ -28,12 +28,6 @@ constexpr std::array<FlagByte, 8> kFlags = {{
     {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2 | regs::kUserCommand2InputClear, false},
 }};
 
-/// The user only clears bits of these, also reserved ones (P6).
-bool is_cleared_only(Address address) {
-  return address == regs::kChipStatus1 || address == regs::kChipStatus2 || address == regs::kChipCommand1 ||
-         address == regs::kChipCommand2;
-}
-
 bool is_command_of_chip(Address address) { return address == regs::kChipCommand1 || address == regs::kChipCommand2; }
 bool is_command_of_user(Address address) { return address == regs::kUserCommand1 || address == regs::kUserCommand2; }
 
@@ -157,11 +151,12 @@ void CellRules::wrote(const Access& access) {
   learn(access.address, access.value);
 }
 
+/// P6: of cells with flags of the chip the user only clears bits, also reserved ones. FLAG_BY_USER judges the flags.
 void CellRules::check_whose_cell(const Access& access) {
-  const std::optional<std::uint8_t> before = look(access.address);
-  std::uint8_t set = 0;  // FLAG_BY_USER judges the others
-  if (is_cleared_only(access.address) && before && access.value)
-    set = bits(*access.value & ~*before & ~kFlags.at(access.address - kFirstFlags).chip_sets);
+  const bool has_flags = access.address >= kFirstFlags && access.address <= kLastFlags;
+  const std::uint8_t of_chip = has_flags ? kFlags.at(access.address - kFirstFlags).chip_sets : std::uint8_t{0};
+  const std::optional<std::uint8_t> before = of_chip != 0 ? look(access.address) : std::nullopt;
+  const std::uint8_t set = before && access.value ? bits(*access.value & ~*before & ~of_chip) : bits(0);
   recorder_.kept(Check::kCellOfChip, access.at, !only_chip_writes_[access.address] && set == 0, [&] {
     return set == 0 ? fmt::format("the user writes B{:03X}", access.address)
                     : fmt::format("the user sets bits {:02X} of B{:03X}", set, access.address);

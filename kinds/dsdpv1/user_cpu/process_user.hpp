@@ -38,7 +38,7 @@ class ProcessUser : public StationCpu {
     cpu_.intr0_changed(at, level);
     announce();
   }
-  /// Scenarios with commands for its program are refused.
+  /// Carries out those for the port; scenarios with commands for its program are refused.
   void command(Tick now, const Command& command) override;
   UserCounters counters() const override;
   bool tells() const override { return false; }

@@ -90,9 +90,9 @@ class Board {
     carry_out();
   }
   /// Counts B006 by the rule, after an access of the chip.
-  void count() {
-    read(0x006, 1);
-    write(0x006, 2);
+  void count(unsigned left = 1) {
+    read(0x006, left);
+    write(0x006, left + 1);
   }
   /// Reads flags and cells, and clears flag `set`; `others` stay set.
   void fetch(unsigned flags, unsigned set, const Cells& cells, unsigned others = 0) {

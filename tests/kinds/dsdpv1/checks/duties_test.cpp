@@ -20,11 +20,11 @@ constexpr Tick kLimit = 100 * bus::kTicksPerMs;
 
 std::uint64_t violations(Board& board, Check check) { return board.checks().record(check).violations; }
 
-/// A hold with the test's accesses; returns its end.
+/// A hold with the test's accesses, begun with B006 as the chip or the user left it; returns its end.
 template <class Act>
-Tick hold(Board& board, const Act& act) {
+Tick hold(Board& board, const Act& act, unsigned count = 1) {
   board.ask();
-  board.count();
+  board.count(count);
   act();
   board.release();
   return board.now() - 5000;  // as Board::release waits
@@ -479,24 +479,21 @@ TEST(InitRepeated, OtherValuesRefusalAndResetAreNone) {
   EXPECT_EQ(violations(board, Check::kInitRepeated), 1U);
 }
 
-/// A hold whose first read is B006, as the chip or the user left it.
-template <class Act>
-void counted_hold(Board& board, unsigned count, const Act& act) {
-  board.ask();
-  board.read(0x006, count);
-  board.write(0x006, count + 1);
-  act();
-  board.release();
+/// As before, in a hold that finds B00A.0 clear.
+void initialise_again(Board& board) {
+  hold(
+      board,
+      [&board] {
+        board.read(0x00A, 0x00);
+        board.read(0x010, 0x00);
+        board.write(0x010, 0x04);
+      });
 }
 
 TEST(InitRepeated, RefusalSeenInTheSameHoldAllowsIt) {
   Board board;
   initialise(board, 0, 1);
-  hold(board, [&board] {
-    board.read(0x00A, 0x00);
-    board.read(0x010, 0x00);
-    board.write(0x010, 0x04);
-  });
+  initialise_again(board);
   look(board, 0x00);
   EXPECT_EQ(violations(board, Check::kInitRepeated), 0U);
 }
@@ -506,11 +503,7 @@ TEST(InitRepeated, UsersOwnClearingIsNoRefusal) {
   initialise(board, 0, 1);
   hold(board, [&board] { board.write(0x00A, 0x00); });  // chapter 8: after success
   look(board, 0x00);
-  hold(board, [&board] {
-    board.read(0x00A, 0x00);
-    board.read(0x010, 0x00);
-    board.write(0x010, 0x04);
-  });
+  initialise_again(board);
   look(board, 0x00);
   EXPECT_EQ(violations(board, Check::kInitRepeated), 1U);
 }
@@ -519,11 +512,15 @@ TEST(InitRepeated, IsAllowedUntilB006SaysThatTheChipHasCome) {
   for (const unsigned count : {1U, 2U}) {
     Board board;
     set_flag(board, 0x010, 0x04, {{0x02B, 0}});
-    counted_hold(board, count, [&board] { board.read(0x00E, 0x00); });
-    counted_hold(board, 3, [&board] {
-      board.read(0x010, 0x00);
-      board.write(0x010, 0x04);
-    });
+    hold(
+        board, [&board] { board.read(0x00E, 0x00); }, count);
+    hold(
+        board,
+        [&board] {
+          board.read(0x010, 0x00);
+          board.write(0x010, 0x04);
+        },
+        3);
     look(board, 0x00);
     EXPECT_EQ(violations(board, Check::kInitRepeated), count == 1 ? 1U : 0U);
   }

@@ -127,12 +127,16 @@ void look_at_both(Board& board) {
   board.look(Pin::kLSta);
 }
 
-/// A right hold by a user who tells his looks.
-void hold_with_looks(Board& board) {
-  board.checks().hears_looks();
+void ask_and_look(Board& board) {
   board.set(Pin::kRReq, 1);
   board.wait(1200);
   look_at_both(board);
+}
+
+/// A right hold by a user who tells his looks.
+void hold_with_looks(Board& board) {
+  board.checks().hears_looks();
+  ask_and_look(board);
   board.wait(840);
   board.set(Pin::kRSta, 1);
   board.wait(500);
@@ -192,9 +196,7 @@ TEST(LookInWindow, UserWhoGivesUpLooksAgainInHisNextRequest) {
   for (const bool looks : {true, false}) {
     Board board;
     hold_with_looks(board);
-    board.set(Pin::kRReq, 1);
-    board.wait(1200);
-    look_at_both(board);
+    ask_and_look(board);
     board.set(Pin::kRReq, 0);
     board.wait(100);
     board.set(Pin::kRReq, 1);
@@ -208,9 +210,7 @@ TEST(LookInWindow, UserWhoGivesUpLooksAgainInHisNextRequest) {
 TEST(LookInWindow, RequestThatNeverEndedNeedsNoOtherLook) {
   Board board;
   hold_with_looks(board);
-  board.set(Pin::kRReq, 1);
-  board.wait(1200);
-  look_at_both(board);
+  ask_and_look(board);
   board.set(Pin::kRSta, 1);
   board.wait(500);
   board.set(Pin::kRReq, 0);
