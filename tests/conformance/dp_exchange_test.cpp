@@ -150,7 +150,12 @@ TEST_F(Exchanges, UserWhoHoldsTheDpramDelaysNoAnswer) {
     EXPECT_EQ(exchange.answer().data, (Bytes{1, 2}));
     EXPECT_EQ(static_cast<int>(exchange.tsdr_bits()), 11);
   }
-  EXPECT_EQ(ask(bench, 57).answer().data, (Bytes{4, 7}));
+  const std::pair<int, Bytes> reads[] = {{56, {1, 2}}, {57, {4, 7}}, {59, {0x11, 0x21}}};
+  for (const auto& [sap, data] : reads) {
+    const Exchange exchange = ask(bench, sap);
+    EXPECT_EQ(exchange.answer().data, data) << sap;
+    EXPECT_EQ(static_cast<int>(exchange.tsdr_bits()), 11) << sap;
+  }
   bench.release();
   settle(bench);
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{4, 7}));

@@ -127,6 +127,10 @@ TEST_F(C1, NeedsDpv1EnableInSetPrm) {
   start(true, false);
   EXPECT_TRUE(is_rs(c1(read_request(0, 0, 1))));
   EXPECT_EQ(bench.count(Reason::kC1Disabled), 1);
+  ASSERT_TRUE(is_sc(bench.set_prm({})));  // without the byte: off is the default
+  ASSERT_TRUE(is_sc(bench.check_cfg()));
+  EXPECT_TRUE(is_rs(c1(read_request(0, 0, 1))));
+  EXPECT_EQ(bench.count(Reason::kC1Disabled), 2);
 }
 
 // V9. Until an audit the chip itself refused them (B8).
@@ -337,8 +341,11 @@ TEST_F(C1, InterruptIsNotGivenForAcyclicRequests) {
   start();
   settle(bench);
   const std::size_t before = bench.changes(Pin::kIntr0).size();
+  ASSERT_EQ(connect(), kFirstChannel);
   ASSERT_TRUE(is_sc(c1(read_request(1, 2, 1))));
+  ASSERT_TRUE(is_sc(c2(kFirstChannel, read_request(1, 2, 1))));
   settle(bench);
+  EXPECT_EQ(bench.peek(0x00F), 0x03);
   EXPECT_EQ(bench.changes(Pin::kIntr0).size(), before);  // P7
 }
 

@@ -1,4 +1,6 @@
 // A DSDPV1-RSU on the bus: what its host hears by SPI and UART of what a master does, and the other way round.
+#include <algorithm>
+
 #include "tests/conformance/rsu_bench.hpp"
 #include "tests/conformance/slave_bench.hpp"
 
@@ -12,6 +14,47 @@ Config rsu() {
 }
 
 constexpr std::uint8_t kUserJudges = 2;
+
+Prm with_dpv1() {
+  Prm prm;
+  prm.user = {0x80, 0, 0};
+  return prm;
+}
+
+/// A block of the chip's and where its CRC is.
+struct Block {
+  std::uint16_t cell;
+  Bytes bytes;
+  std::uint16_t crc;
+};
+/// Of each kind one, as the master of these tests sends them.
+const Block kNews[] = {{0x319, {1, 0xAA}, 0x40E},
+                       {0x410, {3, 0x80, 0, 0}, 0x4FE},
+                       {0x500, {1, 1, 2, 0x10, 0x20}, 0x5CB},
+                       {0x5D0, {0x5E, 1, 2, 3}, 0x6C4},
+                       {0x6D0, {0x5E, 4, 5, 6}, 0x7C4}};
+
+std::ptrdiff_t falls_of_intr0(const SlaveBench& bench) {
+  const std::vector<PinChange> changes = bench.changes(Pin::kIntr0);
+  return std::count_if(changes.begin(), changes.end(), [](const PinChange& change) { return change.level == 0; });
+}
+
+Bytes crc_of(const Bytes& bytes) { return part_of(with_crc(bytes), bytes.size(), 2); }
+
+/// R12: in data exchange, which needed parameters and a configuration since `falls` of INTR0 were counted.
+void expect_pins_of_data_exchange(const SlaveBench& bench, std::ptrdiff_t falls) {
+  EXPECT_EQ(bench.chip.level(Pin::kReady), 1);
+  EXPECT_EQ(bench.chip.level(Pin::kBr), 1);
+  EXPECT_EQ(bench.chip.level(Pin::kPbf), 0);
+  EXPECT_EQ(falls_of_intr0(bench), falls + 2);
+}
+
+/// Initiate, and the poll that connects the first channel.
+void connect_c2(SlaveBench& bench) {
+  const Bytes initiate = {0x57, 0, 0, 0, 0, 100, 1, 0, 0, 0, 0, 0, 0, 2, 0, 2, 0x0A, 0x0B, 0x0C, 0x0D};
+  ASSERT_TRUE(bench.srd(0x31, 0x32, initiate).answered());
+  ASSERT_TRUE(bench.srd(0x30, 0x32, {}).answered());
+}
 
 /// A slave with one input and one output byte, whose host is at the UART.
 class RsuUartOnBus : public ::testing::Test {
@@ -115,6 +158,31 @@ TEST_F(RsuUartOnBus, NewParametersAndConfiguration) {
   EXPECT_EQ(exchange(), with_crc({0x01, 0x01, 0x03, 0x19, 0x02, 0x01, 0xAA}));
 }
 
+// UA1 and SP15: all news of the master stand in the DPRAM with their CRCs, and the chip says nothing until it is asked.
+TEST_F(RsuUartOnBus, NothingIsSentUnasked) {
+  write(0x005, {0x1D});
+  initialise({});
+  write(0x00E, {0x00});
+  EXPECT_EQ(bench_.chip.level(Pin::kPbf), 1);
+  const std::ptrdiff_t falls = falls_of_intr0(bench_);
+  const std::size_t sent = bench_.changes(Pin::kTxd).size();
+  ASSERT_TRUE(bench_.set_prm(with_dpv1()).short_acknowledge());
+  ASSERT_TRUE(bench_.check_cfg({0x10, 0x20}).short_acknowledge());
+  ASSERT_TRUE(bench_.data_exchange({0xAA}).answered());
+  ASSERT_TRUE(bench_.srd(0x33, 0x33, {0x5E, 1, 2, 3}).short_acknowledge());
+  connect_c2(bench_);
+  ASSERT_TRUE(bench_.srd(0x30, 0x32, {0x5E, 4, 5, 6}).short_acknowledge());
+  bench_.run_cycles(50'000);
+  EXPECT_EQ(bench_.changes(Pin::kTxd).size(), sent);
+  expect_pins_of_data_exchange(bench_, falls);
+  EXPECT_EQ(bench_.peek(0x00E, 2), (Bytes{0x07, 0x03}));
+  for (const Block& block : kNews) {
+    EXPECT_EQ(bench_.peek(block.cell, static_cast<int>(block.bytes.size())), block.bytes) << block.cell;
+    EXPECT_EQ(bench_.peek(block.crc, 2), crc_of(block.bytes)) << block.cell;
+  }
+  EXPECT_EQ(talk(read_telegram(0x00F, 1)), with_crc({0x81, 0x00, 0x03}));
+}
+
 // UA15: judging mode 2, the verdicts by write telegrams to B00C, then B010.
 TEST_F(RsuUartOnBus, VerdictByAWrite) {
   Init init;
@@ -214,10 +282,10 @@ class RsuSpiOnBus : public ::testing::Test {
 
 // SP18 and 6.2.4: each kind of data by its cells and flags, as in parallel mode.
 TEST_F(RsuSpiOnBus, BlocksVerdictsAndAcyclicAnswersAreByCells) {
+  EXPECT_EQ(bench_.chip.level(Pin::kReady) + bench_.chip.level(Pin::kBr), 0);
   initialise(kUserJudges);
-  Prm prm;
-  prm.user = {0x80, 0, 0};
-  ASSERT_TRUE(bench_.set_prm(prm).short_acknowledge());
+  EXPECT_EQ(bench_.chip.level(Pin::kPbf), 1);
+  ASSERT_TRUE(bench_.set_prm(with_dpv1()).short_acknowledge());
   bench_.run_cycles(600);
   EXPECT_EQ(read(0x00E, 1), Bytes{0x02});
   EXPECT_EQ(read(0x410, 4), (Bytes{3, 0x80, 0, 0}));
@@ -228,20 +296,28 @@ TEST_F(RsuSpiOnBus, BlocksVerdictsAndAcyclicAnswersAreByCells) {
   EXPECT_EQ(read(0x500, 5), (Bytes{1, 1, 2, 0x10, 0x20}));
   write({{0x00E, {0x00}}, {0x00C, {0x00}}, {0x010, {0x40}}});
   ASSERT_EQ(bench_.dp_state(), DpState::kDataExch);
+  expect_pins_of_data_exchange(bench_, 0);
   write({{0x130, {1, 0x55}}, {0x227, {0x81, 1, 0xAA}}, {0x010, {0x03}}});
   const Bytes diagnosis = bench_.slave_diag();
   EXPECT_EQ(diagnosis.back(), 0xAA);
   EXPECT_EQ(diagnosis.front(), 0x08) << "Ext_Diag";
-  EXPECT_EQ(bench_.data_exchange({0xB7}).answer().data, Bytes{0x55});
+  EXPECT_EQ(bench_.data_exchange({0xAA}).answer().data, Bytes{0x55});
   bench_.run_cycles(600);
-  EXPECT_EQ(read(0x319, 2), (Bytes{1, 0xB7}));
+  EXPECT_EQ(read(0x319, 2), (Bytes{1, 0xAA}));
   ASSERT_TRUE(bench_.srd(0x33, 0x33, {0x5E, 1, 2, 3}).short_acknowledge());
   bench_.run_cycles(600);
   EXPECT_EQ(read(0x00F, 1), Bytes{0x01});
   EXPECT_EQ(read(0x5D0, 4), (Bytes{0x5E, 1, 2, 3}));
-  write({{0x5D0, {0x5E, 1, 2, 1, 0x77}}, {0x00F, {0x00}}, {0x011, {0x01}}});
+  connect_c2(bench_);
+  ASSERT_TRUE(bench_.srd(0x30, 0x32, {0x5E, 4, 5, 6}).short_acknowledge());
+  bench_.run_cycles(600);
+  EXPECT_EQ(read(0x00F, 1), Bytes{0x03});
+  EXPECT_EQ(read(0x6D0, 4), (Bytes{0x5E, 4, 5, 6}));
+  for (const Block& block : kNews) EXPECT_EQ(read(block.crc, 2), crc_of(block.bytes)) << block.cell;
+  write({{0x5D0, {0x5E, 1, 2, 1, 0x77}}, {0x6D0, {0x5E, 4, 5, 1, 0x99}}, {0x00F, {0x00}}, {0x011, {0x03}}});
   EXPECT_EQ(read(0x010, 2), (Bytes{0, 0})) << "the chip has cleared the flags";
   EXPECT_EQ(bench_.srd(0x33, 0x33, {}).answer().data, (Bytes{0x5E, 1, 2, 1, 0x77}));
+  EXPECT_EQ(bench_.srd(0x30, 0x32, {}).answer().data, (Bytes{0x5E, 4, 5, 1, 0x99}));
 }
 
 // SP16 and 6.3.3: without a claim, in every DP state; inputs of a wrong length are refused, the outputs come all the

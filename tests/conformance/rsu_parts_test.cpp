@@ -1,5 +1,6 @@
 // Which chip has what: pins, straps, dead ports (R1, R2, R10, R11, R14).
 #include "tests/conformance/rsu_bench.hpp"
+#include "tests/conformance/slave_bench.hpp"
 
 namespace dsdpv1::conformance {
 namespace {
@@ -134,20 +135,49 @@ TEST(RsuPorts, SerialPinsAreNotLookedAtInParallelMode) {
   EXPECT_TRUE(bench.changes(Pin::kMiso).empty());
   EXPECT_TRUE(bench.changes(Pin::kTxd).empty());
   EXPECT_FALSE(bench.changes(Pin::kLSta).empty());
-  bench.poke(0x014, 0xFF);
-  bench.poke(0x019, 0xFF);
-  EXPECT_EQ(bench.peek(0x014), 0xFF) << "plain RAM (R10)";
 }
 
-TEST(RsuPorts, OwnershipIsPlainRamInUartMode) {
-  Straps straps;
-  straps.mode = HostMode::kUart;
-  RsuBench bench(straps);
+/// B014 to B01F, after the start-up.
+constexpr std::uint16_t kFirstOfSerial = 0x014, kLastOfSerial = 0x01F;
+
+TEST(RsuPorts, CellsOfTheSerialPortsArePlainRamInParallelMode) {
+  Config config;
+  config.part = Part::kRsu;
+  SlaveBench bench(config);
   bench.power_on();
-  for (const std::uint16_t cell : {std::uint16_t{0x014}, std::uint16_t{0x018}}) {
-    EXPECT_EQ(bench.talk(write_telegram(cell, {0xFF})), with_crc({0xA1, 0x00}));
-    EXPECT_EQ(bench.talk(read_telegram(cell, 1)), with_crc({0x81, 0x00, 0xFF}));
-    EXPECT_EQ(bench.peek(cell), 0xFF) << cell;
+  bench.acquire();
+  for (std::uint16_t cell = kFirstOfSerial; cell <= kLastOfSerial; ++cell) {
+    EXPECT_EQ(bench.read(cell), 0) << cell;
+    bench.write(cell, 0xFF);
+  }
+  bench.chip_accesses(5);
+  EXPECT_EQ(bench.peek(kFirstOfSerial, 12), Bytes(12, 0xFF));
+}
+
+TEST(RsuPorts, CellsWithoutAUseAreZeroAndThenPlainRamInSerialModes) {
+  for (const HostMode mode : {HostMode::kSpi, HostMode::kUart}) {
+    Straps straps;
+    straps.mode = mode;
+    RsuBench bench(straps);
+    bench.power_on();
+    const bool spi = mode == HostMode::kSpi;
+    if (spi) bench.claim();
+    for (std::uint16_t cell = kFirstOfSerial; cell <= kLastOfSerial; ++cell) {
+      if (spi ? cell == 0x014 : cell == 0x019 || cell == 0x01A) {
+        if (!spi) EXPECT_EQ(bench.peek(cell), 0) << cell;
+        continue;
+      }
+      const auto ask = [&bench, spi](const Bytes& request, std::size_t reply) {
+        return spi ? bench.ask(request, reply) : bench.talk(request);
+      };
+      EXPECT_EQ(ask(read_telegram(cell, 1), 5), with_crc({0x81, 0x00, 0x00})) << cell;
+      EXPECT_EQ(ask(write_telegram(cell, {0xFF}), 4), with_crc({0xA1, 0x00})) << cell;
+      EXPECT_EQ(ask(read_telegram(cell, 1), 5), with_crc({0x81, 0x00, 0xFF})) << cell;
+    }
+    if (spi) bench.release();
+    bench.run_cycles(500);
+    EXPECT_EQ(bench.peek(0x015, 4), Bytes(4, 0xFF));
+    EXPECT_EQ(bench.peek(0x01B, 5), Bytes(5, 0xFF));
   }
 }
 

@@ -75,6 +75,23 @@ TEST_F(RsuSpi, ReleaseLetsTheAccessBegin) {
   EXPECT_GT(bench_.status().longest_wait, 0U);
 }
 
+// SP9: kept until J, then one byte a cycle, ascending; the access that the release lets in waits for the last.
+TEST_F(RsuSpi, AWriteMovesOneByteACycleAscendingAfterItsJudgement) {
+  bench_.claim();
+  bench_.run_cycles(500);
+  const std::uint64_t accesses = bench_.status().accesses;
+  bench_.spi(write_telegram(0x014, {0x00, 7, 8, 9}), {600, 600, 600, 0, 0, true});
+  const Cycle judged = (bench_.now() - 600) / 250 + 4;
+  const Bytes after[] = {{0, 0, 0}, {0, 0, 0}, {7, 0, 0}, {7, 8, 0}, {7, 8, 9}};
+  for (Cycle i = 0; i <= 4; ++i) {
+    bench_.run_until((judged + i) * 250);
+    EXPECT_EQ(bench_.peek(0x015, 3), after[i]) << i;
+    if (i < 4) EXPECT_EQ(bench_.status().accesses, accesses) << i;
+  }
+  bench_.run_cycles(2);
+  EXPECT_EQ(bench_.status().accesses, accesses + 1);
+}
+
 TEST_F(RsuSpi, WrongCrcIsBitZeroAlone) {
   Bytes telegram = read_telegram(0xF900, 0);
   telegram.back() ^= 1;
@@ -117,6 +134,26 @@ TEST_F(RsuSpi, LongestTelegrams) {
   EXPECT_EQ(bench_.read(0x30B, 245), data);
   EXPECT_EQ(bench_.peek(0x30A), 0);
   EXPECT_EQ(bench_.peek(0x400), 0);
+}
+
+// SP8: data byte i is taken when byte i after the request has been handed over.
+TEST_F(RsuSpi, AReadTakesEachByteTwoBeforeItIsSent) {
+  for (std::size_t taken = 0; taken <= 4; ++taken) {
+    bench_.claim();
+    bench_.write(0x100, {1, 2, 3, 4});
+    bench_.spi(read_telegram(0x100, 4), {600, 600, 600, 600, 0, true});
+    Bytes reply = bench_.clock(Bytes(taken, 0xFF));
+    bench_.run_cycles(10);
+    for (std::uint16_t i = 0; i < 4; ++i) bench_.poke(static_cast<std::uint16_t>(0x100 + i), 9);
+    const Bytes rest = bench_.clock(Bytes(8 - taken, 0xFF));
+    bench_.xss(1);
+    reply.insert(reply.end(), rest.begin(), rest.end());
+    Bytes expected = {0x81, 0x00, 1, 2, 3, 4};
+    for (std::size_t i = taken; i < 4; ++i) expected[2 + i] = 9;
+    EXPECT_EQ(reply, with_crc(expected)) << taken;
+    bench_.run_cycles(200);
+    bench_.release();
+  }
 }
 
 TEST_F(RsuSpi, StartBytesThatAreNone) {
@@ -387,6 +424,29 @@ TEST_F(RsuSpi, GapAfterAWrite) {
   }
 }
 
+// SP9: the same gap after a write with a wrong CRC, none after one for the other card.
+TEST_F(RsuSpi, GapAfterAWrongWriteAndNoneAfterTheOtherCards) {
+  Bytes wrong = write_telegram(0x100, {1});
+  wrong.back() ^= 1;
+  struct Try {
+    Bytes write;
+    Tick gap;
+    bool heard;
+  };
+  for (const Try& one :
+       {Try{wrong, 31'740, false}, Try{wrong, 32'400, true}, Try{write_telegram(0x100, {1}, 2), 3'000, true}}) {
+    bench_.forget_events();
+    bench_.run_until(bench_.now() + 50'000);
+    bench_.spi(one.write);
+    bench_.run_until(bench_.now() - 1200 + one.gap);  // from the last bit's rise
+    Bytes mosi = read_telegram(0x000, 1);
+    mosi.resize(11, 0xFF);
+    EXPECT_EQ(part_of(bench_.spi(mosi), 6, 5), one.heard ? with_crc({0x81, 0x00, 0x01}) : Bytes(5, 0xFF)) << one.gap;
+    EXPECT_EQ(bench_.count(R::kSpiWriteGap), one.heard ? 0 : 1) << one.gap;
+  }
+  EXPECT_EQ(bench_.peek(0x100), 0);
+}
+
 // 6.3.3, second remark: the same 2.7 us after a read and write, right or refused.
 TEST_F(RsuSpi, GapAfterAReadAndWrite) {
   for (const Tick gap : {31'740, 32'400}) {
@@ -484,6 +544,20 @@ TEST(RsuSpiParameter, SerialBlockCrc) {
   bench.run_cycles(300);
   EXPECT_EQ(bench.peek(0x00A), 0x00);
   EXPECT_EQ(bench.count(dpram::Reason::kInitCrc), 1);
+  const auto hand_over = [&bench](std::uint16_t area, const Bytes& block, std::uint16_t crc, std::uint8_t flag) {
+    bench.claim();
+    bench.write(area, block);
+    bench.write(crc, part_of(with_crc(block), block.size(), 2));
+    bench.write(0x010, {flag});
+    bench.release();
+    bench.run_cycles(300);
+  };
+  hand_over(0x020, {16, 5, 0x0C, 0xC9, 0x0F, 0, 0, 244, 244, 32, 237, 0, 200, 0, 2, 0x11, 0x21}, 0x0F7, 0x04);
+  EXPECT_EQ(bench.peek(0x00A), 0x01);
+  hand_over(0x130, {2, 5, 6}, 0x300, 0x01);
+  EXPECT_EQ(bench.peek(0x00B), 0x04) << "no CRC at B225";
+  hand_over(0x130, {2, 5, 6}, 0x225, 0x01);
+  EXPECT_EQ(bench.peek(0x00B), 0x00);
 }
 
 // R6: B011.7 is taken back, and B00B.2 is never set, whatever CRC stands at B225.
@@ -494,6 +568,38 @@ TEST_F(RsuSpi, InputHistoryHasNothingToKeep) {
   bench_.run_cycles(300);
   EXPECT_EQ(bench_.peek(0x011), 0x40);
   EXPECT_EQ(bench_.peek(0x00B), 0x00);
+  bench_.claim();
+  bench_.write(0x020, {16, 5, 0x0C, 0xC9, 0x0F, 0, 0, 244, 244, 32, 237, 0, 200, 0, 2, 0x11, 0x21});
+  bench_.write(0x130, {2, 5, 6});
+  bench_.write(0x225, {0x12, 0x34});
+  bench_.write(0x010, {0x05});
+  bench_.release();
+  bench_.run_cycles(300);
+  EXPECT_EQ(bench_.peek(0x00A, 2), (Bytes{0x01, 0x00}));
+  EXPECT_EQ(bench_.peek(0x010), 0x00);
+}
+
+// SP13: only a host far beyond SP2 and SP9 gets there, and only with a gap of 0.
+TEST(RsuSpiParameter, AWriteIsRefusedWhileAnEarlierOneIsUnderWay) {
+  for (const Bytes& second : {write_telegram(0x300, {9}), inputs_telegram({9})}) {
+    Config config;
+    config.spi_write_gap = 0;
+    RsuBench bench({}, config);
+    bench.power_on();
+    bench.claim();
+    const RsuBench::Frame fast = {100, 100, 100, 100, 0, false};
+    bench.spi(write_telegram(0x400, Bytes(245, 7)), fast);
+    bench.run_until(bench.now() + 1000);
+    bench.spi(second, {100, 100, 100, 100, 0, true});
+    bench.run_cycles(4);  // the reply is at a host's speed
+    EXPECT_EQ(bench.clock(Bytes(4, 0xFF)), error(0x00));
+    bench.xss(1);
+    EXPECT_EQ(bench.last(R::kSpiBusy).a, 2);
+    bench.run_cycles(300);
+    EXPECT_EQ(bench.peek(0x400, 245), Bytes(245, 7));
+    EXPECT_EQ(bench.peek(0x300), 0);
+    EXPECT_EQ(bench.peek(0x130, 2), (Bytes{0, 0}));
+  }
 }
 
 TEST(RsuSpiParameter, ReplyGap) {
@@ -542,6 +648,31 @@ TEST(RsuSpiUTimer, TakesTheOwnership) {
   EXPECT_EQ(bench.last(R::kSpiUTimer).a, 24'000);
   EXPECT_EQ(bench.last(R::kSpiUTimer).at, (judged + 24'000) * 250);
   EXPECT_EQ(bench.count(R::kSpiReleased), 0);
+}
+
+// The claim alone starts it, each telegram with a right CRC starts it again.
+TEST(RsuSpiUTimer, BeginsWithTheClaimAndAgainWithATelegram) {
+  for (const bool again : {false, true}) {
+    Config config;
+    config.u_timer = 24'000;
+    RsuBench bench({}, config);
+    bench.power_on();
+    bench.claim();
+    bench.write(0x015, {0x01});
+    bench.release();
+    bench.claim();
+    Tick begun = bench.last(R::kSpiClaimed).at;
+    if (again) {
+      bench.run_until(begun + 18'000 * 250);
+      bench.spi(read_telegram(0x100, 1));
+      begun = ((bench.now() - 1200) / 250 + 4) * 250;
+    }
+    bench.run_until(begun + 24'000 * 250 - 1);
+    EXPECT_EQ(bench.peek(0x014) & 2, 2);
+    bench.run_until(begun + 24'000 * 250);
+    EXPECT_EQ(bench.peek(0x014) & 2, 0);
+    EXPECT_EQ(bench.last(R::kSpiUTimer).at, bench.now());
+  }
 }
 
 TEST(RsuSpiUTimer, WrongCrcDoesNotStartItAgain) {

@@ -1,4 +1,6 @@
 // UART: characters, telegrams, replies (UA1 to UA6, UA16; docs/microarchitecture_rsu.md 6.1 to 6.3, 6.5).
+#include <algorithm>
+
 #include "tests/conformance/rsu_bench.hpp"
 
 namespace dsdpv1::conformance {
@@ -42,6 +44,27 @@ TEST_F(RsuUart, LongestReadAndWrite) {
   const Bytes first = part_of(data, 0, 245);
   reply.insert(reply.end(), first.begin(), first.end());
   EXPECT_EQ(bench_.talk(read_telegram(0x300, 245)), with_crc(reply));
+}
+
+// UA6: one byte a cycle, ascending; no access of the chip begins before the last, the overdue one follows.
+TEST_F(RsuUart, AWriteIsCarriedOutUninterrupted) {
+  const Bytes data(250, 7);
+  bench_.send(write_telegram(0x300, data));  // its first bytes are written within the last stop bit
+  const std::uint64_t accesses = bench_.status().accesses;
+  const auto written = [this] {
+    const Bytes cells = bench_.peek(0x300, 250);
+    return std::find_if(cells.begin(), cells.end(), [](std::uint8_t cell) { return cell != 7; }) - cells.begin();
+  };
+  const std::ptrdiff_t begun = written();
+  EXPECT_LT(begun, 50);
+  for (std::ptrdiff_t done = begun; done < 250; ++done) {
+    ASSERT_EQ(written(), done);
+    ASSERT_EQ(bench_.status().accesses, accesses) << done;
+    bench_.run_cycles(1);
+  }
+  EXPECT_EQ(bench_.peek(0x300, 250), data);
+  bench_.run_cycles(3);
+  EXPECT_EQ(bench_.status().accesses, accesses + 1);
 }
 
 // UA1: at each of the eight rates, and the reply's earliest time (UA4): tsdr bit times after the request's end, plus

@@ -39,6 +39,37 @@ TEST(Crc, ExampleOfTheDatasheet) {
   EXPECT_EQ(crc_at(bench, regs::kPrmCrc), document_crc({2, 7, 0})) << "high byte first";
 }
 
+// Table 10: a block is read when its flag is set, and not before.
+TEST(UserCommands, EachBlockIsReadOnceItsBitOfB010IsSet) {
+  SlaveBench bench;
+  bench.power_on();
+  const auto give = [&bench](std::uint8_t flag) {
+    bench.poke(0x010, flag);
+    bench.chip_accesses();
+    EXPECT_EQ(bench.peek(0x010), 0);
+  };
+  bench.acquire();
+  bench.write_block(0x020, Init{}.block(), 0x0F7);
+  bench.chip_accesses(3);
+  EXPECT_EQ(bench.peek(0x00A), 0);
+  give(0x04);
+  EXPECT_EQ(bench.peek(0x00A), 1);
+  bench.find_baud();
+  ASSERT_TRUE(bench.set_prm({}).short_acknowledge());
+  ASSERT_TRUE(bench.check_cfg().short_acknowledge());
+  bench.acquire();
+  bench.write_block(0x130, {2, 5, 6}, 0x225);
+  bench.write_block(0x227, {0x81, 1, 9}, 0x317);
+  bench.chip_accesses(3);
+  EXPECT_EQ(inputs_seen(bench), (Bytes{0, 0}));
+  EXPECT_EQ(bench.slave_diag().size(), 6U);
+  give(0x01);
+  EXPECT_EQ(inputs_seen(bench), (Bytes{5, 6}));
+  EXPECT_EQ(bench.slave_diag().size(), 6U);
+  give(0x02);
+  EXPECT_EQ(bench.slave_diag().back(), 9);
+}
+
 // --- inputs ----------------------------------------------------------------------------------------------------------
 
 TEST(UserInputs, AreZeroUntilTheFirstValidBlock) {
@@ -518,6 +549,9 @@ TEST(UserPrmCfg, FlagsStayUntilTheUserClearsThem) {
   bench.chip_accesses(3);
   EXPECT_EQ(bench.peek(regs::kChipCommand1), regs::kChipCommand1Cfg | regs::kChipCommand1Output)
       << "bits of the user stay";
+  bench.poke(0x00E, 0);
+  bench.chip_accesses(3);
+  EXPECT_EQ(bench.peek(0x00E), 0) << "and what the user has cleared";
 }
 
 // --- INTR0 -----------------------------------------------------------------------------------------------------------

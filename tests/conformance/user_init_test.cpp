@@ -168,6 +168,19 @@ TEST(UserInit, ALengthByteThatCannotBeRightLeavesTheCrcBitAlone) {
   EXPECT_EQ(shown(bench), (Shown{0, 1, 1, 0}));
 }
 
+// R5: nothing can be over the limits that bits 1 and 2 of B013 show.
+TEST(UserInit, EveryInitialisationWritesAllBitsOfB013ButTheFirstZero) {
+  for (const std::uint8_t max_input : Bytes{244, 245}) {
+    SlaveBench bench;
+    bench.power_on();
+    bench.poke(0x013, 0xFE);
+    Init init;
+    init.max_input = max_input;
+    bench.initialise(init);
+    EXPECT_EQ(bench.peek(0x013), max_input == 245 ? 1 : 0);
+  }
+}
+
 TEST(UserInit, UserMayClearTheStatusAndItStays) {
   SlaveBench bench;
   bench.to_data_exch();

@@ -1,7 +1,7 @@
 // The order of moves in a DPRAM access, cycle by cycle: rulings H3, H4; chapter 9 of docs/microarchitecture.md.
 #include <string>
 
-#include "tests/conformance/user_helpers.hpp"
+#include "tests/conformance/dpv1_side.hpp"
 
 namespace dsdpv1::conformance {
 namespace {
@@ -284,6 +284,81 @@ TEST(UserOrder, FromTheUserThenToTheUserThenStatusBytes) {
   EXPECT_EQ(interrupt.back().level, 0);
   EXPECT_EQ(interrupt.back().at / kCycleTicks, access.start + 31);
   EXPECT_EQ(run_to_l_sta(bench, 1), access.start + 49);
+}
+
+class UserOrderWithDpv1 : public Dpv1Test {};
+
+// H4: all that one access may hold in operation but the verdicts and the clearing.
+TEST_F(UserOrderWithDpv1, AnswersComeAfterTheDiagnosisAndRequestsAfterTheOutputs) {
+  start();
+  ASSERT_EQ(connect(), kFirstChannel);
+  bench.chip_accesses(3);
+  bench.acquire();
+  bench.write(0x00E, 0);
+  for (const std::uint16_t block : std::vector<std::uint16_t>{0x319, 0x410, 0x500}) mark(bench, block, 5);
+  for (const std::uint16_t crc : std::vector<std::uint16_t>{0x40E, 0x4FE, 0x5CB}) mark(bench, crc, 2);
+  bench.write_block(0x130, {2, 5, 6}, 0x225);
+  bench.write_block(0x227, {0x81, 3, 7, 8, 9}, 0x317);
+  for (const Area& area : {kC1Area, kC2Area}) bench.write_block(area.base, {0xDE, 0x80, 0xB2, 0}, area.crc);
+  bench.write(0x010, 0x03);
+  bench.write(0x011, 0x03);
+  Prm prm;
+  prm.user = {0x80, 0, 0};
+  ASSERT_TRUE(is_sc(bench.set_prm(prm)));
+  ASSERT_TRUE(is_sc(bench.check_cfg()));
+  ASSERT_TRUE(bench.data_exchange({0x51, 0x52}).answered());
+  ASSERT_TRUE(is_sc(c1(read_request(1, 2, 3))));
+  ASSERT_TRUE(is_sc(c2(kFirstChannel, read_request(4, 5, 6))));
+  bench.run_until((bench.now() / kCycleTicks + 1) * kCycleTicks + 125);
+  bench.release();
+  const Recorded access = record_access(bench);
+  const std::uint16_t parameters = document_crc({3, 0x80, 0, 0}), cfg = document_crc({2, 2, 2, 0x11, 0x21}),
+                      output = document_crc({2, 0x51, 0x52}), first = document_crc({0x5E, 1, 2, 3}),
+                      second = document_crc({0x5E, 4, 5, 6});
+  const std::vector<Move> expected = {
+      {14, 0x010, 2},  // inputs
+      {24, 0x010, 0},  // diagnosis
+      {33, 0x011, 2},  // C1 answer, which nothing asked for: 25 + 4 + 4
+      {42, 0x011, 0},  // C2 answer
+      {43, 0x410, 3},
+      {44, 0x411, 0x80},
+      {45, 0x412, 0},
+      {46, 0x413, 0},
+      {47, 0x4FE, high(parameters)},
+      {48, 0x4FF, low(parameters)},
+      {49, 0x00E, 2},
+      {50, 0x500, 2},
+      {51, 0x501, 2},
+      {52, 0x502, 2},
+      {53, 0x503, 0x11},
+      {54, 0x504, 0x21},
+      {55, 0x5CB, high(cfg)},
+      {56, 0x5CC, low(cfg)},
+      {57, 0x00E, 6},
+      {58, 0x319, 2},
+      {59, 0x31A, 0x51},
+      {60, 0x31B, 0x52},
+      {61, 0x40E, high(output)},
+      {62, 0x40F, low(output)},
+      {63, 0x00E, 7},
+      {64, 0x5D0, 0x5E},  // C1 request
+      {65, 0x5D1, 1},
+      {66, 0x5D2, 2},
+      {67, 0x5D3, 3},
+      {68, 0x6C4, high(first)},
+      {69, 0x6C5, low(first)},
+      {70, 0x00F, 1},
+      {71, 0x6D0, 0x5E},  // C2 request
+      {72, 0x6D1, 4},
+      {73, 0x6D2, 5},
+      {74, 0x6D3, 6},
+      {75, 0x7C4, high(second)},
+      {76, 0x7C5, low(second)},
+      {77, 0x00F, 3},
+      {78, 0x009, 1},  // then 79 80 B00B
+  };
+  EXPECT_EQ(access.moves, expected);
+  EXPECT_EQ(access.length, 81);
 }
 
 TEST(UserOrder, LongestWriteBlock) {

@@ -26,6 +26,9 @@ TEST(RegisterMap, EveryAddressIsNamedOnce) {
 
 TEST(RegisterMap, ControlBytesAreWhereTable2PutsThem) {
   EXPECT_EQ(kVersion, 0x000);
+  EXPECT_EQ(kVersionYear, 0x001);
+  EXPECT_EQ(kVersionMonth, 0x002);
+  EXPECT_EQ(kVersionDay, 0x003);
   EXPECT_EQ(kValidFlag, 0x004);
   EXPECT_EQ(kDpv1Enable, 0x005);
   EXPECT_EQ(kAccessCount, 0x006);
@@ -89,13 +92,72 @@ TEST(RegisterMap, VerdictBitsAreThoseOfTable10) {  // D4: the notes under the ta
   EXPECT_EQ(kUserStatus1CfgWrong, 0x02);
 }
 
-TEST(RegisterMap, FlagsOfTheTwoSidesDiffer) {
-  EXPECT_EQ(kChipStatus2InitCrc | kChipStatus2InputCrc | kChipStatus2DiagCrc | kChipStatus2C1Crc | kChipStatus2C2Crc,
-            0x3D);
-  EXPECT_EQ(kChipCommand1Output | kChipCommand1Prm | kChipCommand1Cfg, 0x07);
-  EXPECT_EQ(kUserCommand1Input | kUserCommand1Diag | kUserCommand1Init, 0x07);
-  EXPECT_EQ(kUserStatus2C1Crc, 0x10);  // table 7 has C1 above C2, unlike table 4
-  EXPECT_EQ(kUserStatus2C2Crc, 0x08);
+TEST(RegisterMap, BlocksBeginAsTable2Says) {
+  EXPECT_EQ(kInitLength, 0x020);
+  EXPECT_EQ(kInputLength, 0x130);
+  EXPECT_EQ(kInputData, 0x131);
+  EXPECT_EQ(kDiagType, 0x227);
+  EXPECT_EQ(kDiagLength, 0x228);
+  EXPECT_EQ(kDiagData, 0x229);
+  EXPECT_EQ(kOutputLength, 0x319);
+  EXPECT_EQ(kOutputData, 0x31A);
+  EXPECT_EQ(kPrmLength, 0x410);
+  EXPECT_EQ(kPrmData, 0x411);
+  EXPECT_EQ(kCfgOutputLength, 0x500);
+  EXPECT_EQ(kCfgInputLength, 0x501);
+  EXPECT_EQ(kCfgLength, 0x502);
+  EXPECT_EQ(kCfgData, 0x503);
+  EXPECT_EQ(kC1FunctionNum, 0x5D0);
+  EXPECT_EQ(kC1Slot, 0x5D1);
+  EXPECT_EQ(kC1Index, 0x5D2);
+  EXPECT_EQ(kC1Length, 0x5D3);
+  EXPECT_EQ(kC1Data, 0x5D4);
+  EXPECT_EQ(kC2FunctionNum, 0x6D0);
+  EXPECT_EQ(kC2Slot, 0x6D1);
+  EXPECT_EQ(kC2Index, 0x6D2);
+  EXPECT_EQ(kC2Length, 0x6D3);
+  EXPECT_EQ(kC2Data, 0x6D4);
+}
+
+struct FlagCase {
+  Address byte;
+  std::uint8_t flag;
+  Address expected_byte;
+  std::uint8_t expected_flag;
+};
+
+TEST(RegisterMap, FlagsAreTheBitsOfTables3To12) {
+  const FlagCase flags[] = {
+      {kChipStatus1, kChipStatus1Initialised, 0x00A, 0x01},
+      {kChipStatus2, kChipStatus2InitCrc, 0x00B, 0x01},
+      {kChipStatus2, kChipStatus2InputCrc, 0x00B, 0x04},
+      {kChipStatus2, kChipStatus2DiagCrc, 0x00B, 0x08},
+      {kChipStatus2, kChipStatus2C1Crc, 0x00B, 0x10},
+      {kChipStatus2, kChipStatus2C2Crc, 0x00B, 0x20},
+      {kUserStatus2, kUserStatus2CfgCrc, 0x00D, 0x01},
+      {kUserStatus2, kUserStatus2PrmCrc, 0x00D, 0x02},
+      {kUserStatus2, kUserStatus2OutputCrc, 0x00D, 0x04},
+      {kUserStatus2, kUserStatus2C2Crc, 0x00D, 0x08},  // table 7 has C1 above C2, unlike table 4
+      {kUserStatus2, kUserStatus2C1Crc, 0x00D, 0x10},
+      {kChipCommand1, kChipCommand1Output, 0x00E, 0x01},
+      {kChipCommand1, kChipCommand1Prm, 0x00E, 0x02},
+      {kChipCommand1, kChipCommand1Cfg, 0x00E, 0x04},
+      {kChipCommand2, kChipCommand2C1, 0x00F, 0x01},
+      {kChipCommand2, kChipCommand2C2, 0x00F, 0x02},
+      {kUserCommand1, kUserCommand1Input, 0x010, 0x01},
+      {kUserCommand1, kUserCommand1Diag, 0x010, 0x02},
+      {kUserCommand1, kUserCommand1Init, 0x010, 0x04},
+      {kUserCommand2, kUserCommand2C1, 0x011, 0x01},
+      {kUserCommand2, kUserCommand2C2, 0x011, 0x02},
+      {kInitCommand, kInitCommandAddressChange, 0x024, 0x01},
+      {kInitCommand, kInitCommandFreeze, 0x024, 0x02},
+      {kInitCommand, kInitCommandSync, 0x024, 0x04},
+      {kInitCommand, kInitCommandFailSafe, 0x024, 0x08},
+  };
+  for (const FlagCase& each : flags) {
+    EXPECT_EQ(each.byte, each.expected_byte);
+    EXPECT_EQ(each.flag, each.expected_flag) << std::hex << each.expected_byte;
+  }
 }
 
 TEST(RegisterMap, StatusByte3HoldsBaudRateAndState) {

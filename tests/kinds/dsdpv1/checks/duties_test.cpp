@@ -61,8 +61,9 @@ Tick hand_over_inputs(Board& board) {
 }
 
 /// Of the length byte alone, which the chip would refuse (D12): only the modes matter.
-void initialise(Board& board, unsigned prm_mode, unsigned accepted) {
-  set_flag(board, 0x010, 0x04, {{0x02B, prm_mode}, {0x0F7, 0x40}, {0x0F8, 0xBF}, {0x00A, 0x00}});
+/// `mode` is that of the parameters (B02B) or of the configuration (B02D).
+void initialise(Board& board, unsigned mode, unsigned accepted, unsigned mode_of = 0x02B) {
+  set_flag(board, 0x010, 0x04, {{mode_of, mode}, {0x0F7, 0x40}, {0x0F8, 0xBF}, {0x00A, 0x00}});
   hold(board, [&board, accepted] {
     board.read(0x010, 0x00);
     board.read(0x00A, accepted);
@@ -180,6 +181,36 @@ TEST(VerdictGiven, IsMissedAfterTheLimitFromTheFirstOfSeveralFetches) {
     fetch_parameters(board);
     finish(board, first, kLimit + beyond);
     EXPECT_EQ(violations(board, Check::kVerdictGiven), beyond == 0 ? 0U : 1U);
+  }
+}
+
+/// The user fetches a configuration, waits and gives a verdict; the time from the end of the fetch to that of the
+/// verdict's hold.
+Tick judge_configuration(Board& board, Tick wait, unsigned verdict) {
+  initialise(board, 2, 1, 0x02D);
+  const Tick fetched = fetch(board, 0x00E, 0x04, {{0x500, 0}, {0x501, 0}, {0x502, 0}, {0x5CB, 0xC0}, {0x5CC, 0x71}});
+  board.wait(wait);
+  const Tick given = hold(board, [&board, verdict] {
+    board.read(0x010, 0x00);
+    board.write(0x010, verdict);
+  });
+  finish(board, given, 2 * kLimit);
+  return given - fetched;
+}
+
+TEST(VerdictGiven, OnAConfigurationIsB010Bit6AndMissedATickAfterTheLimit) {
+  Board sooner;
+  const Tick rest = judge_configuration(sooner, 0, 0x40);
+  EXPECT_EQ(sooner.checks().record(Check::kVerdictGiven).worst_value, rest);
+  struct Try {
+    Tick beyond;
+    unsigned verdict;
+    std::uint64_t violations;
+  };
+  for (const Try& one : {Try{0, 0x40, 0}, Try{1, 0x40, 1}, Try{0, 0x80, 1}}) {
+    Board board;
+    ASSERT_EQ(judge_configuration(board, kLimit - rest + one.beyond, one.verdict), kLimit + one.beyond);
+    EXPECT_EQ(violations(board, Check::kVerdictGiven), one.violations) << one.beyond << " " << one.verdict;
   }
 }
 
