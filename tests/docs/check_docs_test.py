@@ -11,7 +11,7 @@ RIGHT = {
                  "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
                  "`apt-get install ./dsdpv1_*.deb && dsdpv1-sim demo`, `pip install ./dsdpv1-*.whl && python -m dsdpv1 demo`, `./run demo`\n"
                  "<!-- trust: x -->\n<!-- /trust -->\n<!-- bare: x -->\n<!-- /bare -->\n",
-    "docs/README.md": "# Documents\n| [chip.md](chip.md) | the chip |\n| [install.md](install.md) | packages |\n| [tutorials/one.md](tutorials/one.md) | first |\n"
+    "docs/README.md": "# Documents\n| [chip.md](chip.md) | the chip |\n| [chip_rsu.md](chip_rsu.md) | the chip |\n| [install.md](install.md) | packages |\n| [tutorials/one.md](tutorials/one.md) | first |\n"
                       "".join(f"| [{name}.md]({name}.md) | figures |\n" for name in ("conformance", "trust", "performance", "calibrate")),
     "docs/tutorials/one.md": "# One\n",
     "docs/conformance.md": "| The DSDPV1 datasheet V1.1 | 404 | 387 | 17 |\n| The user software manual | 115 | 108 | 7 |\n| Rulings | 136 | 136 | 0 |\n3096 of all 3097 tests passed\n",
@@ -24,7 +24,8 @@ RIGHT = {
                            "2026-01-02\tc\tsource\t173\t137.0\t60\t210\t400\t2\t0.3\n",
     "packages.txt": "# all\n\n# to build\n[tools]\ncmake\ng++\n",
     "run": "#!/bin/sh\nprintf 'demo\\ttools\\nsim\\ttools\\n'\n",
-    "docs/chip.md": "# Chip\n## Its rulings\n- **P1** [silent] a\n- **V1** [documented in part] b\n",
+    "docs/chip.md": "# Chip\n## Its rulings\n- **P1**<a id=\"p1\"></a> [silent] a\n- **V1**<a id=\"v1\"></a> [documented in part] b\n",
+    "docs/chip_rsu.md": "- **UA1**<a id=\"ua1\"></a> [firmware] a\n",
     "model/core.cpp": "// docs/chip.md#its-rulings, P1; docs/tutorials/one.md; not mydocs/two.md\n",
     "examples/one.cpp": "// one\nint main() {}\n",
 }
@@ -71,7 +72,6 @@ class Project(small_project.SmallProject):
         self.expect("has the anchor #rulings")
 
     def test_an_anchor_that_the_text_sets_itself_is_one(self):
-        self.change("docs/chip.md", "**P1**", '**P1**<a id="p1"></a>')
         self.change("README.md", "#its-rulings", "#p1")
         self.assertEqual(self.faults(), [])
 
@@ -90,6 +90,18 @@ class Project(small_project.SmallProject):
     def test_a_mark_that_the_page_does_not_explain(self):
         self.change("docs/chip.md", "[documented in part]", "[written]")
         self.expect("docs/chip.md:4: V1 has the mark [written]")
+
+    def test_a_mark_of_the_sister_chips(self):
+        self.change("docs/chip_rsu.md", "[firmware]", "[documented, against itself]")
+        self.expect("docs/chip_rsu.md:1: UA1 has the mark [documented, against itself]")
+
+    def test_a_ruling_without_its_anchor(self):
+        self.change("docs/chip.md", '<a id="v1"></a>', "")
+        self.expect("docs/chip.md:4: V1 has no anchor, expected v1")
+
+    def test_a_ruling_with_the_anchor_of_another(self):
+        self.change("docs/chip.md", '<a id="v1"></a>', '<a id="p1"></a>')
+        self.expect("docs/chip.md:4: V1 has the anchor p1, expected v1")
 
     def test_a_group_with_another_package(self):
         self.change("packages.txt", "g++\n", "ninja\n")
