@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+#include <regex>
+
 #include "kinds/dsdpv1/checks/check.hpp"
 
 namespace dsdpv1::checks {
@@ -146,6 +149,21 @@ std::string limit_text(const Rule& rule) {
   return fmt::format("{} {} ns", word, number);
 }
 
+/// A clause with the rulings in it as links to their anchors.
+std::string linked(const std::string& clause) {
+  static const std::regex ruling("\\b(?:(R|SP|UA)|[PHDSVU])[0-9]+\\b");
+  std::string text;
+  auto rest = clause.begin();
+  for (std::sregex_iterator each(clause.begin(), clause.end(), ruling), end; each != end; ++each) {
+    std::string anchor = each->str();
+    for (char& c : anchor) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    text += each->prefix().str() +
+            fmt::format("[{}]({}#{})", each->str(), (*each)[1].matched ? "chip_rsu.md" : "chip.md", anchor);
+    rest = (*each)[0].second;
+  }
+  return text + std::string(rest, clause.end());
+}
+
 std::string section(const Rule& rule) {
   std::string text = fmt::format("\n### {}\n\n{} ({}).\n\n", rule.id, rule.rule, rule.clause);
   if (rule.bound != Bound::kRule)
@@ -160,7 +178,7 @@ std::string markdown() {
   text += "\n| check | clause | default limit |\n|---|---|---|\n";
   for (const Check check : kAllChecks) {
     const Rule& each = rule(check);
-    text += fmt::format("| `{}` | {} | {} |\n", each.id, each.clause, limit_text(each));
+    text += fmt::format("| `{}` | {} | {} |\n", each.id, linked(each.clause), limit_text(each));
   }
   for (const Check check : kAllChecks) text += section(rule(check));
   return text;
