@@ -112,7 +112,7 @@ def rulings(root, known, data, run):
         for clause in document.clauses:
             for name in clause.rulings:
                 cited.get(name, []).append(clause.name)
-    text = "\n## The rulings\n\n[chip.md](../docs/chip.md) has their texts; R, SP and UA are in [chip_rsu.md](../docs/chip_rsu.md). If no clause is named, the documents are silent.\n\n"
+    text = "\n## The rulings\n\n[chip.md](../docs/chip.md) has their texts; R, SP and UA are in [chip_rsu.md](../docs/chip_rsu.md). If no clause is named, these two documents have none; its mark there says what it rests on.\n\n"
     text += head("ruling", "clauses", "model", "RTL", "tests", "last run")
     for ruling in data.rulings.values():
         text += row(ruling.name, ", ".join(cited[ruling.name]) or "-", files(root, "model", ruling.model),
