@@ -197,9 +197,11 @@ TEST_F(SetPrm, WithDpv1NeedsB005AndTenBytes) {
   EXPECT_EQ(bench.count(Reason::kPrmShort), 1);
   EXPECT_TRUE(is_sc(prm(with(0x80, {0x80, 0}))));
   EXPECT_EQ(bench.count(Reason::kPrmShort), 2);
-  EXPECT_TRUE(is_sc(prm(with(0x80, {0x80, 0, 0}))));
-  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
-  EXPECT_EQ(faults(), 0);
+  for (const Bytes& user : {Bytes{0x80, 0, 0}, Bytes{0x80, 0xFF, 0xFF}}) {  // DPV1_Status_2 and 3 are reserved
+    EXPECT_TRUE(is_sc(prm(with(0x80, user))));
+    EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
+    EXPECT_EQ(faults(), 0);
+  }
 }
 
 TEST_F(SetPrm, WatchdogFactorsDoNotMatterWithoutWdOn) {

@@ -338,8 +338,8 @@ TEST_F(C2, MasterAbortsInEveryState) {
 
 TEST_F(C2, AbortWithoutAnswerFreesTheChannelToo) {
   start();
-  const auto sdn = [&](std::uint8_t master, const Bytes& data) {
-    bench.requester.send(bench.timeline, bus::make_telegram(5, master, kSdnHigh, data, kFirstChannel, kC2Ssap),
+  const auto sdn = [&](std::uint8_t master, const Bytes& data, std::uint8_t to = 5) {
+    bench.requester.send(bench.timeline, bus::make_telegram(to, master, kSdnHigh, data, kFirstChannel, kC2Ssap),
                          {.wants_answer = false});
     bench.run_for(bench.requester.bit() * 20);
   };
@@ -352,6 +352,9 @@ TEST_F(C2, AbortWithoutAnswerFreesTheChannelToo) {
   EXPECT_TRUE(registry(0x30).in_use);
   sdn(kClass2, {0x58, 0, 0, 0});
   EXPECT_FALSE(registry(0x30).in_use);
+  ASSERT_EQ(connect(), kFirstChannel);
+  sdn(kClass2, {0x58}, bus::kBroadcast);
+  EXPECT_FALSE(registry(0x30).in_use) << "to all stations, and of one byte";
 }
 
 // --- the shared area (V4)
@@ -484,7 +487,7 @@ TEST_F(C2, IdleAndItsAnswerKeepTheChannel) {
   EXPECT_EQ(bench.count(Reason::kC2Timeout), 0);
 }
 
-TEST_F(C2, FIsStartedAnewByEachPollOfAnOpenRequest) {
+TEST_F(C2, FGoesOnThroughARefusedRequest) {
   start();
   ASSERT_EQ(connect(kClass2, 1), kFirstChannel);
   ASSERT_TRUE(is_sc(c2(kFirstChannel, {0x48})));  // answered by the chip: only F runs
@@ -495,12 +498,35 @@ TEST_F(C2, FIsStartedAnewByEachPollOfAnOpenRequest) {
   EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(3)));
 }
 
+// The second channel's request waits for its turn: of its timers only F runs.
+TEST_F(C2, FEndsOneSendTimeoutAfterTheLastPollOfAnOpenRequest) {
+  start();
+  ASSERT_EQ(connect(1, 1), kFirstChannel);
+  ASSERT_EQ(connect(9, 1), kSecondChannel);
+  ASSERT_TRUE(is_sc(c2(kFirstChannel, read_request(1, 1, 1), 1)));
+  ASSERT_TRUE(is_sc(c2(kSecondChannel, read_request(2, 2, 2), 9)));
+  bench.run_cycles(kSendTimeoutUnit / 2);
+  const Exchange poll = c2(kSecondChannel, {}, 9);
+  ASSERT_TRUE(is_sc(poll));
+  const Cycle end = decided(poll) + kSendTimeoutUnit;
+  run_to_cycle(bench, end - 1);
+  EXPECT_EQ(bench.count(Reason::kC2Timeout), 1) << "that of the first channel";
+  EXPECT_EQ(bench.last(Reason::kC2Timeout).a, kFirstChannel);
+  run_to_cycle(bench, end);
+  EXPECT_EQ(bench.last(Reason::kC2Timeout).a, kSecondChannel);
+  EXPECT_EQ(bench.last(Reason::kC2Timeout).b, 1);
+}
+
 TEST_F(C2, UEndsOneSendTimeoutAfterTheRequestThoughTheMasterPolls) {
   start();
   ASSERT_EQ(connect(kClass2, 1), kFirstChannel);
   const Exchange request = c2(kFirstChannel, read_request(1, 1, 1));
   ASSERT_TRUE(is_sc(request));
   const Cycle end = decided(request) + kSendTimeoutUnit;
+  bench.chip_accesses(3);
+  fetch(kC2Area);
+  give(kC2Area, pdu_of(0x5E, 1, 9, 1, {1}));
+  EXPECT_EQ(bench.count(Reason::kAcyclicAnswerDiffers), 1) << "V6: U goes on";
   Exchange poll;
   while (bench.now() / kCycleTicks < end - 50'000) {
     bench.run_cycles(20'000);
@@ -512,7 +538,6 @@ TEST_F(C2, UEndsOneSendTimeoutAfterTheRequestThoughTheMasterPolls) {
   run_to_cycle(bench, end);
   EXPECT_EQ(bench.last(Reason::kC2Timeout).b, 3);
   EXPECT_TRUE(registry(0x30).in_use);
-  fetch(kC2Area);
   give(kC2Area, pdu_of(0x5E, 1, 1, 1, {1}));
   EXPECT_EQ(bench.count(Reason::kAcyclicNoRequest), 1) << "too late";
   EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(3)));
@@ -618,6 +643,7 @@ TEST_F(C2, FAndUMayEndInTheSameCycle) {
   ASSERT_TRUE(is_sc(request));
   run_to_cycle(bench, decided(request) + kSendTimeoutUnit);
   EXPECT_EQ(bench.count(Reason::kC2Timeout), 1);
+  EXPECT_EQ(bench.last(Reason::kC2Timeout).b, 1) << "F before U";
   EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(3)));
 }
 
@@ -656,6 +682,7 @@ TEST_F(C2, UOfTheSecondChannelStartsWithItsTurn) {
     c2(kSecondChannel, {}, 9);
   }
   EXPECT_EQ(bench.last(Reason::kC2Timeout).a, kSecondChannel);
+  EXPECT_EQ(bench.last(Reason::kC2Timeout).b, 3) << "polls keep F away, I stays off";
   EXPECT_EQ(cycle_of(Reason::kC2Timeout) - first, kSendTimeoutUnit);
 }
 

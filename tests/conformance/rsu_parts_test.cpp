@@ -137,6 +137,24 @@ TEST(RsuPorts, SerialPinsAreNotLookedAtInParallelMode) {
   EXPECT_FALSE(bench.changes(Pin::kLSta).empty());
 }
 
+TEST(RsuPorts, OtherSerialPortIsDead) {
+  RsuBench spi;
+  spi.power_on();
+  spi.send(read_telegram(0x000, 1));
+  spi.run_cycles(5000);
+  EXPECT_TRUE(spi.changes(Pin::kTxd).empty());
+  EXPECT_EQ(spi.level(Pin::kTxd), 1);
+  Straps straps;
+  straps.mode = HostMode::kUart;
+  RsuBench uart(straps);
+  uart.power_on();
+  uart.spi(write_telegram(0x100, {7}));
+  uart.run_cycles(5000);
+  EXPECT_TRUE(uart.changes(Pin::kMiso).empty());
+  EXPECT_EQ(uart.level(Pin::kMiso), kLevelZ);
+  EXPECT_EQ(uart.peek(0x100), 0);
+}
+
 /// B014 to B01F, after the start-up.
 constexpr std::uint16_t kFirstOfSerial = 0x014, kLastOfSerial = 0x01F;
 

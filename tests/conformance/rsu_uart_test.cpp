@@ -265,7 +265,9 @@ TEST_F(RsuUart, ErrorCodes) {
   wrong.back() ^= 0x80;
   EXPECT_EQ(bench_.talk(wrong), with_crc({0xE1, 0x01}));
   EXPECT_EQ(bench_.talk(read_telegram(0x1000, 1)), with_crc({0xE1, 0x02}));
+  EXPECT_EQ(bench_.talk(read_telegram(0x0000, 0)), with_crc({0xE1, 0x04}));
   EXPECT_EQ(bench_.talk(read_telegram(0x0000, 246)), with_crc({0xE1, 0x04}));
+  EXPECT_EQ(bench_.talk(write_telegram(0x100, {})), with_crc({0xE1, 0x04}));
   EXPECT_EQ(bench_.talk(write_telegram(0x100, Bytes(251, 1))), with_crc({0xE1, 0x0C}));
   EXPECT_EQ(bench_.last(R::kTelegramData).b, 250);
   EXPECT_EQ(bench_.last(R::kTelegramLength).a, 257);

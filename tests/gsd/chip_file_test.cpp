@@ -33,10 +33,13 @@ TEST(ChipGsd, StatesTheFactsOfChapterEleven) {
 
 TEST(ChipGsd, MaxTsdrIsThatOfRulingS3) {
   const bus::Gsd gsd = chip();
+  const int from_12m[] = {800, 450, 250, 150, 100, 60, 60, 250, 60, 60};
+  ASSERT_EQ(bus::kBaudCount, 10);
   for (int i = 0; i < bus::kBaudCount; ++i) {
     const bus::GsdBaud& rate = gsd.bauds.at(static_cast<std::size_t>(i));
     EXPECT_TRUE(rate.supported) << i;
-    EXPECT_EQ(rate.max_tsdr, bus::baud(i).max_tsdr_bits) << bus::gsd_baud_name(i);
+    EXPECT_EQ(rate.max_tsdr, from_12m[i]) << bus::gsd_baud_name(i);
+    EXPECT_EQ(bus::baud(i).max_tsdr_bits, from_12m[i]) << "what the bench's masters and tests go by";
   }
 }
 
