@@ -61,6 +61,7 @@ TEST_P(RealMaster, BringsTheChipUpAndExchangesData) {
   EXPECT_EQ(master.slave(5).inputs, inputs);
   EXPECT_EQ(bench.fetch_outputs(), Bytes(8, 0x5A));
   EXPECT_GT(bench.chip.status().data_exchanges, 10U);
+  EXPECT_EQ(bench.count(Reason::kPrmAccepted), 1) << "parameters go once";
   EXPECT_EQ(flags, std::vector<std::string>{});
 }
 

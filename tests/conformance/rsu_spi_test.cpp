@@ -500,11 +500,16 @@ TEST_F(RsuSpi, ReadAndWriteLimitsTheOutputs) {
   bench_.poke(0x319, 250);
   bench_.poke(0x40D, 0x77);
   Bytes reply;
-  do reply = bench_.ask(inputs_telegram({}), 249);
-  while (reply[0] == 0xE1);
-  EXPECT_EQ(reply, with_crc(part_of(reply, 0, 247)));
-  EXPECT_EQ(reply[2], 244);
-  EXPECT_EQ(reply[246], 0x77);
+  for (const Bytes& inputs : {Bytes{}, Bytes(244, 9)}) {
+    do reply = bench_.ask(inputs_telegram(inputs), 249);
+    while (reply[0] == 0xE1);
+    EXPECT_EQ(reply, with_crc(part_of(reply, 0, 247)));
+    EXPECT_EQ(reply[0], 0xC1);
+    EXPECT_EQ(reply[2], 244);
+    EXPECT_EQ(reply[246], 0x77);
+  }
+  EXPECT_EQ(bench_.peek(0x130), 244);
+  EXPECT_EQ(bench_.peek(0x131, 244), Bytes(244, 9));
 }
 
 // No access begins while the frame lasts.

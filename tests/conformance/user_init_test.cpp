@@ -168,15 +168,17 @@ TEST(UserInit, ALengthByteThatCannotBeRightLeavesTheCrcBitAlone) {
   EXPECT_EQ(shown(bench), (Shown{0, 1, 1, 0}));
 }
 
-// R5: nothing can be over the limits that bits 1 and 2 of B013 show.
-TEST(UserInit, EveryInitialisationWritesAllBitsOfB013ButTheFirstZero) {
+// Reserved bits are 0, and so are bits 1 and 2 of B013 (R5): nothing can be over the limits that they show.
+TEST(UserInit, WritesAllBitsOfB00AAndB013) {
   for (const std::uint8_t max_input : Bytes{244, 245}) {
     SlaveBench bench;
     bench.power_on();
+    bench.poke(0x00A, 0xFE);
     bench.poke(0x013, 0xFE);
     Init init;
     init.max_input = max_input;
     bench.initialise(init);
+    EXPECT_EQ(bench.peek(0x00A), max_input == 245 ? 0 : 1);
     EXPECT_EQ(bench.peek(0x013), max_input == 245 ? 1 : 0);
   }
 }

@@ -26,6 +26,7 @@ TEST(ChipGsd, StatesTheFactsOfChapterEleven) {
   EXPECT_EQ(gsd.c2_max_data, 240);
   EXPECT_EQ(gsd.c2_channels, 2);
   EXPECT_FALSE(gsd.is_master);
+  EXPECT_EQ(gsd.min_slave_interval, 6);
   EXPECT_EQ(gsd.max_diag, 244);
   EXPECT_EQ(gsd.max_input, 244);
   EXPECT_EQ(gsd.max_output, 244);

@@ -22,6 +22,7 @@ TEST(RegisterMap, EveryAddressIsNamedOnce) {
     expected = cell.last + 1;
   }
   EXPECT_EQ(expected, 0x800);
+  EXPECT_EQ(kDpramSize, 0x800);
 }
 
 TEST(RegisterMap, ControlBytesAreWhereTable2PutsThem) {
