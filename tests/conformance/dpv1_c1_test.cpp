@@ -79,6 +79,9 @@ TEST_F(C1, SecondRequestWhileOneIsOpenIsRrInEveryPhase) {
   bench.chip_accesses();
   EXPECT_TRUE(is_rr(c1(read_request(2, 2, 2)))) << "with the user";
   EXPECT_EQ(fetch(kC1Area), read_request(1, 1, 1));
+  bench.run_ms(50);
+  EXPECT_TRUE(is_sc(c1({}))) << "7.2: the chip waits for the user";
+  EXPECT_EQ(bench.peek(0x00F), 0) << "the second one does not reach the DPRAM";
   give(kC1Area, pdu_of(0x5E, 1, 1, 1, {0x77}));
   EXPECT_TRUE(is_rr(c1(pdu_of(0x5F, 2, 2, 0)))) << "answered, not fetched";
   EXPECT_EQ(bench.count(Reason::kAcyclicOpen), 3);
@@ -233,6 +236,27 @@ TEST_F(C1, AnswerAfterLeavingDataExchangeIsRefused) {
   EXPECT_EQ(bench.last(Reason::kAcyclicNoRequest).a, 1);
   EXPECT_TRUE(is_sc(c1({}))) << "back in data exchange, nothing is open";
   EXPECT_TRUE(is_sc(c1(read_request(1, 1, 1)))) << "and a new request is taken";
+}
+
+// H5: whether the user has taken the flag of the withdrawn one or not.
+TEST_F(C1, NewRequestOverwritesAWithdrawnOneAndSetsItsFlag) {
+  Prm prm;
+  prm.user = {0x80, 0, 0};
+  start();
+  for (const bool cleared : {false, true}) {
+    ASSERT_TRUE(is_sc(c1(read_request(1, 1, 1))));
+    bench.chip_accesses(3);
+    EXPECT_EQ(bench.peek(0x5D0, 4), read_request(1, 1, 1));
+    EXPECT_EQ(bench.peek(0x00F), 1);
+    if (cleared) bench.poke(0x00F, 0);
+    ASSERT_TRUE(is_sc(bench.set_prm(prm)));
+    ASSERT_TRUE(is_sc(bench.check_cfg()));
+    ASSERT_TRUE(is_sc(c1(read_request(2, 2, 2))));
+    bench.chip_accesses(3);
+    EXPECT_EQ(fetch(kC1Area), read_request(2, 2, 2));
+    give(kC1Area, pdu_of(0x5E, 2, 2, 1, {5}));
+    ASSERT_TRUE(is_data(c1({})));
+  }
 }
 
 TEST_F(C1, AnswerBeforeTheRequestWasWrittenIsRefused) {
