@@ -24,6 +24,11 @@ TEST_F(C1, ReadIsAcknowledgedPolledAndAnswered) {
   EXPECT_EQ(poll.answer().dsap, kC1Sap);
   EXPECT_EQ(poll.answer().ssap, kC1Sap);
   EXPECT_TRUE(is_sc(c1({}))) << "nothing is left";
+  ASSERT_TRUE(is_sc(c1(read_request(1, 7, 1))));
+  bench.chip_accesses();
+  fetch(kC1Area);
+  give(kC1Area, answer);
+  EXPECT_EQ(text(c1({})), testing::PrintToString(answer)) << "V15: longer than asked for";
 }
 
 TEST_F(C1, WriteCarriesItsDataToTheUserAndIsAnsweredWithTheLength) {

@@ -363,17 +363,19 @@ TEST_F(C2, SecondChannelWaitsUntilTheFirstIsAnswered) {
   start();
   ASSERT_EQ(connect(1), kFirstChannel);
   ASSERT_EQ(connect(9), kSecondChannel);
-  const Bytes first = read_request(1, 1, 1), second = pdu_of(0x5F, 2, 2, 2, {0xAB, 0xCD});
+  // 7.3: a buffer of 240 bytes each, as all four PDUs are
+  const Bytes first = pdu_of(0x51, 1, 1, 240, counting(240, 1)), second = pdu_of(0x51, 2, 2, 240, counting(240, 2));
+  const Bytes answer = pdu_of(0x51, 1, 1, 240, counting(240, 3)), last = pdu_of(0x51, 2, 2, 240, counting(240, 4));
   to_user(kFirstChannel, first, 1);
   ASSERT_TRUE(is_sc(c2(kSecondChannel, second, 9)));
   bench.chip_accesses(3);
   EXPECT_EQ(bench.peek(0x00F), 0);
   EXPECT_TRUE(is_sc(c2(kSecondChannel, {}, 9)));
-  give(kC2Area, pdu_of(0x5E, 1, 1, 1, {0x55}));
+  give(kC2Area, answer);
   EXPECT_EQ(fetch(kC2Area), second) << "written in the same access that took the first one's answer, or the next";
-  give(kC2Area, pdu_of(0x5F, 2, 2, 2));
-  EXPECT_EQ(text(c2(kSecondChannel, {}, 9)), testing::PrintToString(pdu_of(0x5F, 2, 2, 2)));
-  EXPECT_EQ(text(c2(kFirstChannel, {}, 1)), testing::PrintToString(pdu_of(0x5E, 1, 1, 1, {0x55})));
+  give(kC2Area, last);
+  EXPECT_EQ(text(c2(kSecondChannel, {}, 9)), testing::PrintToString(last));
+  EXPECT_EQ(text(c2(kFirstChannel, {}, 1)), testing::PrintToString(answer));
 }
 
 TEST_F(C2, AbortOfTheFirstChannelHandsTheAreaToTheSecond) {

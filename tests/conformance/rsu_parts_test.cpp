@@ -12,12 +12,21 @@ TEST(RsuParts, Pins) {
   EXPECT_EQ(pin_count(Part::kR), 18);
   EXPECT_EQ(pin_count(Part::kRsu), 28);
   EXPECT_EQ(outputs_of(Part::kR), kOutputPins);
-  EXPECT_STREQ(name(Pin::kXss), "XSS");
-  EXPECT_STREQ(name(Pin::kTxd), "TXD");
-  EXPECT_EQ(width(Pin::kMode), 2);
-  EXPECT_EQ(width(Pin::kUiv), 3);
-  EXPECT_TRUE(is_input(Pin::kUiv));
-  EXPECT_FALSE(is_input(Pin::kMiso));
+  struct Case {
+    Pin pin;
+    const char* name;
+    int width;
+    bool input;
+  };
+  for (const Case& each :
+       {Case{Pin::kXss, "XSS", 1, true}, Case{Pin::kSck, "SCK", 1, true}, Case{Pin::kMosi, "MOSI", 1, true},
+        Case{Pin::kMiso, "MISO", 1, false}, Case{Pin::kRxd, "RXD", 1, true}, Case{Pin::kTxd, "TXD", 1, false},
+        Case{Pin::kMode, "MODE", 2, true}, Case{Pin::kAdr, "ADR", 2, true}, Case{Pin::kUbr, "UBR", 3, true},
+        Case{Pin::kUiv, "UIV", 3, true}}) {
+    EXPECT_STREQ(name(each.pin), each.name);
+    EXPECT_EQ(width(each.pin), each.width) << each.name;
+    EXPECT_EQ(is_input(each.pin), each.input) << each.name;
+  }
 }
 
 TEST(RsuParts, PinsBeginAtTheLevelsOfTheirRows) {
@@ -89,6 +98,10 @@ TEST(RsuStraps, CardAddress) {
       const Bytes reply = bench.ask(read_telegram(0x000, 1, card), 5);
       const bool own = card == address && (card == 1 || card == 2);
       EXPECT_EQ(reply[0], own ? 0x80 | card : 0xFF) << address << " " << int{card};
+      const Bytes written = bench.ask(write_telegram(0x014, {0x00}, card), 4);
+      EXPECT_EQ(written[0], own ? 0xA0 | card : 0xFF) << address << " " << int{card};
+      const Bytes refused = bench.ask(read_telegram(0x800, 1, card), 4);
+      EXPECT_EQ(refused[0], own ? 0xE0 | card : 0xFF) << address << " " << int{card};
     }
   }
 }
