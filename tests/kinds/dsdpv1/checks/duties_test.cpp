@@ -271,6 +271,24 @@ TEST(OutputsFetched, CountsFromTheFirstUnfetchedDataExchange) {
   EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), 0U);
 }
 
+TEST(OutputsFetched, IsMissedATickAfterTheLimit) {
+  const auto fetch_after = [](Slave& slave, Tick wait) {
+    const Tick first = slave.exchanges(99);
+    slave.bus.exchange(slave.board);
+    slave.board.wait(wait);
+    const Tick fetched = fetch_outputs(slave.board);
+    look(slave.board, 0x00);
+    return fetched - first;
+  };
+  Slave sooner;
+  const Tick rest = fetch_after(sooner, 0);
+  for (const Tick beyond : {Tick{0}, Tick{1}}) {
+    Slave slave;
+    ASSERT_EQ(fetch_after(slave, kLimit - rest + beyond), kLimit + beyond);
+    EXPECT_EQ(violations(slave.board, Check::kOutputsFetched), beyond == 0 ? 0U : 1U);
+  }
+}
+
 TEST(OutputsFetched, UserThatNeverLooksIsFoundAfterTheLimitWithTheNumberThatIsLost) {
   Slave slave;
   slave.exchanges(101);
@@ -391,6 +409,25 @@ TEST(InputsRenewed, CountsFromOneAnnouncementToTheNext) {
   EXPECT_EQ(slave.board.checks().record(Check::kInputsRenewed).worst_value, two - one);
 }
 
+TEST(InputsRenewed, IsMissedATickAfterTheLimit) {
+  const auto renew_after = [](Slave& slave, Tick wait) {
+    slave.exchanges(2);
+    const Tick one = hand_over_inputs(slave.board);
+    slave.exchanges(99);
+    slave.board.wait(wait);
+    const Tick two = hand_over_inputs(slave.board);
+    look(slave.board, 0x01);
+    return two - one;
+  };
+  Slave sooner;
+  const Tick rest = renew_after(sooner, 0);
+  for (const Tick beyond : {Tick{0}, Tick{1}}) {
+    Slave slave;
+    ASSERT_EQ(renew_after(slave, kLimit - rest + beyond), kLimit + beyond);
+    EXPECT_EQ(violations(slave.board, Check::kInputsRenewed), beyond == 0 ? 0U : 1U);
+  }
+}
+
 TEST(InputsRenewed, UserThatStopsIsFoundAndOneWithoutDataExchangeIsNot) {
   Slave slave;
   slave.exchanges(2);
@@ -496,6 +533,24 @@ TEST(InitRepeated, SameValuesAgainAreMeasuredFromTheEarlierOnes) {
   EXPECT_EQ(board.violations.back().margin, two - one - kLimit);
 }
 
+TEST(InitRepeated, IsAllowedFromTheLimitOn) {
+  const auto repeat_after = [](Board& board, Tick wait) {
+    initialise(board, 0, 1);
+    const Tick one = set_flag(board, 0x010, 0x04, {{0x02B, 1}});
+    board.wait(wait);
+    const Tick two = set_flag(board, 0x010, 0x04);
+    look(board, 0x00);
+    return two - one;
+  };
+  Board sooner;
+  const Tick rest = repeat_after(sooner, 0);
+  for (const Tick within : {Tick{0}, Tick{1}}) {
+    Board board;
+    ASSERT_EQ(repeat_after(board, kLimit - rest - within), kLimit - within);
+    EXPECT_EQ(violations(board, Check::kInitRepeated), within == 0 ? 0U : 1U);
+  }
+}
+
 TEST(InitRepeated, OtherValuesRefusalAndResetAreNone) {
   Board board;
   initialise(board, 0, 1);
@@ -573,13 +628,13 @@ Tick fetch_request(Board& board) {
 }
 
 /// Without its data and CRC.
-Tick answer(Board& board, unsigned function, unsigned slot, unsigned length) {
+Tick answer(Board& board, unsigned function, unsigned slot, unsigned length, unsigned index = 2) {
   return hold(
       board,
       [&] {
         board.write(0x5D0, function);
         board.write(0x5D1, slot);
-        board.write(0x5D2, 2);
+        board.write(0x5D2, index);
         board.write(0x5D3, length);
         board.read(0x00F, 0x00);
         board.read(0x011, 0x00);
@@ -600,12 +655,14 @@ TEST(RequestAnswered, AnswerToAnotherRequestOrTooLongIsFoundAndAnErrorIsFree) {
   struct Answer {
     unsigned function, slot, length;
     std::uint64_t violations;
+    unsigned index = 2;
   };
-  for (const Answer& each : {Answer{0x5E, 1, 5, 1}, Answer{0x5E, 2, 4, 1}, Answer{0x5F, 1, 4, 1},
-                             Answer{0xDE, 0x80, 0xFF, 0}, Answer{0xDF, 0x80, 0, 1}, Answer{0x5E, 1, 0, 0}}) {
+  for (const Answer& each :
+       {Answer{0x5E, 1, 5, 1}, Answer{0x5E, 2, 4, 1}, Answer{0x5E, 1, 4, 1, 3}, Answer{0x5F, 1, 4, 1},
+        Answer{0xDE, 0x80, 0xFF, 0}, Answer{0xDF, 0x80, 0, 1}, Answer{0x5E, 1, 0, 0}}) {
     Board board;
     fetch_request(board);
-    answer(board, each.function, each.slot, each.length);
+    answer(board, each.function, each.slot, each.length, each.index);
     look(board, 0x00);
     EXPECT_EQ(violations(board, Check::kRequestAnswered), each.violations)
         << each.function << ' ' << each.slot << ' ' << each.length;
