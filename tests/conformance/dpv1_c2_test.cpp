@@ -130,6 +130,8 @@ TEST_F(C2, TwoChannelsForOneMasterOrForTwoAndAThirdIsRefused) {
     EXPECT_EQ(connect(1), kFirstChannel);
     EXPECT_EQ(connect(second), kSecondChannel);
     EXPECT_EQ(registry(0x2F).master, second);
+    EXPECT_TRUE(registry(0x2F).in_use && registry(0x2F).connected);
+    EXPECT_FALSE(registry(0x2F).exchanging);
     EXPECT_TRUE(is_rs(c2(kManagerSap, initiate_pdu(), 7)));
     EXPECT_EQ(bench.last(Reason::kC2Full).a, 7);
     EXPECT_TRUE(is_sc(c2(kFirstChannel, {0x58}, 1)));

@@ -286,9 +286,17 @@ TEST_F(ByUser, VerdictOnTheOtherKindIsDiscarded) {
 
 TEST_F(ByUser, StatusBitsWithoutTheFlagAreNoVerdict) {
   wait_for_prm_verdict();
-  bench.poke(regs::kUserStatus1, 1);
+  bench.poke(0x00C, 0x01);
   bench.chip_accesses(5);
   expect_judging(bench);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  bench.verdict(true, std::nullopt);
+  ASSERT_TRUE(bench.check_cfg().short_acknowledge());
+  bench.chip_accesses(3);
+  bench.poke(0x00C, 0x02);
+  bench.chip_accesses(5);
+  expect_judging(bench);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
 }
 
 TEST_F(ByUser, BothVerdictsInOneHoldAreTakenParametersFirst) {

@@ -465,6 +465,45 @@ TEST(UserRefused, IsWhatTheUserCanAvoidWithTheChipsText) {
   EXPECT_NE(board.violations.at(0).text.find("type 55"), std::string::npos) << board.violations[0].text;
 }
 
+// U6, over the parallel port, SPI and the UART.
+TEST(UserRefused, CountsTheReasonsOfTheRulingOverEachPort) {
+  struct Case {
+    profibus::Reason reason;
+    bool counts[3];
+  };
+  const Case cases[] = {
+      {dpram::Reason::kInitLength, {true, true, true}},
+      {dpram::Reason::kInitAddress, {true, true, true}},
+      {dpram::Reason::kInitLimit, {true, true, true}},
+      {dpram::Reason::kInitCfg, {true, true, true}},
+      {dpram::Reason::kBeforeInit, {true, true, true}},
+      {profibus::Reason::kDiagLength, {true, true, true}},
+      {profibus::Reason::kDiagType, {true, true, true}},
+      {dpram::Reason::kAcyclicLength, {true, true, true}},
+      {profibus::Reason::kAcyclicAnswerDiffers, {true, true, false}},
+      {Reason::kTelegramCrc, {true, true, true}},
+      {Reason::kTelegramAddress, {true, true, true}},
+      {Reason::kTelegramData, {true, true, true}},
+      {Reason::kTelegramLength, {true, true, true}},
+      {dpram::Reason::kInitCrc, {false, true, true}},
+      {dpram::Reason::kInputCrc, {false, true, true}},
+      {dpram::Reason::kDiagCrc, {false, true, true}},
+      {dpram::Reason::kC1Crc, {false, true, true}},
+      {dpram::Reason::kC2Crc, {false, true, true}},
+      {profibus::Reason::kAcyclicNoRequest, {false, false, false}},
+      {profibus::Reason::kVerdictSuperseded, {false, false, false}},
+  };
+  for (const Level mode : {Level{0}, Level{1}, Level{2}}) {
+    for (const Case& each : cases) {
+      checks::Checks checks(checks::Limits(checks::rules(Part::kRsu)), Part::kRsu, {mode, 1});
+      checks.pin(1000, Pin::kReset, 1);
+      checks.event({2000, each.reason, 0, 0, 0});
+      EXPECT_EQ(checks.record(Check::kUserRefused).violations, each.counts[mode] ? 1U : 0U)
+          << profibus::code(each.reason) << " in mode " << mode;
+    }
+  }
+}
+
 TEST(UserRefused, VerdictCountsOnlyWhenNoBlockWasFetchedForIt) {
   Board board;
   fetch_parameters(board);
