@@ -7,6 +7,7 @@ namespace {
 
 using R = dsdpv1::Reason;
 
+// Table 1 of the datasheet, with PBRTS as P2 has it and a row for each direction of D, and R2.
 TEST(RsuParts, Pins) {
   EXPECT_EQ(pin_count(Part::kDsdpv1), 18);
   EXPECT_EQ(pin_count(Part::kR), 18);
@@ -18,11 +19,20 @@ TEST(RsuParts, Pins) {
     int width;
     bool input;
   };
-  for (const Case& each :
-       {Case{Pin::kXss, "XSS", 1, true}, Case{Pin::kSck, "SCK", 1, true}, Case{Pin::kMosi, "MOSI", 1, true},
-        Case{Pin::kMiso, "MISO", 1, false}, Case{Pin::kRxd, "RXD", 1, true}, Case{Pin::kTxd, "TXD", 1, false},
-        Case{Pin::kMode, "MODE", 2, true}, Case{Pin::kAdr, "ADR", 2, true}, Case{Pin::kUbr, "UBR", 3, true},
-        Case{Pin::kUiv, "UIV", 3, true}}) {
+  for (const Case& each : {Case{Pin::kPbf, "PBF", 1, false},     Case{Pin::kBr, "BR", 1, false},
+                           Case{Pin::kReady, "READY", 1, false}, Case{Pin::kLReq, "L_REQ", 1, false},
+                           Case{Pin::kLSta, "L_STA", 1, false},  Case{Pin::kRReq, "R_REQ", 1, true},
+                           Case{Pin::kRSta, "R_STA", 1, true},   Case{Pin::kA, "A", 11, true},
+                           Case{Pin::kRd, "RD", 1, true},        Case{Pin::kWr, "WR", 1, true},
+                           Case{Pin::kDIn, "D_IN", 8, true},     Case{Pin::kDOut, "D_OUT", 8, false},
+                           Case{Pin::kIntr0, "INTR0", 1, false}, Case{Pin::kCsr, "CSR", 1, true},
+                           Case{Pin::kReset, "RESET", 1, true},  Case{Pin::kPbtxd, "PBTXD", 1, false},
+                           Case{Pin::kPbrts, "PBRTS", 1, false}, Case{Pin::kPbrxd, "PBRXD", 1, true},
+                           Case{Pin::kXss, "XSS", 1, true},      Case{Pin::kSck, "SCK", 1, true},
+                           Case{Pin::kMosi, "MOSI", 1, true},    Case{Pin::kMiso, "MISO", 1, false},
+                           Case{Pin::kRxd, "RXD", 1, true},      Case{Pin::kTxd, "TXD", 1, false},
+                           Case{Pin::kMode, "MODE", 2, true},    Case{Pin::kAdr, "ADR", 2, true},
+                           Case{Pin::kUbr, "UBR", 3, true},      Case{Pin::kUiv, "UIV", 3, true}}) {
     EXPECT_STREQ(name(each.pin), each.name);
     EXPECT_EQ(width(each.pin), each.width) << each.name;
     EXPECT_EQ(is_input(each.pin), each.input) << each.name;
