@@ -91,6 +91,8 @@ TEST(RegisterMap, VerdictBitsAreThoseOfTable10) {  // D4: the notes under the ta
   EXPECT_EQ(kUserCommand1CfgVerdict, 0x40);
   EXPECT_EQ(kUserStatus1PrmWrong, 0x01);
   EXPECT_EQ(kUserStatus1CfgWrong, 0x02);
+  EXPECT_EQ(kUserCommand1, 0x010);
+  EXPECT_EQ(kUserStatus1, 0x00C);
 }
 
 TEST(RegisterMap, BlocksBeginAsTable2Says) {
