@@ -651,6 +651,25 @@ TEST_F(C2, FAndUMayEndInTheSameCycle) {
   EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(3)));
 }
 
+TEST_F(C2, TimersOfBothChannelsThatEndInOneCycleAbortTheFirstChannelFirst) {
+  start();
+  ASSERT_TRUE(is_data(c2(kManagerSap, initiate_pdu(2), 1)));
+  const Exchange first = c2(kFirstChannel, {}, 1);
+  ASSERT_TRUE(is_data(first));
+  const Cycle begun = decided(first), middle = begun + 2 * kSendTimeoutUnit, end = begun + 4 * kSendTimeoutUnit;
+  run_to_cycle(bench, middle - 100'000);
+  ASSERT_TRUE(is_data(c2(kManagerSap, initiate_pdu(1), 9)));
+  send_decided_at(bench, middle, 0, bus::make_telegram(5, 9, kSrdFirst, {}, kSecondChannel, kC2Ssap), true);
+  ASSERT_TRUE(registry(0x2F).connected);
+  run_to_cycle(bench, end - 1);
+  EXPECT_EQ(bench.count(Reason::kC2Timeout), 0);
+  run_to_cycle(bench, end);
+  std::vector<int> channels;
+  for (const profibus::Event& event : bench.chip.events())
+    if (event.reason == Reason::kC2Timeout) channels.push_back(event.a);
+  EXPECT_EQ(channels, (std::vector<int>{kFirstChannel, kSecondChannel}));
+}
+
 TEST_F(C2, AbortedChannelIsFreeAfterAnotherSendTimeoutWithoutItsMaster) {
   start();
   ASSERT_EQ(connect(kClass2, 1), kFirstChannel);
