@@ -66,6 +66,10 @@ class Accept : public Command {
     app.add_option("--seed", order_.seed, "Of outputs and times")
         ->check(CLI::Range(1, 0x7FFFFFFE))
         ->capture_default_str();
+    app.add_option("--within", within_,
+                   "The firmware serves what comes within this time; the pauses of the stimuli follow from it")
+        ->type_name("TIME")
+        ->capture_default_str();
     app.add_option("--object", object_, "An object that masters may read")
         ->type_name("SLOT,INDEX,LENGTH")
         ->capture_default_str();
@@ -114,6 +118,7 @@ class Accept : public Command {
       if (order_.modules.empty()) order_.modules = {"2 bytes in", "2 bytes out"};
     }
     order_.settings = tb::scenario::parse_settings(set_);
+    order_.within = time_within();
     const int read =
         std::sscanf(object_.c_str(), "%3d,%3d,%3d", &order_.object.slot, &order_.object.index, &order_.object.length);
     const auto is_byte = [](int value) { return value >= 0 && value <= 255; };
@@ -121,6 +126,14 @@ class Accept : public Command {
         order_.object.length > 240)
       throw tb::InputError("dsdpv1-sim accept: --object is " + object_ +
                            ", expected SLOT,INDEX,LENGTH such as 1,1,4 with a length of 1 to 240");
+  }
+
+  /// BLOCK_SERVED and VERDICT_GIVEN allow 100 ms.
+  bus::Tick time_within() const {
+    const std::optional<bus::Tick> time = tb::parse_time(within_);
+    if (!time || *time < bus::kTicksPerMs || *time > 100 * bus::kTicksPerMs)
+      throw tb::InputError("dsdpv1-sim accept: --within is " + within_ + ", expected 1ms to 100ms");
+    return *time;
   }
 
   tb::RunOptions run_options() const {
@@ -179,7 +192,7 @@ class Accept : public Command {
     order.chip.clear();
     return order;
   }();
-  std::string object_ = "1,1,4", engine_ = "skip", scenario_, log_, result_, report_;
+  std::string object_ = "1,1,4", within_ = "10ms", engine_ = "skip", scenario_, log_, result_, report_;
   std::vector<std::string> set_;
   std::optional<bool> progress_;
   tb::CheckRows rows_ = tb::CheckRows::kViolated;

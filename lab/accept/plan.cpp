@@ -103,8 +103,9 @@ std::string head(const Order& order, const bus::Gsd& gsd, bus::Tick end) {
              kMaster, masters[1], ring, kDevice, words_of_master(gsd, order.seed), kProbe, masters[2], ring) +
          fmt::format(
              "\nmasters2:\n  - name: {}\n    address: {}\n    start: 600s\n    bus: {{{}}}\n"
-             "    connections: [{{name: {}, slave: {}, send_timeout: 5}}]\n",
-             kMaster2, masters[0], ring, kConnection, kDevice) +
+             "    connections: [{{name: {}, slave: {}, send_timeout: 5}}, {{name: {}, slave: {}, send_timeout: {}}}]\n",
+             kMaster2, masters[0], ring, kConnection, kDevice, kBrief, kDevice,
+             brief_timeout(order.within) / (10 * bus::kTicksPerMs)) +
          kAllowed;
 }
 
@@ -157,7 +158,7 @@ Plan make_plan(const Order& order, const std::string& file) {
   const scenario::Master& master = without_script.masters.front();
   const Slave slave = {setup.parameters(master.slaves.front()), gsd, static_cast<std::uint8_t>(master.address),
                        static_cast<std::uint8_t>(without_script.masters.at(1).address), order.object};
-  Requests requests(slave, order.seed);
+  Requests requests(slave, order.seed, order.within);
   requests.act(std::string("do: operate, master: ") + kMaster);  // which it does already: the script begins
   Plan plan;
   plan.sections = apply(order, slave, requests);

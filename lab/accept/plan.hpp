@@ -18,6 +18,7 @@ struct Order {
   std::string chip = "dsdpv1", mode;  ///< `mode` empty: the part has no choice
   std::string baud = "12M";
   std::uint32_t seed = 1;
+  bus::Tick within = 10 * bus::kTicksPerMs;  ///< the slave serves what comes within this time
   Object object;
   std::vector<std::string> only;            ///< names of stimuli; empty: all
   std::vector<scenario::Setting> settings;  ///< keys of the scenario

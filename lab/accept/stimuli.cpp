@@ -12,9 +12,7 @@ using Need = Met::Need;
 using Ports = Met::Ports;
 
 constexpr bus::Tick kMs = bus::kTicksPerMs;
-constexpr bus::Tick kReturn = 60 * kMs;  ///< until a slave that has been refused is in data exchange again
-constexpr bus::Tick kServed = 10 * kMs;  ///< until the user has served what came
-constexpr int kOffers = 4;               ///< of a configuration, each to be refused
+constexpr int kOffers = 4;  ///< of a configuration, each to be refused
 
 const Met kReturns = {"in data exchange again", {"in data exchange"}, Need::kAlways};
 
@@ -23,7 +21,7 @@ const Met kRefused = {"Cfg_Fault", {"CFG_USER", "CFG_DIFFERS", "CFG_LENGTH", "CF
 // --- telegrams -------------------------------------------------------------------------------------------------------
 
 /// As its master sends it.
-bus::Bytes right_prm(const Requests& requests) { return bus::set_prm_data(requests.parameters(), 0); }
+bus::Bytes right_prm(const Requests& requests) { return bus::set_prm_data(requests.slave().parameters, 0); }
 
 void set_prm(Requests& requests, const bus::Bytes& data) {
   requests.telegram(bus::sap::kSetPrm, bus::sap::kMaster, data);
@@ -57,42 +55,44 @@ bus::Bytes wrong_cfg(const Slave& slave) {
 
 // --- the stimuli -----------------------------------------------------------------------------------------------------
 
-void outputs(Requests& requests) { requests.wait(80 * kMs); }
+void outputs(Requests& requests) { requests.wait(40 * kMs); }
 
 void restart(Requests& requests) {
-  for (const bus::Tick pause : {20 * kMs, requests.chance(20 * kMs)}) {
+  for (const bus::Tick pause : {4 * kMs, requests.chance(20 * kMs)}) {
     requests.act("do: stop_master");
     requests.wait(pause + kMs);
     requests.act("do: start_master");
-    requests.wait(kReturn);
+    requests.wait(requests.returned());
   }
 }
 
 void watchdog(Requests& requests) {
+  const bus::SlaveParameters& parameters = requests.slave().parameters;
+  const bus::Tick time = (parameters.wd_base_1ms ? kMs : 10 * kMs) * parameters.wd_fact_1 * parameters.wd_fact_2;
   requests.act("do: stop_master");
-  requests.wait(150 * kMs);
+  requests.wait(time + kMs + requests.served());
   requests.act("do: start_master");
-  requests.wait(2 * kReturn);
+  requests.wait(requests.returned());
 }
 
 void clear(Requests& requests) {
   requests.act("do: clear");
-  requests.wait(2 * kServed);
+  requests.wait(2 * requests.served());
   requests.act("do: operate");
-  requests.wait(kServed);
+  requests.wait(requests.served());
 }
 
 void sync_and_freeze(Requests& requests) {
   for (const char* command : {"sync", "sync", "freeze", "freeze", "unsync", "unfreeze"}) {
     requests.act(std::string("do: global_control, ") + command + ": true");
-    requests.wait(kServed / 2);
+    requests.wait(requests.served() / 2);
   }
-  requests.wait(kServed);
+  requests.wait(requests.served());
 }
 
 void wrong_ident(Requests& requests) {
   requests.stop_cycle();
-  bus::SlaveParameters wrong = requests.parameters();
+  bus::SlaveParameters wrong = requests.slave().parameters;
   wrong.ident = static_cast<std::uint16_t>(wrong.ident ^ 1U);
   set_prm(requests, bus::set_prm_data(wrong, 0));
   requests.start_cycle();
@@ -123,7 +123,7 @@ void long_parameters(Requests& requests) {
 
 void same_parameters(Requests& requests) {
   set_prm(requests, right_prm(requests));
-  requests.wait(kReturn);
+  requests.wait(requests.returned());
 }
 
 /// In data exchange the chip itself refuses every other configuration (S16), before it the user may have to.
@@ -131,9 +131,9 @@ void wrong_configuration(Requests& requests) {
   requests.stop_cycle();
   for (int i = 0; i < kOffers; ++i) {
     set_prm(requests, right_prm(requests));
-    requests.wait(kServed);
+    requests.wait(requests.served());
     chk_cfg(requests, wrong_cfg(requests.slave()));
-    requests.wait(kServed + requests.chance(kMs));
+    requests.wait(requests.served() + requests.chance(kMs));
   }
   requests.start_cycle();
 }
@@ -141,7 +141,7 @@ void wrong_configuration(Requests& requests) {
 void same_configuration(Requests& requests) {
   for (int i = 0; i < 3; ++i) {
     chk_cfg(requests, requests.slave().parameters.cfg);
-    requests.wait(kServed + requests.chance(kMs));
+    requests.wait(requests.served() + requests.chance(kMs));
   }
 }
 
@@ -152,10 +152,10 @@ void newer_block(Requests& requests) {
   for (int i = 0; i < kOffers; ++i) {
     set_prm(requests, right_prm(requests));
     set_prm(requests, right_prm(requests));
-    requests.wait(kServed + requests.chance(kMs));
+    requests.wait(requests.served() + requests.chance(kMs));
     chk_cfg(requests, requests.slave().parameters.cfg);
     chk_cfg(requests, wrong_cfg(requests.slave()));
-    requests.wait(kServed);
+    requests.wait(requests.served());
   }
   requests.start_cycle();
 }
@@ -165,14 +165,14 @@ void newer_block(Requests& requests) {
 void interrupts(Requests& requests) {
   for (int i = 0; i < 60; ++i) {
     chk_cfg(requests, requests.slave().parameters.cfg);
-    requests.wait(kServed / 2 + requests.chance(kMs));
+    requests.wait(requests.served() / 2 + requests.chance(kMs));
   }
   for (int i = 0; i < 8; ++i) {
-    requests.wait(kReturn / 4 + requests.chance(kMs));
+    requests.wait(requests.returned() / 4 + requests.chance(kMs));
     chk_cfg(requests, requests.slave().parameters.cfg);
     set_prm(requests, right_prm(requests));
   }
-  requests.wait(kReturn);
+  requests.wait(requests.returned());
 }
 
 std::string object_of(const Object& object) {
@@ -182,7 +182,7 @@ std::string object_of(const Object& object) {
 void read_c1(Requests& requests, const Object& what) {
   requests.act(std::string("do: c1_read, slave: ") + kDevice + ", " + object_of(what) +
                ", length: " + std::to_string(what.length));
-  requests.wait(kServed + requests.chance(kMs));
+  requests.wait(requests.served() + requests.chance(kMs));
 }
 
 void c1(Requests& requests) {
@@ -191,7 +191,7 @@ void c1(Requests& requests) {
   for (const Object& each : {object, nowhere, Object{object.slot, object.index, 1}, Object{object.slot, 253, 4}})
     read_c1(requests, each);
   requests.act(std::string("do: c1_write, slave: ") + kDevice + ", " + object_of(nowhere) + ", bytes: \"5A\"");
-  requests.wait(kServed + requests.chance(kMs));
+  requests.wait(requests.served() + requests.chance(kMs));
   read_c1(requests, object);
 }
 
@@ -204,23 +204,25 @@ void c1_dropped(Requests& requests) {
                       {kRead, static_cast<std::uint8_t>(object.slot), static_cast<std::uint8_t>(object.index),
                        static_cast<std::uint8_t>(object.length)});
     set_prm(requests, right_prm(requests));
-    requests.wait(kReturn + requests.chance(kMs));
+    requests.wait(requests.returned() + requests.chance(kMs));
     read_c1(requests, object);
   }
 }
 
+/// The silent connection's F, U and half of its I timer, which end it one after the other.
 void c2(Requests& requests) {
   const Object& object = requests.slave().object;
   const auto act = [&](const std::string& what) {
     requests.act(what);
-    requests.wait(kServed + requests.chance(kMs));
+    requests.wait(requests.served() + requests.chance(kMs));
   };
   const auto read = [&](const std::string& where, int length) {
     act(std::string("do: c2_read, connection: ") + kConnection + ", " + where + ", length: " + std::to_string(length));
   };
   const std::string connection = std::string(", connection: ") + kConnection;
+  const std::string brief = std::string(", connection: ") + kBrief;
   act(std::string("do: start_master, master: ") + kMaster2);
-  requests.wait(kReturn);
+  requests.wait(requests.returned());
   act("do: c2_connect" + connection);
   read(object_of(object), object.length);
   read(object_of({253, 253, 0}), 4);
@@ -230,10 +232,12 @@ void c2(Requests& requests) {
   act("do: c2_abort" + connection);
   act("do: c2_connect" + connection);
   read(object_of(object), object.length);
-  act("do: c2_behaviour" + connection + ", behaviour: silent");
-  requests.wait(150 * kMs);
+  act("do: c2_abort" + connection);
+  act("do: c2_connect" + brief);
+  act("do: c2_behaviour" + brief + ", behaviour: silent");
+  requests.wait(4 * brief_timeout(requests.served()));
   act(std::string("do: stop_master, master: ") + kMaster2);
-  requests.wait(kReturn);
+  requests.wait(requests.returned());
 }
 
 void spoil_reads(Requests& requests) { requests.act(std::string("do: spoil_reads, slave: ") + kDevice); }
@@ -243,10 +247,10 @@ void spoilt_blocks(Requests& requests) {
   for (int i = 0; i < kOffers; ++i) {
     spoil_reads(requests);
     set_prm(requests, right_prm(requests));
-    requests.wait(kServed + requests.chance(kMs));
+    requests.wait(requests.served() + requests.chance(kMs));
     spoil_reads(requests);
     chk_cfg(requests, requests.slave().parameters.cfg);
-    requests.wait(kServed + requests.chance(kMs));
+    requests.wait(requests.served() + requests.chance(kMs));
   }
   requests.start_cycle();
 }
@@ -256,12 +260,12 @@ void spoilt_requests(Requests& requests) {
     spoil_reads(requests);
     read_c1(requests, requests.slave().object);
   }
-  requests.wait(kReturn);
+  requests.wait(requests.returned());
 }
 
 void power(Requests& requests) {
   requests.act(std::string("do: reset_chip, slave: ") + kDevice + ", for: 100us");
-  requests.wait(kReturn);
+  requests.wait(requests.returned());
 }
 
 // --- what a slave may do without -------------------------------------------------------------------------------------

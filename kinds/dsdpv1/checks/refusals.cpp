@@ -33,12 +33,14 @@ constexpr bool is_of_telegram(profibus::Reason reason) {
 
 }  // namespace
 
-/// A verdict may come too late for its block (H7, S16); one without a block is wrong.
-void Refusals::hold(const UserHold& hold) {
+/// A verdict may come too late for its block (H7, S16); one without a block is wrong. A lost reply may have cleared a
+/// flag that the user has never seen (UA11): it can only read the block once more.
+void Refusals::hold(const UserHold& hold, const UserHolds& holds) {
   const std::uint8_t fetched = hold.chip_1.fetched();
   for (std::size_t kind = 0; kind < kJudgedBlocks.size(); ++kind) {
     const auto& [block, verdict] = kJudgedBlocks.at(kind);
-    if ((fetched & block.flag) != 0) fetched_.at(kind) = true;
+    if ((fetched & block.flag) != 0 || (hold.what == HoldOf::kTelegram && holds.has_read_crc(block)))
+      fetched_.at(kind) = true;
     if ((hold.user_1.set() & verdict) != 0) unfounded_.at(kind) = !std::exchange(fetched_.at(kind), false);
   }
   if ((fetched & regs::kChipCommand1Cfg) != 0) lengths_ = 0;

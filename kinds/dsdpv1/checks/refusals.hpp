@@ -23,7 +23,8 @@ class Refusals {
   }
   /// False until the chip has told something, as when it has started up.
   bool judges() const { return told_; }
-  void hold(const UserHold& hold);
+  /// `holds` has what the user has read in it.
+  void hold(const UserHold& hold, const UserHolds& holds);
   void event(const profibus::Event& event, Port port);
 
  private:

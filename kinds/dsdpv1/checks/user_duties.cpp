@@ -19,7 +19,7 @@ void UserDuties::hold_ended(Tick at, HoldOf what) {
   answers_.hold(hold, holds_);
   start_.hold(hold, holds_.is_same_initialisation());
   if (hold.initialises()) holds_.initialised();
-  refusals_.hold(hold);
+  refusals_.hold(hold, holds_);
   holds_.forget_reads();
 }
 

@@ -59,6 +59,8 @@ class UserHolds {
 
   /// Whether the user has read length and bytes of a block since `forget_reads`; absent if a value was uncertain.
   std::optional<bool> read_all(const Block& block) const;
+  /// Both bytes of its CRC, since then.
+  bool has_read_crc(const Block& block) const { return has_read(block.crc, 2); }
   void forget_reads();
   /// A request as the user has read it since `forget_reads`; absent if it has not read all of it for certain.
   std::optional<AcyclicHeader> request_read(const Block& request) const;

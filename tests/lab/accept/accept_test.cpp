@@ -74,6 +74,31 @@ TEST(AcceptPlan, AnotherSeedHasOtherTimes) {
   EXPECT_NE(make_plan(order, "a.yaml").text, first);
 }
 
+TEST(AcceptPlan, PausesFollowTheTimeInWhichTheSlaveServes) {
+  Order order = an_order();
+  const Plan usual = make_plan(order, "a.yaml");
+  order.within = 2 * bus::kTicksPerMs;
+  const Plan fast = make_plan(order, "a.yaml");
+  order.within = 25 * bus::kTicksPerMs;
+  const Plan slow = make_plan(order, "a.yaml");
+  EXPECT_LT(fast.end, usual.end / 3);
+  EXPECT_GT(slow.end, 2 * usual.end);
+  EXPECT_EQ(fast.scenario.script.size(), usual.scenario.script.size());
+  EXPECT_EQ(fast.scenario.masters2.front().connections.at(1).send_timeout, 1U);
+  EXPECT_EQ(slow.scenario.masters2.front().connections.at(1).send_timeout, 3U);
+  for (const Plan* each : {&fast, &usual, &slow})
+    EXPECT_GT(section(*each, "watchdog").to - section(*each, "watchdog").from, 100 * bus::kTicksPerMs);
+}
+
+/// Set_Prm with Unlock from addresses 2, of the master that has stopped, and 3, the probe's.
+TEST(AcceptPlan, TheProbeReleasesTheSlaveInTheMastersNameAndThenInItsOwn) {
+  Order order = an_order();
+  order.only = {"wrong ident"};
+  const std::string text = make_plan(order, "a.yaml").text;
+  EXPECT_THAT(text, HasSubstr("master: probe, bytes: \"68 0F 0F 68 85 82 6D 3D 3E 40 "));
+  EXPECT_THAT(text, HasSubstr("master: probe, bytes: \"68 0F 0F 68 85 83 6D 3D 3E 40 "));
+}
+
 TEST(AcceptPlan, MastersHaveOtherAddressesThanTheSlave) {
   for (const int address : {0, 1, 2, 3, 4, 125}) {
     Order order = an_order();

@@ -24,6 +24,8 @@ PORTS = ("parallel", "spi", "uart")
 # too slow for a character each 6 us.
 INTERVAL = ["masters.plc.bus.min_slave_interval=2500"]
 SLOW = {("O0", "spi"): INTERVAL, ("O2", "spi"): INTERVAL, ("Os", "spi"): INTERVAL, ("O0", "uart"): ["chip.uart_rate=460.8k"]}
+# The time in which they serve what comes: pauses between stimuli are most of a run.
+WITHIN = {("O0", "uart"): "8ms", ("O0", "spi"): "3ms", ("O2", "spi"): "3ms", ("Os", "spi"): "3ms"}
 VIOLATIONS = re.compile(r"^  violations +(\d+) that the scenario does not allow", re.M)
 
 
@@ -46,7 +48,8 @@ class Campaign:
             program = [self.process]
         else:
             program = ["--native"] if kind == "native" else [pathlib.Path(self.arguments.firmware) / f"device_{kind}.elf"]
-        return [self.arguments.sim, "accept", *program, "--mode", port, "--seed", str(seed), "--no-progress", *(word for each in settings for word in ("--set", each))]
+        return [self.arguments.sim, "accept", *program, "--mode", port, "--seed", str(seed), "--within", WITHIN.get((kind, port), "2ms"), "--no-progress",
+                *(word for each in settings for word in ("--set", each))]
 
     def run(self, job):
         began = time.monotonic()

@@ -2,6 +2,7 @@
 // pins, INTR0 and telegrams, to the tick.
 #include <gtest/gtest.h>
 
+#include "kinds/dsdpv1/checks/refusals.hpp"
 #include "model/dpram/reasons.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tests/kinds/dsdpv1/checks/board.hpp"
@@ -515,6 +516,30 @@ TEST(UserRefused, VerdictCountsOnlyWhenNoBlockWasFetchedForIt) {
   look(board, 0x00);
   refuse(board, profibus::Reason::kVerdictUnexpected);
   EXPECT_EQ(violations(board, Check::kUserRefused), 1U);
+}
+
+/// Telegrams without ownership, each a hold: a read of the parameters' CRC, or none, then a verdict that the chip
+/// refuses (accept, a process over the UART, seed 1: a lost reply had cleared B00E.2).
+TEST(UserRefused, VerdictOverTheUartMayBeOnABlockThatWasReadOnceMore) {
+  const checks::PinHistory history(tb::pins_of({}));
+  for (const bool reads : {true, false}) {
+    checks::Recorder recorder(checks::rules(), checks::Limits(checks::rules()), history);
+    checks::Refusals refusals(recorder);
+    checks::UserHolds holds;
+    Tick now = 0;
+    const auto telegram = [&](std::initializer_list<checks::Access> accesses) {
+      holds.began(now);
+      for (const checks::Access& access : accesses) holds.accessed(access);
+      refusals.hold(holds.ended(now += 1000, checks::HoldOf::kTelegram), holds);
+      holds.forget_reads();
+    };
+    if (reads) telegram({{false, 0x4FE, 0x40, 0, 0}, {false, 0x4FF, 0xBF, 0, 0}});
+    for (int verdict = 1; verdict <= 2; ++verdict) {
+      telegram({{true, 0x010, 0x80, 0, 0}});
+      refusals.event({now, profibus::Reason::kVerdictUnexpected, 0, 0, 0}, checks::Refusals::Port::kUart);
+      EXPECT_EQ(recorder.record(Check::kUserRefused).violations, static_cast<unsigned>(verdict - (reads ? 1 : 0)));
+    }
+  }
 }
 
 TEST(UserRefused, InputsOfAnotherLengthCountFromTheThirdSinceAConfigurationWasFetched) {
