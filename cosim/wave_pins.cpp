@@ -15,6 +15,7 @@ tb::compare::NamedPair driven_pair(const PinMap& map, const tb::PinInfo& output)
   const Port &out = map.pins.at(output.name), &drives = map.pins.at(enable_of(output));
   tb::compare::NamedPair pair;
   pair.a = output.name;
+  pair.output = output.bus != nullptr ? output.bus : output.name;
   pair.b = out.name;
   pair.inverted = out.inverted;
   pair.driven = drives.name;
@@ -36,6 +37,7 @@ tb::compare::NamedPair pair_of(const PinMap& map, const tb::PinTable& pins, cons
   const Port& port = map.pins.at(pin.name);
   tb::compare::NamedPair pair;
   pair.a = pin.name;
+  if (!pin.input) pair.output = pin.name;
   pair.b = port.name;
   pair.inverted = port.inverted;
   return pair;

@@ -11,8 +11,8 @@
 namespace dsdpv1::cosim {
 
 /// A pair for each pin, A with the datasheet's names as in the model's waves, B with those of the map. A bus has one
-/// signal in the model's waves: in B it is the output while its enable is active, else the input. Pins missing in a
-/// wave are left out.
+/// signal in the model's waves: in B it is the output while its enable is active, else the input. Inputs missing in a
+/// wave are left out; outputs must be there, a bus under its own name or that of its output.
 std::vector<tb::compare::NamedPair> pairs_of(const PinMap& map, const tb::PinTable& pins);
 
 /// The last telegrams on both lines, and the last accesses of user and chip.

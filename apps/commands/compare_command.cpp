@@ -1,4 +1,6 @@
 // compare: compares two waves of any simulators.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iostream>
 #include <optional>
@@ -10,6 +12,7 @@
 #include "apps/options/words.hpp"
 #include "cosim/wave_pins.hpp"
 #include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 #include "io/waves/wave_writer.hpp"
 #include "lab/compare/comparison.hpp"
 #include "lab/compare/report.hpp"
@@ -20,6 +23,7 @@ namespace {
 
 using tb::compare::Femtoseconds;
 using tb::compare::NamedPair;
+using tb::compare::Nets;
 using tb::compare::XRule;
 using tb::compare::ZRule;
 
@@ -51,7 +55,7 @@ class Compare : public Command {
         "  dsdpv1-sim compare model.fst icarus.vcd --scope-a demo --scope-b bench.dut --pins rtl_ref\n"
         "  dsdpv1-sim compare golden.vcd tonight.vcd --tolerance 10ns --mask 'tb.reset=0' --wave both.fst\n"
         "  dsdpv1-sim compare a.fst b.vcd --clock tb.clk --from 100us --to 3ms --json result.json\n"
-        "  dsdpv1-sim compare a.vcd <(zcat b.vcd.gz) --signal bus.line=!tb.line_n\n"
+        "  dsdpv1-sim compare a.vcd b.vcd.gz --signal bus.line=!tb.line_n\n"
         "docs/compare.md explains them.\n"
         "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
   }
@@ -60,7 +64,8 @@ class Compare : public Command {
     leave_nothing_on_signals();
     take_words();
     check_files();
-    tb::compare::Comparison comparison(a_, b_, given_, [] { return std::make_unique<cosim::PinSurroundings>(chip()); });
+    tb::compare::Comparison comparison(
+        a_, b_, given_, [this](const Nets& a) { return std::make_unique<cosim::PinSurroundings>(chip(a, nullptr)); });
     if (!wave_.empty()) comparison.write_wave(wave_);
     tb::ShareProgress progress(shows_progress(progress_));
     comparison.on_progress([&progress](double share) { progress.show(share); });
@@ -80,17 +85,21 @@ class Compare : public Command {
     app.add_option("--pins", pins_,
                    "Compare the chip's pins, named in B by this map (docs/cosim.md) or, with rtl_ref, as in the "
                    "reference RTL (default: all signals with equal names)");
+    app.add_option("--chip", chip_, "The chip of --pins (default: the one that the waves' names fit best)");
+    app.add_option("--without", without_, "With --pins: leave out this pin of the chip, which may then be missing")
+        ->allow_extra_args(false);
     app.add_option("--signal", signals_, "A=B: this signal of A and that of B, A=!B when B has the other level")
         ->allow_extra_args(false);
     app.add_option("--from", from_, "Compare from this time on, such as 100us (default: the part that both have)");
     app.add_option("--to", to_, "... and up to this one, which both must reach");
+    app.add_flag("--strict", given_.strict,
+                 "Signals without a counterpart, and a B that ends before A, are differences");
   }
 
   void add_how_it_is_compared(CLI::App& app) {
     app.add_option("--shift", shift_, "Added to B's times: 20ns, -3cycles");
-    app.add_option(
-        "--tolerance", tolerance_,
-        "Ignore differences up to this time (default: the coarser time scale's unit if the two differ, else 0)");
+    app.add_option("--tolerance", tolerance_,
+                   "Ignore differences up to this time (default: A's unit of time if that of B is another, else 0)");
     app.add_option("--clock", clock_,
                    "SIGNAL, SIGNAL:fall: compare what there is just before its rising (falling) edges");
     app.add_option("--x", x_,
@@ -104,29 +113,57 @@ class Compare : public Command {
         ->allow_extra_args(false);
   }
 
-  /// Whose pins a map is about.
-  static const tb::ChipKind& chip() { return *tb::chip_kinds().front(); }
+  /// The chip of --chip, or the one that the waves' names fit best. `b`: nullptr or B, whose names are those of the
+  /// reference RTL.
+  const tb::ChipKind& chip(const Nets& a, const Nets* b) const {
+    if (!chip_.empty()) return *tb::find_chip_kind(chip_);
+    const auto fit = [&](const tb::ChipKind* kind) {
+      const tb::PinTable& pins = kind->pins();
+      const cosim::PinMap usual = cosim::default_pin_map(pins);
+      const auto found = std::count_if(
+          pins.begin(), pins.end(),
+          [&](const tb::PinInfo& pin) {
+            return a.has_leaf(pin.name) || (b != nullptr && b->has_leaf(usual.pins.at(pin.name).name));
+          });
+      return 2 * found - static_cast<std::ptrdiff_t>(pins.size());  // those found, less those missing
+    };
+    const auto worse = [&](const tb::ChipKind* one, const tb::ChipKind* other) { return fit(one) < fit(other); };
+    return **std::max_element(tb::chip_kinds().begin(), tb::chip_kinds().end(), worse);
+  }
 
-  /// The pins of the map, and what --signal says instead or besides.
-  std::vector<NamedPair> pairs() const {
-    std::vector<NamedPair> pairs;
-    const tb::PinTable& table = chip().pins();
-    if (!pins_.empty())
-      pairs =
-          cosim::pairs_of(pins_ == kOwnRtl ? cosim::default_pin_map(table) : cosim::load_pin_map(pins_, table), table);
-    for (const std::string& text : signals_) {
-      NamedPair pair = tb::compare::parse_pair(text);
-      const auto same = [&](const NamedPair& other) { return other.a == pair.a; };
-      pairs.erase(std::remove_if(pairs.begin(), pairs.end(), same), pairs.end());
-      pairs.push_back(std::move(pair));
-    }
+  /// Those of --pins.
+  std::vector<NamedPair> pairs_of_pins(const Nets& a, const Nets& b) const {
+    const tb::ChipKind& kind = chip(a, &b);
+    const tb::PinTable& table = kind.pins();
+    std::vector<NamedPair> pairs =
+        cosim::pairs_of(pins_ == kOwnRtl ? cosim::default_pin_map(table) : cosim::load_pin_map(pins_, table), table);
+    for (const std::string& pin : without_) leave_out(pin, kind, pairs);
     return pairs;
+  }
+  static void leave_out(const std::string& pin, const tb::ChipKind& kind, std::vector<NamedPair>& pairs) {
+    const auto is = [&](const NamedPair& pair) { return pair.a == pin || pair.output == pin; };
+    const auto end = std::remove_if(pairs.begin(), pairs.end(), is);
+    std::vector<std::string> names;
+    for (const NamedPair& pair : pairs) names.push_back(pair.a);
+    if (end == pairs.end())
+      throw tb::InputError(fmt::format("{}--without is {}, which the {} lacks{}, expected a pin of it", kCompare, pin,
+                                       kind.name(), tb::did_you_mean(pin, names)));
+    pairs.erase(end, pairs.end());
+  }
+  void check_chip() const {
+    std::vector<std::string> names;
+    for (const tb::ChipKind* kind : tb::chip_kinds()) names.emplace_back(kind->name());
+    if (!chip_.empty()) check_word(std::string(kCompare) + "--chip", chip_, names);
+    if (pins_.empty() && !without_.empty())
+      throw tb::InputError(std::string(kCompare) + "--without is for --pins, expected both");
   }
 
   void take_words() {
     if (given_.scope_a.empty()) given_.scope_a = scope_;
     if (given_.scope_b.empty()) given_.scope_b = scope_;
-    given_.pairs = pairs();
+    check_chip();
+    if (!pins_.empty()) given_.pins = [this](const Nets& a, const Nets& b) { return pairs_of_pins(a, b); };
+    for (const std::string& text : signals_) given_.pairs.push_back(tb::compare::parse_pair(text));
     given_.from = duration("--from", from_);
     given_.to = duration("--to", to_);
     given_.shift = duration("--shift", shift_, true).value_or(0);
@@ -149,8 +186,8 @@ class Compare : public Command {
   std::string a_, b_;
   tb::compare::Options given_;  ///< the scopes by CLI11, all else by take_words
   std::string scope_;
-  std::string pins_;  ///< a map of pins, or kOwnRtl
-  std::vector<std::string> signals_, masks_;
+  std::string pins_, chip_;  ///< a map of pins, or kOwnRtl; empty: the one that A shows
+  std::vector<std::string> without_, signals_, masks_;
   std::string from_, to_, shift_, tolerance_, clock_, x_ = "expected", z_ = "equal";
   std::string wave_, json_, junit_;
   std::optional<bool> progress_;

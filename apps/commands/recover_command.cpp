@@ -1,6 +1,7 @@
 // recover: a complete wave from what a killed run has left.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -33,7 +34,7 @@ void check_ending(tb::WaveFormat format, const std::string& part, const std::str
     throw tb::InputError(output, 0, "has another ending than the wave in " + part + ", expected " + ending);
 }
 
-std::uint64_t recover_wave(tb::WaveFormat format, const std::string& part, const std::string& output) {
+tb::Recovered recover_wave(tb::WaveFormat format, const std::string& part, const std::string& output) {
 #ifdef DSDPV1_WITH_FST
   if (format == tb::WaveFormat::kFst) return tb::recover_fst(part, output);
 #endif
@@ -43,16 +44,17 @@ std::uint64_t recover_wave(tb::WaveFormat format, const std::string& part, const
 
 class Recover : public Command {
  public:
-  Recover() : Command("recover", "Rebuild a complete wave from the partial file of a killed run") {}
+  Recover() : Command("recover", "Rebuild a complete wave from the file of a killed run or simulator") {}
 
   void options(CLI::App& app) override {
-    app.add_option("FILE", part_, "The wave's temporary file, NAME.PID.part; FST needs FILE.hier beside it")
+    app.add_option("FILE", part_, "The wave's temporary file, NAME.PID.part, or another simulator's wave; FST needs FILE.hier beside it")
         ->required();
     app.add_option("--output,-o", output_, "The wave (default: NAME, if it does not exist)");
     app.footer(
         "\nIt says until when the wave is complete. The files that it reads stay.\n"
         "\nExamples:\n  dsdpv1-sim recover out/demo.fst.4711.part\n"
         "  dsdpv1-sim recover demo.vcd.4711.part --output killed.vcd\n"
+        "  dsdpv1-sim recover icarus.fst --output good.fst\n"
         "\nExit codes: 0 recovered, 2 wrong input or nothing to recover, 130 interrupted.\n");
   }
 
@@ -63,8 +65,9 @@ class Recover : public Command {
     check_ending(format, part_, output);
     check_outputs("dsdpv1-sim recover", {{"what is recovered", part_}, {"what is recovered", part_ + ".hier"}},
                   {{"--output", output}});
-    const std::uint64_t until = recover_wave(format, part_, output);
-    std::cout << fmt::format("{}: complete until {}.{:03} ns\n", output, until / 1000, until % 1000);
+    const tb::Recovered until = recover_wave(format, part_, output);
+    std::cout << fmt::format("{}: complete until {:.3f} ns\n", output,
+                             static_cast<long double>(until.time) * std::pow(10.0L, until.exponent + 9));
     return kPassed;
   }
 

@@ -26,7 +26,12 @@ std::string metadata_of(ZipArchive& archive) {
   return text;
 }
 
-/// "key=value" for the first device.
+std::string without_blanks_around(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+/// "key=value" for the first device; old sessions have blanks around the sign.
 std::map<std::string, std::string> device_of(const std::string& metadata) {
   std::map<std::string, std::string> device;
   std::istringstream lines(metadata);
@@ -35,7 +40,8 @@ std::map<std::string, std::string> device_of(const std::string& metadata) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (!line.empty() && line[0] == '[') inside = line.compare(0, 7, "[device") == 0 && device.empty();
     const std::size_t equals = line.find('=');
-    if (inside && equals != std::string::npos) device[line.substr(0, equals)] = line.substr(equals + 1);
+    if (inside && equals != std::string::npos)
+      device[without_blanks_around(line.substr(0, equals))] = without_blanks_around(line.substr(equals + 1));
   }
   return device;
 }

@@ -25,9 +25,9 @@ const std::string& regular(const std::string& path) {
 
 }  // namespace
 
-FstFile::FstFile(const std::string& path, const std::string& date)
+FstFile::FstFile(const std::string& path, const std::string& date, int exponent)
     : part_(regular(path)), declarations_(part_.part() + ".hier"), context_(create()) {
-  fstWriterSetTimescaleFromString(context_, "1ps");
+  fstWriterSetTimescale(context_, exponent);
   fstWriterSetVersion(context_, (std::string(kWaveAuthor) + DSDPV1_VERSION).c_str());
   fstWriterSetDate(context_, date.c_str());  // without a date it would have that of today
   fstWriterSetPackType(context_, FST_WR_PT_LZ4);
@@ -62,8 +62,11 @@ void FstFile::open_scope(const std::string& name) {
 
 void FstFile::close_scope() { fstWriterSetUpscope(context_); }
 
-FstFile::Handle FstFile::variable(const std::string& name, std::uint32_t width, Handle alias) {
-  const fstVarType type = width != 0 ? FST_VT_VCD_WIRE : FST_VT_GEN_STRING;
+FstFile::Handle FstFile::variable(const std::string& name, std::uint32_t width, Handle alias, Kind kind) {
+  const fstVarType type = kind == Kind::kReal    ? FST_VT_VCD_REAL
+                          : kind == Kind::kEvent ? FST_VT_VCD_EVENT
+                          : width != 0           ? FST_VT_VCD_WIRE
+                                                 : FST_VT_GEN_STRING;
   return fstWriterCreateVar(context_, type, FST_VD_IMPLICIT, width, name.c_str(), alias);
 }
 

@@ -14,8 +14,11 @@ class FstFile {
  public:
   using Handle = std::uint32_t;
 
-  /// Throws InputError when it cannot be created, or is a device or FIFO: FST is not written sequentially.
-  FstFile(const std::string& path, const std::string& date);
+  enum class Kind { kUsual, kReal, kEvent };
+
+  /// Times count 10^exponent seconds. Throws InputError when it cannot be created, or is a device or FIFO: FST is not
+  /// written sequentially.
+  FstFile(const std::string& path, const std::string& date, int exponent = -12);
   /// Removes an unfinished file.
   ~FstFile();
   FstFile(const FstFile&) = delete;
@@ -23,11 +26,11 @@ class FstFile {
 
   void open_scope(const std::string& name);
   void close_scope();
-  /// `width` 0: values are words. `alias`: one more name for this one.
-  Handle variable(const std::string& name, std::uint32_t width, Handle alias = 0);
-  /// Time of the changes that follow, in ps; never decreases.
+  /// `width` 0: values are words. `alias`: one more name for this one. Usual is a wire, or words.
+  Handle variable(const std::string& name, std::uint32_t width, Handle alias = 0, Kind kind = Kind::kUsual);
+  /// Time of the changes that follow; never decreases.
   void move_to(std::uint64_t time);
-  /// `levels`: as many characters 0, 1, x, z as the variable is wide.
+  /// `levels`: as many characters 0, 1, x, z as the wire is wide; one of an event; of a real the bytes of a double.
   void set(Handle variable, const char* levels);
   void say(Handle variable, std::string_view word);
 

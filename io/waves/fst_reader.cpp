@@ -44,6 +44,7 @@ void put(std::FILE* to, const Record& record) {
 WaveKind kind_of(unsigned char type) {
   switch (type) {
     case FST_VT_GEN_STRING: return WaveKind::kText;
+    case FST_VT_VCD_EVENT: return WaveKind::kEvent;
     case FST_VT_VCD_REAL:
     case FST_VT_VCD_REAL_PARAMETER:
     case FST_VT_VCD_REALTIME:
@@ -66,7 +67,7 @@ void tell_declarations(const std::string& path, std::FILE* to) {
   while (const fstHier* entry = fstReaderIterateHier(reader.get())) {
     if (entry->htyp == FST_HT_SCOPE) put_hierarchy(to, {Entry::kScope, {}, 0, 0, 0}, entry->u.scope.name);
     if (entry->htyp == FST_HT_UPSCOPE) put_hierarchy(to, {Entry::kUpscope, {}, 0, 0, 0}, "");
-    if (entry->htyp != FST_HT_VAR || entry->u.var.typ == FST_VT_VCD_EVENT) continue;
+    if (entry->htyp != FST_HT_VAR) continue;
     const auto& variable = entry->u.var;
     put_hierarchy(to, {Entry::kVariable, kind_of(variable.typ), variable.length, variable.handle, 0}, variable.name);
   }
@@ -188,20 +189,26 @@ void FstReader::add_variable(std::uint32_t scope, const std::string& name, const
 bool FstReader::next(WaveEvent& event) {
   if (!changes_) changes_.emplace([this](std::FILE* to) { tell_changes(path_, selected_, to); });
   ChangeRecord record{};
-  if (!changes_->read(record) || record.time < now_) damaged();
-  now_ = record.time;
-  if (record.what == ChangeRecord::kEnd) return false;
-  const bool change = record.what == ChangeRecord::kChange;
-  if (change && (record.handle == 0 || record.handle > declarations_.signals.size())) damaged();
-  if (record.length > kMostWaveWidth) damaged();
-  value_.resize(record.length);
-  if (!changes_->read(value_.data(), record.length)) damaged();
-  if (change && !normalise(declarations_.signals[record.handle - 1])) damaged();
-  const auto kind = change                             ? WaveEvent::Kind::kChange
-                    : record.what == ChangeRecord::kOn ? WaveEvent::Kind::kOn
-                                                       : WaveEvent::Kind::kOff;
-  event = {kind, now_, change ? record.handle - 1 : 0, value_};
-  return true;
+  for (;;) {
+    if (!changes_->read(record) || record.time < now_) damaged();
+    now_ = record.time;
+    if (record.what == ChangeRecord::kEnd) return false;
+    const bool change = record.what == ChangeRecord::kChange;
+    if (change && (record.handle == 0 || record.handle > declarations_.signals.size())) damaged();
+    if (record.length > kMostWaveWidth) damaged();
+    value_.resize(record.length);
+    if (!changes_->read(value_.data(), record.length)) damaged();
+    if (change && !normalise(declarations_.signals[record.handle - 1])) damaged();
+    const bool event_variable = change && declarations_.signals[record.handle - 1].kind == WaveKind::kEvent;
+    if (event_variable && value_ != "1") continue;  // each event has a value where the file begins
+    if (event_variable) value_.clear();
+    event = {event_variable                     ? WaveEvent::Kind::kTrigger
+             : change                           ? WaveEvent::Kind::kChange
+             : record.what == ChangeRecord::kOn ? WaveEvent::Kind::kOn
+                                                : WaveEvent::Kind::kOff,
+             now_, change ? record.handle - 1 : 0, value_};
+    return true;
+  }
 }
 
 bool FstReader::normalise(const WaveSignal& declared) {

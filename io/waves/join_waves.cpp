@@ -44,6 +44,7 @@ class Part {
   }
   void declare(const WaveVariable& variable, WaveWriter& writer) {
     const WaveSignal& signal = declarations().signals.at(variable.signal);
+    if (signal.kind == WaveKind::kEvent) return;  // writers have none
     std::optional<WaveWriter::Signal>& output = outputs_.at(variable.signal);
     const std::string name = without_blanks(variable.name);
     if (output)

@@ -31,9 +31,21 @@ bool readable(const std::string& path) {
   return child > 0 && ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+FstFile::Kind kind_in_copy(unsigned char type) {
+  switch (type) {
+    case FST_VT_VCD_EVENT: return FstFile::Kind::kEvent;
+    case FST_VT_VCD_REAL:
+    case FST_VT_VCD_REAL_PARAMETER:
+    case FST_VT_VCD_REALTIME:
+    case FST_VT_SV_SHORTREAL: return FstFile::Kind::kReal;
+    default: return FstFile::Kind::kUsual;
+  }
+}
+
 /// A file under construction, and its variables by the handles of the file being read.
 struct Copy {
-  Copy(const std::string& path, const std::string& date) : file(path, date) {}
+  Copy(const std::string& path, void* reader)
+      : file(path, fstReaderGetDateString(reader), fstReaderGetTimescale(reader)) {}
   FstFile file;
   std::vector<FstFile::Handle> variables{0};
 };
@@ -43,8 +55,11 @@ void declare(void* reader, Copy& copy) {
     if (entry->htyp == FST_HT_SCOPE) copy.file.open_scope(entry->u.scope.name);
     if (entry->htyp == FST_HT_UPSCOPE) copy.file.close_scope();
     if (entry->htyp != FST_HT_VAR) continue;
-    const bool words = entry->u.var.typ == FST_VT_GEN_STRING;
-    copy.variables.push_back(copy.file.variable(entry->u.var.name, words ? 0 : entry->u.var.length));
+    const auto& variable = entry->u.var;
+    const FstFile::Handle known = variable.is_alias != 0 ? copy.variables.at(variable.handle) : 0;
+    const std::uint32_t width = variable.typ == FST_VT_GEN_STRING ? 0 : variable.length;
+    const FstFile::Handle own = copy.file.variable(variable.name, width, known, kind_in_copy(variable.typ));
+    if (variable.is_alias == 0) copy.variables.push_back(own);
   }
 }
 
@@ -74,18 +89,19 @@ void check_recoverable(const std::string& part) {
 
 bool fst_is_complete(const std::string& path) { return fst_blocks(path).complete() && open_fst(path) != nullptr; }
 
-std::uint64_t recover_fst(const std::string& part, const std::string& output) {
+Recovered recover_fst(const std::string& part, const std::string& output) {
   check_recoverable(part);
   const FstHandle reader = open_fst(part);
   if (!reader) throw InputError(part, 0, "cannot be read");
   const std::uint64_t end = fstReaderGetEndTime(reader.get());
-  Copy copy(output, fstReaderGetDateString(reader.get()));
+  Copy copy(output, reader.get());
   declare(reader.get(), copy);
   fstReaderSetFacProcessMaskAll(reader.get());
+  fstReaderIterBlocksSetNativeDoublesOnCallback(reader.get(), 1);
   fstReaderIterBlocks2(reader.get(), change, change_of_word, &copy, nullptr);
   copy.file.move_to(end);
   copy.file.finish();
-  return end;
+  return {end, fstReaderGetTimescale(reader.get())};
 }
 
 }  // namespace dsdpv1::tb

@@ -24,6 +24,7 @@ std::optional<int> exponent_of(std::string text) {
 
 WaveKind kind_of(const std::string& type) {
   if (type == "string") return WaveKind::kText;
+  if (type == "event") return WaveKind::kEvent;
   return type.rfind("real", 0) == 0 || type == "shortreal" ? WaveKind::kReal : WaveKind::kBits;
 }
 
@@ -92,14 +93,13 @@ void VcdDeclarations::keep(std::size_t bytes) {
 
 void VcdDeclarations::variable() {
   const std::string type = word(), size = word(), code = word(), name = rest();
+  if (type == "port") text_.fail("is an extended VCD ($dumpports), expected that of $dumpvars");
   std::uint32_t width = 0;
   const auto [end, error] = std::from_chars(size.data(), size.data() + size.size(), width);
   if (error != std::errc() || *end != '\0' || width > kMostWaveWidth)
     text_.fail(fmt::format("$var has the size {}, expected 0 to {} bits", size.substr(0, 40), kMostWaveWidth));
-  if (type == "port") text_.fail("is an extended VCD ($dumpports), expected that of $dumpvars");
   const WaveKind kind = kind_of(type);
   const std::uint32_t place = signal(code, {kind, kind == WaveKind::kBits ? std::max(width, 1U) : 0U});
-  if (type == "event") return;  // has no value
   keep(name.size());
   WaveName parsed = parse_wave_name(name, width);
   to_.variables.push_back({scopes_.current(), std::move(parsed.name), parsed.range, place});

@@ -8,6 +8,37 @@
 #include "io/waves/vcd_declarations.hpp"
 
 namespace dsdpv1::tb {
+namespace {
+
+/// The byte of an octal or hexadecimal escape, as the characters after the backslash; `at` moves behind them.
+char numbered_escape(std::string_view text, std::size_t& at) {
+  const bool hexadecimal = text[at] == 'x';
+  const std::size_t begin = at + (hexadecimal ? 1 : 0);
+  const char* const last = text.data() + std::min(text.size(), begin + (hexadecimal ? 2 : 3));
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data() + begin, last, value, hexadecimal ? 16 : 8);
+  if (error != std::errc()) return '\\';
+  at = static_cast<std::size_t>(end - text.data());
+  return static_cast<char>(value);
+}
+
+/// Blanks and other characters that a word of a VCD cannot have are escaped as in C.
+void unescape(std::string& text) {
+  constexpr std::string_view kNamed = "abfnrtv\\'\"?", kMeant = "\a\b\f\n\r\t\v\\'\"?";
+  if (text.find('\\') == std::string::npos) return;
+  std::string plain;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at++];
+    const std::size_t named = c == '\\' && at < text.size() ? kNamed.find(text[at]) : std::string_view::npos;
+    if (named != std::string_view::npos) ++at;
+    plain += named != std::string_view::npos ? kMeant[named]
+             : c == '\\' && at < text.size() ? numbered_escape(text, at)
+                                             : c;
+  }
+  text = std::move(plain);
+}
+
+}  // namespace
 
 VcdReader::VcdReader(const std::string& path) : text_(path) {
   declarations_.exponent = -9;  // the default
@@ -43,7 +74,8 @@ void VcdReader::move_to(std::string_view digits) {
   if (begin_ && time < now_)
     text_.fail("time " + std::to_string(time) + " comes after " + std::to_string(now_) +
                ", expected times that do not decrease");
-  if (!begin_) begin_ = time;
+  if (!begin_) begin_ = now_ = time;
+  if (time != now_) before_end_ = {text_.offset() - digits.size() - 1, now_};
   now_ = time;
 }
 
@@ -65,6 +97,7 @@ bool VcdReader::scalar(std::string_view word, WaveEvent& event) {
   const std::uint32_t place = signal(word.substr(1));
   if (!selected_[place]) return false;
   const WaveSignal& declared = declarations_.signals[place];
+  if (declared.kind == WaveKind::kEvent) return trigger(level, place, event);
   if (declared.kind != WaveKind::kBits) refuse(word);
   if (declared.width != 1) return tell(event, place, extended(word.substr(0, 1), declared.width));
   value_.assign(1, level);
@@ -85,12 +118,20 @@ bool VcdReader::word_value(std::string_view word, WaveEvent& event) {
   value_ = word;
   const std::uint32_t place = signal(text_.token());
   if (!selected_[place]) return false;
-  if (declarations_.signals[place].kind == WaveKind::kBits) refuse(value_);
+  const WaveKind kind = declarations_.signals[place].kind;
+  if (kind != WaveKind::kReal && kind != WaveKind::kText) refuse(value_);
+  if (kind == WaveKind::kText) unescape(value_);
   return tell(event, place, value_);
+}
+
+bool VcdReader::trigger(char level, std::uint32_t signal, WaveEvent& event) const {
+  event = {WaveEvent::Kind::kTrigger, now_, signal, {}};
+  return level == '1';
 }
 
 std::uint32_t VcdReader::signal(std::string_view code) const {
   const std::uint32_t place = codes_.find(code);
+  if (text_.at_bare_end() && codes_.begins_another(code)) text_.fail("");
   if (place == VcdCodes::kNone || code.empty())
     text_.fail("a value of \"" + std::string(code.substr(0, 40)) + "\", expected the codes that $var declares");
   return place;

@@ -18,6 +18,8 @@ class VcdReader : public WaveReader {
   std::uint64_t begin() const override { return begin_.value_or(0); }
   std::uint64_t end() const override { return now_; }
   double share() const override { return text_.share(); }
+  /// The bytes of the text before the last time read, and the time before that one; nullopt: there was none.
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> before_end() const { return before_end_; }
 
  private:
   void move_to(std::string_view digits);
@@ -26,6 +28,7 @@ class VcdReader : public WaveReader {
   bool scalar(std::string_view word, WaveEvent& event);
   bool vector(std::string_view word, WaveEvent& event);
   bool word_value(std::string_view word, WaveEvent& event);
+  bool trigger(char level, std::uint32_t signal, WaveEvent& event) const;
   std::uint32_t signal(std::string_view code) const;
   std::string_view extended(std::string_view bits, std::uint32_t width);
   bool tell(WaveEvent& event, std::uint32_t signal, std::string_view value) const;
@@ -38,6 +41,7 @@ class VcdReader : public WaveReader {
   std::string value_;   ///< of the present event, in the file's text
   std::string levels_;  ///< ... of bits, as reported
   std::optional<std::uint64_t> begin_;
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> before_end_;
   std::uint64_t now_ = 0;
 };
 

@@ -1,15 +1,9 @@
 #include "io/waves/vcd_text.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 
 #include "io/input/input_error.hpp"
-#include "io/input/read_file.hpp"
 
 namespace dsdpv1::tb {
 namespace {
@@ -22,20 +16,24 @@ constexpr std::array<bool, 256> blanks() {
   return blank;
 }
 
+/// The header's tag, or that of a file that is compressed as a whole.
+bool is_fst_byte(char first) { return first == '\0' || first == '\xFE'; }
+
 }  // namespace
 
 const std::array<bool, 256> VcdText::kBlank = blanks();
 
-VcdText::VcdText(const std::string& path) : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (!file_) throw InputError(path, 0, what_is_wrong(errno) + ", expected a wave, VCD or FST");
-  struct stat status {};
-  if (::fstat(file_.get(), &status) == 0) size_ = static_cast<std::uint64_t>(status.st_size);
-  // Room for all of a short file and its end; a pipe has no size and may be long.
-  room_ =
-      size_ == 0 ? kMostRoom : static_cast<std::size_t>(std::clamp<std::uint64_t>(size_ + 1, kLeastRoom, kMostRoom));
+VcdText::VcdText(const std::string& path) : path_(path), bytes_(path) {
+  const std::uint64_t size = bytes_.packed() ? 0 : bytes_.size();
+  // Room for all of a short file and its end; a pipe has no size and may be long, and so may the content of a gz.
+  room_ = size == 0 ? kMostRoom : static_cast<std::size_t>(std::clamp<std::uint64_t>(size + 1, kLeastRoom, kMostRoom));
   buffer_.reset(new char[room_ + 1]);
   at_ = end_ = buffer_.get();
   fill();
+  const std::string foreign = foreign_form(at_, static_cast<std::size_t>(end_ - at_));
+  if (!foreign.empty()) throw InputError(path_, 0, foreign);
+  if (bytes_.packed() && is_fst_byte(*at_))
+    throw InputError(path_, 0, "is an FST within a gz, expected the FST itself, as gunzip makes it");
 }
 
 /// Keeps the unread rest and reads more after it; a zero byte ends the buffer.
@@ -44,30 +42,33 @@ void VcdText::fill() {
   std::memmove(buffer_.get(), at_, rest);
   std::size_t have = rest;
   while (have < room_ && !whole_) {
-    const ssize_t got = ::read(file_.get(), buffer_.get() + have, room_ - have);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw InputError(path_, 0, what_is_wrong(errno) + ", expected a wave, VCD or FST");
+    const std::size_t got = bytes_.read(buffer_.get() + have, room_ - have);
     whole_ = got == 0;
-    have += static_cast<std::size_t>(got);
-    read_ += static_cast<std::uint64_t>(got);
+    have += got;
+    read_ += got;
   }
   at_ = buffer_.get();
   end_ = at_ + have;
   buffer_[have] = '\0';
 }
 
-void VcdText::check_word(const char* begin) const {
+void VcdText::check_word(const char* begin) {
   if (at_ != end_) fail("has a zero byte here, expected the text of a VCD");
   if (!whole_) fail("has a word that is longer than any right one, expected the text of a VCD");
-  if (begin != at_) fail("ends within a line, expected a complete VCD: was the simulator stopped while it wrote?");
+  bare_end_ = bare_end_ || begin != at_;
 }
 
-void VcdText::fail(const std::string& what) const { throw InputError(path_, line_, what); }
+void VcdText::fail(const std::string& what) const {
+  if (!bare_end_) throw InputError(path_, line_, what);
+  throw InputError(path_, line_,
+                   "ends within a line, expected a complete VCD: was the simulator stopped while it wrote? dsdpv1-sim "
+                   "recover keeps the part before");
+}
 
 double VcdText::share() const {
-  if (size_ == 0) return 0;
-  const auto taken = static_cast<double>(read_) - static_cast<double>(end_ - at_);
-  return std::min(1.0, taken / static_cast<double>(size_));
+  if (bytes_.size() == 0) return 0;
+  const auto unread = bytes_.packed() ? 0.0 : static_cast<double>(end_ - at_);
+  return std::clamp((static_cast<double>(bytes_.taken()) - unread) / static_cast<double>(bytes_.size()), 0.0, 1.0);
 }
 
 }  // namespace dsdpv1::tb

@@ -84,8 +84,9 @@ void VcdWriter::say(bus::Tick at, Signal signal, std::string_view word) { say(in
 
 void VcdWriter::say(Picoseconds at, Signal signal, std::string_view word) {
   move_to(at);
-  std::string text(word);
-  std::replace(text.begin(), text.end(), ' ', '_');  // the value ends at the first blank
+  std::string text;
+  for (const char c : word)
+    text += c == ' ' ? "_" : c == '\\' ? "\\\\" : std::string(1, c);  // it ends at the first blank
   file_.write(fmt::format("s{} {}\n", text, names_.at(signal)));
 }
 

@@ -11,7 +11,12 @@
 
 namespace dsdpv1::tb {
 
-enum class WaveKind : std::uint8_t { kBits, kReal, kText };
+enum class WaveKind : std::uint8_t {
+  kBits,
+  kReal,
+  kText,
+  kEvent,  ///< of Verilog: has no value, only moments
+};
 
 /// A net with a value, under any number of names.
 struct WaveSignal {
@@ -44,12 +49,13 @@ struct WaveEvent {
     kChange,
     kOff,  ///< the simulator stops recording ($dumpoff)
     kOn,
+    kTrigger,  ///< a moment of an event
   };
   Kind kind = Kind::kChange;
   std::uint64_t time = 0;  ///< never decreases
   std::uint32_t signal = 0;
   /// Valid until the next event is read. Bits: one of 0, 1, x, z for each bit, the leftmost first. A real: the file's
-  /// text, for strtod.
+  /// text, for strtod. A text: its characters, without escapes.
   std::string_view value;
 };
 
@@ -70,8 +76,8 @@ class WaveReader {
   virtual double share() const = 0;
 };
 
-/// A reader chosen by the file's content, not its name. `path` may be a FIFO when it is VCD. Throws InputError if the
-/// file is not a wave, is damaged or cut, or exceeds the limits above.
+/// A reader chosen by the file's content, not its name. `path` may be a FIFO when it is VCD, which may be packed as gz.
+/// Throws InputError if the file is not a wave, is damaged or cut, or exceeds the limits above.
 std::unique_ptr<WaveReader> read_wave(const std::string& path);
 
 }  // namespace dsdpv1::tb

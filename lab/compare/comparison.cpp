@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "io/input/input_error.hpp"
 #include "lab/compare/clock_edges.hpp"
@@ -48,13 +49,16 @@ Comparison::Comparison(const std::string& a, const std::string& b, Options optio
   result_.signals = unseen(pairs_.pairs);
   result_.only_a = pairs_.only_a;
   result_.only_b = pairs_.only_b;
+  result_.left_out = pairs_.left_out;
+  result_.strict = options_.strict;
+  if (options_.strict) result_.alone = pairs_.alone;
+  if (!options_.tolerance && b_.exponent() > a_.exponent()) result_.rounded = *scale_.from(1, b_.exponent());
 }
 
-/// Times of a coarser scale are rounded by up to its unit.
+/// A's times are rounded by up to its unit. B's unit allows nothing: a coarse one would make any B equal.
 Time Comparison::tolerance() const {
   if (options_.tolerance) return scale_.from(*options_.tolerance);
-  const int coarser = std::max(a_.exponent(), b_.exponent());
-  return coarser == scale_.exponent() ? 0 : *scale_.from(1, coarser);
+  return a_.exponent() == b_.exponent() ? 0 : *scale_.from(1, a_.exponent());
 }
 
 Result Comparison::run() {
@@ -75,6 +79,8 @@ void Comparison::start() {
   a_.advance(from_);
   b_.advance(from_);
   check_window();
+  a_.restart_events();
+  b_.restart_events();
   touched_.add_all();
 }
 
@@ -179,6 +185,33 @@ void Comparison::confirm(std::uint32_t pair, Time now) {
   result_.surroundings = watchers_.lines(pairs_.pairs[pair].a.net.scope, scale_.tick(now));
 }
 
+/// Later than the tolerance allows, and before --to.
+bool Comparison::b_ends_first() const {
+  return until_ < to_ && !b_.next() && (a_.next() || a_.end() > b_.end() + tolerance());
+}
+
+/// Equal says something only if a difference could have shown.
+void Comparison::check_enough() const {
+  const auto compared = [](std::uint64_t sum, const SignalResult& signal) { return sum + signal.compared; };
+  const std::uint64_t values =
+      std::accumulate(result_.signals.begin(), result_.signals.end(), std::uint64_t{0}, compared);
+  const auto less = [](const State& a, const State& b) { return a.tolerance < b.tolerance; };
+  const Time longest = std::max_element(states_.begin(), states_.end(), less)->tolerance;
+  const std::string what =
+      fmt::format("compared with {} from {} to {}", b_.path(), scale_.text(from_), scale_.text(until_));
+  if (values == 0)
+    throw InputError(a_.path(), 0,
+                     "has no value that was " + what + ", expected --mask, --clock and pauses that leave some");
+  if (options_.clock ? steps_ == 1 : until_ == from_)
+    throw InputError(a_.path(), 0,
+                     "has a single instant that was " + what + ", expected a longer window or more edges");
+  if (until_ - from_ <= longest)
+    throw InputError(a_.path(), 0,
+                     fmt::format("was {}, which is not longer than the tolerance of {}, expected a longer window or "
+                                 "a shorter --tolerance",
+                                 what, scale_.text(longest)));
+}
+
 Result Comparison::finish() {
   until_ = to_;
   if (!a_.next()) until_ = std::min(until_, a_.end());
@@ -189,6 +222,8 @@ Result Comparison::finish() {
   result_.from = from_;
   result_.to = until_;
   if (options_.to) result_.wanted = to_;
+  result_.b_ends_first = options_.strict && b_ends_first();
+  if (result_.equal()) check_enough();
   if (wave_) wave_->finish(scale_, until_);
   return std::move(result_);
 }

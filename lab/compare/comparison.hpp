@@ -25,7 +25,7 @@ class Comparison {
   /// Called repeatedly while it runs, with the part of the files that has been read, 0 to 1.
   void on_progress(std::function<void(double)> progress) { progress_ = std::move(progress); }
 
-  /// Throws InputError when a file is damaged.
+  /// Throws InputError when a file is damaged, or too little was compared for a difference to show.
   Result run();
 
  private:
@@ -56,6 +56,8 @@ class Comparison {
   void confirm_until(Time now);
   void confirm(std::uint32_t pair, Time now);
   Time tolerance() const;
+  bool b_ends_first() const;
+  void check_enough() const;
   Result finish();
   void tell_progress();
 

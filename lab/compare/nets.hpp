@@ -18,6 +18,9 @@ struct Net {
   std::string name() const { return scope.empty() ? leaf : scope + "." + leaf; }
 };
 
+/// In small letters.
+std::string lower(std::string text);
+
 class Nets {
  public:
   /// The nets in the scope `prefix` and below it; empty: all. `file` is for messages. Throws InputError for an unknown
@@ -29,6 +32,8 @@ class Nets {
   const Net* at(const std::string& name) const;
   /// The net with this last part of its name, ignoring case; nullptr when none or several have it.
   const Net* with_leaf(const std::string& leaf) const;
+  /// True when the last part of a name is this one, ignoring case.
+  bool has_leaf(const std::string& leaf) const { return by_leaf_.count(lower(leaf)) != 0; }
   /// True when the name selects one signal or several.
   bool knows(const std::string& name) const;
   /// By its whole name or by the end of it ("dut.irq"); throws InputError for none or several.
@@ -45,8 +50,5 @@ class Nets {
   std::unordered_map<std::string, std::size_t> by_name_;
   std::unordered_map<std::string, std::vector<std::size_t>> by_leaf_;  ///< in small letters
 };
-
-/// In small letters.
-std::string lower(std::string text);
 
 }  // namespace dsdpv1::tb::compare

@@ -1,5 +1,6 @@
 #pragma once
 // Options of a comparison.
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct NamedPair {
   bool driven_low = false;  ///< it is set when 0
   std::string released;     ///< empty: undriven, Z
   bool required = true;     ///< else it is left out if a side lacks it
+  std::string output;       ///< of a chip: of the pairs for it one must be found; empty: no output
   std::optional<Femtoseconds> tolerance;
 };
 
@@ -47,12 +49,18 @@ struct Mask {
   std::string target;
 };
 
+class Nets;
+/// The pairs for the pins of a chip, which the signals of both sides may decide.
+using ChipPairs = std::function<std::vector<NamedPair>(const Nets& a, const Nets& b)>;
+
 struct Options {
   std::string scope_a, scope_b;
-  std::vector<NamedPair> pairs;  ///< empty: by name
+  std::vector<NamedPair> pairs;  ///< these and those of `pins`; neither: by name
+  ChipPairs pins;                ///< except signals of A that `pairs` has
+  bool strict = false;           ///< signals without a counterpart, and a B that ends before A, are differences
   std::optional<Femtoseconds> from, to;
   Femtoseconds shift = 0;                 ///< added to B's times
-  std::optional<Femtoseconds> tolerance;  ///< default: the coarser time scale's unit if the two differ, else 0
+  std::optional<Femtoseconds> tolerance;  ///< default: A's unit of time if the two differ, else 0
   std::optional<Clock> clock;
   XRule x = XRule::kExpected;
   ZRule z = ZRule::kEqual;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "io/input/input_error.hpp"
@@ -14,13 +15,15 @@ bool comparable(const Net& a, const Net& b) { return a.kind == b.kind && a.width
 
 std::string form(const Net& net) {
   if (net.kind == WaveKind::kReal) return "a real";
+  if (net.kind == WaveKind::kEvent) return "an event";
   return net.kind == WaveKind::kText ? "a text" : fmt::format("{} bits wide", net.width);
 }
 
-/// nullptr for an optional signal that is missing.
-const Net* look_for(const Nets& nets, const std::string& name, bool required) {
-  return required || nets.knows(name) ? &nets.find(name) : nullptr;
-}
+/// A pair that is left out.
+struct Missing {
+  NamedPair pair;
+  std::string file, signal;  ///< which lacks what
+};
 
 class Matcher {
  public:
@@ -28,6 +31,8 @@ class Matcher {
 
   Pairs named(const std::vector<NamedPair>& names) {
     for (const NamedPair& each : names) add(each);
+    for (const Missing& each : missing_) leave_out(each);
+    found_.alone = found_.left_out;
     return finish();
   }
   Pairs by_name() {
@@ -38,7 +43,10 @@ class Matcher {
       used_a_.insert(net.name());
       used_b_.insert(other->name());
     }
-    return finish();
+    Pairs pairs = finish();
+    pairs.alone = pairs.only_a;
+    pairs.alone.insert(pairs.alone.end(), pairs.only_b.begin(), pairs.only_b.end());
+    return pairs;
   }
 
  private:
@@ -48,9 +56,8 @@ class Matcher {
     return own != nullptr && own->signals == net.signals ? b_.with_leaf(net.leaf) : nullptr;
   }
   void add(const NamedPair& names) {
-    const Net* const a = look_for(a_, names.a, names.required);
-    const Net* const b = look_for(b_, names.b, names.required);
-    if (a == nullptr || b == nullptr || lacks_a_side(names)) return;
+    if (!names.required && is_missing(names)) return;
+    const Net *const a = &a_.find(names.a), *const b = &b_.find(names.b);
     if (!comparable(*a, *b))
       throw InputError(a_.file(), 0,
                        fmt::format("{} is {}, but {} of {} is {}, expected signals of one width", a->name(), form(*a),
@@ -62,11 +69,25 @@ class Matcher {
     used_a_.insert(a->name());
     used_b_.insert(b->name());
     found_.pairs.push_back(std::move(pair));
+    outputs_.insert(names.output);
   }
-  /// True if B lacks `driven` or `released` of an optional signal.
-  bool lacks_a_side(const NamedPair& names) const {
-    const auto lacks = [this](const std::string& name) { return !name.empty() && !b_.knows(name); };
-    return !names.required && (lacks(names.driven) || lacks(names.released));
+  bool is_missing(const NamedPair& names) {
+    const auto lacks = [&](const Nets& nets, const std::string& name) {
+      const bool lacking = !name.empty() && !nets.knows(name);
+      if (lacking) missing_.push_back({names, nets.file(), name});
+      return lacking;
+    };
+    return lacks(a_, names.a) || lacks(b_, names.b) || lacks(b_, names.driven) || lacks(b_, names.released);
+  }
+  void leave_out(const Missing& missing) {
+    const std::string& output = missing.pair.output;
+    if (!output.empty() && outputs_.count(output) != 0) return;  // compared by another pair
+    if (!output.empty())
+      throw InputError(missing.file, 0,
+                       fmt::format("has no signal {0} for the chip's output {1}, expected one for each output, or "
+                                   "--without {1}",
+                                   missing.signal, output));
+    found_.left_out.push_back(missing.pair.a);
   }
   std::optional<Net> side_of(const std::string& name) {
     if (name.empty()) return std::nullopt;
@@ -97,6 +118,8 @@ class Matcher {
   const Nets &a_, &b_;
   Pairs found_;
   std::set<std::string> used_a_, used_b_;
+  std::vector<Missing> missing_;
+  std::set<std::string> outputs_;  ///< of the chip, compared
   std::set<std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>>>
       met_;  ///< aliases of a pair count as the pair
 };
@@ -105,7 +128,14 @@ class Matcher {
 
 Pairs match(const Nets& a, const Nets& b, const Options& options) {
   Matcher matcher(a, b);
-  return options.pairs.empty() ? matcher.by_name() : matcher.named(options.pairs);
+  std::vector<NamedPair> pairs = options.pins ? options.pins(a, b) : std::vector<NamedPair>();
+  for (NamedPair own : options.pairs) {
+    const auto same = std::find_if(pairs.begin(), pairs.end(), [&](const NamedPair& pin) { return pin.a == own.a; });
+    if (same != pairs.end()) own.output = same->output;
+    if (same != pairs.end()) pairs.erase(same);
+    pairs.push_back(std::move(own));
+  }
+  return pairs.empty() ? matcher.by_name() : matcher.named(pairs);
 }
 
 }  // namespace dsdpv1::tb::compare

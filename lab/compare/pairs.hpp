@@ -25,9 +25,13 @@ struct Pair {
 struct Pairs {
   std::vector<Pair> pairs;
   std::vector<std::string> only_a, only_b;  ///< names of signals that are not compared
+  std::vector<std::string> left_out;        ///< pairs that are not required, and that a side lacks
+  /// Signals that should have a counterpart, and have none: all, or those for which a pair was asked.
+  std::vector<std::string> alone;
 };
 
-/// Throws InputError when a named signal does not exist, its counterpart is of another width, or no pair is found.
+/// Throws InputError when a named signal does not exist, its counterpart is of another width, no pair is found, or none
+/// for an output of a chip.
 Pairs match(const Nets& a, const Nets& b, const Options& options);
 
 }  // namespace dsdpv1::tb::compare

@@ -53,6 +53,24 @@ std::string too_early_text(const Result& result) {
   return fmt::format("at {}, --to is {}", result.scale.text(result.to), result.scale.text(*result.wanted));
 }
 
+std::string b_ends_text(const Result& result) {
+  return fmt::format("at {}, A {}{}", result.scale.text(result.b.end), result.a.ended ? "at " : "beyond ",
+                     result.scale.text(result.a.end));
+}
+
+/// Findings beside the values.
+std::string remarks(const Result& result) {
+  std::string text;
+  if (!result.left_out.empty()) text += line("pins left out", names_text(result.left_out));
+  if (!result.alone.empty()) text += line("no counterpart", names_text(result.alone));
+  if (result.short_of_end()) text += line("ends too early", too_early_text(result));
+  if (result.b_ends_first) text += line("B ends too early", b_ends_text(result));
+  if (result.first && result.rounded)
+    text += line("B is rounded", "its times are multiples of " + result.scale.text(*result.rounded) +
+                                     ", which --tolerance can allow for");
+  return text;
+}
+
 std::string first_text(const Result& result) {
   const SignalResult& signal = result.signals[*result.first];
   const auto together = std::count_if(result.signals.begin(), result.signals.end(), [&](const SignalResult& other) {
@@ -115,7 +133,7 @@ std::string text(const Result& result) {
   text += line("compared", window(result));
   if (!result.only_a.empty()) text += line("not compared of A", names_text(result.only_a));
   if (!result.only_b.empty()) text += line("not compared of B", names_text(result.only_b));
-  if (result.short_of_end()) text += line("ends too early", too_early_text(result));
+  text += remarks(result);
   if (result.first) text += first_text(result);
   return text + table(result) + (result.equal() ? "EQUAL\n" : "DIFFERENT\n");
 }
@@ -143,7 +161,10 @@ std::string json(const Result& result) {
                                       {"first", first},
                                       {"signals", signals},
                                       {"only_a", result.only_a},
-                                      {"only_b", result.only_b}};
+                                      {"only_b", result.only_b},
+                                      {"left_out", result.left_out},
+                                      {"alone", result.alone},
+                                      {"b_ends_first", result.b_ends_first}};
   return all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -157,6 +178,10 @@ std::string junit(const Result& result) {
   if (result.first) cases[*result.first].output = first_text(result);
   if (result.wanted) cases.push_back({suite, "both reach --to", 0, {}, ""});
   if (result.short_of_end()) cases.back().failure = too_early_text(result);
+  if (result.strict) cases.push_back({suite, "each signal has a counterpart", 0, {}, ""});
+  if (!result.alone.empty()) cases.back().failure = names_text(result.alone);
+  if (result.strict) cases.push_back({suite, "B does not end before A", 0, {}, ""});
+  if (result.b_ends_first) cases.back().failure = b_ends_text(result);
   return tb::junit("dsdpv1-sim compare", cases);
 }
 

@@ -12,6 +12,7 @@ constexpr std::uint32_t kNone = UINT32_MAX;
 char inverse(char level) { return level == '0' ? '1' : level == '1' ? '0' : level; }
 
 std::string initial(const WaveSignal& signal) {
+  if (signal.kind == WaveKind::kEvent) return "0";
   return signal.kind == WaveKind::kBits ? std::string(signal.width, 'x') : std::string();
 }
 
@@ -32,6 +33,7 @@ std::vector<std::uint32_t> Side::places(const Net& net, Touched& list, std::uint
       place = static_cast<std::uint32_t>(values_.size());
       values_.push_back(initial(reader_->declarations().signals[signal]));
       users_.emplace_back();
+      moments_.push_back(0);
     }
     users_[place].push_back({&list, which});
     places.push_back(place);
@@ -72,14 +74,30 @@ Time Side::at(std::uint64_t time) const {
 }
 
 void Side::take() {
-  if (event_.kind == WaveEvent::Kind::kChange) {
-    const std::uint32_t place = place_[event_.signal];
-    values_[place].assign(event_.value);
-    for (const User& user : users_[place]) user.list->add(user.which);
-  } else {
-    off_ = event_.kind == WaveEvent::Kind::kOff;
+  switch (event_.kind) {
+    case WaveEvent::Kind::kChange: set(place_[event_.signal], event_.value); break;
+    case WaveEvent::Kind::kTrigger: {
+      const std::uint32_t place = place_[event_.signal];
+      set(place, std::to_string(++moments_[place]));
+      break;
+    }
+    case WaveEvent::Kind::kOff: off_ = true; break;
+    case WaveEvent::Kind::kOn: off_ = false; break;
   }
   fetch();
+}
+
+void Side::set(std::uint32_t place, std::string_view value) {
+  values_[place].assign(value);
+  for (const User& user : users_[place]) user.list->add(user.which);
+}
+
+void Side::restart_events() {
+  for (std::size_t signal = 0; signal < place_.size(); ++signal)
+    if (place_[signal] != kNone && reader_->declarations().signals[signal].kind == WaveKind::kEvent) {
+      moments_[place_[signal]] = 0;
+      set(place_[signal], "0");
+    }
 }
 
 void Side::put_together(const std::vector<std::uint32_t>& pieces) {

@@ -68,6 +68,8 @@ class Side {
   void advance(Time to) {
     while (have_ && next_ <= to) take();
   }
+  /// Counts the moments of events from here on: their values are the counts.
+  void restart_events();
   /// Until the next call.
   std::string_view value(const Probe& probe);
   /// True when the simulator records nothing ($dumpoff).
@@ -84,6 +86,7 @@ class Side {
   };
   std::vector<std::uint32_t> places(const Net& net, Touched& list, std::uint32_t which);
   void take();
+  void set(std::uint32_t place, std::string_view value);
   void fetch();
   Time at(std::uint64_t time) const;
   void put_together(const std::vector<std::uint32_t>& pieces);
@@ -94,6 +97,7 @@ class Side {
   std::vector<std::uint32_t> place_;  ///< by signal of the file; kNone: not used
   std::vector<std::string> values_;   ///< by place
   std::vector<std::vector<User>> users_;
+  std::vector<std::uint64_t> moments_;  ///< of events
   std::string scratch_;
   Scale scale_{-15};
   Time shift_ = 0, next_ = 0;

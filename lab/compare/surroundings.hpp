@@ -26,6 +26,8 @@ class Surroundings {
   virtual std::vector<Line> lines(bus::Tick now) const = 0;
 };
 
-using MakeSurroundings = std::function<std::unique_ptr<Surroundings>()>;
+class Nets;
+/// For the signals of A.
+using MakeSurroundings = std::function<std::unique_ptr<Surroundings>(const Nets& a)>;
 
 }  // namespace dsdpv1::tb::compare

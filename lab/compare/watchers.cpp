@@ -20,13 +20,13 @@ std::string plain(const std::string& leaf) {
 Watchers::Watchers(Side& side, const MakeSurroundings& make) : side_(side), touched_(kMostPins) {
   if (!make) return;
   std::unordered_map<std::string, std::size_t> numbers;
-  const std::unique_ptr<Surroundings> example = make();
+  const std::unique_ptr<Surroundings> example = make(side.nets());
   for (std::size_t i = 0; i < example->pins().size(); ++i) numbers.emplace(plain(example->pins()[i]), i);
   for (const Net& net : side.nets().all()) {
     const auto number = numbers.find(plain(net.leaf));
     if (number == numbers.end() || net.kind != WaveKind::kBits || pins_.size() == kMostPins) continue;
     std::unique_ptr<Surroundings>& of = by_scope_[net.scope];
-    if (!of) of = make();
+    if (!of) of = make(side.nets());
     const auto which = static_cast<std::uint32_t>(pins_.size());
     pins_.push_back({of.get(), number->second, side.watch({net}, touched_, which)});
   }

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#ifdef DSDPV1_WITH_FST
+#include <zlib.h>
+#endif
 
 #include <algorithm>
 #include <filesystem>
@@ -43,7 +46,8 @@ class ReadWaves : public testing::Test {
       if (each.range) line += "[" + std::to_string(each.range->first) + ":" + std::to_string(each.range->second) + "]";
       line += signal.kind == tb::WaveKind::kBits   ? " " + std::to_string(signal.width)
               : signal.kind == tb::WaveKind::kReal ? " real"
-                                                   : " text";
+              : signal.kind == tb::WaveKind::kText ? " text"
+                                                   : " event";
       lines.push_back(line + " #" + std::to_string(each.signal));
     }
     return lines;
@@ -54,6 +58,7 @@ class ReadWaves : public testing::Test {
       const std::string at = std::to_string(event.time) + " ";
       if (event.kind == tb::WaveEvent::Kind::kOff) lines.push_back(at + "off");
       if (event.kind == tb::WaveEvent::Kind::kOn) lines.push_back(at + "on");
+      if (event.kind == tb::WaveEvent::Kind::kTrigger) lines.push_back(at + std::to_string(event.signal) + "!");
       if (event.kind == tb::WaveEvent::Kind::kChange)
         lines.push_back(at + std::to_string(event.signal) + "=" + std::string(event.value));
     }
@@ -89,7 +94,7 @@ TEST_F(ReadWaves, IcarusNamesAliasesAndEscapedIdentifiers) {
            "$var reg 1 % \\esc[3] $end\n$var reg 4 ' up [0:3] $end\n$var integer 32 * n [31:0] $end\n"
            "$scope module u $end\n$var wire 1 # q $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"));
   EXPECT_EQ(reader->declarations().exponent, -10);
-  EXPECT_THAT(variables(*reader), ElementsAre("i.u|mem[0][3:0] 4 #0", "i|q 1 #2", "i|a.b 1 #3", "i|esc[3] 1 #4",
+  EXPECT_THAT(variables(*reader), ElementsAre("i.u|mem[0][3:0] 4 #0", "i|e event #1", "i|q 1 #2", "i|a.b 1 #3", "i|esc[3] 1 #4",
                                               "i|up[0:3] 4 #5", "i|n[31:0] 32 #6", "i.u|q 1 #2"));
 }
 
@@ -153,6 +158,48 @@ TEST_F(ReadWaves, ChangesAcrossTheEndOfABufferAreWhole) {
   EXPECT_EQ(seen, 2 * changes);
 }
 
+TEST_F(ReadWaves, ATextWithoutANewlineAtItsEndIsWholeIfItsLastWordIs) {
+  for (const char* last : {"#12", "1!", "b10 #", "$dumpoff", "x!\n$end"}) {
+    file(kHead + "#5\n0!\nb0 #\n" + last);
+    EXPECT_EQ(refusal("w.vcd"), "none") << last;
+  }
+  const std::string many =
+      "$var wire 1 ! a $end $var wire 1 !! b $end $var wire 1 abcd c $end $var wire 1 abc d $end $enddefinitions "
+      "$end\n#0\n0!\n";
+  for (const char* cut : {"1!", "1abc", "b1 !", "b1", "#", "1", "$dumpo", "$comment"})
+    EXPECT_THAT(refusal_of(many + cut), HasSubstr("ends within")) << cut << ": may be cut";
+  EXPECT_EQ(refusal_of(many + "1!!"), "none");
+  EXPECT_EQ(refusal_of(many + "1abcd"), "none");
+}
+
+TEST_F(ReadWaves, EscapesInTextsAreTheirCharacters) {
+  const auto reader = tb::read_wave(file(
+      "$var string 1 s s $end $enddefinitions $end\n#0\nsa\\040b\\x20\\'\\\"\\? s\ns\\\\040\\n\\7 s\ns\\q\\x\\ s\n"));
+  EXPECT_THAT(events(*reader), ElementsAre("0 0=a b '\"?", "0 0=\\040\n\a", "0 0=\\q\\x\\"));
+  const auto wave = tb::open_wave(path("own.vcd"));
+  const auto words = wave->words("w");
+  wave->say(0, words, "a\\040b");
+  wave->finish(12'000);
+  EXPECT_THAT(events(*tb::read_wave(path("own.vcd"))), ElementsAre("0 0=a\\040b")) << "as it was written";
+}
+
+TEST_F(ReadWaves, EventsAreMomentsWithoutAValue) {
+  const auto reader =
+      tb::read_wave(file("$scope module t $end $var event 1 e done $end $upscope $end $enddefinitions "
+                         "$end\n#0\nxe\n#5\n1e\n#9\n1e\n"));
+  EXPECT_THAT(variables(*reader), ElementsAre("t|done event #0"));
+  EXPECT_THAT(events(*reader), ElementsAre("5 0!", "9 0!"));
+}
+
+TEST_F(ReadWaves, WavesOfOtherFormsAreNamed) {
+  EXPECT_THAT(refusal_of("GHDLwave\n\x10\x01"),
+              HasSubstr("w: is GHW of GHDL, expected VCD or FST, as ghdl -r TOP --fst"));
+  EXPECT_THAT(refusal_of(std::string("\x13\x80\x00\x01", 4)), HasSubstr("w: is LXT2, expected VCD or FST: lxt2vcd"));
+  EXPECT_THAT(refusal_of(std::string("\x01\x38\x00\x04", 4)), HasSubstr("w: is LXT, expected VCD or FST"));
+  EXPECT_THAT(refusal_of(std::string("VZ\x00\x01", 4)), HasSubstr("w: is VZT, expected VCD or FST: vzt2vcd"));
+  EXPECT_THAT(refusal_of("PK\x03\x04"), HasSubstr("w: is an archive, perhaps a session of sigrok"));
+}
+
 TEST_F(ReadWaves, DamagedVcdIsRefusedInOneLine) {
   EXPECT_THAT(refusal_of(""), HasSubstr("w: is empty, expected a wave"));
   EXPECT_THAT(refusal("none"), HasSubstr("none: no such file, expected a wave"));
@@ -164,7 +211,7 @@ TEST_F(ReadWaves, DamagedVcdIsRefusedInOneLine) {
               HasSubstr("w:1: "));
   EXPECT_THAT(refusal_of("$date\n" + std::string(3, '\0')), HasSubstr("w:2: has a zero byte here"));
   EXPECT_THAT(refusal_of("$date today\n$end\n"), HasSubstr("w:3: ends within its declarations"));
-  EXPECT_THAT(refusal_of(kHead + "#0\n1!\n#12"), HasSubstr("w:4: ends within a line"));
+  EXPECT_THAT(refusal_of(kHead + "#20\n1!\n#12"), HasSubstr("w:4: ends within a line"));
   EXPECT_THAT(refusal_of(kHead + "#0\nb10"), HasSubstr("w:3: ends within a line"));
   EXPECT_THAT(refusal_of(kHead + "#5\n#4\n"), HasSubstr("w:3: time 4 comes after 5"));
   EXPECT_THAT(refusal_of(kHead + "#99999999999999999999\n"), HasSubstr("is no time"));
@@ -175,12 +222,48 @@ TEST_F(ReadWaves, DamagedVcdIsRefusedInOneLine) {
   EXPECT_THAT(refusal_of("$timescale 3 ns $end\n"), HasSubstr("$timescale is 3 ns, expected 1, 10 or 100 fs"));
   EXPECT_THAT(refusal_of("$var wire 99999999 ! a $end "), HasSubstr("$var has the size 99999999, expected 0 to"));
   EXPECT_THAT(refusal_of("$var port 1 ! a $end "), HasSubstr("is an extended VCD"));
+  EXPECT_THAT(refusal_of("$var port [7:0] <0 a $end "), HasSubstr("is an extended VCD"));
   EXPECT_THAT(refusal_of("$upscope $end "), HasSubstr("$upscope without a $scope"));
   EXPECT_THAT(refusal_of(std::string(8U << 20U, 'a') + std::string(1U << 20U, 'a')),
               HasSubstr("longer than any right one"));
 }
 
 #ifdef DSDPV1_WITH_FST
+/// As gzip does it.
+std::string packed(const std::string& text) {
+  z_stream stream{};
+  ::deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+  std::string gz(text.size() + 1000, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(gz.data());
+  stream.avail_out = static_cast<uInt>(gz.size());
+  ::deflate(&stream, Z_FINISH);
+  gz.resize(stream.total_out);
+  ::deflateEnd(&stream);
+  return gz;
+}
+
+TEST_F(ReadWaves, AGzIsWhatItHolds) {
+  std::string text = kHead;
+  for (int i = 0; i < 400'000; ++i) text += "#" + std::to_string(i) + "\nb" + std::to_string(i % 2) + " #\n";
+  const std::string gz = packed(text);
+  std::size_t seen = 0;
+  const auto reader = tb::read_wave(file(gz, "w.vcd.gz"));
+  for (tb::WaveEvent event; reader->next(event);) ASSERT_EQ(event.time, seen++);
+  EXPECT_EQ(seen, 400'000U);
+  EXPECT_EQ(reader->share(), 1.0);
+  const std::string half = text.substr(0, text.size() / 2), rest = text.substr(text.size() / 2);
+  file(packed(half) + packed(rest) + std::string(512, '\0'), "w");
+  EXPECT_EQ(refusal("w"), "none") << "several in one file, and padding";
+  EXPECT_THAT(refusal_of(gz.substr(0, gz.size() / 2)), HasSubstr("w: is a gz that was cut"));
+  EXPECT_THAT(refusal_of(gz.substr(0, gz.size() - 1)), HasSubstr("w: is a gz that was cut"));
+  std::string damaged = gz;
+  damaged[gz.size() / 2] = static_cast<char>(damaged[gz.size() / 2] ^ 0x55);
+  EXPECT_NE(refusal_of(damaged), "none");
+  EXPECT_THAT(refusal_of(packed(std::string(400, '\0'))), HasSubstr("w: is an FST within a gz"));
+}
+
 void write_example(const std::string& path) {
   const auto wave = tb::open_wave(path);
   wave->open_scope("demo");

@@ -45,6 +45,7 @@ TEST_F(BadWaves, AreRefusedInOneLine) {
   EXPECT_THAT(refusal_of(good + "#5\n"), HasSubstr("bad:11: time 5 comes after 20"));
   EXPECT_THAT(refusal_of(std::string(100'000, '\0')), HasSubstr("bad: is no wave"));
   EXPECT_THAT(refusal_of(std::string(100'000, '\xff')), HasSubstr("bad"));
+  EXPECT_THAT(refusal_of("GHDLwave\n"), HasSubstr("bad: is GHW of GHDL"));
   EXPECT_THAT(refusal_of("$var wire 4000000000 ! a $end\n"), HasSubstr("has the size 4000000000"));
 }
 
@@ -61,6 +62,8 @@ TEST_F(BadWaves, AndSoAreWrongOptions) {
   EXPECT_THAT(refusal("good.vcd good.vcd --wave both.png"), HasSubstr("expected .vcd or .fst"));
   EXPECT_THAT(refusal("good.vcd good.vcd --json good.vcd"), HasSubstr("--json would replace"));
   EXPECT_THAT(refusal("good.vcd good.vcd --from 1ms"), HasSubstr("has nothing to compare from 1000000 ns on"));
+  EXPECT_THAT(refusal("good.vcd good.vcd --from 5ns --to 5ns --wave out.vcd"), HasSubstr("has a single instant"));
+  EXPECT_THAT(refusal("good.vcd good.vcd --without a"), HasSubstr("--without is for --pins, expected both"));
 }
 
 }  // namespace

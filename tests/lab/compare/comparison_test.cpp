@@ -80,14 +80,90 @@ TEST_F(Compare, TheFirstOfSeveralIsTheOneThatBeganFirst) {
 
 TEST_F(Compare, DifferentTimeScalesAreOneTime) {
   const std::string a = vcd(kTwo, "#0\n0!\n#10400\n1!\n#30000\n", "1ps");
-  EXPECT_EQ(first(compare(a, vcd(kTwo, "#0\n0!\n#10\n1!\n#30\n"))), "equal") << "10.4 ns, dumped as 10";
+  const std::string rounded = vcd(kTwo, "#0\n0!\n#10\n1!\n#30\n");
+  const Result result = compare(a, rounded);
+  EXPECT_EQ(first(result), "t.a@10000: 0 1") << "10.4 ns, dumped as 10";
+  EXPECT_EQ(result.tolerance, 1);
+  EXPECT_EQ(result.rounded, 1000);
+  EXPECT_EQ(first(compare(rounded, a)), "equal") << "A's unit is what its times say";
+  EXPECT_EQ(first(compare(vcd(kTwo, "#0\n0!\n#12\n1!\n#30\n"), a)), "t.a@10400: 0 1");
+  options_.tolerance = kNs;
+  EXPECT_EQ(first(compare(a, rounded)), "equal");
   EXPECT_EQ(first(compare(a, vcd(kTwo, "#0\n0!\n#12\n1!\n#30\n"))), "t.a@10400: 1 0");
   options_.tolerance = 0;
-  EXPECT_EQ(first(compare(a, vcd(kTwo, "#0\n0!\n#10\n1!\n#30\n"))), "t.a@10000: 0 1");
+  EXPECT_EQ(first(compare(rounded, a)), "t.a@10000: 1 0");
   EXPECT_EQ(first(compare(vcd(kTwo, "#0\n0!\n#5\n1!\n#6\n", "100 s"), vcd(kTwo, "#0\n0!\n#500\n1!\n#600\n", "1 s"))),
             "equal");
   EXPECT_THAT(refusal(vcd(kTwo, "#0\n0!\n#99999999\n1!\n", "100s"), vcd(kTwo, "#0\n0!\n#1\n", "1fs")),
               HasSubstr("has the time 99999999, which is beyond what can be compared"));
+}
+
+TEST_F(Compare, ACoarseUnitOfBMakesNothingEqual) {
+  const std::string a = vcd(kTwo, "#0\n0!\n#1000000000000\n1!\n#2000000000000\n0!\n#3000000000000\n", "1ps");
+  EXPECT_EQ(first(compare(a, vcd(kTwo, "#0\n1!\n#1\n0!\n#2\n1!\n#3\n", "1 s"))), "t.a@0: 0 1");
+  EXPECT_EQ(first(compare(a, vcd(kTwo, "#0\n0!\n#1\n1!\n#2\n0!\n#3\n", "1 s"))), "equal");
+}
+
+TEST_F(Compare, WhatCannotDifferIsRefused) {
+  const std::string still = vcd(kTwo, "#0\n0!\nb1 #\n"), a = vcd(kTwo, "#0\n0!\n#10\n1!\n#40\n");
+  EXPECT_THAT(refusal(still, still), HasSubstr("a.vcd: has a single instant that was compared with"));
+  EXPECT_EQ(first(compare(still, vcd(kTwo, "#0\n1!\nb1 #\n"))), "t.a@0: 0 1") << "a difference is one";
+  EXPECT_THAT(refusal(vcd(kTwo, "#0\n0!\n#1\n", "1 s"), vcd(kTwo, "#0\n0!\n#900\n1!\n#1000\n", "1 ms")),
+              HasSubstr("was compared with"))
+      << "A's unit is as long as all of it";
+  options_.tolerance = 40 * kNs;
+  EXPECT_THAT(refusal(a, a), HasSubstr("from 0 ns to 40 ns, which is not longer than the tolerance of 40 ns"));
+  options_.tolerance = 39 * kNs;
+  EXPECT_EQ(first(compare(a, a)), "equal");
+}
+
+TEST_F(Compare, NothingComparedIsRefused) {
+  const char* const clocked = "wire 1 ! a\nwire 1 c clk";
+  const std::string a = vcd(clocked, "#0\n0!\n0c\n#10\n1!\n#20\n1c\n#40\n"),
+                    twice = vcd(clocked, "#0\n0!\n0c\n#10\n1!\n#20\n1c\n#22\n0c\n#30\n1c\n#40\n");
+  options_.masks = {tb::compare::parse_mask("clk!=x")};
+  EXPECT_THAT(refusal(a, a), HasSubstr("has no value that was compared with"));
+  options_.masks.clear();
+  options_.clock = tb::compare::parse_clock("a:fall");
+  EXPECT_THAT(refusal(a, a), HasSubstr("has no value that was compared with"));
+  options_.clock = tb::compare::parse_clock("clk");
+  EXPECT_THAT(refusal(a, a), HasSubstr("has a single instant that was compared with"));
+  EXPECT_EQ(first(compare(twice, twice)), "equal");
+}
+
+TEST_F(Compare, EventsAreComparedByTheirMoments) {
+  const char* const two = "event 1 e done\nwire 1 ! a";
+  const std::string a = vcd(two, "#0\n1e\n0!\n#10\n1e\n#20\n1e\n#30\n1e\n#90\n");
+  const std::string later = vcd(two, "#0\n0!\n#10\n1e\n#22\n1e\n#30\n1e\n#90\n");
+  const std::string fewer = vcd(two, "#0\n0!\n#10\n1e\n#30\n1e\n#90\n");
+  EXPECT_EQ(first(compare(a, vcd(two, "#0\n0!\n#10\n1e\n#20\n1e\n#30\n1e\n#90\n"))), "equal")
+      << "simulators dump each event where the wave begins";
+  EXPECT_EQ(first(compare(a, later)), "t.done@20: 2 1");
+  EXPECT_EQ(first(compare(a, fewer)), "t.done@20: 2 1");
+  options_.tolerance = 2 * kNs;
+  EXPECT_EQ(first(compare(a, later)), "equal");
+  EXPECT_EQ(first(compare(a, fewer)), "t.done@20: 2 1");
+  options_.from = 25 * kNs;
+  EXPECT_EQ(first(compare(a, fewer)), "equal") << "counted from there on";
+  EXPECT_THAT(compare(a, vcd("wire 1 e done\nwire 1 ! a", "#0\n0!\n#90\n")).only_a, testing::ElementsAre("t.done"));
+}
+
+TEST_F(Compare, StrictlyASignalAloneAndAnEarlyEndAreDifferences) {
+  const std::string a = vcd(kTwo, "#0\n0!\nb1 #\n#10\n1!\n#90\n"), only_a = vcd("wire 1 ! a", "#0\n0!\n#10\n1!\n#90\n"),
+                    cut = vcd(kTwo, "#0\n0!\nb1 #\n#10\n1!\n#80\n");
+  EXPECT_TRUE(compare(a, only_a).equal());
+  options_.strict = true;
+  EXPECT_TRUE(compare(a, a).equal());
+  EXPECT_THAT(compare(a, only_a).alone, testing::ElementsAre("t.d"));
+  EXPECT_FALSE(compare(a, only_a).equal());
+  EXPECT_FALSE(compare(only_a, a).equal());
+  EXPECT_FALSE(compare(a, cut).equal());
+  EXPECT_TRUE(compare(cut, a).equal()) << "B may go on";
+  options_.tolerance = 10 * kNs;
+  EXPECT_TRUE(compare(a, cut).equal());
+  options_.tolerance.reset();
+  options_.to = 50 * kNs;
+  EXPECT_TRUE(compare(a, cut).equal()) << "both reach --to";
 }
 
 TEST_F(Compare, UnknownBitsFollowTheRule) {
@@ -125,6 +201,8 @@ TEST_F(Compare, RealsAreNumbersAndTextsMayHaveBlanksAsUnderlines) {
             "equal");
   EXPECT_EQ(first(compare(vcd(kinds, "#0\nr1.5 !\n#9\n"), vcd(kinds, "#0\nr1.25 !\n#9\n"))), "t.r@0: 1.5 1.25");
   EXPECT_EQ(first(compare(vcd(kinds, "#0\nsIDLE #\n#9\n"), vcd(kinds, "#0\nsRUN #\n#9\n"))), "t.s@0: IDLE RUN");
+  EXPECT_EQ(first(compare(vcd(kinds, "#0\nsit's_so #\n#9\n"), vcd(kinds, "#0\nsit\\'s\\040\\x73o #\n#9\n"))), "equal");
+  EXPECT_EQ(first(compare(vcd(kinds, "#0\nsso #\n#9\n"), vcd(kinds, "#0\nss\\x70 #\n#9\n"))), "t.s@0: so sp");
 }
 
 TEST_F(Compare, OnlyTheWindowCounts) {

@@ -3,7 +3,9 @@
 
     simulators_test.py SIM
 """
+import gzip
 import itertools
+import json
 import os
 import pathlib
 import shutil
@@ -51,15 +53,45 @@ module odd;
   reg [7:0] bus;
   real level;
   integer number;
+  event done;
   initial begin
     $dumpvars(0, odd);
     \\a.b = 1'bz; \\esc[3] = 0; bus = 8'bx; level = 1.5; number = -1;
-    #10 bus = 8'bzzzz1111; level = 1e-30;
+    #10 bus = 8'bzzzz1111; level = 1e-30; -> done;
+    #3 -> done;
     #10 $dumpoff;
     #1 bus = 8'h55;
     #4 $dumpon;
     #10 number = 7; \\a.b = 1'b1;
     #10 $finish;
+  end
+endmodule
+"""
+# Never ends by itself; writes what it has from time to time.
+ENDLESS = """
+`timescale 1ns/100ps
+module half(input wire in, output wire out);
+  assign out = ~in;
+endmodule
+module endless;
+  reg clk;
+  reg [7:0] count;
+  real level;
+  wire out;
+  event done;
+  half u_half(.in(clk), .out(out));
+  initial begin
+    clk = 0; count = 0; level = 0;
+    $dumpfile("WAVE");
+    $dumpvars(0, endless);
+  end
+  always #5 clk = ~clk;
+  always @(posedge clk) begin
+    count <= count + 1;
+    level = level + 0.5;
+    -> done;
+    if (count == 255) $dumpflush;
+    if (level >= LAST) $finish;
   end
 endmodule
 """
@@ -113,9 +145,9 @@ int main(int argc, char** argv) {
 ENVIRONMENT = {**os.environ, **({"OBJCACHE": "ccache"} if shutil.which("ccache") else {})}
 
 
-def run(folder, *command):
+def run(folder, *command, status=0):
     done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, check=False, env=ENVIRONMENT)
-    if done.returncode != 0:
+    if done.returncode != status:
         sys.exit(f"{command}\n{done.stdout}{done.stderr}")
     return done.stdout
 
@@ -149,6 +181,34 @@ def ghdl(folder):
     return ["ghdl.vcd", "ghdl.fst"]
 
 
+def endless(folder, name, last):
+    (folder / f"{name}.v").write_text(ENDLESS.replace("WAVE", name).replace("LAST", last), encoding="ascii")
+    run(folder, "iverilog", "-g2012", "-o", f"{name}.vvp", f"{name}.v")
+    return ["vvp", f"{name}.vvp", *(["-fst"] if name.endswith(".fst") else [])]
+
+
+def killed(folder, name):
+    """Once the file is long enough."""
+    with subprocess.Popen(endless(folder, name, "1e9"), cwd=folder, stdout=subprocess.DEVNULL) as vvp:
+        while vvp.poll() is None and (not (folder / name).exists() or (folder / name).stat().st_size < 300_000):
+            pass
+        vvp.kill()
+
+
+def recovered(sim, folder):
+    """What a killed simulator has left is equal to the wave of one that was not."""
+    run(folder, *endless(folder, "whole.vcd", "50000"))
+    for name in ("killed.vcd", "killed.fst"):
+        killed(folder, name)
+        good = f"good{name[-4:]}"
+        run(folder, sim, "recover", name, "--output", good)
+        said = run(folder, sim, "compare", "whole.vcd", good, "--json", "result.json")
+        result = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+        each = {signal["signal"].rpartition(".")[2]: signal["compared"] for signal in result["signals"]}
+        if set(each) < {"clk", "count", "level", "out", "done"} or min(each.values()) < 1000:
+            sys.exit(f"{name}: little was recovered\n{said}")
+
+
 def compared(sim, folder, a, b):
     said = run(folder, sim, "compare", a, b, "--json", "result.json")
     missing = [name for name in ("clk", "count", "up", "wide", "parity") if f".{name} " not in said]
@@ -163,14 +223,23 @@ def main():
         waves = icarus(folder) + verilator(folder) + ghdl(folder)
         for a, b in itertools.combinations(waves, 2):
             compared(sim, folder, a, b)
+        (folder / "packed.vcd.gz").write_bytes(gzip.compress((folder / waves[0]).read_bytes()))
+        compared(sim, folder, "packed.vcd.gz", waves[1])
+        recovered(sim, folder)
         (folder / "odd.v").write_text(ICARUS_ALONE, encoding="ascii")
         run(folder, "iverilog", "-g2012", "-o", "odd.vvp", "odd.v")
         run(folder, "vvp", "odd.vvp")
         run(folder, "vvp", "odd.vvp", "-fst")
         said = run(folder, sim, "compare", "dump.vcd", "dump.fst")
-        for name in (r"odd.a.b", r"odd.esc[3]", "odd.bus", "odd.level", "odd.number"):
+        for name in (r"odd.a.b", r"odd.esc[3]", "odd.bus", "odd.level", "odd.number", "odd.done"):
             if f" {name} " not in said:
                 sys.exit(f"{name} was not compared\n{said}")
+        (folder / "missed.v").write_text(ICARUS_ALONE.replace("#3 -> done", "#3"), encoding="ascii")
+        run(folder, "iverilog", "-g2012", "-o", "missed.vvp", "missed.v")
+        run(folder, "vvp", "missed.vvp")
+        said = run(folder, sim, "compare", "dump.fst", "dump.vcd", status=1)
+        if "odd.done: A 2, B 1" not in said:
+            sys.exit(f"the missing moment of an event was not found\n{said}")
 
 
 main()
