@@ -22,7 +22,10 @@ if missing := [name for name in ("cocotb", "numpy", "dsdpv1", "cocotbext") if im
     print(f"run.py: {sys.executable} has no {', '.join(missing)}, expected a Python with dsdpv1[cocotb] (docs/cocotb.md)", file=sys.stderr)
     sys.exit(2)
 
-from cocotb.runner import get_results, get_runner
+try:
+    from cocotb_tools.runner import get_results, get_runner
+except ImportError:  # cocotb 1
+    from cocotb.runner import get_results, get_runner
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -47,7 +50,7 @@ def arguments():
 def run(given, test):
     """Returns the number of failed tests."""
     runner, build = get_runner(given.simulator), given.build.resolve() / ("quick" if TESTS[test] else "as_the_chip")
-    runner.build(verilog_sources=[RTL / name for name in (RTL / "dsdpv1/files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
+    runner.build(sources=[RTL / name for name in (RTL / "dsdpv1/files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
                  includes=[RTL, ROOT / "registers"], defines={"SINGLE_FAULTS": 1}, parameters=TESTS[test], timescale=("1ns", "1ps"), build_dir=build,
                  build_args=SIMULATORS[given.simulator])
     environment = {"MASTERS": str(ROOT / "examples" / "masters.yaml"), "FAULT": str(given.fault), "SCENARIO": str(given.scenario.resolve()), "END_US": str(given.end)}

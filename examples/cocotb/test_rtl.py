@@ -19,7 +19,7 @@ QUICK = {"search_window_ms": 1, "ready_cycles": 256}
 
 async def begin(dut, parameters=None):
     """Idle pins, clock, scoreboard."""
-    dut.fault_i.setimmediatevalue(int(os.environ.get("FAULT", "0")))
+    dut.fault_i.value = int(os.environ.get("FAULT", "0"))
     pins = ChipPins(dut)
     await pins.power_on()
     Clock(dut.clk_i).start()

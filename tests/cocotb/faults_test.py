@@ -1,6 +1,6 @@
-"""A planted defect of the reference RTL: the scoreboard of cocotb names the cycle, the pin and the levels that `dsdpv1-sim run --engine lockstep` does.
+"""Planted defects of the reference RTL: the scoreboard of cocotb names the cycle, the pin and the levels that `dsdpv1-sim run --engine lockstep` does.
 
-    faults_test.py SIM FOLDER SIMULATOR SCENARIO FAULT END_US
+    faults_test.py SIM FOLDER SIMULATOR SCENARIO FAULT,FAULT... END_US
 """
 import pathlib
 import re
@@ -16,23 +16,28 @@ def output(*command):
     return done.returncode, done.stdout + done.stderr
 
 
-def main(sim, folder, simulator, name, fault, end):  # pylint: disable=too-many-arguments,too-many-positional-arguments
-    folder.mkdir(parents=True, exist_ok=True)
-    scenario = ROOT / "scenarios" / f"{name}.yaml"
-    difference = folder / f"difference_{simulator}.vcd"
-    _, text = output(sim, "run", scenario, "--engine", "lockstep", "--fault", fault, "--no-progress", "--difference", difference)
+def expected_of(sim, folder, scenario, fault):
+    """The difference that lockstep finds."""
+    _, text = output(sim, "run", scenario, "--engine", "lockstep", "--fault", fault, "--no-progress", "--difference", folder / f"difference_{fault}.vcd")
     expected = DIFFERENCE.search(text)
     assert expected, text
+    return expected
 
+
+def main(sim, folder, simulator, name, faults, end):  # pylint: disable=too-many-arguments,too-many-positional-arguments
+    folder.mkdir(parents=True, exist_ok=True)
+    scenario = ROOT / "scenarios" / f"{name}.yaml"
     play = (sys.executable, "-B", ROOT / "examples" / "cocotb" / "run.py", "--simulator", simulator, "--build", folder / simulator, "--scenario", scenario, "--end",
             end, "--test", "the_pins_of_a_scenario_are_replayed")
-    code, text = output(*play, "--fault", fault)
-    found = DIFFERENCE.search(text)
-    assert code == 1 and found, text
-    assert found.groups() == expected.groups(), f"{found.group(0)}\nlockstep: {expected.group(0)}"
+    for fault in faults.split(","):
+        expected = expected_of(sim, folder, scenario, fault)
+        code, text = output(*play, "--fault", fault)
+        found = DIFFERENCE.search(text)
+        assert code == 1 and found, text
+        assert found.groups() == expected.groups(), f"{found.group(0)}\nlockstep: {expected.group(0)}"
+        print(f"{simulator}, fault {fault}:", " ".join(found.group(0).split()))
     code, text = output(*play)
     assert code == 0, text
-    print(f"{simulator}, fault {fault}:", " ".join(found.group(0).split()))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,10 @@
 import pathlib
 import sys
 
-from cocotb.runner import get_results, get_runner
+try:
+    from cocotb_tools.runner import get_results, get_runner
+except ImportError:  # cocotb 1
+    from cocotb.runner import get_results, get_runner
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -14,7 +17,7 @@ def run(folder, precision="1ps", top="wires", module="test_parts", **options):
     """(tests, failures)."""
     folder.mkdir(parents=True, exist_ok=True)
     runner = get_runner("icarus")
-    runner.build(verilog_sources=[HERE / "wires.sv"], hdl_toplevel=top, timescale=("1ns", precision), build_dir=folder, always=True,
+    runner.build(sources=[HERE / "wires.sv"], hdl_toplevel=top, timescale=("1ns", precision), build_dir=folder, always=True,
                  build_args=["-g2012"])
     return get_results(runner.test(hdl_toplevel=top, test_module=module, test_dir=folder, build_dir=folder,
                                    results_xml=str(folder / "results.xml"), **options))

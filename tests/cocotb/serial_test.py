@@ -5,7 +5,10 @@
 import pathlib
 import sys
 
-from cocotb.runner import get_results, get_runner
+try:
+    from cocotb_tools.runner import get_results, get_runner
+except ImportError:  # cocotb 1
+    from cocotb.runner import get_results, get_runner
 
 HERE = pathlib.Path(__file__).resolve().parent
 RTL = HERE.parents[1] / "rtl_ref"
@@ -16,7 +19,7 @@ TESTS = {"spi_answers_a_read_telegram": 0, "uart_answers_a_read_telegram": 0, "a
 def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
     runner = get_runner("icarus")
-    runner.build(verilog_sources=[RTL / name for name in (RTL / "dsdpv1_rsu/files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1_rsu",
+    runner.build(sources=[RTL / name for name in (RTL / "dsdpv1_rsu/files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1_rsu",
                  includes=[RTL, RTL.parent / "registers"], defines={"SINGLE_FAULTS": 1}, parameters={"READY_CYCLES": 256}, timescale=("1ns", "1ps"),
                  build_dir=folder, always=True, build_args=["-g2012"])
     results = {name: get_results(runner.test(hdl_toplevel="dsdpv1_rsu", test_module="test_serial", testcase=name, test_dir=folder, build_dir=folder,

@@ -16,7 +16,7 @@ SCK = 120 * NS
 
 async def power_on(dut, mode, checks="fail"):
     """After the start-up, with the scoreboard and the checks."""
-    dut.fault_i.setimmediatevalue(int(os.environ["FAULT"]))
+    dut.fault_i.value = int(os.environ["FAULT"])
     pins = ChipPins(dut, kind="dsdpv1_rsu")
     await pins.power_on()
     for strap, level in (("MODE", mode), ("ADR", 1), ("UBR", 7)):

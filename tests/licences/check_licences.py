@@ -17,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake"))
 import ninja_build  # noqa: E402
 from licence_table import PAGE, label_of, rows_of  # noqa: E402
 
-LISTS = ("packages.txt", "requirements.txt", "requirements-test.txt", "requirements-lint.txt", "requirements-docs.txt")
+LISTS = ("packages.txt", "requirements.txt", "requirements-test.txt", "requirements-lint.txt", "requirements-docs.txt", "requirements-cocotb.txt")
 SEEN = ("linked", "compiled in")  # uses that the build shows; others are only said: embedded, loaded, run
 STRICT = "GPL-2.0-only"
 # Licences allowed in one program with GPL-2.0-only: https://www.gnu.org/licenses/license-list.html, and docs/licences.md on Artistic-2.0 and GCC's.

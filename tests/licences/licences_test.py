@@ -87,7 +87,7 @@ class Lists(unittest.TestCase):
 
     def test_a_row_without_a_package(self):
         listed = {name: where for name, where in self.LISTED.items() if name != "helper"}
-        self.expect(listed, "docs/licences.md:1: helper is in none of packages.txt, requirements.txt, requirements-test.txt, requirements-lint.txt, requirements-docs.txt, and in no program")
+        self.expect(listed, "docs/licences.md:1: helper is in none of packages.txt, requirements.txt, requirements-test.txt, requirements-lint.txt, requirements-docs.txt, requirements-cocotb.txt, and in no program")
 
 
 class Own(unittest.TestCase):
@@ -205,7 +205,7 @@ class Packages(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             for name, text in (("packages.txt", "# all\n[libraries]\nlibx-dev\n\n"), ("requirements.txt", "A==1.0\n"), ("requirements-test.txt", "b==2  # x\n"),
-                               ("requirements-lint.txt", ""), ("requirements-docs.txt", "h==1\n")):
+                               ("requirements-lint.txt", ""), ("requirements-docs.txt", "h==1\n"), ("requirements-cocotb.txt", "")):
                 (root / name).write_text(text, encoding="utf-8")
             self.assertEqual(check_licences.listed_packages(root), {"libx-dev": "packages.txt", "A": "requirements.txt", "b": "requirements-test.txt", "h": "requirements-docs.txt"})
 
@@ -215,7 +215,8 @@ class Packages(unittest.TestCase):
             for name, text in (("requirements.txt", "A_b.c==1.0  # x\nd==2\n"), ("requirements.lock", "a-b-c==1.0 \\\n    --hash=sha256:00\nd==3 \\\ne==1\n"),
                                ("requirements-test.txt", "f==5\n"), ("requirements-test.lock", "a-b-c==1.0\nd==4\nf==5\n"),
                                ("requirements-lint.txt", "g==6\n"), ("requirements-lint.lock", "g==6\n"),
-                               ("requirements-docs.txt", "h==7\n"), ("requirements-docs.lock", "d==2\nh==7\n")):
+                               ("requirements-docs.txt", "h==7\n"), ("requirements-docs.lock", "d==2\nh==7\n"),
+                               ("requirements-cocotb.txt", ""), ("requirements-cocotb.lock", "")):
                 (root / name).write_text(text, encoding="utf-8")
             self.assertEqual(list(check_licences.faults_of_locks(root)),
                              ["requirements.lock: has d 3, requirements.txt 2", "requirements.lock: has e 1, requirements.txt not",

@@ -23,19 +23,28 @@ result = dsdpv1.run("power_on_12m.yaml", changes=True)
 assert result.passed and len(result.changes) > 1000000
 print(dsdpv1.__version__, len(result.changes))
 """
+EDITABLE = """
+import os, dsdpv1, dsdpv1._library as library
+assert dsdpv1.__file__.startswith(os.environ["ROOT"] + "/bindings/"), dsdpv1.__file__
+assert library._path().endswith("site-packages/dsdpv1/lib/libdsdpv1.so.0"), library._path()
+print(dsdpv1.__version__, "editable")
+"""
 
 
 def call(*command, **options):
     return subprocess.run([str(word) for word in command], check=True, **options)
 
 
+def settings_of(folder, build):
+    settings = {"build-dir": folder, **({"cmake.define.DSDPV1_BUILD": build} if build else {})}
+    return [word for name, value in settings.items() for word in ("--config-settings", f"{name}={value}")]
+
+
 def wheel_of(folder, build):
     """The wheel in `folder`."""
-    settings = {"build-dir": folder, **({"cmake.define.DSDPV1_BUILD": build} if build else {})}
-    options = [word for name, value in settings.items() for word in ("--config-settings", f"{name}={value}")]
     for old in folder.glob("*.whl"):
         old.unlink()
-    call(sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "--disable-pip-version-check", "-w", folder, *options, ROOT)
+    call(sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "--disable-pip-version-check", "-w", folder, *settings_of(folder, build), ROOT)
     return next(folder.glob("*.whl"))
 
 
@@ -61,6 +70,15 @@ def licences_are_there(wheel):
         assert b"Niels Lohmann" in file.read("dsdpv1/lib/licences/nlohmann-json3-dev.txt")
 
 
+def editable_finds_its_library(folder, build, environment, place):
+    """pip install -e leaves the package where it is, and its library and generated modules elsewhere."""
+    python = place / "venv" / "bin" / "python"
+    call(sys.executable, "-m", "venv", place / "venv")
+    environment = {**environment, "PYTHONPATH": next(path for path in sys.path if path.endswith("site-packages"))}
+    call(python, "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation", "--disable-pip-version-check", *settings_of(folder, build), "-e", ROOT, env=environment)
+    call(python, "-c", EDITABLE, cwd=place, env={**environment, "ROOT": str(ROOT)})
+
+
 def main(folder, build):
     folder.mkdir(parents=True, exist_ok=True)
     wheel = wheel_of(folder, build)
@@ -73,6 +91,8 @@ def main(folder, build):
             shutil.copy(ROOT / "scenarios" / name, place)
         environment = {key: value for key, value in os.environ.items() if not key.startswith(("DSDPV1", "PYTHON", "LD_"))}
         call(sys.executable, "-c", USE, cwd=place, env={**environment, "PYTHONPATH": str(site)})
+        if build:  # nothing to compile
+            editable_finds_its_library(folder / "editable", build, environment, pathlib.Path(place))
 
 
 if __name__ == "__main__":

@@ -14,7 +14,8 @@ import typing
 from . import _c
 from .errors import StateError, error_of
 
-_PACKAGED = pathlib.Path(__file__).parent / "lib" / f"libdsdpv1.so.{_c.DPSIM_ABI_MAJOR}"
+# Beside the generated module, not beside this one: pip install -e leaves the sources of the package where they are.
+_PACKAGED = pathlib.Path(_c.__file__).parent / "lib" / f"libdsdpv1.so.{_c.DPSIM_ABI_MAJOR}"
 _thread = threading.local()
 
 

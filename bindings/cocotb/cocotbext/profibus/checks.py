@@ -6,6 +6,7 @@ import typing
 import dsdpv1
 from dsdpv1 import NS, X
 
+from ._cocotb import stop
 from .pins import ChipPins
 from .ticks import now
 
@@ -50,7 +51,7 @@ class PinChecker:
     def finish(self) -> None:
         """Call at the end of a test: fails it if a rule was broken, even in mode "report", or if no rule was applied."""
         for task in self._tasks:
-            task.kill()
+            stop(task)
         self._checker.finish(now())
         if self.violations:
             self._fail()

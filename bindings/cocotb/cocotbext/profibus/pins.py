@@ -4,10 +4,11 @@
 import typing
 
 import cocotb
-from cocotb.triggers import Edge, Timer
+from cocotb.triggers import Timer
 
 import dsdpv1
 
+from ._cocotb import change_of, release
 from .ticks import now
 
 Told = typing.Callable[[int, int, int], typing.Any]
@@ -53,14 +54,14 @@ class ChipPins:
         handle, inverted = self._ports[pin]
         value = _number(handle)
         if value is None:
-            return dsdpv1.Z if set(handle.value.binstr.lower()) == {"z"} else dsdpv1.X
+            return dsdpv1.Z if set(str(handle.value).lower()) == {"z"} else dsdpv1.X
         return value ^ ((1 << len(handle)) - 1 if inverted else 0)
 
     def set(self, pin: str, level: int) -> None:
         """Sets an input at the end of the present time step; Z releases D_IN."""
         handle, inverted = self._ports[pin]
         if level < 0:
-            handle.value = cocotb.binary.BinaryValue("z" * len(handle))
+            release(handle)
         else:
             handle.value = level ^ ((1 << len(handle)) - 1 if inverted else 0)
 
@@ -69,17 +70,13 @@ class ChipPins:
         simulator without X would otherwise see no edge."""
         for pin in self.kind.pins:
             if pin.input:
-                self._set_now(pin.name, max(pin.reset_level, 0))
-        self._set_now("RESET", 1)
+                self.set(pin.name, max(pin.reset_level, 0))
+        self.set("RESET", 1)
         await Timer(1, "step")
-        self._set_now("RESET", 0)
-
-    def _set_now(self, pin: str, level: int) -> None:
-        handle, inverted = self._ports[pin]
-        handle.setimmediatevalue(level ^ ((1 << len(handle)) - 1 if inverted else 0))
+        self.set("RESET", 0)
 
     def watch(self, pins: typing.Iterable[str], told: Told) -> typing.List[typing.Any]:
-        """Reports (tick, pin's number, level) of each change from now on, after the present levels. Returns the tasks; their kill() stops it."""
+        """Reports (tick, pin's number, level) of each change from now on, after the present levels. Returns the tasks; to stop them is to stop the reports."""
         tasks = []
         for name in pins:
             number = self.kind.pin(name).number
@@ -89,7 +86,7 @@ class ChipPins:
         return tasks
 
     async def _tell(self, handle: typing.Any, name: str, number: int, told: Told) -> None:
-        edge = Edge(handle)
+        edge = change_of(handle)
         while True:
             await edge
             told(now(), number, self.level(name))

@@ -9,6 +9,7 @@ import cocotb
 import dsdpv1
 from dsdpv1 import CYCLE, US, X
 
+from ._cocotb import stop
 from .pins import ChipPins
 from .ticks import now, until
 
@@ -101,12 +102,12 @@ class Scoreboard:
 
     def close(self) -> None:
         """Stops comparing."""
-        self._task.kill()
+        stop(self._task)
         self._ignore()
 
     def _ignore(self) -> None:
         for task in self._watchers:
-            task.kill()
+            stop(task)
 
     def _differ(self, found: dsdpv1.Difference) -> None:
         event = f"{found.events[0].tick / US:.3f} us  {found.events[0].text}" if found.events else "none"

@@ -4,11 +4,12 @@
 import typing
 
 import cocotb
-from cocotb.triggers import Edge, Event, ReadWrite
+from cocotb.triggers import Event, ReadWrite
 
 import dsdpv1
 from dsdpv1 import NEVER, EventType, SlaveState
 
+from ._cocotb import change_of
 from .ticks import now, until
 
 REQUESTS = ("ask", "global_control", "set_slave_address", "request", "send_raw", "read", "write", "transport")
@@ -102,7 +103,7 @@ class Segment:
             rxd.value = level
 
     async def _drive(self, station: dsdpv1.Station, signal: typing.Any, txd: typing.Any, rts: typing.Any) -> None:
-        edge = Edge(signal)
+        edge = change_of(signal)
         while True:
             await edge
             enabled, level = rts.value, txd.value

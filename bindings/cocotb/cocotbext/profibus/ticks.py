@@ -14,6 +14,8 @@ from cocotb.utils import get_sim_steps, get_sim_time
 
 from dsdpv1 import CYCLE
 
+from ._cocotb import set_now
+
 MOST_FS = 40_000  # per step
 
 
@@ -59,7 +61,7 @@ class Clock:
         self._signal = signal
 
     def start(self) -> typing.Any:
-        """Starts at the next whole cycle. Returns the task; its kill() stops the clock."""
+        """Starts at the next whole cycle. Returns the task; its kill() stops the clock, in cocotb 2 its cancel()."""
         return cocotb.start_soon(self._run())
 
     async def _run(self) -> None:
@@ -75,11 +77,11 @@ class Clock:
     async def _three_cycles(self, cycle: int) -> int:
         for half in range(6):
             await until(cycle * CYCLE + half * CYCLE // 2)
-            self._signal.setimmediatevalue(1 - half % 2)
+            set_now(self._signal, 1 - half % 2)
         return cycle + 3
 
     async def _for_ever(self, timers: typing.List[Timer]) -> None:
         while True:
             for index, timer in enumerate(timers):
-                self._signal.setimmediatevalue(1 - index % 2)
+                set_now(self._signal, 1 - index % 2)
                 await timer

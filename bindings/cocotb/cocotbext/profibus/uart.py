@@ -7,11 +7,12 @@ import typing
 
 import cocotb
 from cocotb.queue import Queue
-from cocotb.triggers import Edge, FallingEdge
+from cocotb.triggers import FallingEdge
 
 import dsdpv1
 from dsdpv1 import Heard, Telegram, bit_ticks
 
+from ._cocotb import change_of, stop
 from .ticks import now, until
 
 CHARACTER_BITS = 11
@@ -73,7 +74,7 @@ class ProfibusSink:
 
     def close(self) -> None:
         """Stops receiving."""
-        self._task.kill()
+        stop(self._task)
 
     async def _run(self) -> None:
         while True:
@@ -88,7 +89,7 @@ class ProfibusSink:
             byte = sum(bit << index for index, bit in enumerate(bits[1:9]))
             self._received.put_nowait(Character(start, byte, sum(bits[1:10]) % 2 == 1, bits[10] == 0))
             if not bits[10]:
-                await Edge(self._signal)
+                await change_of(self._signal)
 
 
 class ProfibusMonitor:
@@ -113,7 +114,7 @@ class ProfibusMonitor:
         return self._bus.statistics
 
     async def _run(self) -> None:
-        edge = Edge(self._line)
+        edge = change_of(self._line)
         while True:
             await edge
             value = self._line.value
