@@ -151,14 +151,15 @@ def soak():
 FAULTS = """
 ## Planted faults
 
-`./run faults` plants one fault after the other into the model, its SystemC modules, the driver, the checks and the ARM board: a limit that is one too large,
+`./run faults` plants one fault after the other into the SystemC modules, the driver, the checks and the ARM board: a limit that is one too large,
 a cycle too many, a wrong bit, a missing transition. Each is built in a separate folder, and the tests of the ordinary suite run until one fails. A fault
-that no test finds fails the command. The lists are `tests/planted/model.yaml`, `systemc.yaml`, `driver.yaml`, `checks.yaml` and `board.yaml`. That of the checks has one fault for each of
+that no test finds fails the command. The lists are `tests/planted/systemc.yaml`, `driver.yaml`, `checks.yaml` and `board.yaml`. That of the checks has one fault for each of
 [checks.md](checks.md). The command also checks that the same tests, built the same way, pass without a fault. The tests run in a fixed order, so
 the table names the first test that found a fault, not the only one. `./run nightly` plants all faults; for the RTL there is `./run rtl-faults` ([cosim.md](cosim.md)).
+The model has mutants instead, each for rows of the conformance page: `./run mutants` ([conformance.md](conformance.md)).
 
 """
-FAULT_TITLES = {"model": "The model", "systemc": "The SystemC modules", "driver": "The driver", "checks": "The checks, each fault named after its check",
+FAULT_TITLES = {"systemc": "The SystemC modules", "driver": "The driver", "checks": "The checks, each fault named after its check",
                 "board": "The ARM board"}
 
 
@@ -177,14 +178,14 @@ def entries(name):
 def fault_rows(name, found):
     for entry in entries(name):
         when, _, _, test, seconds = found.get((name, entry["name"]), ["-"] * 5)
-        rule = [entry.get("block", ""), entry.get("rule", "")]
+        where = [entry.get("block", ""), entry.get("rows", "")]
         words = entry["what"].replace("''", "'")
-        yield [f"`{entry['name']}`", *[each for each in rule if each], words, f"`{test}`" if test != "-" else "-", seconds, when]
+        yield [f"`{entry['name']}`", *[each for each in where if each], words, f"`{test}`" if test != "-" else "-", seconds, when]
 
 
 def faults():
     found = {(row[1], row[2]): row for row in results("faults.tsv")}
-    heads = {"model": ["fault", "where", "rules", "what is wrong"], "systemc": ["fault", "where", "what is wrong"], "driver": ["fault", "rules", "what is wrong"], "checks": ["check", "what is wrong"],
+    heads = {"systemc": ["fault", "where", "what is wrong"], "driver": ["fault", "rules", "what is wrong"], "checks": ["check", "what is wrong"],
              "board": ["fault", "what is wrong"]}
     text = FAULTS
     for name, title in FAULT_TITLES.items():

@@ -157,7 +157,7 @@ def trust(root):
     return f"""- **Against the documents**: {sheet[1]} of {sheet[0]} clauses of the datasheet, {manual[1]} of {manual[0]} of the software manual and {rulings[1]} of {rulings[0]} rulings have tests, the other
   clauses a reason why not. In the recorded run {passed} of {run} tests passed ([conformance](docs/conformance.md)).
 - **Against RTL**: model and reference RTL agree in every pin change over {cycles} cycles of random stimulus; tests find {found} of {faults} faults planted into
-  model, SystemC modules, driver, checks and board ([trust](docs/trust.md)).
+  SystemC modules, driver, checks and board ([trust](docs/trust.md)).
 - **Speed**: the demo runs at {speed} times real time, the core {faster} times as fast as the RTL; {met} of {goals} goals are met ([performance](docs/performance.md)).
 - **Against silicon**: nothing yet, no chip was measured. `calibrate` compares a capture of one ([how](docs/calibrate.md)).
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants one fault after the other into model, SystemC modules, driver, checks and board, and asks the test suite whether it notices. ./run faults builds and calls it."""
+"""Plants one fault after the other into SystemC modules, driver, checks and board, and asks the test suite whether it notices. ./run faults builds and calls it."""
 import argparse
 import concurrent.futures
 import datetime
@@ -18,13 +18,13 @@ import overlay
 import suite
 
 EXAMPLES = """examples:
-  ./run faults                              # all five lists
+  ./run faults                              # all four lists
   ./run faults driver --jobs 4
-  ./run faults model --only t_syn --only rts_lead
+  ./run faults driver --only crc_polynomial --only crc_start
   ./run faults checks --record              # into docs/trust/faults.tsv, from which docs/trust.md is made
   ./run faults --list
 
-A list is tests/planted/model.yaml, systemc.yaml, driver.yaml, checks.yaml or board.yaml. The table is tab-separated: list, fault, the test that found it, seconds of building and
+A list is tests/planted/systemc.yaml, driver.yaml, checks.yaml or board.yaml. The table is tab-separated: list, fault, the test that found it, seconds of building and
 testing; none_LIST is no fault, which no test may find (not with --only). A fault is built beside build/default, which is not written; its folder, build/faults/NAME, stays only when nothing found it. Exit codes: 0 all
 were found, 1 one was not, 2 wrong input, or a fault whose text is no longer in its file.
 """
@@ -54,9 +54,9 @@ def some_jobs(text):
 
 
 def parse(words):
-    parser = Parser(prog="./run faults", description="Plants faults into the model, the driver, the checks and the board; the test suite has to find each.",
+    parser = Parser(prog="./run faults", description="Plants faults into SystemC modules, driver, checks and board; the test suite has to find each.",
                     epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
-    parser.add_argument("lists", nargs="*", type=some_list, metavar="model|systemc|driver|checks|board", help="which lists; default all")
+    parser.add_argument("lists", nargs="*", type=some_list, metavar="systemc|driver|checks|board", help="which lists; default all")
     parser.add_argument("--only", action="append", metavar="NAME", help="this fault; may be given several times")
     parser.add_argument("--jobs", type=some_jobs, default=os.cpu_count() or 1, metavar="N", help="faults at a time; default: as many as processors")
     parser.add_argument("--record", action="store_true", help="writes what was found into docs/trust/faults.tsv")
@@ -92,8 +92,8 @@ class Running:
     def __init__(self):
         self.lock, self.groups, self.ended = threading.Lock(), set(), False
 
-    def call(self, words, **options):
-        """The test's output; None when it did not end in time."""
+    def call(self, words, limit=suite.SECONDS, **options):
+        """The test's exit code and output; None when it did not end in time."""
         with self.lock:
             if self.ended:
                 raise KeyboardInterrupt
@@ -101,10 +101,11 @@ class Running:
                                      start_new_session=True, **options)
             self.groups.add(child.pid)
         try:
-            printed = child.communicate(timeout=suite.SECONDS)[0]
+            printed = child.communicate(timeout=limit)[0]
             return child.returncode, printed
         except subprocess.TimeoutExpired:
-            return None, ""
+            self.kill(child.pid)
+            return None, child.communicate()[0]
         finally:
             with self.lock:
                 self.groups.discard(child.pid)

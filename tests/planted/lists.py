@@ -1,15 +1,18 @@
 """The lists of faults: read, and compared with the sources that they change."""
 import dataclasses
 import pathlib
-import re
+import sys
 
 import yaml
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "docs" / "conformance"))
+import data  # noqa: E402
+import mutation  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = pathlib.Path(__file__).resolve().parent
-NAMES = ("model", "systemc", "driver", "checks", "board")
-RULING_PAGES = ("docs/chip.md", "docs/chip_rsu.md")
-KEYS = {"name", "block", "file", "replace", "by", "what", "rule"}
+NAMES = ("systemc", "driver", "checks", "board")
+KEYS = {"name", "block", "file", "replace", "by", "what", "rows"}
 NEEDED = {"name", "file", "replace", "by", "what"}
 
 
@@ -27,7 +30,11 @@ class Fault:
     what: str     # the resulting error
     where: str    # file and line of the list
     block: str = ""
-    rule: str = ""
+    rows: str = ""  # of docs/conformance.md, separated by commas
+
+    @property
+    def row_names(self):
+        return self.rows.split(", ") if self.rows else []
 
     def planted(self, root=ROOT):
         """The source with the fault."""
@@ -39,8 +46,9 @@ def control(fault):
     return dataclasses.replace(fault, name=f"none_{fault.list}", by=fault.replace + " ", what="nothing", where=f"tests/planted/{fault.list}.yaml")
 
 
-def rulings(root):
-    return {name for page in RULING_PAGES for name in re.findall(r"^- \*\*([A-Z]{1,2}[0-9]+)\*\*", (root / page).read_text(encoding="utf-8"), re.M)}
+def conformance(root):
+    """The rows of docs/conformance.md."""
+    return mutation.owners(data.load(root))
 
 
 def entry_of(node, where):
@@ -55,7 +63,7 @@ def entry_of(node, where):
     return entry
 
 
-def check(fault, root, known_rulings):
+def check(fault, root, known_rows):
     source = root / fault.file
     if not source.is_file():
         raise BadList(f"{fault.where}: {fault.name}: {fault.file} is not there")
@@ -65,12 +73,12 @@ def check(fault, root, known_rulings):
         raise BadList(f"{fault.where}: {fault.name}: its text {found} in {fault.file}, expected once")
     if fault.planted(root) == source.read_text(encoding="utf-8"):
         raise BadList(f"{fault.where}: {fault.name}: nothing is changed")
-    unknown = [name for name in re.findall(r"[A-Z]+[0-9]+", fault.rule) if name not in known_rulings]
+    unknown = [name for name in fault.row_names if name not in known_rows]
     if unknown:
-        raise BadList(f"{fault.where}: {fault.name}: there is no ruling {unknown[0]}, expected those of {' and '.join(RULING_PAGES)}")
+        raise BadList(f"{fault.where}: {fault.name}: there is no row {unknown[0]}, expected those of docs/conformance.md")
 
 
-def read(name, root=ROOT):
+def read(name, root=ROOT, known_rows=None):
     """The faults of one list, in its order. BadList when one no longer fits its source."""
     path = root / "tests" / "planted" / f"{name}.yaml"
     shown = path.relative_to(root)
@@ -78,11 +86,11 @@ def read(name, root=ROOT):
         top = yaml.compose(path.read_text(encoding="utf-8"), Loader=yaml.SafeLoader)
     except yaml.MarkedYAMLError as error:
         raise BadList(f"{shown}:{error.problem_mark.line + 1}: {error.problem}") from None
-    faults, known_rulings = [], rulings(root)
+    faults, known_rows = [], known_rows if known_rows is not None else conformance(root)
     for node in top.value:
         where = f"{shown}:{node.start_mark.line + 1}"
         fault = Fault(list=name, where=where, **entry_of(node, where))
-        check(fault, root, known_rulings)
+        check(fault, root, known_rows)
         if fault.name in {other.name for other in faults}:
             raise BadList(f"{where}: there is another {fault.name}, expected one of a name")
         faults.append(fault)

@@ -4,25 +4,20 @@ import json
 import subprocess
 
 SIM = "apps/dsdpv1-sim"
-LONG, NIGHTLY = "long", "nightly"
+NOT_RUN = {"long", "nightly"}
 
 
 @dataclasses.dataclass(frozen=True)
 class Stage:
     program: str
-    long: bool = False     # only its cases with the label long; else those without
     calls_sim: bool = False
     names: str = ""        # part of the names; else all
 
 
-UNIT = Stage("core_blocks")
-CONFORMANCE = (Stage("conformance_rsu_test"), Stage("conformance_test"))
 SCENARIOS = Stage("app_scenarios_test", calls_sim=True, names="All/Scenarios.")
 SYSTEMC = ("time", "views", "bus", "tlm", "run", "ahead", "clock", "host_pins", "character", "binding", "rsu_tlm", "rsu_pins", "quantum", "decoupled",
            "serial_platform", "bench")
 STAGES = {
-    "model": (UNIT, *CONFORMANCE, Stage("user_cpu_test"), Stage("checks_test"), SCENARIOS, Stage("conformance_test", long=True),
-              Stage("cosim_rtl_test", names="All/Directed"), Stage("conformance_dpv1_campaign")),
     "systemc": (*(Stage(f"systemc_{name}_test") for name in SYSTEMC), SCENARIOS),
     "driver": (Stage("driver_test"), Stage("user_cpu_test"), SCENARIOS),
     "board": (Stage("arm_test"), Stage("app_arm_board_test", calls_sim=True), SCENARIOS),
@@ -32,17 +27,17 @@ SECONDS = 600  # per stage: the time limit of its tests
 
 
 def read(build):
-    """The cases of each test program that the suite runs, with their labels."""
+    """The cases of each test program that the suite runs, without the long ones."""
     listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=True).stdout
     cases = {}
     for test in json.loads(listed)["tests"]:
         command = test.get("command", [])
         name = next((word.split("=", 1)[1] for word in command if word.startswith("--gtest_filter=")), None)
         labels = next((entry["value"] for entry in test["properties"] if entry["name"] == "LABELS"), [])
-        if name and NIGHTLY not in labels:
-            cases.setdefault(command[0].rsplit("/", 1)[-1], []).append((name, LONG in labels))
+        if name and not NOT_RUN & set(labels):
+            cases.setdefault(command[0].rsplit("/", 1)[-1], []).append(name)
     return cases
 
 
 def names_of(cases, stage):
-    return [name for name, long in cases.get(stage.program, []) if long == stage.long and name.startswith(stage.names)]
+    return [name for name in cases.get(stage.program, []) if name.startswith(stage.names)]

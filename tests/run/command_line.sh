@@ -15,7 +15,7 @@ refuses() {
 }
 
 help=$("$run" --help) || fail "--help: exit $?"
-for command in demo test edit sim nightly accept-campaign rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal fuzz bench traces cosim docs build format lint generate conformance release deps; do
+for command in demo test edit sim nightly accept-campaign rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal mutants fuzz bench traces cosim docs build format lint generate conformance release deps; do
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
