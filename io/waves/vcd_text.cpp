@@ -36,13 +36,14 @@ VcdText::VcdText(const std::string& path) : path_(path), bytes_(path) {
     throw InputError(path_, 0, "is an FST within a gz, expected the FST itself, as gunzip makes it");
 }
 
-/// Keeps the unread rest and reads more after it; a zero byte ends the buffer.
+/// Keeps the unread rest and reads more after it; a zero byte ends the buffer. A gz that was cut is told after its
+/// text.
 void VcdText::fill() {
   const auto rest = static_cast<std::size_t>(end_ - at_);
   std::memmove(buffer_.get(), at_, rest);
   std::size_t have = rest;
   while (have < room_ && !whole_) {
-    const std::size_t got = bytes_.read(buffer_.get() + have, room_ - have);
+    const std::size_t got = read(buffer_.get() + have, room_ - have);
     whole_ = got == 0;
     have += got;
     read_ += got;
@@ -52,9 +53,19 @@ void VcdText::fill() {
   buffer_[have] = '\0';
 }
 
+std::size_t VcdText::read(char* to, std::size_t size) {
+  try {
+    return bytes_.read(to, size);
+  } catch (const InputError& error) {
+    fault_ = error;
+    return 0;
+  }
+}
+
 void VcdText::check_word(const char* begin) {
   if (at_ != end_) fail("has a zero byte here, expected the text of a VCD");
   if (!whole_) fail("has a word that is longer than any right one, expected the text of a VCD");
+  if (fault_) throw InputError(*fault_);
   bare_end_ = bare_end_ || begin != at_;
 }
 

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "io/input/input_error.hpp"
 #include "io/waves/wave_bytes.hpp"
 
 namespace dsdpv1::tb {
@@ -47,6 +49,7 @@ class VcdText {
     }
   }
   void fill();
+  std::size_t read(char* to, std::size_t size);
   void check_word(const char* begin);
 
   std::string path_;
@@ -56,6 +59,7 @@ class VcdText {
   const char *at_, *end_;
   bool whole_ = false;  ///< all of the file is in the buffer
   bool bare_end_ = false;
+  std::optional<InputError> fault_;  ///< after the text
   int line_ = 1;
   std::uint64_t read_ = 0;  ///< bytes of the text
 };

@@ -2,9 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
-#ifdef DSDPV1_WITH_FST
-#include <zlib.h>
-#endif
 
 #include <algorithm>
 #include <filesystem>
@@ -15,6 +12,9 @@
 #include "io/input/input_error.hpp"
 #include "io/waves/wave_reader.hpp"
 #include "io/waves/wave_writer.hpp"
+#ifdef DSDPV1_WITH_FST
+#include "tests/io/waves/gz.hpp"
+#endif
 
 namespace dsdpv1 {
 namespace {
@@ -94,8 +94,8 @@ TEST_F(ReadWaves, IcarusNamesAliasesAndEscapedIdentifiers) {
            "$var reg 1 % \\esc[3] $end\n$var reg 4 ' up [0:3] $end\n$var integer 32 * n [31:0] $end\n"
            "$scope module u $end\n$var wire 1 # q $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"));
   EXPECT_EQ(reader->declarations().exponent, -10);
-  EXPECT_THAT(variables(*reader), ElementsAre("i.u|mem[0][3:0] 4 #0", "i|e event #1", "i|q 1 #2", "i|a.b 1 #3", "i|esc[3] 1 #4",
-                                              "i|up[0:3] 4 #5", "i|n[31:0] 32 #6", "i.u|q 1 #2"));
+  EXPECT_THAT(variables(*reader), ElementsAre("i.u|mem[0][3:0] 4 #0", "i|e event #1", "i|q 1 #2", "i|a.b 1 #3",
+                                              "i|esc[3] 1 #4", "i|up[0:3] 4 #5", "i|n[31:0] 32 #6", "i.u|q 1 #2"));
 }
 
 TEST_F(ReadWaves, VerilatorAndGhdlPutRangesAtTheName) {
@@ -229,21 +229,6 @@ TEST_F(ReadWaves, DamagedVcdIsRefusedInOneLine) {
 }
 
 #ifdef DSDPV1_WITH_FST
-/// As gzip does it.
-std::string packed(const std::string& text) {
-  z_stream stream{};
-  ::deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  std::string gz(text.size() + 1000, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(gz.data());
-  stream.avail_out = static_cast<uInt>(gz.size());
-  ::deflate(&stream, Z_FINISH);
-  gz.resize(stream.total_out);
-  ::deflateEnd(&stream);
-  return gz;
-}
-
 TEST_F(ReadWaves, AGzIsWhatItHolds) {
   std::string text = kHead;
   for (int i = 0; i < 400'000; ++i) text += "#" + std::to_string(i) + "\nb" + std::to_string(i % 2) + " #\n";

@@ -21,6 +21,9 @@
 #include "io/waves/recover.hpp"
 #include "io/waves/wave_reader.hpp"
 #include "io/waves/wave_writer.hpp"
+#ifdef DSDPV1_WITH_FST
+#include "tests/io/waves/gz.hpp"
+#endif
 
 namespace dsdpv1 {
 namespace {
@@ -301,6 +304,17 @@ TEST_F(Waves, AnotherSimulatorsVcdIsRecoveredUpToItsLastGoodTime) {
   EXPECT_EQ(tb::recover_vcd(path("junk"), path("r.vcd")).time, 1233U) << "the end of a file after a loss of power";
   std::ofstream(path("junk"), std::ios::binary) << head << "#0\n0!!\n#5\n#17\ngarbage\n#123\n";
   EXPECT_EQ(tb::recover_vcd(path("junk"), path("r.vcd")).time, 16U);
+}
+
+TEST_F(Waves, AGzThatWasCutIsRecoveredUpToItsEnd) {
+  std::string text = "$timescale 1ps $end\n$var wire 1 ! a $end\n$enddefinitions $end\n";
+  for (int i = 0; i < 100'000; ++i) text += "#" + std::to_string(i) + "\n" + std::to_string(i % 3 == 0) + "!\n";
+  const std::string gz = packed(text);
+  std::ofstream(path("cut.gz"), std::ios::binary) << gz.substr(0, gz.size() / 2);
+  ASSERT_EQ(tb::wave_format(path("cut.gz")), tb::WaveFormat::kVcd);
+  EXPECT_GT(tb::recover_vcd(path("cut.gz"), path("r.vcd")).time, 30'000U);
+  const std::string recovered = read(path("r.vcd"));
+  EXPECT_EQ(recovered, text.substr(0, recovered.size()));
 }
 
 TEST_F(Waves, RecoveredIsEverythingUpToTheLastSave) {
