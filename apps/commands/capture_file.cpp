@@ -149,7 +149,7 @@ bool begins_as_wave(std::string_view beginning) {
   const std::size_t first = beginning.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos && beginning[first] == '$') return true;
   if (beginning.size() < kFstHeader) return false;
-  const bool compressed = beginning[0] == '\xFE';
+  const bool compressed = beginning[0] == '\xFE' || beginning.compare(0, 2, "\x1F\x8B") == 0;  // FST; a gz of a VCD
   return compressed || (beginning[0] == 0 && capture::number_in(beginning.substr(1, 8), true) == kFstHeaderLength);
 }
 

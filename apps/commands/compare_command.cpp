@@ -85,8 +85,10 @@ class Compare : public Command {
     app.add_option("--pins", pins_,
                    "Compare the chip's pins, named in B by this map (docs/cosim.md) or, with rtl_ref, as in the "
                    "reference RTL (default: all signals with equal names)");
-    app.add_option("--chip", chip_, "The chip of --pins (default: the one that the waves' names fit best)");
+    app.add_option("--chip", chip_, "The chip of --pins (default: the one that the waves' names fit best)")
+        ->type_name("KIND");
     app.add_option("--without", without_, "With --pins: leave out this pin of the chip, which may then be missing")
+        ->type_name("PIN")
         ->allow_extra_args(false);
     app.add_option("--signal", signals_, "A=B: this signal of A and that of B, A=!B when B has the other level")
         ->allow_extra_args(false);

@@ -47,7 +47,9 @@ class Recover : public Command {
   Recover() : Command("recover", "Rebuild a complete wave from the file of a killed run or simulator") {}
 
   void options(CLI::App& app) override {
-    app.add_option("FILE", part_, "The wave's temporary file, NAME.PID.part, or another simulator's wave; FST needs FILE.hier beside it")
+    app.add_option(
+           "FILE", part_,
+           "The wave's temporary file, NAME.PID.part, or another simulator's wave; FST needs FILE.hier beside it")
         ->required();
     app.add_option("--output,-o", output_, "The wave (default: NAME, if it does not exist)");
     app.footer(
