@@ -144,6 +144,7 @@ TEST_F(C2, TwoChannelsForOneMasterOrForTwoAndAThirdIsRefused) {
 // D17, V7. An early version of Initiate used the B005 that the chip had read last.
 TEST_F(C2, NeedsB005AtTheInitialisationAndNoParameterising) {
   bench.power_on();
+  EXPECT_TRUE(c2(kManagerSap, initiate_pdu()).silent()) << "OFFLINE";
   ASSERT_TRUE(bench.initialise());
   bench.find_baud(0);
   EXPECT_TRUE(is_rs(c2(kManagerSap, initiate_pdu())));
@@ -324,8 +325,11 @@ TEST_F(C2, MasterAbortsInEveryState) {
   bench.chip_accesses(3);
   EXPECT_EQ(bench.peek(0x00F), 0) << "withdrawn";
   ASSERT_EQ(connect(), kFirstChannel);
-  to_user(kFirstChannel, read_request(1, 1, 1));
+  ASSERT_TRUE(is_sc(c2(kFirstChannel, read_request(1, 1, 1))));
+  bench.chip_accesses(3);
   aborts("with the user");
+  bench.chip_accesses(3);
+  EXPECT_EQ(fetch(kC2Area), read_request(1, 1, 1)) << "it stays (V13)";
   give(kC2Area, pdu_of(0x5E, 1, 1, 1, {1}));
   EXPECT_EQ(bench.last(Reason::kAcyclicNoRequest).a, 2);
   ASSERT_EQ(connect(), kFirstChannel);
@@ -416,6 +420,8 @@ TEST_F(C2, LeavingDataExchangeTouchesNoChannel) {
   ASSERT_EQ(connect(), kFirstChannel);
   to_user(kFirstChannel, read_request(1, 1, 1));
   ASSERT_TRUE(is_sc(bench.set_prm({})));
+  ASSERT_EQ(bench.dp_state(), DpState::kWaitCfg);
+  EXPECT_EQ(connect(9), kSecondChannel) << "an Initiate is served here, too (V7)";
   give(kC2Area, pdu_of(0x5E, 1, 1, 1, {1}));
   EXPECT_TRUE(is_data(c2(kFirstChannel)));
 }

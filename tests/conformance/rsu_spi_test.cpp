@@ -334,6 +334,9 @@ TEST_F(RsuSpi, WithoutClaimItIsCarriedOutAndReported) {
   bench_.write(0x100, {5});
   EXPECT_EQ(bench_.last(R::kSpiNoClaim).c, 1);
   EXPECT_EQ(bench_.peek(0x100), 5);
+  const Bytes many(245, 0x5A);
+  bench_.write(0x100, many);
+  EXPECT_EQ(bench_.read(0x100, 245), many) << "within the chip's accesses, too";
 }
 
 // A write without claim waits for the start-up access; meanwhile no frame is heard, reads give 00.
@@ -355,7 +358,7 @@ TEST(RsuSpiStartUp, ReadsAreZeroAndWritesWait) {
   };
   EXPECT_EQ(reply(read_telegram(0x014, 1), 5), with_crc({0x81, 0x00, 0x01}));
   EXPECT_EQ(reply(read_telegram(0x000, 1), 5), with_crc({0x81, 0x00, 0x00}));
-  EXPECT_EQ(reply(write_telegram(0x014, {0x02}), 4), with_crc({0xE1, 0x00}));
+  EXPECT_EQ(reply(write_telegram(0x014, {0x02, 0x77}), 4), with_crc({0xE1, 0x00}));
   EXPECT_EQ(bench.last(R::kSpiBusy).a, 0);
   EXPECT_EQ(reply(inputs_telegram({}), 4), with_crc({0xE1, 0x00}));
   EXPECT_EQ(bench.last(R::kSpiBusy).a, 1);
@@ -367,6 +370,7 @@ TEST(RsuSpiStartUp, ReadsAreZeroAndWritesWait) {
   EXPECT_EQ(bench.peek(0x100), 0);
   bench.run_until(2100 * 250);
   EXPECT_EQ(bench.peek(0x100), 0x55);
+  EXPECT_EQ(bench.peek(0x015), 0) << "nothing of the refused claim is written";
   EXPECT_EQ(bench.read(0x000, 2), (Bytes{0x01, 0x0D}));
 }
 

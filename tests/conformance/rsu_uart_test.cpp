@@ -163,9 +163,11 @@ TEST_F(RsuUart, LongestSilenceWithinATelegram) {
 
 TEST_F(RsuUart, IntervalByRegister) {
   const Bytes telegram = read_telegram(0x000, 1);
-  const auto heard_with = [&](Cycle gap) {
+  const auto heard_with = [&](Cycle gap, int code_within = 0) {
     bench_.forget_events();
-    bench_.send(part_of(telegram, 0, 3));
+    bench_.send(part_of(telegram, 0, 2));
+    if (code_within != 0) bench_.poke(0x019, static_cast<std::uint8_t>(code_within));
+    bench_.send(part_of(telegram, 2, 1));
     bench_.run_cycles(gap);
     bench_.send(part_of(telegram, 3, 3));
     silence(3000);
@@ -174,6 +176,7 @@ TEST_F(RsuUart, IntervalByRegister) {
   bench_.talk(write_telegram(0x019, {0x01}));
   EXPECT_TRUE(heard_with(286));
   EXPECT_FALSE(heard_with(290));
+  EXPECT_FALSE(heard_with(290, 0x07)) << "taken at the first character";
   bench_.talk(write_telegram(0x019, {0x07}));
   EXPECT_TRUE(heard_with(28'600));
   bench_.run_cycles(30'000);

@@ -96,12 +96,13 @@ TEST(UserOrder, ReadBlock) {
   bench.to_data_exch();
   bench.chip_accesses(3);
   bench.acquire();
+  bench.write(0x006, 2);  // H3: 1 again, whatever else the access does
   bench.write_block(regs::kInput, {2, 5, 6}, regs::kInputCrc);
   bench.write(regs::kUserCommand1, regs::kUserCommand1Input);
   release_and_align(bench);
   const Recorded access = record_access(bench);
   // 7 length, 8 look, 9 10 bytes, 11 12 CRC, 13 compare, 14 commit, 15 B00B read, 16 B00B written (no change), 17 end
-  EXPECT_EQ(access.moves, (std::vector<Move>{{14, 0x010, 0}}));
+  EXPECT_EQ(access.moves, (std::vector<Move>{{1, 0x006, 1}, {14, 0x010, 0}}));
   EXPECT_EQ(access.length, 17);
 }
 

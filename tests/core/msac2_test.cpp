@@ -12,14 +12,18 @@ constexpr Cycle kUnit = 480'000;
 
 class Msac2Block : public testing::Test {
  protected:
-  /// Connects a master at cycle `now`.
-  void connect(Cycle now, int send_timeout) {
+  /// A master gets a channel at cycle `now`.
+  void initiate(Cycle now, int send_timeout) {
     const std::uint8_t initiate[14] = {
         0x57, 0, 0, 0, static_cast<std::uint8_t>(send_timeout >> 8), static_cast<std::uint8_t>(send_timeout & 0xFF), 1};
     Request request = to(49);
     request.data = initiate;
     request.size = sizeof initiate;
     ASSERT_EQ(msac2.initiate(now, request).kind, Reply::Kind::kData);
+  }
+  /// And is connected.
+  void connect(Cycle now, int send_timeout) {
+    initiate(now, send_timeout);
     ASSERT_EQ(msac2.handle(now, to(48)).kind, Reply::Kind::kData);
   }
   static Request to(int sap) {
@@ -51,6 +55,9 @@ TEST_F(Msac2Block, IStopsAtSixteenBits) {
 }
 
 TEST_F(Msac2Block, FAndUTakeTheWholeSendTimeout) {
+  initiate(1000, 0xFFFF);
+  EXPECT_EQ(msac2.next(), 1000 + 0xFFFF * kUnit) << "F alone";
+  msac2.reset();
   connect(1000, 0xFFFF);
   const std::uint8_t read[4] = {0x5E, 1, 1, 1};
   Request request = to(48);
@@ -58,6 +65,8 @@ TEST_F(Msac2Block, FAndUTakeTheWholeSendTimeout) {
   request.size = sizeof read;
   ASSERT_EQ(msac2.handle(2000, request).kind, Reply::Kind::kShort);
   EXPECT_EQ(msac2.next(), 2000 + 0xFFFF * kUnit);
+  ASSERT_EQ(msac2.handle(3000, to(48)).kind, Reply::Kind::kShort);
+  EXPECT_EQ(msac2.next(), 2000 + 0xFFFF * kUnit) << "the poll has started F again: this is U alone";
 }
 
 TEST_F(Msac2Block, FIsReportedWhenItEndsTogetherWithU) {

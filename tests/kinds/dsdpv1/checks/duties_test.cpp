@@ -444,6 +444,15 @@ TEST(InputsRenewed, UserThatStopsIsFoundAndOneWithoutDataExchangeIsNot) {
   hand_over_inputs(quiet.board);
   finish(quiet.board, quiet.board.now(), 2 * kLimit);
   EXPECT_EQ(violations(quiet.board, Check::kInputsRenewed), 0U);
+
+  Slave without;  // has no inputs: its answers are SC
+  for (int i = 0; i < 120; ++i) {
+    without.bus.request(without.board);
+    without.board.wait(1000);
+    without.bus.answered(without.board);
+    without.board.wait(bus::kTicksPerMs);
+  }
+  EXPECT_EQ(violations(without.board, Check::kInputsRenewed), 0U);
 }
 
 // --- USER_REFUSED ----------------------------------------------------------------------------------------------------
