@@ -135,8 +135,10 @@ void FstReader::check_file() const {
                                  blocks.unpacked >> 20U, kMostUnpacked >> 20U));
   if (blocks.damaged) damaged();
   if (!blocks.complete())
-    throw InputError(path_, 0,
-                     "is an FST that was cut, expected a complete one: was the simulator stopped while it wrote?");
+    throw InputError(
+        path_, 0,
+        "is an FST that was cut, expected a complete one: was the simulator stopped while it wrote? dsdpv1-sim "
+        "recover completes it if its .hier is beside it");
   if (blocks.variables > kMostWaveVariables)
     throw InputError(
         path_, 0,

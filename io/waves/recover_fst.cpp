@@ -46,8 +46,15 @@ FstFile::Kind kind_in_copy(unsigned char type) {
 struct Copy {
   Copy(const std::string& path, void* reader)
       : file(path, fstReaderGetDateString(reader), fstReaderGetTimescale(reader)) {}
+  /// 0 for one that no name declares.
+  FstFile::Handle of(fstHandle signal) {
+    if (signal < variables.size()) return variables[signal];
+    damaged = true;
+    return 0;
+  }
   FstFile file;
   std::vector<FstFile::Handle> variables{0};
+  bool damaged = false;
 };
 
 void declare(void* reader, Copy& copy) {
@@ -56,7 +63,7 @@ void declare(void* reader, Copy& copy) {
     if (entry->htyp == FST_HT_UPSCOPE) copy.file.close_scope();
     if (entry->htyp != FST_HT_VAR) continue;
     const auto& variable = entry->u.var;
-    const FstFile::Handle known = variable.is_alias != 0 ? copy.variables.at(variable.handle) : 0;
+    const FstFile::Handle known = variable.is_alias != 0 ? copy.of(variable.handle) : 0;
     const std::uint32_t width = variable.typ == FST_VT_GEN_STRING ? 0 : variable.length;
     const FstFile::Handle own = copy.file.variable(variable.name, width, known, kind_in_copy(variable.typ));
     if (variable.is_alias == 0) copy.variables.push_back(own);
@@ -66,13 +73,13 @@ void declare(void* reader, Copy& copy) {
 void change(void* to, std::uint64_t time, fstHandle signal, const unsigned char* value) {
   Copy& copy = *static_cast<Copy*>(to);
   copy.file.move_to(time);
-  copy.file.set(copy.variables.at(signal), reinterpret_cast<const char*>(value));
+  if (const FstFile::Handle own = copy.of(signal)) copy.file.set(own, reinterpret_cast<const char*>(value));
 }
 
 void change_of_word(void* to, std::uint64_t time, fstHandle signal, const unsigned char* value, std::uint32_t length) {
   Copy& copy = *static_cast<Copy*>(to);
   copy.file.move_to(time);
-  copy.file.say(copy.variables.at(signal), {reinterpret_cast<const char*>(value), length});
+  if (const FstFile::Handle own = copy.of(signal)) copy.file.say(own, {reinterpret_cast<const char*>(value), length});
 }
 
 void check_recoverable(const std::string& part) {
@@ -99,6 +106,7 @@ Recovered recover_fst(const std::string& part, const std::string& output) {
   fstReaderSetFacProcessMaskAll(reader.get());
   fstReaderIterBlocksSetNativeDoublesOnCallback(reader.get(), 1);
   fstReaderIterBlocks2(reader.get(), change, change_of_word, &copy, nullptr);
+  if (copy.damaged) throw InputError(part, 0, "has other names beside it, expected its own " + part + ".hier");
   copy.file.move_to(end);
   copy.file.finish();
   return {end, fstReaderGetTimescale(reader.get())};

@@ -277,6 +277,22 @@ TEST_F(Waves, AnotherSimulatorsFstIsRecoveredWithAliasesRealsAndItsUnit) {
   EXPECT_EQ(recovered.substr(0, recovered.find("until")), whole.substr(0, whole.find("until")));
 }
 
+TEST_F(Waves, AnFstWhoseNamesAreOthersIsRefused) {
+  write_as_a_killed_simulator(path("whole.fst"), path("killed.fst"));
+  std::string names = read(path("killed.fst.hier"));
+  const std::string alias("port [3:0]\0\x04\x01", 13);  // of the first signal
+  ASSERT_NE(names.find(alias), std::string::npos);
+  names[names.find(alias) + 12] = '\x7f';
+  std::ofstream(path("killed.fst.hier"), std::ios::binary) << names;
+  try {
+    tb::recover_fst(path("killed.fst"), path("r.fst"));
+    ADD_FAILURE() << "not refused";
+  } catch (const tb::InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("killed.fst: has other names beside it"));
+  }
+  EXPECT_FALSE(fs::exists(path("r.fst")));
+}
+
 TEST_F(Waves, AnotherSimulatorsVcdIsRecoveredUpToItsLastGoodTime) {
   const std::string head =
       "$date today $end\n$version Some simulator $end\n$timescale 10ns $end\n$scope module t $end\n$var wire 1 !! a "
