@@ -59,9 +59,18 @@ static void put_bytes(dsdpv1_device* device, uint16_t address, const uint8_t* by
   put_spans(device, address, head, none);
 }
 
+static bool is_of_chip(uint16_t address) {
+  return address == DSDPV1_REG_CHIP_COMMAND_1 || address == DSDPV1_REG_CHIP_COMMAND_2;
+}
+
+static uint8_t* aside_of(dsdpv1_device* device, uint16_t command) {
+  return &device->aside.chip_command[command - DSDPV1_REG_CHIP_COMMAND_1];
+}
+
 uint8_t dsdpv1_get(dsdpv1_device* device, uint16_t address) {
   uint8_t value = 0;
   dsdpv1_get_block(device, address, &value, 1);
+  if (is_of_chip(address) && device->fault == DSDPV1_OK) value = (uint8_t)(value | *aside_of(device, address));
   return value;
 }
 
@@ -96,7 +105,9 @@ void dsdpv1_before_fetch(dsdpv1_device* device, uint16_t command, uint8_t flags)
 }
 
 void dsdpv1_after_fetch(dsdpv1_device* device, uint16_t command, uint8_t seen, uint8_t flags) {
-  if (device->link->take_flags == NULL) dsdpv1_put(device, command, (uint8_t)(seen & ~(unsigned)flags));
+  uint8_t* aside = aside_of(device, command);
+  if (device->link->take_flags == NULL) dsdpv1_put(device, command, (uint8_t)(seen & ~((unsigned)flags | *aside)));
+  if (device->fault == DSDPV1_OK) *aside = (uint8_t)(*aside & ~(unsigned)flags);
 }
 
 void dsdpv1_announce(dsdpv1_device* device, uint16_t command, uint8_t seen, uint8_t clear, uint8_t set) {

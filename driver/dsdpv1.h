@@ -191,9 +191,13 @@ typedef struct dsdpv1_config {
   uint8_t cfg_length;                           /* 1..max_cfg bytes */
 } dsdpv1_config;
 
-/* Flags taken from the DPRAM for an initialisation that the chip has not judged yet; restored if it refuses (D11). */
+/*
+ * Flags taken from the DPRAM for an initialisation that the chip has not judged yet, or has refused: what they announce
+ * still waits (D11). Only the chip sets B00E and B00F (P6), so theirs stay here until their blocks are fetched.
+ */
 typedef struct dsdpv1_aside {
-  uint8_t chip_command_1, chip_command_2, user_command_1; /* B00E, B00F, B010 */
+  uint8_t chip_command[2]; /* B00E, B00F */
+  uint8_t user_command_1;  /* B010 */
 } dsdpv1_aside;
 
 /* The port that the device was opened with. */

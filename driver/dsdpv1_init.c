@@ -82,10 +82,6 @@ static void set_aside(dsdpv1_device* device, uint16_t address, uint8_t* aside) {
   dsdpv1_put(device, address, 0);
 }
 
-static void set_back(dsdpv1_device* device, uint16_t address, uint8_t aside) {
-  dsdpv1_put(device, address, (uint8_t)(dsdpv1_get(device, address) | aside));
-}
-
 /*
  * Inside a hold. Flags of the earlier operation are set aside on both sides: if the chip accepts the new
  * configuration, their data belong to the old one; if it refuses, they still count (D11). Verdicts stay, because the
@@ -100,8 +96,8 @@ static void write_init(dsdpv1_device* device, const dsdpv1_config* config, const
   dsdpv1_put_block(device, &block);
   if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_1) & DSDPV1_REG_CHIP_STATUS_1_INITIALISED) != 0u)
     dsdpv1_put(device, DSDPV1_REG_CHIP_STATUS_1, 0);
-  set_aside(device, DSDPV1_REG_CHIP_COMMAND_1, &device->aside.chip_command_1);
-  set_aside(device, DSDPV1_REG_CHIP_COMMAND_2, &device->aside.chip_command_2);
+  set_aside(device, DSDPV1_REG_CHIP_COMMAND_1, &device->aside.chip_command[0]);
+  set_aside(device, DSDPV1_REG_CHIP_COMMAND_2, &device->aside.chip_command[1]);
   const unsigned verdicts = DSDPV1_REG_USER_COMMAND_1_PRM_VERDICT | DSDPV1_REG_USER_COMMAND_1_CFG_VERDICT;
   const unsigned command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
   const unsigned blocks = DSDPV1_REG_USER_COMMAND_1_INPUT | DSDPV1_REG_USER_COMMAND_1_DIAG;
@@ -137,13 +133,14 @@ static dsdpv1_error read_answer(dsdpv1_device* device) {
 
 /* Inside the hold in which the initialisation was refused: the chip keeps its old values (D11), and so do the flags. */
 static void resume(dsdpv1_device* device) {
-  set_back(device, DSDPV1_REG_CHIP_COMMAND_1, device->aside.chip_command_1);
-  set_back(device, DSDPV1_REG_CHIP_COMMAND_2, device->aside.chip_command_2);
-  set_back(device, DSDPV1_REG_USER_COMMAND_1, device->aside.user_command_1);
+  const unsigned command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
+  dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_1, (uint8_t)(command | device->aside.user_command_1));
+  if (device->fault == DSDPV1_OK) device->aside.user_command_1 = 0;
 }
 
 /* Inside the hold in which it was accepted, so that an INTR0 handler sees the new modes. */
 static void remember(dsdpv1_device* device, const dsdpv1_config* config) {
+  (void)memset(&device->aside, 0, sizeof device->aside);
   device->user_status_2 = 0;
   dsdpv1_put(device, DSDPV1_REG_USER_STATUS_2, 0);
   device->verdicts_due = 0;
@@ -170,7 +167,5 @@ dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* confi
   else
     resume(device);
   const dsdpv1_error fault = dsdpv1_release(device);
-  if (fault != DSDPV1_OK) return fault;
-  (void)memset(&device->aside, 0, sizeof device->aside);
-  return error;
+  return fault != DSDPV1_OK ? fault : error;
 }

@@ -25,7 +25,7 @@ dsdpv1_port FakeChip::port() {
   port.write = [](void* ctx, std::uint16_t address, std::uint8_t value) {
     self(ctx).check_ownership("write");
     self(ctx).counted_ += address == 0x006 ? 1 : 0;
-    self(ctx).at(address) = value;
+    self(ctx).user_writes(address, value);
   };
   port.set_r_req = [](void* ctx, bool level) { self(ctx).set_r_req(level); };
   port.set_r_sta = [](void* ctx, bool level) { self(ctx).set_r_sta(level); };
@@ -38,6 +38,13 @@ dsdpv1_port FakeChip::port() {
 void FakeChip::check_ownership(const char* what) {
   ++accesses;
   if (!r_req_ || !r_sta_ || l_) violations.push_back(std::string(what) + " without ownership");
+}
+
+/// P6: only the chip sets bits of B00A, B00B, B00E and B00F.
+void FakeChip::user_writes(std::uint16_t address, std::uint8_t value) {
+  const bool chips = address == 0x00A || address == 0x00B || address == 0x00E || address == 0x00F;
+  if (chips && (value & ~at(address)) != 0) violations.emplace_back("the user sets a bit of the chip");
+  at(address) = value;
 }
 
 void FakeChip::set_r_req(bool level) {

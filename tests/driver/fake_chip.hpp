@@ -40,6 +40,7 @@ struct FakeChip {
   FakeChip();
   dsdpv1_port port();
   std::uint8_t& at(std::uint16_t address) { return memory.at(address); }
+  void user_writes(std::uint16_t address, std::uint8_t value);
   /// The holder releases the DPRAM.
   void let_in();
   /// Puts a block where the chip puts them, with its CRC.

@@ -163,7 +163,7 @@ Bytes FakeRsu::write(FakePort port, std::uint16_t address, const Bytes& data) {
     if (!claims && ownership_ != 0) chip_.let_in();
     ownership_ = data[0] & 2;
   } else {
-    std::copy(data.begin(), data.end(), chip_.memory.begin() + address);
+    for (std::size_t i = 0; i < data.size(); ++i) chip_.user_writes(static_cast<std::uint16_t>(address + i), data[i]);
   }
   return sealed({0xA0 | kAddress, 0});
 }

@@ -52,7 +52,6 @@ void CellRules::reset() {
   count_left_.reset();
   flags_left_ = {};
   fetched_ = {};
-  set_aside_ = {};
 }
 
 void CellRules::hold_began() {
@@ -174,18 +173,14 @@ void CellRules::count_written(const Access& access) {
   hold_.count = access.value;
 }
 
-/// A new initialisation may restore flags it set aside, and withdraw earlier announcements (D11).
-bool CellRules::restores(Address address, std::uint8_t set) const {
-  return is_command_of_chip(address) && (set & ~set_aside_.at(address - regs::kChipCommand1)) == 0;
-}
-
+/// A new initialisation may withdraw earlier announcements (D11).
 void CellRules::check_what_user_did(const Access& access, std::uint8_t before) {
   const FlagByte& flags = kFlags.at(access.address - kFirstFlags);
   if (flags.user_only) return;
   const std::uint8_t now = *access.value;
   const std::uint8_t set = bits(now & ~before & flags.chip_sets), cleared = bits(before & ~now & flags.user_sets);
   const bool initialises = access.address == regs::kUserCommand1 && (now & regs::kUserCommand1Init) != 0;
-  const bool right = (set == 0 || restores(access.address, set)) && (cleared == 0 || initialises);
+  const bool right = set == 0 && (cleared == 0 || initialises);
   recorder_.kept(Check::kFlagByUser, access.at, right, [&] {
     return fmt::format("the user writes {:02X} to B{:03X}, which is {:02X}", now, access.address, before);
   });
@@ -202,11 +197,7 @@ void CellRules::note_announcements(const Access& access, std::optional<std::uint
   for (std::size_t i = 0; i < kChipBlocks.size(); ++i) {
     const Block& block = kChipBlocks.at(i);
     if (block.command != access.address || !before) continue;
-    std::uint8_t& aside = set_aside_.at(access.address - regs::kChipCommand1);
-    const bool was_set = (*before & block.flag) != 0, is_set = (now & block.flag) != 0;
-    if (was_set && !is_set) hold_.flag_cleared.set(i);
-    if (was_set && !is_set && !hold_.header_read[i]) aside = bits(aside | block.flag);
-    if (is_set) aside = bits(aside & ~block.flag);
+    if ((*before & ~now & block.flag) != 0) hold_.flag_cleared.set(i);
   }
 }
 

@@ -61,7 +61,6 @@ class CellRules {
   void note_fetched(std::uint8_t now, const std::optional<std::uint8_t>& before);
   void check_verdicts(Tick at);
   std::optional<bool> stands_unfetched(std::size_t verdict) const;
-  bool restores(Address address, std::uint8_t set) const;
   std::optional<std::uint8_t> look(Address address) const;
   void learn(Address address, const std::optional<std::uint8_t>& value);
 
@@ -72,7 +71,6 @@ class CellRules {
   std::optional<std::uint8_t> count_left_;             ///< B006 as last written by the user
   std::array<std::uint8_t, kFlagBytes> flags_left_{};  ///< B00A.. as last known to the user
   std::bitset<2> fetched_;                             ///< the user cleared B00E.1, B00E.2 since the last verdict
-  std::array<std::uint8_t, 2> set_aside_{};            ///< B00E, B00F: flags cleared without fetching the block
 };
 
 }  // namespace dsdpv1::checks

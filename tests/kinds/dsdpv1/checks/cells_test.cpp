@@ -170,16 +170,15 @@ const Case kCases[] = {
        board.write(0x010, 0xC0);
        board.write(0x010, 0x80);
      }},
-    {"FlagByUserGivesBackOnlyWhatHeSetAside", Check::kFlagByUser,
+    {"FlagByUserGivesBackWhatHeHasCleared", Check::kFlagByUser,  // P6
      [](Board& board) {
-       board.read(0x00F, 0x02);
+       board.read(0x00F, 0x00);
        board.write(0x00F, 0x00);
-       board.write(0x00F, 0x02);
      },
      [](Board& board) {
        board.read(0x00F, 0x02);
        board.write(0x00F, 0x00);
-       board.write(0x00F, 0x03);
+       board.write(0x00F, 0x02);
      }},
     {"FlagByChipSetsTheUsers", Check::kFlagByChip, [](Board& board) { board.read(0x010, 0x00); },
      [](Board& board) { board.read(0x010, 0x01); }},
