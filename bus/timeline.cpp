@@ -66,26 +66,10 @@ Tick Timeline::next() {
   return plans_.earliest();
 }
 
-bool Timeline::has_news_of_others(std::size_t place) const {
-  return news_.size() > 1 || (news_.size() == 1 && news_.front() != place);
-}
-
-Tick Timeline::quiet_until(const Agent& agent) {
-  if (asked_by_ != agent.place_ || has_news_of_others(agent.place_)) {
-    hear_news(&agent);
-    others_at_ = plans_.earliest_other(agent.place_);
-    asked_by_ = agent.place_;
-  }
-  return limit_ < others_at_ ? limit_ + 1 : others_at_;
-}
-
-bool Timeline::go_on(const Agent& agent, Tick tick) {
-  if (quiet_until(agent) <= tick) return false;
-  if (checks_)
-    for (std::size_t place = 0; place < agents_.size(); ++place)
-      if (place != agent.place_) compare(place);
-  now_ = std::max(now_, tick);
-  return true;
+void Timeline::ask_others(const Agent& agent) {
+  hear_news(&agent);
+  others_at_ = plans_.earliest_other(agent.place_);
+  asked_by_ = agent.place_;
 }
 
 bool Timeline::step(Tick limit) {
@@ -114,6 +98,11 @@ void Timeline::compare(std::size_t place) const {
   if (agent == nullptr || agent->next() == plans_.at(place)) return;
   throw std::logic_error(fmt::format("at tick {} agent {} ({}) plans tick {}, but has announced {}", now_, place,
                                      typeid(*agent).name(), agent->next(), plans_.at(place)));
+}
+
+void Timeline::compare_others(std::size_t place) const {
+  for (std::size_t each = 0; each < agents_.size(); ++each)
+    if (each != place) compare(each);
 }
 
 void Timeline::run_until(Tick until) {

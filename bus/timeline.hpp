@@ -80,8 +80,10 @@ class Timeline {
   void hear_news(const Agent* except = nullptr);
   std::size_t next_turn(std::size_t from);
   bool has_news_of_others(std::size_t place) const;
+  void ask_others(const Agent& agent);
   void leave(std::size_t place);
   void compare(std::size_t place) const;
+  void compare_others(std::size_t place) const;
 
   std::vector<Entry> agents_;  ///< null: destroyed
   PlanQueue plans_;
@@ -99,6 +101,22 @@ inline void Timeline::announced(std::size_t place) {
   if (entry.has_news) return;
   entry.has_news = true;
   news_.push_back(place);
+}
+
+inline bool Timeline::has_news_of_others(std::size_t place) const {
+  return !news_.empty() && (news_.size() > 1 || news_.front() != place);
+}
+
+inline Tick Timeline::quiet_until(const Agent& agent) {
+  if (asked_by_ != agent.place_ || has_news_of_others(agent.place_)) ask_others(agent);
+  return limit_ < others_at_ ? limit_ + 1 : others_at_;
+}
+
+inline bool Timeline::go_on(const Agent& agent, Tick tick) {
+  if (quiet_until(agent) <= tick) return false;
+  if (checks_) compare_others(agent.place_);
+  now_ = now_ < tick ? tick : now_;
+  return true;
 }
 
 inline void Agent::announce() {

@@ -6,12 +6,21 @@
 #include <utility>
 
 #include "io/input/units.hpp"
+#include "tb/report/ruling_place.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
 
 constexpr int kNoRate = -1;
 constexpr Tick kCycle = bus::kTicksPerCycle;
+constexpr std::size_t kEvents = 3;
+constexpr const char* kNextLine = "\n                  ";
+
+/// Appends the names of "H1, T2-004" that it does not have yet.
+void add_names(std::vector<std::string>& names, const std::string& list) {
+  for (std::string& name : tb::names_of(list))
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+}
 
 std::string text(const tb::PinInfo& pin, const std::optional<Level>& level) {
   return level ? level_text(pin.width, *level) : "no such change within the tolerance";
@@ -25,9 +34,12 @@ std::string describe(const Difference& difference) {
       "                  {}\n"
       "last telegram     {}\n"
       "last access       {}\n"
-      "DPRAM             {}\n",
+      "DPRAM             {}\n"
+      "last events       {}\n"
+      "see rulings       {}\n",
       tb::cycle_text(difference.at), difference.what, difference.last_telegram, difference.last_access,
-      difference.dpram_accesses);
+      difference.dpram, difference.events.empty() ? "none" : fmt::format("{}", fmt::join(difference.events, kNextLine)),
+      fmt::join(difference.rulings, ", "));
 }
 
 std::string level_text(int width, Level level) {
@@ -63,6 +75,14 @@ Lockstep::Lockstep(std::unique_ptr<tb::PinDevice> model, std::unique_ptr<Rtl> rt
               },
               this},
              tb::outputs_of(kind.pins()));
+  model_->on_event(
+      {[](void* self, const profibus::Event& event) { static_cast<Lockstep*>(self)->happened(event); }, this});
+}
+
+void Lockstep::happened(const profibus::Event& event) {
+  events_.push_back(event);
+  if (events_.size() > kEvents) events_.pop_front();
+  if (event_sink_.call != nullptr) event_sink_.call(event_sink_.self, event);
 }
 
 void Lockstep::watch(const tb::PinSink& sink, tb::PinMask pins) {
@@ -148,15 +168,27 @@ void Lockstep::settle(Tick horizon) {
   if (!pin) return;
   compared_to_ = pin->at;
   const tb::PinInfo& info = kind_.pins()[pin->pin];
-  found(pin->at, fmt::format("pin {}: model {}, RTL {}", info.name, text(info, pin->model), text(info, pin->rtl)));
+  found(pin->at, fmt::format("pin {}: model {}, RTL {}", info.name, text(info, pin->model), text(info, pin->rtl)),
+        info.rulings);
 }
 
-void Lockstep::found(Tick at, std::string what) {
+void Lockstep::found(Tick at, std::string what, const std::string& rulings) {
   const LineTelegram telegram = history_.last_telegram(model_->status().baud.value_or(kNoRate));
-  difference_ = Difference{
-      at, std::move(what),
+  Difference difference{
+      at,
+      std::move(what),
       telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, tb::cycle_text(telegram.start)),
-      watch_->last_of_user(), watch_->last_of_chip()};
+      watch_->last_of_user(),
+      watch_->last_of_chip(),
+      {},
+      {}};
+  add_names(difference.rulings, rulings);
+  for (const profibus::Event& event : events_) {
+    difference.events.push_back(
+        fmt::format("{} at {}: {}", profibus::code(event.reason), tb::cycle_text(event.at), kind_.describe(event)));
+    add_names(difference.rulings, event.reason.row().source);
+  }
+  difference_ = std::move(difference);
 }
 
 const MatchCounts& Lockstep::counts() const {

@@ -1,6 +1,7 @@
 #pragma once
 // Model and RTL with the same inputs: compares every change of every output pin, and the memory shared by chip and user
 // at the end of each access that can have changed it. The driver of the chip sees the model's outputs.
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "cosim/history.hpp"
 #include "cosim/pin_comparator.hpp"
 #include "cosim/rtl_chip.hpp"
+#include "tb/bench/record.hpp"
 
 namespace dsdpv1::cosim {
 
@@ -20,19 +22,12 @@ struct LockstepOptions {
   int history_cycles = 5000;  ///< shown in the wave of a difference
 };
 
-/// The first difference as text, one item per line.
-struct Difference {
-  Tick at = 0;
-  std::string what;            ///< pin or cell and both values: one line
-  std::string last_telegram;   ///< on the line
-  std::string last_access;     ///< of the user
-  std::string dpram_accesses;  ///< the chip's last one
-};
+using Difference = tb::LockstepDifference;
 
 /// A level as text: "1", "3F", "Z", "X".
 std::string level_text(int width, Level level);
 
-/// Everything as text: cycle, time, difference, last telegram and access.
+/// Everything as text: cycle, time, difference, last telegram and access, events, rulings.
 std::string describe(const Difference& difference);
 
 struct MatchCounts {
@@ -64,7 +59,7 @@ class Lockstep : public tb::PinDevice {
     return model_->sample(at);
   }
   void watch(const tb::PinSink& sink, tb::PinMask pins) override;
-  void on_event(const profibus::EventSink& sink) override { model_->on_event(sink); }
+  void on_event(const profibus::EventSink& sink) override { event_sink_ = sink; }
   tb::ChipStatus status() const override { return model_->status(); }
   std::uint8_t address() const override { return model_->address(); }
   std::uint8_t peek(std::uint16_t address) const override { return model_->peek(address); }
@@ -95,7 +90,9 @@ class Lockstep : public tb::PinDevice {
   void access_ended(Tick at);
   void compare_memory(Tick at);
   void settle(Tick horizon);
-  void found(Tick at, std::string what);
+  void happened(const profibus::Event& event);
+  /// `rulings`: those of the pin.
+  void found(Tick at, std::string what, const std::string& rulings = {});
 
   const tb::ChipKind& kind_;
   std::unique_ptr<tb::PinDevice> model_;
@@ -106,6 +103,8 @@ class Lockstep : public tb::PinDevice {
   std::unique_ptr<MemoryWatch> watch_;
   std::vector<std::uint8_t> image_;  ///< the RTL's memory
   tb::PinSink sink_;
+  profibus::EventSink event_sink_;
+  std::deque<profibus::Event> events_;  ///< the last ones
   PinListener on_pin_;
   tb::PinMask watched_ = 0;
   std::optional<Tick> ended_;  ///< an access of the model has ended, the memory has not been compared yet

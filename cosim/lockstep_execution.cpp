@@ -87,10 +87,9 @@ tb::LockstepResult LockstepExecution::result() {
   tb::LockstepResult result{sum.cycles, sum.pin_changes, sum.dpram_images, {}};
   const Lockstep* found = different();
   if (found == nullptr) return result;
-  const Difference& difference = *found->difference();
   result.cycles = found->counts().cycles;
-  result.difference = {different_name(),         difference.at,          difference.what,
-                       difference.last_telegram, difference.last_access, difference.dpram_accesses};
+  result.difference = found->difference();
+  result.difference->slave = different_name();
   return result;
 }
 

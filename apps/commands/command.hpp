@@ -62,5 +62,6 @@ std::unique_ptr<Command> make_schema();
 std::unique_ptr<Command> make_serve();
 std::unique_ptr<Command> make_sweep();
 std::unique_ptr<Command> make_traces();
+std::unique_ptr<Command> make_verify_rtl();
 
 }  // namespace dsdpv1::app

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <regex>
 
 #include "apps/commands/command.hpp"
 #include "apps/options/outputs.hpp"
@@ -12,6 +10,7 @@
 #include "io/input/suggest.hpp"
 #include "kinds/dsdpv1/checks/markdown.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/report/ruling_place.hpp"
 #include "tb/report/text_table.hpp"
 #include "tb/scenario/event_codes.hpp"
 
@@ -35,28 +34,12 @@ std::vector<tb::CodeText> check_codes(const tb::ChipKind& kind) {
   return list;
 }
 
-/// The page and anchor of a ruling or clause.
-std::string place_of(const std::string& name) {
-  static const std::regex chip("[PHDSV][0-9]+"), sisters("(R|SP|UA)[0-9]+");
-  if (name == "PROFIBUS facts") return "chip.md#profibus-facts-that-the-documents-take-for-granted";
-  if (name == "host process") return "tutorials/c_driver_on_host.md";
-  if (name == "ARM board") return "arm_board.md#what-a-real-board-would-not-forgive";
-  const char* page = std::regex_match(name, chip)      ? "chip.md#"
-                     : std::regex_match(name, sisters) ? "chip_rsu.md#"
-                                                       : "conformance.md#";
-  return page + bus::capture::lower_case(name);
-}
-
 /// "S6, T19-4" with each name as `format` shows it with its place.
 std::string linked(const std::string& source, const char* format) {
-  std::string text;
-  for (std::size_t at = 0; at < source.size();) {
-    const std::size_t end = std::min(source.find(", ", at), source.size());
-    const std::string name = source.substr(at, end - at);
-    text += (at == 0 ? "" : ", ") + fmt::format(fmt::runtime(format), name, place_of(name));
-    at = end + 2;
-  }
-  return text;
+  std::vector<std::string> shown;
+  for (const std::string& name : tb::names_of(source))
+    shown.push_back(fmt::format(fmt::runtime(format), name, tb::ruling_place(name)));
+  return fmt::format("{}", fmt::join(shown, ", "));
 }
 
 void print(std::string& text, const std::vector<tb::CodeText>& reasons) {

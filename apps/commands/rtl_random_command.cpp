@@ -25,6 +25,7 @@
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 #include "io/output/output_file.hpp"
+#include "io/output/shell_word.hpp"
 #include "io/output/write_file.hpp"
 #include "io/waves/wave_writer.hpp"
 #include "lab/campaign/lock.hpp"
@@ -158,20 +159,11 @@ class ProgressLine {
   bool shown_ = isatty(STDERR_FILENO) != 0;
 };
 
-/// As a word of a shell.
-std::string word(const std::string& text) {
-  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string quoted;
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return "'" + quoted + "'";
-}
-
 /// The command that plays the case again.
 std::string command_text(const RtlRandomArguments& arguments) {
   std::string text = arguments.command;
   const auto add = [&text](const char* option, const std::string& value) {
-    if (!value.empty()) text += fmt::format(" {} {}", option, word(value));
+    if (!value.empty()) text += fmt::format(" {} {}", option, tb::shell_word(value));
   };
   const bool own = !arguments.own.rtl.empty();
   add("--chip", arguments.chip.chip == RtlChip().chip ? "" : arguments.chip.chip);
@@ -181,7 +173,7 @@ std::string command_text(const RtlRandomArguments& arguments) {
   add("--build", own && arguments.own.build != OwnRtlArguments().build ? arguments.own.build : "");
   for (const std::string& each : arguments.set) add("--set", each);
   add("--fault", arguments.fault == 0 ? "" : std::to_string(arguments.fault));
-  return text + fmt::format(" --seed {} --replay {}", arguments.seed, word(arguments.stimulus));
+  return text + fmt::format(" --seed {} --replay {}", arguments.seed, tb::shell_word(arguments.stimulus));
 }
 
 int shrink_and_play(RtlRandomArguments arguments, const cosim::CampaignResult& campaign, tb::OutputFile& file,

@@ -261,7 +261,7 @@ int forth_and_back(RunRequest& request, const std::function<int()>& carry_out) {
 
 }  // namespace
 
-int run(const RunArguments& given) {
+int run(const RunArguments& given, const cosim::MakeRtl& own) {
   leave_nothing_on_signals();
   RunRequest request = request_of(given);
   const RunArguments& arguments = request.arguments;
@@ -269,7 +269,8 @@ int run(const RunArguments& given) {
   check_outputs_of(arguments, request.scenario);
   check_view(arguments, request.scenario);
   if (arguments.gdb) check_has_board("dsdpv1-sim run", request.scenario);
-  const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
+  const cosim::MakeRtl rtl =
+      own ? own : cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
   if (arguments.engine == "lockstep") return forth_and_back(request, [&] { return run_lockstep(request, rtl).status; });
   if (arguments.engine == "rtl")
     return forth_and_back(request, [&] { return run_scenario(request, cosim::make_rtl_execution(rtl)); });

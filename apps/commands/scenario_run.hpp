@@ -10,8 +10,9 @@
 
 namespace dsdpv1::app {
 
-/// Carries it out; returns the exit code. Throws tb::InputError.
-int run(const RunArguments& given);
+/// Carries it out, with the engine rtl by RTL that `own` makes, if it is given; returns the exit code. Throws
+/// tb::InputError.
+int run(const RunArguments& given, const cosim::MakeRtl& own = {});
 
 /// The run to execute.
 struct RunRequest {

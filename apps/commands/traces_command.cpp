@@ -7,6 +7,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/scenario_run.hpp"
@@ -38,6 +39,7 @@ const std::vector<std::string> kRulings = {"docs/chip.md", "docs/microarchitectu
 
 constexpr const char* kTracesFooter =
     "\nExamples:\n  dsdpv1-sim traces check\n  dsdpv1-sim traces check power_on_12m --engine rtl\n"
+    "  dsdpv1-sim traces check power_on_12m --rtl my_chip --top chip --pins pins.yaml\n"
     "  dsdpv1-sim traces regenerate scenarios/power_on_12m.yaml\n  dsdpv1-sim traces wave power_on_12m golden.fst\n"
     "docs/traces.md says what they are.\n"
     "\nExit codes: 0 no difference, 1 a difference, 2 wrong input, 130 interrupted.\n";
@@ -47,6 +49,7 @@ struct TracesArguments {
   std::string folder;                  ///< of the goldens; empty: traces of the source tree
   std::string engine = "skip";
   unsigned fault = 0;          ///< of rtl_ref/dsdpv1/faults.txt, 0: none
+  OwnRtlArguments own;         ///< in place of the reference RTL
   std::string golden, output;  ///< of wave: its name and the file
   std::optional<bool> progress;
 };
@@ -103,20 +106,43 @@ int for_scenarios(const TracesArguments& given, const std::function<int(const st
   return for_each(files, work);
 }
 
+/// RTL of the user's own, for the chip of the first scenario; RTL has the pins of one.
+class OwnRtlOfTraces {
+ public:
+  explicit OwnRtlOfTraces(const TracesArguments& given) : given_(given) {
+    if (!given.own.rtl.empty() && given.scenarios.empty())
+      throw tb::InputError("dsdpv1-sim traces check: --rtl needs the scenarios of its chip, expected SCENARIO...");
+  }
+
+  /// Empty: there is none.
+  cosim::MakeRtl make_for(const std::string& file) {
+    if (given_.own.rtl.empty()) return {};
+    const tb::ChipKind* const kind = tb::scenario::load(file).kind;
+    if (kind_ == nullptr) own_ = build_own_rtl(given_.own, "dsdpv1-sim traces", *kind, false), kind_ = kind;
+    if (kind_ != kind)
+      throw tb::InputError(file, 0, fmt::format("is about another chip, a {}, expected one chip", kind->name()));
+    return [make = own_.make](auto&&...) { return make(std::nullopt); };
+  }
+
+ private:
+  const TracesArguments& given_;
+  const tb::ChipKind* kind_ = nullptr;
+  OwnRtl own_;
+};
+
 int check(const TracesArguments& given) {
-  return for_scenarios(
-      given,
-      [&given](const std::string& file) {
-        RunArguments one;
-        one.scenario = file;
-        one.engine = given.engine;
-        one.fault = given.fault;
-        one.golden = folder_of(given);
-        one.difference = "";
-        one.progress = given.progress;
-        one.quiet = true;
-        return run(one);
-      });
+  OwnRtlOfTraces own(given);
+  return for_scenarios(given, [&](const std::string& file) {
+    RunArguments one;
+    one.scenario = file;
+    one.engine = given.own.rtl.empty() ? given.engine : "rtl";
+    one.fault = given.fault;
+    one.golden = folder_of(given);
+    one.difference = "";
+    one.progress = given.progress;
+    one.quiet = true;
+    return run(one, own.make_for(file));
+  });
 }
 
 // --- regenerate ------------------------------------------------------------------------------------------------------
@@ -242,8 +268,11 @@ class Traces : public Command {
     app.require_subcommand(0, 1);  // carry_out says in its own words what is missing
     CLI::App* check_them = add_action(app, "check", "Run scenarios and compare every change of every pin", check);
     add_scenarios(*check_them);
-    check_them->add_option("--engine", given_.engine, "As for run: step, skip, rtl, lockstep")->capture_default_str();
-    add_fault_option(*check_them, given_.fault);
+    CLI::Option* engine = check_them->add_option("--engine", given_.engine, "As for run: step, skip, rtl, lockstep")
+                              ->capture_default_str();
+    CLI::Option* fault = add_fault_option(*check_them, given_.fault);
+    add_own_rtl_options(*check_them, given_.own, false);
+    check_them->get_option("--rtl")->excludes(engine)->excludes(fault);
     add_scenarios(*add_action(app, "regenerate",
                               "Regenerate goldens, write those that differ and summarise the changes", regenerate));
     add_action(app, "list", "List the goldens", list);

@@ -21,10 +21,11 @@ std::vector<const tb::ChipKind*> random_kinds() {
 
 }  // namespace
 
-void add_chip_options(CLI::App& app, RtlChip& chip) {
+void add_chip_options(CLI::App& app, RtlChip& chip, bool with_mode) {
   app.add_option("--chip", chip.chip, "The chip of the reference RTL: dsdpv1, dsdpv1_r, dsdpv1_rsu")
       ->type_name("WORD")
       ->capture_default_str();
+  if (!with_mode) return;
   app.add_option("--mode", chip.mode, "The dsdpv1_rsu's host port in random cases: parallel, spi or uart")
       ->capture_default_str();
 }

@@ -20,7 +20,7 @@ struct RtlChip {
   /// Throws tb::InputError for a port that the chip does not have.
   const cosim::HostPort& port() const;
 };
-void add_chip_options(CLI::App& app, RtlChip& chip);
+void add_chip_options(CLI::App& app, RtlChip& chip, bool with_mode = true);
 /// --fault: a single one in the reference RTL.
 CLI::Option* add_fault_option(CLI::App& app, unsigned& fault);
 

@@ -1,6 +1,7 @@
 #include "cosim/random/stimulus_result.hpp"
 
 #include "tb/report/fields.hpp"
+#include "tb/report/result_fields.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -20,14 +21,11 @@ void case_fields(Fields& out, const StimulusResult& result) {
   out.field("actions", result.actions, "in that file");
 }
 
-void difference_fields(Fields& out, const Difference& difference) {
+void timed_difference_fields(Fields& out, const Difference& difference) {
   const double ns = static_cast<double>(difference.at) / static_cast<double>(bus::kTicksPerNs);
   out.field("cycle", difference.at / profibus::kTicksPerCycle, "of 48 MHz, when");
   out.field("time_ns", ns, "when");
-  out.field("what", difference.what, "pin or cell of the DPRAM, and both values");
-  out.field("last_telegram", difference.last_telegram, "on the line");
-  out.field("last_access", difference.last_access, "of the user");
-  out.field("dpram", difference.dpram_accesses, "the chip's last access");
+  tb::difference_fields(out, difference);
 }
 
 Json telegrams_of(const Coverage& coverage) {
@@ -62,7 +60,7 @@ void coverage_fields(Fields& out, const StimulusResult& result) {
 void stimulus_fields(Fields& out, const StimulusResult& result) {
   const bool random = is_random(result);
   out.constant("schema", kSchema, "what this file is");
-  out.constant("version", "1.1", "of the contents");
+  out.constant("version", "1.2", "of the contents");
   out.word("verdict", result.difference ? "different" : "same", {"same", "different"}, "model and RTL");
   out.field("rtl", only_if(!result.rtl.empty(), result.rtl), "the folder of `--rtl`; null: the reference RTL");
   out.field("fault", only_if(result.fault != 0, result.fault), "the number of `--fault`; null: none");
@@ -75,7 +73,7 @@ void stimulus_fields(Fields& out, const StimulusResult& result) {
   out.field("dpram_images", result.counts.dpram_images, "compared and equal");
   out.object_or_null("case", random && result.difference ? &result : nullptr, case_fields,
                      "the random case that differs; null: none, or `--replay`");
-  out.object_or_null("difference", result.difference, difference_fields,
+  out.object_or_null("difference", result.difference, timed_difference_fields,
                      "the first difference when the stimulus file is played; null: none");
   out.object("coverage", result, coverage_fields, "what occurred");
 }

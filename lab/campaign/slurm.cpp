@@ -13,6 +13,7 @@
 
 #include "io/input/input_error.hpp"
 #include "io/input/units.hpp"
+#include "io/output/shell_word.hpp"
 #include "io/output/write_file.hpp"
 #include "lab/campaign/fingerprint.hpp"
 
@@ -26,13 +27,6 @@ struct Answer {
   bool good = false;
   std::string text;
 };
-
-/// Quotes a word for the shell.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
-}
 
 Answer ask(const std::string& command) {
   std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
@@ -89,13 +83,13 @@ Submission Slurm::submit(const std::string& identity, const Tasks& tasks,
   Submission made{1, identity, "", tasks};
   while (fs::exists(file(made.number, ".json"))) ++made.number;
   write(made);
-  std::string script = "#!/bin/sh\nexec " + quoted(this_program());
-  for (const std::string& word : command) script += " " + quoted(word);
+  std::string script = "#!/bin/sh\nexec " + shell_word(this_program());
+  for (const std::string& word : command) script += " " + shell_word(word);
   write_file(file(made.number, ".sh"), script + fmt::format(" --slurm-task {}\n", made.number));
   const Answer answer =
       ask(fmt::format("sbatch --parsable --job-name=dsdpv1-sim --array=0-{} --chdir={} --output={} {} {}",
-                      tasks.size() - 1, quoted(fs::current_path().string()), quoted(file(made.number, "_%a.out")),
-                      options_, quoted(file(made.number, ".sh"))));
+                      tasks.size() - 1, shell_word(fs::current_path().string()),
+                      shell_word(file(made.number, "_%a.out")), options_, shell_word(file(made.number, ".sh"))));
   if (!answer.good) {
     forget(made);
     throw InputError("dsdpv1-sim: --slurm: sbatch says " + campaign::last_line(answer.text));
@@ -122,7 +116,7 @@ std::optional<std::map<std::string, std::set<std::size_t>>> Slurm::under_way() {
 }
 
 void Slurm::cancel(const Submission& submission) {
-  if (!submission.job.empty()) ask("scancel " + quoted(submission.job));
+  if (!submission.job.empty()) ask("scancel " + shell_word(submission.job));
 }
 
 std::string Slurm::last_line(const Submission& submission, std::size_t task) const {

@@ -78,11 +78,27 @@ std::optional<Keep> keep_named(const std::string& word) {
   return static_cast<Keep>(found - keep_words().begin());
 }
 
+namespace {
+
+Json rtl_json(const OwnRtl& rtl) {
+  return {{"folder", rtl.folder}, {"top", rtl.top},   {"pins", rtl.pins},
+          {"build", rtl.build},   {"chip", rtl.chip}, {"files", rtl.files}};
+}
+
+OwnRtl rtl_of(const Json& json) {
+  if (json.is_null()) return {};  // not in folders of earlier versions
+  return {json.at("folder"), json.at("top"),  json.at("pins"),
+          json.at("build"),  json.at("chip"), json.at("files").get<std::vector<std::string>>()};
+}
+
+}  // namespace
+
 Json json_of(const Description& description) {
-  Json json = {{"format", kind().format()},    {"checks", description.checks},
-               {"wave", description.wave},     {"keep", keep_words().at(static_cast<std::size_t>(description.keep))},
-               {"report", description.report}, {"left_out", description.plan.left_out},
-               {"runs", Json::array()}};
+  Json json = {
+      {"format", kind().format()},        {"checks", description.checks},
+      {"wave", description.wave},         {"keep", keep_words().at(static_cast<std::size_t>(description.keep))},
+      {"report", description.report},     {"left_out", description.plan.left_out},
+      {"rtl", rtl_json(description.rtl)}, {"runs", Json::array()}};
   for (const Run& run : description.plan.runs) json["runs"].push_back(json_of(run));
   return campaign::as_kept(json);
 }
@@ -96,6 +112,7 @@ Description last_description(const std::string& folder) {
     description.keep = keep_named(json.at("keep")).value_or(Keep::kFailed);
     description.report = json.value("report", false);  // not in folders of earlier versions
     description.plan.left_out = json.at("left_out");
+    description.rtl = rtl_of(json.value("rtl", Json()));
     for (const Json& each : json.at("runs")) description.plan.runs.push_back(run_of(each));
     return description;
   } catch (const nlohmann::json::exception&) {
@@ -111,15 +128,31 @@ std::string Folder::place(const Run& run) const {
   return folder_.item_file(fmt::format("{}.{}.run", run.file_name(), getpid()));
 }
 
+std::vector<std::string> Description::words(const Run& run) const {
+  std::vector<std::string> words = run.words();
+  if (!run.has_own_rtl()) return words;
+  const std::vector<std::string> own = rtl.words();
+  words.insert(words.end(), own.begin(), own.end());
+  return words;
+}
+
 std::vector<std::string> Folder::words(const Run& run) const {
   const fs::path files = place(run);
   in_folder(folder_, [&files] { return fs::create_directories(files); });
-  std::vector<std::string> words = run.words();
-  words.insert(words.end(), {"--quiet", "--no-progress", "--result", files / kResult, "--log", files / kLog});
+  std::vector<std::string> words = description_.words(run);
+  if (run.engine == "golden") {
+    words.emplace_back("--no-progress");
+    return words;
+  }
+  words.insert(words.end(), {"--result", files / kResult, "--log", files / kLog});
+  if (run.has_own_rtl() || run.engine == "lockstep")
+    words.insert(words.end(), {"--difference", files / "difference.vcd"});
+  if (run.engine == "random") words.insert(words.end(), {"--stimulus", files / "lockstep.stimulus"});
+  if (run.is_stimulus()) return words;
+  if (!run.has_own_rtl()) words.insert(words.end(), {"--quiet", "--no-progress"});
   if (!description_.checks.empty()) words.insert(words.end(), {"--checks", description_.checks});
   if (!description_.wave.empty()) words.insert(words.end(), {"--wave", files / ("wave." + description_.wave)});
   if (description_.report) words.insert(words.end(), {"--report", files / "report.html"});
-  if (run.engine == "lockstep") words.insert(words.end(), {"--difference", files / "difference.vcd"});
   return words;
 }
 

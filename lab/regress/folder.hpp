@@ -26,6 +26,10 @@ struct Description {
   std::string checks, wave;  ///< of run --checks; "vcd", "fst"; empty: the default, none
   Keep keep = Keep::kFailed;
   bool report = false;  ///< write each run's page (run --report)
+  OwnRtl rtl;
+
+  /// Arguments of this program that carry it out.
+  std::vector<std::string> words(const Run& run) const;
 };
 campaign::Json json_of(const Description& description);
 /// The description of the last regression in a folder. Throws InputError when none is there.

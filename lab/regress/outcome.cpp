@@ -32,9 +32,19 @@ std::string first_unmet(const Json& result) {
   return "";
 }
 
-/// The reason of a failed run. A lockstep run whose scenario has passed prints the difference of the two sides.
+/// The pin or cell and both values; empty when the output has no difference of model and RTL.
+std::string difference(const std::string& output) {
+  const std::size_t begin = output.find("first difference  "), end = output.find('\n', begin);
+  if (begin == std::string::npos || end == std::string::npos) return "";
+  const std::size_t what = output.find_first_not_of(' ', end + 1);
+  return what == std::string::npos ? "" : output.substr(what, output.find('\n', what) - what);
+}
+
+/// The reason of a failed run.
 std::string failure(const Ended& ended, const Json& result) {
   try {
+    std::string differs = difference(ended.output);
+    if (!differs.empty()) return differs;
     std::string unmet = first_unmet(result);
     if (!unmet.empty()) return unmet;
     const sweep::Point point = sweep::point_of(ended.exit, "", result);

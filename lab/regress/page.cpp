@@ -59,10 +59,11 @@ std::string escaped(const std::string& text) { return markup_escaped(bus::printa
 
 std::string cell(const std::string& text) { return "<td>" + escaped(text) + "</td>"; }
 
-/// The reason, and on demand the run's last output.
-std::string reason_cell(const Outcome& outcome) {
+/// The reason, and on demand the run's last output and its command.
+std::string reason_cell(const Outcome& outcome, const std::string& again) {
   std::string text = "<td>" + escaped(outcome.reason);
-  for (const auto& [what, lines] : {std::pair{"output", outcome.output}, std::pair{"end of the log", outcome.log}})
+  for (const auto& [what, lines] : {std::pair{"output", outcome.output}, std::pair{"end of the log", outcome.log},
+                                    std::pair{"again", outcome.passed() ? "" : again}})
     if (!lines.empty())
       text += fmt::format("<details><summary>{}</summary><pre>{}</pre></details>", what, escaped(lines));
   return text + "</td>";
@@ -79,16 +80,17 @@ std::string files_cell(const Run& run, const Outcome& outcome) {
 
 std::string settings_text(const Run& run) {
   std::string text = run.seed.empty() ? "" : "seed=" + run.seed;
-  for (const std::string& setting : run.settings) text += (text.empty() ? "" : " ") + setting;
+  for (const auto* words : {&run.options, &run.settings})
+    for (const std::string& word : *words) text += (text.empty() ? "" : " ") + word;
   return text;
 }
 
-std::string row(const Run& run, const Outcome& outcome) {
+std::string row(const Report& report, const Run& run, const Outcome& outcome) {
   const char* const verdict = name(outcome.verdict);
   return fmt::format("<tr><td class=\"verdict {0}\">{0}</td>", verdict) + cell(run.scenario) + cell(run.engine) +
          cell(run.view) + cell(settings_text(run)) +
-         fmt::format(R"(<td class="number" data-key="{0:.3f}">{0:.2f}</td>)", outcome.seconds) + reason_cell(outcome) +
-         files_cell(run, outcome) + "</tr>\n";
+         fmt::format(R"(<td class="number" data-key="{0:.3f}">{0:.2f}</td>)", outcome.seconds) +
+         reason_cell(outcome, report.again(run)) + files_cell(run, outcome) + "</tr>\n";
 }
 
 }  // namespace
@@ -102,7 +104,7 @@ std::string page(const Report& report) {
   for (const char* head : {"verdict", "scenario", "engine", "view", "settings", "time / s", "reason", "files"})
     text += fmt::format("<th scope=\"col\">{}</th>", head);
   text += "</tr></thead>\n<tbody>\n";
-  for (std::size_t i = 0; i < report.outcomes.size(); ++i) text += row(report.plan.runs[i], report.outcomes[i]);
+  for (std::size_t i = 0; i < report.outcomes.size(); ++i) text += row(report, report.runs()[i], report.outcomes[i]);
   return text + kTail;
 }
 

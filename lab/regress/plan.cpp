@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostRuns = 100'000;
 
 bool is_rtl(const std::string& engine) { return engine == "rtl" || engine == "lockstep"; }
+bool is_about_pins(const std::string& engine) { return is_rtl(engine) || engine == "cosim"; }
 
 bool is_scenario(const fs::directory_entry& entry) {
   const fs::path ending = entry.path().extension();
@@ -43,16 +44,6 @@ std::vector<std::string> files_of(const std::string& path) {
                      "cannot be read (" + error.code().message() + "), expected scenarios and folders of them");
   }
   throw InputError(path, 0, "no such file or folder, expected scenarios and folders of them");
-}
-
-/// Each once, in the order given.
-std::vector<std::string> all_files(const std::vector<std::string>& paths) {
-  std::vector<std::string> files;
-  std::set<std::string> seen;
-  for (const std::string& path : paths)
-    for (const std::string& file : files_of(path))
-      if (seen.insert(file).second) files.push_back(file);
-  return files;
 }
 
 /// Every combination of the parameters' values; one without settings when there are none.
@@ -85,7 +76,7 @@ void add_runs(const Request& request, const Shard& shard, const Run& run,
     for (const std::vector<std::string>& each : settings) {
       const Run next{run.scenario, run.engine, run.view, seed, each};
       if (!shard.has(next)) continue;
-      if (run.view == "tlm" && (is_rtl(run.engine) || request.pins_only(next)))
+      if (run.view == "tlm" && (is_about_pins(run.engine) || request.pins_only(next)))
         ++plan.left_out;
       else
         plan.runs.push_back(next);
@@ -95,10 +86,39 @@ void add_runs(const Request& request, const Shard& shard, const Run& run,
   }
 }
 
+/// What names it without options.
+std::vector<std::string> command_of(const Run& run) {
+  if (run.engine == "cosim") return {"cosim", run.scenario};
+  if (run.engine == "golden") return {"traces", "check", run.scenario};
+  if (run.engine == "replay") return {"rtl-random", "--replay", run.scenario};
+  if (run.engine == "random") return {"rtl-random"};
+  return {"run", run.scenario, "--engine", run.engine, "--view", run.view};
+}
+
+void append(std::vector<std::string>& words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
 }  // namespace
+
+std::vector<std::string> OwnRtl::words() const {
+  std::vector<std::string> words = {"--rtl", folder, "--top", top, "--build", build};
+  if (!pins.empty()) append(words, {"--pins", pins});
+  return words;
+}
+
+std::vector<std::string> all_files(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  std::set<std::string> seen;
+  for (const std::string& path : paths)
+    for (const std::string& file : files_of(path))
+      if (seen.insert(file).second) files.push_back(file);
+  return files;
+}
 
 std::string Run::variant() const {
   std::string text = engine + " " + view;
+  for (const std::string& option : options) text += " " + option;
   if (!seed.empty()) text += " seed=" + seed;
   for (const std::string& setting : settings) text += " " + setting;
   return text;
@@ -114,9 +134,10 @@ std::string Run::file_name() const {
 }
 
 std::vector<std::string> Run::words() const {
-  std::vector<std::string> words = {"run", scenario, "--engine", engine, "--view", view};
-  if (!seed.empty()) words.insert(words.end(), {"--seed", seed});
-  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+  std::vector<std::string> words = command_of(*this);
+  append(words, options);
+  if (!seed.empty()) append(words, {"--seed", seed});
+  for (const std::string& setting : settings) append(words, {"--set", setting});
   return words;
 }
 
@@ -162,16 +183,17 @@ Plan plan_of(const Request& request, const Shard& shard) {
 }
 
 campaign::Json json_of(const Run& run) {
-  return {{"scenario", run.scenario},
-          {"engine", run.engine},
-          {"view", run.view},
-          {"seed", run.seed},
-          {"settings", run.settings}};
+  return {{"scenario", run.scenario}, {"engine", run.engine},     {"view", run.view},
+          {"seed", run.seed},         {"settings", run.settings}, {"options", run.options}};
 }
 
 Run run_of(const campaign::Json& json) {
-  return {json.at("scenario"), json.at("engine"), json.at("view"), json.at("seed"),
-          json.at("settings").get<std::vector<std::string>>()};
+  return {json.at("scenario"),
+          json.at("engine"),
+          json.at("view"),
+          json.at("seed"),
+          json.at("settings").get<std::vector<std::string>>(),
+          json.value("options", std::vector<std::string>())};
 }
 
 }  // namespace dsdpv1::tb::regress

@@ -10,10 +10,27 @@
 
 namespace dsdpv1::tb::regress {
 
+/// RTL of the user's own, which runs with these engines are about.
+struct OwnRtl {
+  std::string folder, top, pins, build;  ///< as --rtl, --top, --pins, --build; empty: there is none
+  std::string chip;                      ///< its kind
+  std::vector<std::string> files;        ///< a run depends on them
+
+  /// The options.
+  std::vector<std::string> words() const;
+};
+
 struct Run {
-  std::string scenario, engine, view;
-  std::string seed;                   ///< empty: the run does not depend on one
-  std::vector<std::string> settings;  ///< PATH=VALUE
+  std::string scenario;  ///< or the stimulus of "replay"
+  std::string engine;    ///< of run; or, of OwnRtl: "cosim", "golden", "replay", "random"
+  std::string view;
+  std::string seed;                       ///< empty: the run does not depend on one
+  std::vector<std::string> settings;      ///< PATH=VALUE
+  std::vector<std::string> options = {};  ///< more words of its command
+
+  bool has_own_rtl() const { return engine == "cosim" || engine == "golden" || is_stimulus(); }
+  /// It has no scenario.
+  bool is_stimulus() const { return engine == "replay" || engine == "random"; }
 
   /// "skip pins", "rtl pins seed=3 baud=6M".
   std::string variant() const;
@@ -51,6 +68,9 @@ struct Plan {
   std::vector<Run> runs;
   std::size_t left_out = 0;  ///< impossible combinations: RTL, and some scenarios, have pins only
 };
+
+/// The scenarios that files and folders hold, each once, in the order given. Throws InputError.
+std::vector<std::string> all_files(const std::vector<std::string>& paths);
 
 /// Throws InputError for a missing path, a folder without scenarios, a key that is set twice, seeds without an engine
 /// that uses them, more than 100 000 runs, and when no run remains.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bus/printable.hpp"
+#include "io/output/shell_word.hpp"
 #include "lab/campaign/fingerprint.hpp"
 #include "tb/report/junit.hpp"
 #include "tb/report/text_table.hpp"
@@ -38,10 +39,11 @@ std::string folder_of(const Run& run, const Outcome& outcome) {
   return outcome.files.empty() ? "" : "runs/" + run.file_name();
 }
 
-Json json_of(const Run& run, const Outcome& outcome) {
+Json json_of(const Report& report, const Run& run, const Outcome& outcome) {
   Json json = regress::json_of(run);
   json.update(regress::json_of(outcome));
   json["folder"] = folder_of(run, outcome);
+  json["again"] = report.again(run);
   return json;
 }
 
@@ -54,13 +56,19 @@ JunitCase case_of(const Run& run, const Outcome& outcome) {
 
 }  // namespace
 
+std::string Report::again(const Run& run) const {
+  std::string text = "dsdpv1-sim";
+  for (const std::string& word : description.words(run)) text += " " + shell_word(word);
+  return text;
+}
+
 bool Report::passed() const { return count(*this, Verdict::kPassed) == outcomes.size(); }
 
 std::string tsv(const Report& report) {
   std::string text =
       tsv_line({"verdict", "scenario", "engine", "view", "seed", "settings", "exit", "seconds", "reason", "folder"});
   for (std::size_t i = 0; i < report.outcomes.size(); ++i) {
-    const Run& run = report.plan.runs[i];
+    const Run& run = report.runs()[i];
     const Outcome& outcome = report.outcomes[i];
     text += tsv_line({name(outcome.verdict), run.scenario, run.engine, run.view, run.seed, joined(run.settings),
                       fmt::format("{}", outcome.exit), fmt::format("{:.3f}", outcome.seconds), outcome.reason,
@@ -72,7 +80,7 @@ std::string tsv(const Report& report) {
 std::string table(const Report& report) {
   TextTable table({"verdict", "scenario", "how", "seconds", "reason"});
   for (std::size_t i = 0; i < report.outcomes.size(); ++i) {
-    const Run& run = report.plan.runs[i];
+    const Run& run = report.runs()[i];
     const Outcome& outcome = report.outcomes[i];
     table.add(
         {name(outcome.verdict), run.scenario, run.variant(), fmt::format("{:.3f}", outcome.seconds), outcome.reason});
@@ -81,19 +89,19 @@ std::string table(const Report& report) {
 }
 
 std::string json(const Report& report) {
-  Json all = {{"passed", report.passed()}, {"left_out", report.plan.left_out}, {"counts", Json::object()}};
+  Json all = {{"passed", report.passed()}, {"left_out", report.description.plan.left_out}, {"counts", Json::object()}};
   all["counts"][name(Verdict::kPassed)] = count(report, Verdict::kPassed);
   for (const Verdict verdict : kOthers) all["counts"][name(verdict)] = count(report, verdict);
   all["runs"] = Json::array();
   for (std::size_t i = 0; i < report.outcomes.size(); ++i)
-    all["runs"].push_back(json_of(report.plan.runs[i], report.outcomes[i]));
+    all["runs"].push_back(json_of(report, report.runs()[i], report.outcomes[i]));
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string junit(const Report& report) {
   std::vector<JunitCase> cases;
   for (std::size_t i = 0; i < report.outcomes.size(); ++i)
-    cases.push_back(case_of(report.plan.runs[i], report.outcomes[i]));
+    cases.push_back(case_of(report.runs()[i], report.outcomes[i]));
   return tb::junit("dsdpv1-sim regress", cases);
 }
 
@@ -101,8 +109,8 @@ std::string summary(const Report& report) {
   std::string text = fmt::format("{} of {} runs passed", count(report, Verdict::kPassed), report.outcomes.size());
   for (const Verdict verdict : kOthers)
     if (const std::size_t many = count(report, verdict)) text += fmt::format(", {} {}", many, name(verdict));
-  if (report.plan.left_out != 0)
-    text += fmt::format("; {} combinations that cannot be are left out", report.plan.left_out);
+  if (report.description.plan.left_out != 0)
+    text += fmt::format("; {} combinations that cannot be are left out", report.description.plan.left_out);
   return text;
 }
 

@@ -3,17 +3,20 @@
 #include <string>
 #include <vector>
 
+#include "lab/regress/folder.hpp"
 #include "lab/regress/outcome.hpp"
-#include "lab/regress/plan.hpp"
 
 namespace dsdpv1::tb::regress {
 
 /// The runs of a plan with their results.
 struct Report {
-  Plan plan;
+  Description description;
   std::vector<Outcome> outcomes;  ///< of the runs, in their order
 
   bool passed() const;
+  const std::vector<Run>& runs() const { return description.plan.runs; }
+  /// The command line that carries a run out again, in the folder in which this was called.
+  std::string again(const Run& run) const;
 };
 
 /// One line per run, with a heading, its fields separated by tabs. Control characters in them are shown as escapes.

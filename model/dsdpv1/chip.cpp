@@ -228,12 +228,11 @@ bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled,
 
 // Meanwhile the dozing chip may have accesses, and D is unreadable during one.
 Level Chip::Impl::read_unheld(Tick begin, const HostAccess& access) {
-  const Tick fall = begin + std::max(access.times().select, access.times().strobe);
-  advance(fall);
-  host.tell_unheld(fall, access);
-  make_up(first_edge_after(fall) - 1);
+  now = begin + std::max(access.times().select, access.times().strobe);  // nothing else is planned before its end
+  host.tell_unheld(now, access);
+  make_up(first_edge_after(now) - 1);
   const Level sampled = host.read_unheld(begin, access, sequencer.owns());
-  advance(begin + access.last());
+  now = begin + access.last();
   return sampled;
 }
 

@@ -67,17 +67,19 @@ void Journal::happened(const Tally& tally, Tick at, const std::string& words, co
   observers_.counted(at, sample.station, sample.code, violation, ++*tally.count);
   if (violation) ++(sample.allowed ? allowed_ : violations_);
   const bool lists = kept_.size() < RunResult::kKept, first = tally.repeated != nullptr && tally.repeated->count == 0;
-  const std::optional<user_cpu::Place> place = lists || first || log_ ? where() : std::nullopt;
+  if (!lists) ++occurrences_dropped_;
+  if (!lists && !first && !log_) {
+    if (tally.repeated != nullptr) tally.repeated->add(at, text);
+    return;
+  }
+  const std::optional<user_cpu::Place> place = where();
   if (tally.repeated != nullptr) tally.repeated->add(at, text, place);
   if (log_) {
     LogEntry entry{at, sample.station, sample.allowed ? "allowed" : name(sample.severity), text(), sample.code};
     entry.where = place;
     log(entry);
   }
-  if (!lists) {
-    ++occurrences_dropped_;
-    return;
-  }
+  if (!lists) return;
   kept_.push_back({sample, event != nullptr ? std::optional(*event) : std::nullopt});
   kept_.back().occurrence.at = at;
   kept_.back().occurrence.text = words;

@@ -126,8 +126,9 @@ class Observers : public ChipListener {
     changed(event.at);
   }
   bool acts_on_events() const override {
-    return std::any_of(
-        actors_.begin(), actors_.end(), [](const Observer* each) { return each->acts_on_events(); });
+    for (const Observer* each : actors_)
+      if (each->acts_on_events()) return true;
+    return false;
   }
   void follows(std::size_t slave, PinNumber pin) override { tell(&Observer::follows, slave, pin); }
   void read(std::size_t slave, Tick sample) override { tell(&Observer::read, slave, sample); }

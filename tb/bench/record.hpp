@@ -145,15 +145,22 @@ struct Pacing {
   PaceStatistics pace;
 };
 
+/// The first difference of model and RTL as text, one item a line.
+struct LockstepDifference {
+  Tick at = 0;
+  std::string what;                  ///< pin or cell and both values: one line
+  std::string last_telegram;         ///< on the line
+  std::string last_access;           ///< of the user
+  std::string dpram;                 ///< the chip's last access
+  std::vector<std::string> events;   ///< the model's last ones
+  std::vector<std::string> rulings;  ///< those of the pin, then those of the events: "H1"
+  std::string slave = {};            ///< at which, in a scenario
+};
+
 /// Lockstep of model and RTL: counts of matches, and the first difference.
 struct LockstepResult {
   std::uint64_t cycles = 0, pin_changes = 0, dpram_images = 0;
-  struct Difference {
-    std::string slave;
-    Tick at = 0;
-    std::string what, last_telegram, last_access, dpram;  ///< as text
-  };
-  std::optional<Difference> difference;
+  std::optional<LockstepDifference> difference;
 };
 
 struct RunResult {

@@ -9,12 +9,13 @@
 #include "io/input/units.hpp"
 #include "tb/bench/verdict.hpp"
 #include "tb/report/fields.hpp"
+#include "tb/report/ruling_place.hpp"
 
 namespace dsdpv1::tb {
 namespace {
 
 constexpr const char* kSchema = "dsdpv1-sim result";  // the member "schema"
-constexpr const char* kVersion = "1.3";               // "version": when it changes says docs/result.md
+constexpr const char* kVersion = "1.4";               // "version": when it changes says docs/result.md
 
 void pacing_fields(Fields& out, const Pacing& pacing) {
   const auto& [port, line, pace] = pacing;
@@ -30,20 +31,17 @@ void pacing_fields(Fields& out, const Pacing& pacing) {
   out.time("time_lost_ns", pace.lost, "simulated time given up because of that");
 }
 
-void difference_fields(Fields& out, const LockstepResult::Difference& difference) {
+void slave_difference_fields(Fields& out, const LockstepDifference& difference) {
   out.field("slave", difference.slave, "at which");
   out.time("at_ns", difference.at, "when");
-  out.field("what", difference.what, "pin or cell of the DPRAM, and both values");
-  out.field("last_telegram", difference.last_telegram, "on the line");
-  out.field("last_access", difference.last_access, "of the user CPU");
-  out.field("dpram", difference.dpram, "the chip's last access");
+  difference_fields(out, difference);
 }
 
 void lockstep_fields(Fields& out, const LockstepResult& lockstep) {
   out.field("cycles", lockstep.cycles, "that were compared");
   out.field("pin_changes", lockstep.pin_changes, "that both sides made");
   out.field("dpram_images", lockstep.dpram_images, "of the DPRAM that were compared");
-  out.object_or_null("difference", lockstep.difference, difference_fields,
+  out.object_or_null("difference", lockstep.difference, slave_difference_fields,
                      "the first difference; null: model and RTL are the same");
 }
 
@@ -310,6 +308,17 @@ Times that end in `_ns` are nanoseconds from the start of the run: whole numbers
 )";
 
 }  // namespace
+
+void difference_fields(Fields& out, const LockstepDifference& difference) {
+  std::vector<std::string> places;
+  for (const std::string& ruling : difference.rulings) places.push_back(ruling_place(ruling));
+  out.field("what", difference.what, "pin or cell of the DPRAM, and both values");
+  out.field("last_telegram", difference.last_telegram, "on the line");
+  out.field("last_access", difference.last_access, "of the user");
+  out.field("dpram", difference.dpram, "the chip's last access");
+  out.texts("events", difference.events, "with its code", "the model's last ones, at most three");
+  out.texts("rulings", places, "a page in docs/ and an anchor", "those that decide the pin, then those of the events");
+}
 
 std::string result_json(const RunResult& result) { return json_file(Fields::written(result, run_fields)); }
 

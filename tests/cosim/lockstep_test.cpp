@@ -16,6 +16,7 @@
 #include "kinds/dsdpv1/chip/core_device.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/kind.hpp"
+#include "tb/report/ruling_place.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
 namespace dsdpv1 {
@@ -46,7 +47,7 @@ void run(Lockstep& lockstep) {
 TEST(Lockstep, ModelAgainstItselfIsTheSame) {
   Lockstep lockstep(std::make_unique<MadeUpTop>());
   run(lockstep);
-  ASSERT_FALSE(lockstep.difference()) << describe(*lockstep.difference());
+  ASSERT_FALSE(lockstep.difference()) << cosim::describe(*lockstep.difference());
   EXPECT_EQ(lockstep.counts().cycles, 10'000U);
   EXPECT_GT(lockstep.counts().pin_changes, 600U);  // L_REQ and L_STA each microsecond
   EXPECT_GT(lockstep.counts().dpram_images, 1U);
@@ -65,7 +66,7 @@ TEST_P(EachPin, ThatDiffersIsNamedWithCycleAndBothLevels) {
   const int model = static_cast<int>(lockstep.difference()->what.find("model 1") != std::string::npos);
   EXPECT_EQ(lockstep.difference()->what,
             std::string("pin ") + dsdpv1::name(pin) + (model != 0 ? ": model 1, RTL 0" : ": model 0, RTL 1"));
-  EXPECT_THAT(describe(*lockstep.difference()), HasSubstr("cycle 5000 (104.167 us)"));
+  EXPECT_THAT(cosim::describe(*lockstep.difference()), HasSubstr("cycle 5000 (104.167 us)"));
   EXPECT_EQ(lockstep.counts().cycles, 5000U);
 }
 
@@ -101,6 +102,30 @@ TEST(Lockstep, AnOutputThatIsUnknownIsADifference) {
   EXPECT_EQ(lockstep.difference()->what, "pin PBRTS: model 0, RTL X");
 }
 
+/// READY_FLAG is the model's only event.
+TEST(Lockstep, ADifferenceNamesTheModelsLastEventsAndTheRulingsOfPinAndEvents) {
+  Lockstep lockstep(spoiled([](Level* levels, long cycle) {
+    if (cycle >= 5000) levels[number(Pin::kIntr0)] = 0;
+  }));
+  run(lockstep);
+  ASSERT_TRUE(lockstep.difference());
+  EXPECT_THAT(lockstep.difference()->events, testing::ElementsAre(HasSubstr("READY_FLAG at cycle 4")));
+  EXPECT_THAT(lockstep.difference()->rulings, testing::ElementsAre("P7", "H3", "H6", "T2-004"));
+  EXPECT_THAT(cosim::describe(*lockstep.difference()), HasSubstr("see rulings       P7, H3, H6, T2-004\n"));
+}
+
+TEST(Lockstep, EachOutputHasRulingsThatThePagesHave) {
+  std::string pages;
+  for (const char* page : {"/docs/chip.md", "/docs/chip_rsu.md"}) {
+    std::ifstream file(std::string(DSDPV1_SOURCE_DIR) + page);
+    pages.append(std::istreambuf_iterator<char>(file), {});
+  }
+  for (const tb::PinInfo& pin : tb::kind_of(Part::kRsu).pins()) {
+    EXPECT_EQ(tb::names_of(pin.rulings).empty(), pin.input) << pin.name;
+    for (const std::string& name : tb::names_of(pin.rulings)) EXPECT_THAT(pages, HasSubstr("**" + name + "**<a id="));
+  }
+}
+
 TEST(Lockstep, AnotherContentOfTheDpramIsFoundAtTheEndOfAnAccess) {
   auto top = std::make_unique<MadeUpTop>();
   top->spoil_cell(0x123);
@@ -109,7 +134,7 @@ TEST(Lockstep, AnotherContentOfTheDpramIsFoundAtTheEndOfAnAccess) {
   lockstep.advance(10 * kEnd);  // without writes: compared from time to time
   ASSERT_TRUE(lockstep.difference());
   EXPECT_EQ(lockstep.difference()->what, "DPRAM B123: model 00, RTL 5A");
-  EXPECT_THAT(lockstep.difference()->dpram_accesses, HasSubstr("last access from cycle"));
+  EXPECT_THAT(lockstep.difference()->dpram, HasSubstr("last access from cycle"));
 }
 
 TEST(Lockstep, ToleranceLetsAPinBeLater) {
@@ -122,7 +147,7 @@ TEST(Lockstep, ToleranceLetsAPinBeLater) {
   };
   Lockstep tolerant(spoiled(late), options);
   run(tolerant);
-  EXPECT_FALSE(tolerant.difference()) << describe(*tolerant.difference());
+  EXPECT_FALSE(tolerant.difference()) << cosim::describe(*tolerant.difference());
   before = 0;
   Lockstep exact(spoiled(late));
   run(exact);

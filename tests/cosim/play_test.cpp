@@ -104,7 +104,7 @@ TEST_F(PlayedStimulus, ResultNamesVerdictCountsAndFirstDifference) {
   result.difference = played.difference;
   const nlohmann::json json = nlohmann::json::parse(cosim::result_json(result));
   EXPECT_EQ(json["schema"], "dsdpv1-sim rtl-random");
-  EXPECT_EQ(json["version"], "1.1");
+  EXPECT_EQ(json["version"], "1.2");
   EXPECT_EQ(json["verdict"], "different");
   EXPECT_EQ(json["replayed"], "case.stimulus");
   EXPECT_EQ(json["difference"]["cycle"], kWrongFrom);

@@ -82,7 +82,7 @@ TEST(RunJunit, ADifferenceOfModelAndRtlIsACaseOfItsOwn) {
   result.lockstep.emplace();
   EXPECT_EQ(tb::run_cases(result).back().name, "model and RTL are the same");
   EXPECT_FALSE(tb::run_cases(result).back().failure);
-  result.lockstep->difference = tb::LockstepResult::Difference{"demo", 12'000, "L_REQ is 1, RTL has 0", "", "", ""};
+  result.lockstep->difference = tb::LockstepDifference{12'000, "L_REQ is 1, RTL has 0", "", "", "", {}, {}, "demo"};
   EXPECT_EQ(tb::run_cases(result).back().failure, "demo at 1.000 us: L_REQ is 1, RTL has 0");
 }
 

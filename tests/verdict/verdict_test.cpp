@@ -91,7 +91,7 @@ const Case kCases[] = {
      [](RunResult& r) {
        exchange(r);
        r.lockstep.emplace();
-       r.lockstep->difference = tb::LockstepResult::Difference{"io", 0, "", "", "", ""};
+       r.lockstep->difference = tb::LockstepDifference{};
      },
      1, "failed", "FAILED: model and RTL differ"},
     {"ModelAndRtlAreTheSame", [](RunResult& r) { r.lockstep.emplace(); }, 3, "nothing_judged", kNothing},

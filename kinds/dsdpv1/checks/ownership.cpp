@@ -76,16 +76,18 @@ void Ownership::r_sta_rose(Tick at) {
     record(Check::kBothOwn, at, at - std::max(l_sta_fell_, held_off_since_));
 }
 
-/// In the window R_STA breaks the rule of kSyncWindow.
+/// In the window R_STA breaks the rule of kSyncWindow. A look that has found L_STA high is none.
 void Ownership::judge_looks(Tick at) {
   const Limit& window = recorder_.limit(Check::kSyncWindow);
   if (!hears_looks_ || in_reset_ || (window.on && at - held_off_since_ < window.value)) return;
   const Tick look = std::min(l_req_look_, l_sta_look_);
-  const bool none = look < held_off_since_;
+  const Tick low_since = l_sta_ ? held_off_since_ : std::max(held_off_since_, l_sta_fell_);
+  const bool none = look < low_since;
   const auto words = [&] {
-    const auto is_meant = [&](Tick last) { return none ? last < held_off_since_ : last == look; };
+    const auto is_meant = [&](Tick last) { return none ? last < low_since : last == look; };
     const char* const pins = !is_meant(l_sta_look_) ? "L_REQ" : !is_meant(l_req_look_) ? "L_STA" : "L_REQ and L_STA";
-    return std::string(none ? "no look at " : "the last look at ") + pins;
+    return std::string(none ? "no look at " : "the last look at ") + pins +
+           (none && look >= held_off_since_ ? " since they fell" : "");
   };
   recorder_.value(Check::kLookInWindow, at, none ? 0 : look - held_off_since_, words,
                   none ? Act::done(at) : Act::looked(look));

@@ -135,7 +135,8 @@ void Dsdpv1PinChip::catch_up_host(Tick at) {
 void Dsdpv1PinChip::run_edges(Tick until) {
   hear_line();
   pauses_ = put_off_ = false;
-  if (until < pins_->last_edge() || !run_whole()) run_edges_singly(until);
+  if (until >= pins_->last_edge() && run_whole()) return announce(next());  // only the host port has acted
+  run_edges_singly(until);
   plan_again();
 }
 

@@ -10,6 +10,23 @@ static_assert(kLevelZ == dsdpv1::kLevelZ && kLevelX == dsdpv1::kLevelX);
 
 namespace {
 
+const char* rulings_of(dsdpv1::Pin pin) {
+  switch (pin) {
+    case dsdpv1::Pin::kLReq:
+    case dsdpv1::Pin::kLSta: return "H1, H2, H3, H4, H8";
+    case dsdpv1::Pin::kDOut: return "P5, P6, P12, D1, D3, D13";
+    case dsdpv1::Pin::kIntr0: return "P7, H3";
+    case dsdpv1::Pin::kPbtxd: return "S11, S13, S14, S20, S26";
+    case dsdpv1::Pin::kPbrts: return "P2, S11";
+    case dsdpv1::Pin::kPbf: return "P3, S15, S18";
+    case dsdpv1::Pin::kBr: return "P3, S1, S9";
+    case dsdpv1::Pin::kReady: return "P3, D7";
+    case dsdpv1::Pin::kMiso: return "SP3, SP6, SP8, SP10";
+    case dsdpv1::Pin::kTxd: return "UA2, UA4, UA10";
+    default: return "";
+  }
+}
+
 PinTable make_pins(int count) {
   PinTable table;
   for (int i = 0; i < count; ++i) {
@@ -17,7 +34,7 @@ PinTable make_pins(int count) {
     const bool data = pin == dsdpv1::Pin::kDIn || pin == dsdpv1::Pin::kDOut;
     table.push_back({dsdpv1::name(pin), dsdpv1::width(pin), dsdpv1::is_input(pin), data ? "D" : nullptr,
                      pin == dsdpv1::Pin::kPbrxd || pin == dsdpv1::Pin::kPbtxd,
-                     !dsdpv1::is_input(pin) && dsdpv1::kPinRows[i].level == dsdpv1::kLevelZ});
+                     !dsdpv1::is_input(pin) && dsdpv1::kPinRows[i].level == dsdpv1::kLevelZ, rulings_of(pin)});
   }
   return table;
 }

@@ -30,6 +30,7 @@ struct PinInfo {
   const char* bus = nullptr;  ///< for two pins that are the directions of one bus: its name, shown in waves
   bool line = false;          ///< sends to the bus or receives it
   bool released = false;      ///< an output that may be kLevelZ
+  const char* rulings = "";   ///< when an output changes, and to what: "H1, H3"
 };
 
 /// At most kMostPins.

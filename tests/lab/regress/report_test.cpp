@@ -19,8 +19,9 @@ using testing::Not;
 
 Report made_up() {
   Report report;
-  report.plan.left_out = 3;
-  report.plan.runs = {{"a.yaml", "skip", "pins", "", {}}, {"b<i>.yaml", "rtl", "pins", "4", {"baud=6M", "end=1ms"}}};
+  report.description.plan.left_out = 3;
+  report.description.plan.runs = {{"a.yaml", "skip", "pins", "", {}},
+                                  {"b<i>.yaml", "rtl", "pins", "4", {"baud=6M", "end=1ms"}}};
   Outcome good, bad;
   good.seconds = 0.5;
   bad.verdict = Verdict::kFailed;
@@ -33,7 +34,7 @@ Report made_up() {
 }
 
 TEST(RegressReport, TsvHasALineARunWithItsFields) {
-  const std::string folder = "runs/" + made_up().plan.runs[1].file_name();
+  const std::string folder = "runs/" + made_up().runs()[1].file_name();
   EXPECT_EQ(tsv(made_up()),
             "verdict\tscenario\tengine\tview\tseed\tsettings\texit\tseconds\treason\tfolder\n"
             "passed\ta.yaml\tskip\tpins\t\t\t0\t0.500\t\t\n"
@@ -65,7 +66,7 @@ TEST(RegressReport, JunitHasASuiteAScenarioAndTheReasonAsMessage) {
 TEST(RegressReport, PageNeedsNothingFromOutside) {
   const std::string html = page(made_up());
   EXPECT_FALSE(std::regex_search(html, std::regex("(https?:)?//[a-z]|src=|@import|url\\(")));
-  const std::string link = "href=\"runs/" + made_up().plan.runs[1].file_name() + "/run.log\"";
+  const std::string link = "href=\"runs/" + made_up().runs()[1].file_name() + "/run.log\"";
   EXPECT_THAT(html, HasSubstr(link));
 }
 

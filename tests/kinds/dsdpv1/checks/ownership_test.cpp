@@ -169,6 +169,25 @@ TEST(LookInWindow, OnePinIsNotEnough) {
   }
 }
 
+TEST(LookInWindow, LookThatFoundTheChipAtWorkIsNone) {
+  for (const bool looks_again : {true, false}) {
+    Board board;
+    hold_with_looks(board);
+    board.set(Pin::kRReq, 1);
+    board.wait(10);
+    board.chip_owns(true);
+    board.wait(1200);
+    look_at_both(board);
+    board.wait(10);
+    board.chip_owns(false);
+    if (looks_again) look_at_both(board);
+    board.set(Pin::kRSta, 1);
+    EXPECT_EQ(violations(board, Check::kLookInWindow), looks_again ? 0U : 1U);
+    if (!looks_again)
+      EXPECT_EQ(board.violations.at(0).text, "0.000 ns of at least 62.500 ns, no look at L_REQ and L_STA since they fell");
+  }
+}
+
 TEST(LookInWindow, LastLookCountsNotTheFirst) {
   Board board;
   hold_with_looks(board);

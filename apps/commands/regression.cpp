@@ -1,0 +1,235 @@
+#include "apps/commands/regression.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <map>
+#include <optional>
+
+#include "apps/commands/command.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/terminal.hpp"
+#include "io/input/input_error.hpp"
+#include "io/output/write_file.hpp"
+#include "lab/campaign/contents.hpp"
+#include "lab/campaign/fingerprint.hpp"
+#include "lab/campaign/jobs.hpp"
+#include "lab/regress/page.hpp"
+#include "lab/regress/tables.hpp"
+#include "tb/chip/chip_kind.hpp"
+#include "tb/report/text_table.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace dsdpv1::app {
+namespace {
+
+using tb::campaign::Contents;
+using tb::campaign::Ended;
+using tb::campaign::Json;
+using tb::regress::Description;
+using tb::regress::Folder;
+using tb::regress::Outcome;
+using tb::regress::Plan;
+using tb::regress::Report;
+using tb::regress::Run;
+using tb::regress::Verdict;
+
+constexpr int kNotStarted = 127;
+
+/// Those of the RTL of its own, and the scenario's. A scenario that cannot be read is refused by its run, which says
+/// why.
+std::vector<std::string> files_of(const Run& run, const Description& description) {
+  std::vector<std::string> files;
+  if (run.has_own_rtl()) files = description.rtl.files;
+  if (run.engine == "random") return files;
+  files.push_back(run.scenario);
+  if (run.is_stimulus()) return files;
+  try {
+    const std::vector<std::string> named =
+        tb::scenario::files(run.scenario, tb::scenario::parse_settings(run.settings));
+    files.insert(files.end(), named.begin(), named.end());
+  } catch (const tb::InputError&) {
+  }
+  return files;
+}
+
+std::string key_of(const Description& description, const Run& run, const Json& contents, const std::string& program) {
+  const Json all = {{"program", program},
+                    {"words", description.words(run)},
+                    {"checks", description.checks},
+                    {"wave", description.wave},
+                    {"keep", static_cast<int>(description.keep)},
+                    {"report", description.report},
+                    {"contents", contents}};
+  return tb::campaign::fingerprint(tb::campaign::text_of(all));
+}
+
+/// Exit codes of a run that say nothing about it.
+bool says_nothing(int exit) { return exit == kInterrupted || exit == kNotStarted; }
+
+/// Exit code 2 is not always the scenario's: a full disk has it too. Then the line is about a file in the run's place.
+bool could_not_write(const Ended& ended, const std::string& place) {
+  return ended.exit == kWrongInput && ended.output.rfind(place + "/", 0) == 0;
+}
+
+/// The files that each run reads, and what it depends on.
+class RegressInputs {
+ public:
+  /// Reads all of them. Throws InputError for a file that can be read only once.
+  RegressInputs(const Description& description, const std::string& program) : contents_(tb::regress::kind()) {
+    for (const Run& run : description.plan.runs) {
+      files_.push_back(files_of(run, description));
+      Json contents;
+      for (const std::string& file : files_.back()) {
+        contents_.add(file);
+        contents[file] = contents_.all().at(file);
+      }
+      keys_.push_back(key_of(description, run, contents, program));
+    }
+  }
+  const Contents& contents() const { return contents_; }
+  /// A fingerprint of program, files and words of a run.
+  const std::string& key(std::size_t run) const { return keys_[run]; }
+  Contents::Times look(std::size_t run) const { return contents_.look(files_[run]); }
+
+ private:
+  Contents contents_;
+  std::vector<std::vector<std::string>> files_;
+  std::vector<std::string> keys_;
+};
+
+/// The runs of a regression as runs of this program.
+class RegressJobs : public tb::campaign::Jobs {
+ public:
+  /// `anyhow`: what is known of a run counts whatever it depended on (--failed).
+  RegressJobs(const Plan& plan, const RegressInputs& inputs, const Folder& folder, bool anyhow)
+      : plan_(plan), inputs_(inputs), folder_(folder), anyhow_(anyhow), outcomes_(plan.runs.size()) {}
+
+  std::size_t size() const override { return outcomes_.size(); }
+  bool finished(std::size_t job) const override { return outcomes_[job].has_value(); }
+  bool look(std::size_t job) override {
+    outcomes_[job] = folder_.finished(plan_.runs[job], anyhow_ ? "" : inputs_.key(job));
+    return finished(job);
+  }
+  std::vector<std::string> begin(std::size_t job) override {
+    read_[job] = inputs_.look(job);
+    return folder_.words(plan_.runs[job]);
+  }
+  std::string end(const Ended& ended) override {
+    const auto read = read_.extract(ended.job);
+    if (says_nothing(ended.exit) || could_not_write(ended, folder_.place(plan_.runs[ended.job]))) return fate(ended);
+    if (inputs_.look(ended.job) != read.mapped())
+      return "one of its files was written while it ran";  // and has its old content again
+    outcomes_[ended.job] = folder_.finish(plan_.runs[ended.job], inputs_.key(ended.job), ended);
+    return "";
+  }
+  void forget(std::size_t job) override { folder_.forget(plan_.runs[job]); }
+  std::string name(std::size_t job) const override { return plan_.runs[job].name(); }
+
+  /// The results of all runs, when all are finished.
+  std::vector<Outcome> outcomes() const {
+    std::vector<Outcome> all;
+    for (const std::optional<Outcome>& outcome : outcomes_) all.push_back(*outcome);
+    return all;
+  }
+
+ private:
+  const Plan& plan_;
+  const RegressInputs& inputs_;
+  const Folder& folder_;
+  bool anyhow_;
+  std::vector<std::optional<Outcome>> outcomes_;
+  std::map<std::size_t, Contents::Times> read_;  ///< of the runs under way: their files when they began
+};
+
+/// True for a known result to repeat: with --failed all that did not pass; otherwise those that may be the machine's
+/// fault.
+bool is_stale(const Outcome& outcome, bool failed) {
+  if (failed) return !outcome.passed();
+  return outcome.verdict == Verdict::kCrashed || outcome.verdict == Verdict::kHung;
+}
+
+void remove_stale(const Folder& folder, const Description& description, bool failed) {
+  for (const Run& run : description.plan.runs) {
+    const auto known = folder.finished(run, "");
+    if (known && is_stale(*known, failed)) folder.remove(run);
+  }
+}
+
+int status_of(const Report& report) {
+  const auto any = [&report](const auto& is) {
+    return std::any_of(report.outcomes.begin(), report.outcomes.end(), is);
+  };
+  const auto judged_nothing = [](const Outcome& each) { return each.verdict == tb::regress::Verdict::kNothingJudged; };
+  if (any([&](const Outcome& each) { return !each.passed() && !judged_nothing(each); })) return kFailed;
+  return any(judged_nothing) ? kNothingJudged : kPassed;
+}
+
+/// Once, so that the runs find it as it is.
+void build(const std::string& command, tb::regress::OwnRtl& rtl) {
+  const OwnRtl own =
+      build_own_rtl({rtl.folder, rtl.top, rtl.pins, rtl.build}, command, *tb::find_chip_kind(rtl.chip), false);
+  rtl.files = {rtl.build + "/librtl.so"};
+  if (!rtl.pins.empty()) rtl.files.push_back(rtl.pins);
+}
+
+void check_files(const RegressionArguments& arguments, const RegressInputs& inputs) {
+  std::vector<NamedFile> read;
+  for (const auto& file : inputs.contents().all().items()) read.push_back({"a file of a scenario", file.key()});
+  std::vector<NamedFile> written = outputs_in(arguments.campaign.out, tb::regress::kind());
+  written.push_back({"--junit", arguments.junit});
+  check_outputs(arguments.command, read, written);
+}
+
+void write_report(const RegressionArguments& arguments, const Report& report, const Folder& folder, WantedFile& junit) {
+  const std::string index = folder.base().file("index.html");
+  tb::write_file(index, tb::regress::page(report));
+  junit.write([&] { return tb::regress::junit(report); });
+  const bool to_terminal = terminal_columns() != tb::TableWidth::kUnlimited;
+  if (!arguments.campaign.quiet)
+    std::cout << (arguments.json ? tb::regress::json(report)
+                  : to_terminal  ? tb::regress::table(report)
+                                 : tb::regress::tsv(report))
+              << std::flush;
+  std::cerr << "regression: " << tb::regress::summary(report) << "; " << index << "\n";
+}
+
+}  // namespace
+
+void add_regression_options(CLI::App& app, RegressionArguments& arguments, const std::string& usual_folder) {
+  app.add_option("--time-limit", arguments.time_limit,
+                 "Kill a run after so many seconds and count it as failed; 0: no limit")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app.add_option("--junit", arguments.junit, "Write the report for CI as JUnit's XML");
+  app.add_flag("--json", arguments.json, "Write the table as JSON");
+  add_campaign_options(app, arguments.campaign, usual_folder);
+}
+
+tb::regress::OwnRtl rtl_of_regression(const OwnRtlArguments& arguments, const std::string& chip) {
+  return {arguments.rtl, arguments.top, arguments.pins, arguments.build, chip, {}};
+}
+
+int run_regression(Description description, const RegressionArguments& arguments, bool failed) {
+  const CampaignArguments& campaign = arguments.campaign;
+  if (!description.rtl.folder.empty()) build(arguments.command, description.rtl);
+  const std::string program = tb::campaign::program_identity(DSDPV1_VERSION);
+  const RegressInputs inputs(description, program);
+  if (!campaign.is_task()) check_files(arguments, inputs);
+  WantedFile junit(campaign.is_task() ? "" : arguments.junit);
+  catch_signals();
+  const Folder folder(campaign.out, description, campaign.access());
+  if (!campaign.is_task()) remove_stale(folder, description, failed);
+  RegressJobs jobs(description.plan, inputs, folder, failed);
+  const std::string identity = tb::campaign::fingerprint(program + tb::campaign::text_of(json_of(description)) +
+                                                         tb::campaign::text_of(inputs.contents().all()));
+  std::optional<std::chrono::duration<double>> limit;
+  if (arguments.time_limit > 0) limit.emplace(arguments.time_limit);
+  if (!carry_out_jobs(campaign, tb::regress::kind(), jobs, folder.base(), identity, limit)) return kInterrupted;
+  if (campaign.is_task()) return kPassed;
+  const Report report{description, jobs.outcomes()};
+  write_report(arguments, report, folder, junit);
+  return status_of(report);
+}
+
+}  // namespace dsdpv1::app
