@@ -118,13 +118,20 @@ class OwnRtlOfTraces {
   cosim::MakeRtl make_for(const std::string& file) {
     if (given_.own.rtl.empty()) return {};
     const tb::ChipKind* const kind = tb::scenario::load(file).kind;
-    if (kind_ == nullptr) own_ = build_own_rtl(given_.own, "dsdpv1-sim traces", *kind, false), kind_ = kind;
+    if (kind_ == nullptr) build(*kind);
     if (kind_ != kind)
       throw tb::InputError(file, 0, fmt::format("is about another chip, a {}, expected one chip", kind->name()));
     return [make = own_.make](auto&&...) { return make(std::nullopt); };
   }
 
  private:
+  void build(const tb::ChipKind& kind) {
+    own_ = build_own_rtl(given_.own, "dsdpv1-sim traces", kind, false);
+    kind_ = &kind;
+    if (has_tolerance(own_.map))
+      throw tb::InputError(given_.own.pins, 0, "has a tolerance, goldens have none, expected cosim and scenarios");
+  }
+
   const TracesArguments& given_;
   const tb::ChipKind* kind_ = nullptr;
   OwnRtl own_;

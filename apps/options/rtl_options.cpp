@@ -57,6 +57,11 @@ CLI::Option* add_fault_option(CLI::App& app, unsigned& fault) {
       ->check(CLI::Range(0, 255));
 }
 
+bool has_tolerance(const cosim::PinMap& map) {
+  return std::any_of(
+      map.tolerances.begin(), map.tolerances.end(), [](auto each) { return each != 0; });
+}
+
 void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool required) {
   CLI::Option* rtl = app.add_option(
       "--rtl", arguments.rtl, required ? "Folder of the RTL" : "Folder of your RTL, which replaces the reference RTL");
@@ -74,11 +79,14 @@ void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool require
   build->needs(rtl);
 }
 
+cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind) {
+  return arguments.pins.empty() ? cosim::default_pin_map(kind.pins())
+                                : cosim::load_pin_map(arguments.pins, kind.pins());
+}
+
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
                      bool traced) {
-  OwnRtl own{
-      arguments.pins.empty() ? cosim::default_pin_map(kind.pins()) : cosim::load_pin_map(arguments.pins, kind.pins()),
-      {}};
+  OwnRtl own{own_map(arguments, kind), {}};
   own.make = cosim::build_user_rtl({command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced},
                                    own.map, kind);
   return own;

@@ -33,8 +33,14 @@ struct OwnRtl {
   cosim::MakeUserRtl make;
 };
 
+/// Of any pin.
+bool has_tolerance(const cosim::PinMap& map);
+
 /// --rtl and what goes with it. `required`: the command is about nothing else.
 void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool required);
+
+/// The map of its pins, the names of the reference RTL when there is none. Throws tb::InputError.
+cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind);
 
 /// Reads the map of its pins, the names of the reference RTL when there is none, and builds it, `traced` so that its
 /// inside can be recorded. `command` as "dsdpv1-sim cosim". Throws tb::InputError.
