@@ -29,11 +29,11 @@ def one_line(levels):
     return "".join(words[name].rjust(width, "0") for name, width in INPUTS.items())
 
 
-def write_inputs(vcd, path):
+def write_inputs(vcd, path, end=END):
     levels, lines = {name: "0" for name in INPUTS}, {}
     for now, name, value in golden_changes(vcd):
-        if name in levels and now < END:
+        if name in levels and now < end:
             levels[name] = value
             lines[now] = one_line(levels)
-    lines[END] = one_line(levels)
+    lines[end] = one_line(levels)
     path.write_text("".join(f"{now} {bits}\n" for now, bits in lines.items()), encoding="ascii")

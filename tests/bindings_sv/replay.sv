@@ -1,9 +1,15 @@
 // Plays the recorded inputs of a golden trace to the library's model and to the reference RTL with its scoreboard. The file named by
 // +inputs= has a line for each time at which one of them changes: picoseconds and the bits of RESET, R_REQ, R_STA, CSR, RD, WR, A, whether
 // D is driven, D, PBRXD. Changes of the model's outputs go into the file named by +outputs=: picoseconds and the bits of L_REQ, L_STA, D
-// driven, D, INTR0, PBTXD, PBRTS, PBF, BR, READY. With SINGLE_FAULTS defined +fault= plants a defect in the RTL.
+// driven, D, INTR0, PBTXD, PBRTS, PBF, BR, READY. With SINGLE_FAULTS defined +fault= plants a defect in the RTL. MODEL and SCOREBOARD name those
+// of another kind with the same pins.
 `ifdef USE_RTL
 `include "dsdpv1_types.svh"
+`endif
+
+`ifndef MODEL
+`define MODEL dsdpv1_model
+`define SCOREBOARD dsdpv1_scoreboard
 `endif
 
 module replay;
@@ -23,9 +29,9 @@ module replay;
   wire l_req, l_sta, d_oe, intr0, pbtxd, pbrts, pbf, br, ready;
   wire [7:0] d_out;
 `ifdef UNCLOCKED
-  dsdpv1_model #(.CLOCKED(0)) u_model (
+  `MODEL #(.CLOCKED(0)) u_model (
 `else
-  dsdpv1_model u_model (
+  `MODEL u_model (
 `endif
     .reset_i(reset), .clk_i(clk), .pbrxd_i(pbrxd), .pbtxd_o(pbtxd), .pbrts_o(pbrts), .r_req_i(r_req), .r_sta_i(r_sta), .l_req_o(l_req),
     .l_sta_o(l_sta), .a_i(a), .d_i(d), .d_o(d_out), .d_oe_o(d_oe), .csr_i(csr), .rd_i(rd), .wr_i(wr), .intr0_o(intr0), .pbf_o(pbf),
@@ -39,7 +45,7 @@ module replay;
     .fault_i(fault), .reset_i(reset), .clk_i(clk), .pbrxd_i(pbrxd), .pbtxd_o(rtl_pbtxd), .pbrts_o(rtl_pbrts), .r_req_i(r_req),
     .r_sta_i(r_sta), .l_req_o(rtl_l_req), .l_sta_o(rtl_l_sta), .a_i(a), .d_i(d), .d_o(rtl_d_out), .d_oe_o(rtl_d_oe), .csr_i(csr),
     .rd_i(rd), .wr_i(wr), .intr0_o(rtl_intr0), .pbf_o(rtl_pbf), .br_o(rtl_br), .ready_o(rtl_ready));
-  dsdpv1_scoreboard u_scoreboard (
+  `SCOREBOARD u_scoreboard (
     .reset_i(reset), .clk_i(clk), .pbrxd_i(pbrxd), .pbtxd_o(rtl_pbtxd), .pbrts_o(rtl_pbrts), .r_req_i(r_req),
     .r_sta_i(r_sta), .l_req_o(rtl_l_req), .l_sta_o(rtl_l_sta), .a_i(a), .d_i(d), .d_o(rtl_d_out), .d_oe_o(rtl_d_oe), .csr_i(csr),
     .rd_i(rd), .wr_i(wr), .intr0_o(rtl_intr0), .pbf_o(rtl_pbf), .br_o(rtl_br), .ready_o(rtl_ready));

@@ -3,6 +3,7 @@
 
     simulators_test.py Verilator FOLDER SIM          FOLDER has the verilated benches
     simulators_test.py Icarus FOLDER SIM VPI         VPI: dsdpv1.vpi
+    simulators_test.py Vhdl FOLDER SIM VPI           RTL in VHDL, which GHDL turns into Verilog
 
 With a defect in the RTL its scoreboard must name the same cycle, pin and levels as `traces check` for the same RTL in lockstep. tests/every_way
 checks that the model's outputs match the golden trace.
@@ -14,10 +15,12 @@ import sys
 import tempfile
 import unittest
 
-from golden import GOLDEN, write_inputs
+from golden import END, GOLDEN, write_inputs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FAULT = 46  # of rtl_ref/dsdpv1/faults.txt
+EARLY, EARLY_END = 48, 200_000_000  # another, which is seen at 65 us; ps
+OF_THE_R = ("-DMODEL=dsdpv1_r_model", "-DSCOREBOARD=dsdpv1_r_scoreboard")
 RSU_FAULT = 129  # of rtl_ref/dsdpv1_rsu/faults.txt: bits of a reply in the other order
 
 
@@ -47,13 +50,22 @@ class Benches:
             self.assertIn(words, said)
 
     def test_the_scoreboard_names_what_the_lockstep_names(self):
-        self.with_golden(self.defect_is_named)
+        with_golden(self, self.defect_is_named)
 
-    def defect_is_named(self, folder):
-        _, told = call([SIM, "traces", "check", GOLDEN, "--engine", "rtl", "--fault", FAULT, "--no-progress"], ROOT)
-        lockstep = re.search(r"first difference  (cycle \d+ .*)\n +pin (\w+) of \w+: golden (?:still )?(\w), here (\w)\n", told)
+    def test_the_scoreboard_of_the_r_names_what_the_lockstep_names(self):
+        def check(folder):
+            status, said = self.run_bench("replay_r", "replay", f"+inputs={folder}/inputs.txt")
+            self.assertEqual(status, 0, said)
+            self.assertRegex(said, r"equal: \d\d+ changes")
+            self.defect_is_named(folder, "replay_r", EARLY)
+
+        with_golden(self, check, EARLY_END)
+
+    def defect_is_named(self, folder, bench="replay", fault=FAULT):
+        _, told = call([SIM, "traces", "check", GOLDEN, "--engine", "rtl", "--fault", fault, "--no-progress"], ROOT)
+        lockstep = re.search(r"first difference  (cycle \d+ .*)\n +pin (\w+) of \w+: golden (?:still )?(\w), here (?:still )?(\w)\n", told)
         self.assertTrue(lockstep, told)
-        status, said = self.run_bench("replay", "replay", f"+inputs={folder}/inputs.txt", f"+fault={FAULT}")
+        status, said = self.run_bench(bench, "replay", f"+inputs={folder}/inputs.txt", f"+fault={fault}")
         self.assertNotEqual(status, 0, said)
         place, pin, golden, here = lockstep.groups()
         self.assertIn(f"first difference at {place}: {pin} is {here}, the model's is {golden}", said)
@@ -71,13 +83,15 @@ class Benches:
         self.assertNotEqual(status, 0, said)
         self.assertIn("first difference at cycle 10003 + 170 ticks (208.410 us): MISO is 0, the model's is 1\n  last input  SCK=0 at cycle 10003 + 50 ticks", said)
 
-    def with_golden(self, check):
-        with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as name:
-            folder = pathlib.Path(name)
-            status, said = call([SIM, "traces", "wave", GOLDEN, folder / "golden.vcd"], ROOT)
-            self.assertEqual(status, 0, said)
-            write_inputs(folder / "golden.vcd", folder / "inputs.txt")
-            check(folder)
+
+def with_golden(test, check, end=END):
+    """check(folder), where the folder has the golden's inputs up to a time."""
+    with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as name:
+        folder = pathlib.Path(name)
+        status, said = call([SIM, "traces", "wave", GOLDEN, folder / "golden.vcd"], ROOT)
+        test.assertEqual(status, 0, said)
+        write_inputs(folder / "golden.vcd", folder / "inputs.txt", end)
+        check(folder)
 
 
 class Verilator(Benches, unittest.TestCase):
@@ -105,6 +119,14 @@ class Verilator(Benches, unittest.TestCase):
             self.assertIn(f"u_assertions.{name}:", said)
 
 
+def compiled(folder, name, top, rtl):
+    """For Icarus; the exit code and what it said."""
+    bindings = VPI.parent / "systemverilog"
+    sources = [bindings / line for line in (bindings / "files.txt").read_text(encoding="ascii").split()]
+    return call(["iverilog", "-g2012", "-DDSDPV1_VPI", "-DDSDPV1_IMMEDIATE", "-I", bindings, "-I", ROOT / "rtl_ref", "-I", ROOT / "registers",
+                 "-s", top, "-o", f"{name}.vvp", VPI, *sources, *rtl, ROOT / f"tests/bindings_sv/{top}.sv"], folder)
+
+
 class Icarus(Benches, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -116,12 +138,8 @@ class Icarus(Benches, unittest.TestCase):
         return call(["vvp", self.folder / f"{name}.vvp", *plusargs], ROOT)
 
     def compile(self, name, top):
-        rtl = {"replay": self.rtl("dsdpv1"), "serial_rtl": self.rtl("dsdpv1_rsu")}.get(name, [])
-        bindings = VPI.parent / "systemverilog"
-        sources = [bindings / line for line in (bindings / "files.txt").read_text(encoding="ascii").split()]
-        status, said = call(["iverilog", "-g2012", "-DDSDPV1_VPI", "-DDSDPV1_IMMEDIATE", "-I", bindings, "-I", ROOT / "rtl_ref", "-I", ROOT / "registers",
-                             "-s", top, "-o", f"{name}.vvp", VPI, *sources, *rtl, ROOT / f"tests/bindings_sv/{top}.sv"], self.folder)
-        self.assertEqual((status, said), (0, ""))
+        rtl = {"replay": self.rtl("dsdpv1"), "replay_r": [*OF_THE_R, *self.rtl("dsdpv1")], "serial_rtl": self.rtl("dsdpv1_rsu")}.get(name, [])
+        self.assertEqual(compiled(self.folder, name, top, rtl), (0, ""))
 
     def test_the_checker_names_a_write_strobe_that_is_too_short(self):
         status, said = self.run_bench("violations", "violations")
@@ -133,6 +151,22 @@ class Icarus(Benches, unittest.TestCase):
     @staticmethod
     def rtl(chip):
         return ["-DUSE_RTL", "-DSINGLE_FAULTS", *(ROOT / "rtl_ref" / line for line in (ROOT / "rtl_ref" / chip / "files.txt").read_text(encoding="ascii").split())]
+
+
+class Vhdl(unittest.TestCase):
+    def test_the_scoreboard_sees_rtl_in_vhdl(self):
+        with_golden(self, self.a_dead_chip_differs, EARLY_END)
+
+    def a_dead_chip_differs(self, folder):
+        status, said = call(["ghdl", "-a", ROOT / "tests/bindings_sv/dead_chip.vhd"], folder)
+        self.assertEqual(status, 0, said)
+        status, verilog = call(["ghdl", "--synth", "--out=verilog", "dsdpv1"], folder)
+        self.assertEqual(status, 0, verilog)
+        (folder / "chip.v").write_text(verilog, encoding="utf-8")
+        self.assertEqual(compiled(folder, "replay", "replay", ["-DUSE_RTL", folder / "chip.v"]), (0, ""))
+        status, said = call(["vvp", "replay.vvp", "+inputs=inputs.txt"], folder)
+        self.assertNotEqual(status, 0, said)
+        self.assertRegex(said, r"first difference at cycle \d+ .*: L_REQ is 0, the model's is 1")
 
 
 if __name__ == "__main__":
