@@ -59,7 +59,10 @@ enum Program {
   kWatchdogAsleep,
   kStuck,
   kAsks,
-  kCallAstray
+  kCallAstray,
+  kSleeps,
+  kByteStores,
+  kFloats
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -190,6 +193,30 @@ TEST_F(BoardTest, BothPinsOfOneStoreMoveAtOneTick) {
   run();
   EXPECT_EQ(pins.of(Pin::kRReq).at(1).at, pins.of(Pin::kRSta).at(1).at);  // ODR = 0
   EXPECT_EQ(pins.of(Pin::kRReq).at(2).at, pins.of(Pin::kRSta).at(2).at);
+}
+
+TEST_F(BoardTest, FloatingRStaIsLowByThePullDown) {
+  start(kFloats);
+  run();
+  EXPECT_THAT(levels(pins.of(Pin::kRSta)), ElementsAre(1, 0));
+}
+
+/// A cell that the program has not written: the place is the last fall of R_STA or R_REQ, and not what followed.
+TEST_F(BoardTest, RuleOfAHoldIsAtItsRelease) {
+  start(kHandshake);
+  run();
+  const auto line_of = [this](const user_cpu::Act& act) { return board->where(act)->line; };
+  const auto r_req = pins.of(Pin::kRReq), r_sta = pins.of(Pin::kRSta);
+  for (const auto& [until, release] :
+       {std::pair(r_req.at(2), r_req.at(1)), std::pair(r_sta.at(3), r_sta.at(3)), std::pair(r_req.at(3), r_req.at(3))})
+    EXPECT_EQ(line_of(user_cpu::Act::written(0x7FF, until.at)), line_of(user_cpu::Act::done(release.at)));
+}
+
+TEST_F(BoardTest, ByteStoredToARegisterLeavesTheRest) {
+  start(kByteStores);
+  run();
+  EXPECT_THAT(pins.written,
+              ElementsAre(std::pair(0, 0x11), std::pair(1, 0xA5), std::pair(2, 0x11), std::pair(3, 0x22)));
 }
 
 TEST_F(BoardTest, BtrOfTheFirmwareMovesTheEdges) {
@@ -658,9 +685,11 @@ TEST_F(BoardTest, FirmwareThatOnlyComputesIsStuckAndOneThatSleepsIsNot) {
   run_until(kStart + 250 * bus::kTicksPerMs);
   EXPECT_THAT(codes, ElementsAre("STUCK", "STUCK"));
   EXPECT_THAT(misuses.at(0), testing::StartsWith("100 ms without an access or sleep, in stuck at probe.c:"));
-  start(kAccesses);
-  run_until(kStart + 350 * bus::kTicksPerMs);
-  EXPECT_EQ(codes.size(), 2U);
+  for (const Program program : {kAccesses, kSleeps}) {
+    start(program);
+    run_until(kStart + 350 * bus::kTicksPerMs);
+    EXPECT_EQ(codes.size(), 2U) << program;
+  }
 }
 
 // Although the firmware has a handler for it, which writes to the chip.

@@ -137,13 +137,13 @@ def failed_test(printed):
 
 
 class Hunt:
-    """Searches for faults with the tests of one finished build."""
+    """Searches for faults of some lists with the tests of one finished build."""
 
-    def __init__(self):
+    def __init__(self, names):
         self.build = overlay.Build(BUILD, ROOT)
         self.cases = suite.read(BUILD)
         self.running = Running()
-        for stage in {stage for stages in suite.STAGES.values() for stage in stages}:
+        for stage in {stage for name in names for stage in suite.STAGES[name]}:
             self.build.know(self.build.program(stage.program))
         self.build.know(suite.SIM)
 
@@ -204,7 +204,7 @@ def controls(faults):
 
 def hunt_all(faults, jobs, controlled):
     """The result of each fault; BadList when a test fails without one."""
-    hunt = Hunt()
+    hunt = Hunt({fault.list for fault in faults})
     outcomes = []
     print("\t".join(HEAD), flush=True)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:

@@ -6,6 +6,7 @@
 #include "memory_bus.h"
 
 #define CHIP16(offset) (*(volatile uint16_t*)(0x60000000u + (offset)))
+#define BYTE(address) (*(volatile uint8_t*)(address))
 
 enum { TIM_CR1 = 0x00, TIM_DIER = 0x0C, TIM_SR = 0x10, TIM_EGR = 0x14, TIM_CNT = 0x24, TIM_PSC = 0x28, TIM_ARR = 0x2C };
 enum {
@@ -56,6 +57,10 @@ enum {
 #define FSMC_BTR1 0xA0000004u
 #define FSMC_BWTR1 0xA0000104u
 #define NVIC_ISER0 0xE000E100u
+#define SYST_CSR 0xE000E010u
+#define SYST_RVR 0xE000E014u
+#define SYST_CVR 0xE000E018u
+#define ICSR 0xE000ED04u
 
 enum { IRQ_STORM = 27, ASKS = 31 }; /* their numbers in programs */
 const volatile uint32_t program __attribute__((used)) = 0;
@@ -391,6 +396,34 @@ static void stuck(void) {
   }
 }
 
+/* Awake each 10 ms by SysTick, which stays pending, without an access to the board. */
+static void sleeps(void) {
+  CHIP(0) = 1;
+  __asm volatile("cpsid i");
+  REG(SYST_RVR) = 719999;
+  REG(SYST_CVR) = 0;
+  REG(SYST_CSR) = 7;
+  for (;;) {
+    __asm volatile("wfi");
+    REG(ICSR) = 1u << 25;
+  }
+}
+
+/* Bytes of a register whose others stay. */
+static void byte_stores(void) {
+  REG(GPIOB_ODR) = 0xA55A;
+  BYTE(GPIOB_ODR) = 0x11;
+  CHIP16(0) = (uint16_t)REG(GPIOB_ODR);
+  BYTE(GPIOB_ODR + 1u) = 0x22;
+  CHIP16(2) = (uint16_t)REG(GPIOB_ODR);
+}
+
+/* R_STA is an output, then an input that floats. */
+static void floats(void) {
+  REG(GPIOC_BSRR) = 1u << 7;
+  REG(GPIOC_CRL) = 0x43444444;
+}
+
 /* A pointer to a function that has no Thumb bit. */
 static void call_astray(void) {
   void (*volatile nowhere)(void) = (void (*)(void))0x08000000u;
@@ -432,13 +465,42 @@ void TIM2_handler(void) {
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {
-      handshake, accesses,  unset_accesses,   interrupt,         chip_reset, text,
-      strange,   undefined, bank_off,         masked_and_rising, inputs,     clock_tree,
-      nonsense,  lacking,   registers,        clocks_off,        busy,       divided,
-      restarted, wide_bus,  multiplexed,      floating_bus,      wrong_pins, outside,
-      bank_2,    timer,     timer_while_busy, irq_storm,         watchdog,   watchdog_asleep,
-      stuck,     asks,      call_astray};
+  static void (*const programs[])(void) = {handshake,
+                                           accesses,
+                                           unset_accesses,
+                                           interrupt,
+                                           chip_reset,
+                                           text,
+                                           strange,
+                                           undefined,
+                                           bank_off,
+                                           masked_and_rising,
+                                           inputs,
+                                           clock_tree,
+                                           nonsense,
+                                           lacking,
+                                           registers,
+                                           clocks_off,
+                                           busy,
+                                           divided,
+                                           restarted,
+                                           wide_bus,
+                                           multiplexed,
+                                           floating_bus,
+                                           wrong_pins,
+                                           outside,
+                                           bank_2,
+                                           timer,
+                                           timer_while_busy,
+                                           irq_storm,
+                                           watchdog,
+                                           watchdog_asleep,
+                                           stuck,
+                                           asks,
+                                           call_astray,
+                                           sleeps,
+                                           byte_stores,
+                                           floats};
   edges = 0;
   clocks();
   memory_bus();
