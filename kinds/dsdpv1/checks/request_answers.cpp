@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace dsdpv1::checks {
 namespace {
 
@@ -36,6 +38,7 @@ void RequestAnswers::serve(std::size_t which, const UserHold& hold, const UserHo
   const Block& request = kChipBlocks.at(kFirstOfChip + which);
   const Block& answer = kUserBlocks.at(kFirstOfUser + which);
   if ((hold.chip_2.fetched() & request.flag) != 0) {
+    if (which == kC1) c1_unfetched_ = false;
     channel.asked = holds.request_read(request);
     channel.duty.ends();
     channel.duty.begins(hold.ended);
@@ -64,8 +67,23 @@ void RequestAnswers::judge(std::size_t which, const AcyclicHeader& given, Tick a
       Act::written(regs::kUserCommand2, at));
 }
 
-void RequestAnswers::event(const profibus::Event& event) {
-  if (event.reason == profibus::Reason::kC1Dropped) channels_.at(kC1).duty.ends();
+/// The master of C1 asks again only after the answer (V8), or after data exchange was left. Then an answer of the
+/// earlier request with the same header passes for that of the new one: the chip cannot tell (V14).
+void RequestAnswers::c1_answered(Tick at, bool owned) {
+  if (std::exchange(c1_unfetched_, false) && owned)
+    recorder_.kept(
+        Check::kRequestAnswered, at, false,
+        [] { return std::string("C1: answered before it was fetched, as an earlier request may be"); },
+        Act::written(regs::kUserCommand2, at));
+}
+
+void RequestAnswers::event(const profibus::Event& event, bool owned) {
+  if (event.reason == profibus::Reason::kC1Request) c1_unfetched_ = true;
+  if (event.reason == profibus::Reason::kC1Answer) c1_answered(event.at, owned);
+  if (event.reason == profibus::Reason::kC1Dropped) {
+    channels_.at(kC1).duty.ends();
+    c1_unfetched_ = false;
+  }
   if (event.reason == profibus::Reason::kC2Timeout && event.b == kTimerU)
     no_answer_on_c2(event.at, "C2: no answer within Send_Timeout");
 }

@@ -16,10 +16,14 @@ class RequestAnswers {
   explicit RequestAnswers(Recorder& recorder) : recorder_(recorder) {}
 
   /// RESET is low: nothing is owed.
-  void reset() { channels_ = {}; }
+  void reset() {
+    channels_ = {};
+    c1_unfetched_ = false;
+  }
   void hold(const UserHold& hold, const UserHolds& holds);
-  /// An event of the chip: the user's timer U on C2 (V3) has ended, or data exchange with a C1 request open (V1).
-  void event(const profibus::Event& event);
+  /// An event of the chip: the user's timer U on C2 (V3) has ended, or data exchange with a C1 request open (V1); a
+  /// request or an answer on C1. `owned`: the user holds the DPRAM, so that no request comes between look and answer.
+  void event(const profibus::Event& event, bool owned);
   /// `chip_tells`: the end of U comes as an event.
   void pass(Tick now, bool chip_tells);
 
@@ -32,9 +36,11 @@ class RequestAnswers {
   void answered(std::size_t which, const AcyclicHeader& given, Tick at);
   void judge(std::size_t which, const AcyclicHeader& given, Tick at);
   void no_answer_on_c2(Tick at, const char* text);
+  void c1_answered(Tick at, bool owned);
 
   Recorder& recorder_;
   std::array<Channel, 2> channels_;  ///< C1, C2
+  bool c1_unfetched_ = false;        ///< the request that is open on C1
 };
 
 }  // namespace dsdpv1::checks

@@ -27,7 +27,7 @@ class UserDuties {
   void telegram(Tick now, const bus::WireTelegram& telegram);
   /// An event of the chip.
   void event(const profibus::Event& event, Refusals::Port port) {
-    answers_.event(event);
+    answers_.event(event, port != Refusals::Port::kUart);
     refusals_.event(event, port);
   }
   void finish(Tick end);

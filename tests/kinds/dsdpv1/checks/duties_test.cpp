@@ -764,6 +764,29 @@ TEST(RequestAnswered, NewerRequestAndTheEndOfDataExchangeEndTheWait) {
   EXPECT_EQ(violations(left, Check::kRequestAnswered), 0U);
 }
 
+/// Data exchange was left with a request open; the answer of that one comes after the next has.
+TEST(RequestAnswered, AnswerOfAnEarlierRequestOnC1IsFound) {
+  for (const bool fetches : {false, true}) {
+    Board board;
+    const auto tell = [&board](profibus::Reason reason) { board.checks().event({board.now(), reason, 0x5E, 1, 2}); };
+    tell(profibus::Reason::kC1Request);
+    fetch_request(board);
+    tell(profibus::Reason::kC1Dropped);
+    tell(profibus::Reason::kC1Request);
+    if (fetches) fetch_request(board);
+    answer(board, 0x5E, 1, 4);
+    tell(profibus::Reason::kC1Answer);
+    EXPECT_EQ(violations(board, Check::kRequestAnswered), fetches ? 0U : 1U);
+    tell(profibus::Reason::kC1Answer);  // to a wrong request, by the chip alone (V9)
+    EXPECT_EQ(violations(board, Check::kRequestAnswered), fetches ? 0U : 1U);
+  }
+  Board board;
+  board.checks().event({board.now(), profibus::Reason::kC1Request, 0x5E, 1, 2});
+  board.checks().event({board.now(), profibus::Reason::kC1Dropped, 0, 0, 0});
+  board.checks().event({board.now(), profibus::Reason::kC1Answer, 0xDE, 0, 0});
+  EXPECT_EQ(violations(board, Check::kRequestAnswered), 0U) << "dropped before it was fetched, then a wrong one";
+}
+
 Tick fetch_c2_request(Board& board) {
   return fetch(board, 0x00F, 0x02, {{0x6D0, 0x5E}, {0x6D1, 1}, {0x6D2, 2}, {0x6D3, 4}, {0x7C4, 0}, {0x7C5, 0}});
 }
