@@ -32,10 +32,11 @@ namespace {
 
 using user_cpu::command::OfChip;
 
-/// The texts of wrong CRCs begin alike.
-bool has_exchanged_crc(const profibus::Event& event) {
+/// Of a CRC or ident number. The texts of wrong CRCs begin alike.
+bool has_exchanged_bytes(const profibus::Event& event) {
   const bool is_crc = std::string_view(event.reason.row().text).find("CRC {a:4x}") != std::string_view::npos;
-  return is_crc && event.a != event.b && event.a == ((event.b << 8 | event.b >> 8) & 0xFFFF);
+  return (is_crc || event.reason == profibus::Reason::kPrmIdent) && event.a != event.b &&
+         event.a == ((event.b << 8 | event.b >> 8) & 0xFFFF);
 }
 
 std::string said_hold(const OfChip& order) { return "holds the DPRAM for " + time_text(order.duration); }
@@ -96,7 +97,7 @@ class Dsdpv1Kind : public ChipKind {
     return all;
   }
   std::string describe(const profibus::Event& event) const override {
-    return dsdpv1::describe(event) + (has_exchanged_crc(event) ? ": its bytes are exchanged" : "");
+    return dsdpv1::describe(event) + (has_exchanged_bytes(event) ? ": its bytes are exchanged" : "");
   }
   std::string cell_of(const profibus::Event& event) const override {
     const std::string_view text = event.reason.row().text;

@@ -53,7 +53,7 @@ TEST(UserAct, TimerThatEndsIsAnOmissionSinceTheLastTelegram) {
   EXPECT_EQ(act->since, kAt - 100 * profibus::kTicksPerCycle);
 }
 
-TEST(UserAct, CrcWithExchangedBytesIsToldFromAnotherWrongOne) {
+TEST(UserAct, CrcOrIdentWithExchangedBytesIsToldFromAnotherWrongOne) {
   const auto text_of = [](profibus::Reason reason, std::uint16_t a, std::uint16_t b) {
     profibus::Event event;
     event.reason = reason;
@@ -65,6 +65,9 @@ TEST(UserAct, CrcWithExchangedBytesIsToldFromAnotherWrongOne) {
     EXPECT_THAT(text_of(reason, 0x12AB, 0xAB12), testing::EndsWith("AB12 computed: its bytes are exchanged"));
     EXPECT_THAT(text_of(reason, 0x12AB, 0xAB13), testing::EndsWith("AB13 computed"));
   }
+  EXPECT_EQ(text_of(profibus::Reason::kPrmIdent, 0x0CC9, 0xC90C),
+            "Prm_Fault: ident 0CC9, this slave is C90C: its bytes are exchanged");
+  EXPECT_EQ(text_of(profibus::Reason::kPrmIdent, 0x0CC9, 0xC90D), "Prm_Fault: ident 0CC9, this slave is C90D");
   EXPECT_THAT(text_of(dpram::Reason::kInitLimit, 0x12AB, 0xAB12), testing::Not(testing::HasSubstr("exchanged")));
 }
 
