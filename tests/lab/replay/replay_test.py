@@ -159,6 +159,23 @@ def reference_rtl(folder):
            "dsdpv1-sim replay: --wave-inside is about the model, it needs --engine step or skip\n")
 
 
+def repetitions(folder, engine="skip"):
+    """Whether a request with the FCB of the one before but with other bytes is a repetition, the scenario's fcb_rule says (S26)."""
+    telegram = 'script: [{at: 20ms, do: telegram, bytes: "68 07 07 68 05 02 5D 09 08 07 06 82 16"}]\n'
+    text = SCENARIO.format(baud="12M", end=30000, behaviour="loop_back", cycle=50, interval=600) + telegram
+    for rule in ("letter", "content"):
+        (folder / f"{rule}.yaml").write_text(text.replace("chip: {", f"chip: {{fcb_rule: {rule}, "), encoding="utf-8")
+        sim(folder, "run", f"{rule}.yaml", "--capture", f"{rule}.pcapng", "--quiet")
+    for recorded in ("letter", "content"):
+        for rule in ("letter", "content"):
+            done = sim(folder, "replay", f"{recorded}.pcapng", "--as", "5", "--scenario", f"{rule}.yaml", "--engine", engine, status=None)
+            expect(f"{recorded} replayed as {rule}, {engine}", done.returncode, 0 if recorded == rule else 1)
+
+
+def repetitions_in_rtl(folder):
+    repetitions(folder, "rtl")
+
+
 # --- different --------------------------------------------------------------------------------------------------------
 def is_exchange_answer(packet):
     return packet.data[0] == 0x68 and packet.data[4:6] == b"\x02\x05"
@@ -374,8 +391,8 @@ def outputs(folder):
            "dsdpv1-sim replay: --json would replace the capture, run.pcapng, expected a separate file\n")
 
 
-CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, changed_byte, missing_answer, answer_without_syn,
-                                          shifted_answer, unlock, other_ident, in_the_middle, without_lead_in, window, outputs)}
+CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, repetitions, repetitions_in_rtl, changed_byte,
+                                          missing_answer, answer_without_syn, shifted_answer, unlock, other_ident, in_the_middle, without_lead_in, window, outputs)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as folder_name:
     CASES[sys.argv[2]](pathlib.Path(folder_name))
