@@ -302,16 +302,17 @@ bool Engine::store_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_
 }
 
 bool Engine::load_part(std::uint32_t address, unsigned bytes, std::uint32_t& value) {
-  if (const Memory* memory = memory_at(address)) {
-    if (!memory->writable) read_flash();
-    std::memcpy(&value, memory->bytes + (address - memory->start), bytes);
-    return true;
+  if (is_window(address)) {
+    access_failed_ = false;
+    value = events_.on_load(address, bytes);
+    accessed_ = now_;
+    return !access_failed_;
   }
-  if (!is_window(address)) return false;
-  access_failed_ = false;
-  value = events_.on_load(address, bytes);
-  accessed_ = now_;
-  return !access_failed_;
+  const Memory* const memory = memory_at(address);
+  if (memory == nullptr) return false;
+  if (!memory->writable) read_flash();
+  std::memcpy(&value, memory->bytes + (address - memory->start), bytes);
+  return true;
 }
 
 bool Engine::store_part(std::uint32_t address, unsigned bytes, std::uint32_t value) {

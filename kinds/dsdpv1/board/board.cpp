@@ -305,6 +305,7 @@ void Board::follow_clock() {
 
 /// Waits until all other agents have reached the processor's time.
 void Board::come_up() {
+  quiet_ = 0;
   pins_->wait_until(now());
   take_intr0_edges();
 }
@@ -319,6 +320,7 @@ std::uint64_t Board::keep_up() {
   if (acts_.sample_at() <= now()) acts_.sample(now(), core_.place(), core_.read_register(Register::kLr));
   const Tick next = stays_until();
   const bool ahead = !has_news() && next > now();
+  quiet_ = ahead ? next : 0;
   if (ahead && core_.cycles() < look_at_) return due_cycle(next);
   if (!ahead) come_up();
   if (core_.cycles() >= look_at_) look_if_stuck();

@@ -157,6 +157,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Tick tick_of(std::uint64_t cycle) const;
   std::uint64_t cycle_of(Tick tick) const;
   void come_up();
+  void come_up_for_access();
   void meet_devices();
   bool take_intr0_edges();
   bool update_interrupts();
@@ -239,6 +240,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   bool bus_changed_ = true;  ///< since memory_bus_ was looked at
   std::vector<Wire> wires_;
   std::uint64_t touched_at_ = 0;            ///< the cycle of the last access or wake-up
+  Tick quiet_ = 0;     ///< before it no other agent acts, as long as the firmware touches nothing outside of RAM
   bool polls_ = false;                      ///< that was a read of a register that stays
   std::uint64_t look_at_ = 0;               ///< the cycle at which it is looked whether the firmware is stuck
   bool in_service_ = false;                 ///< the chip has been accessed

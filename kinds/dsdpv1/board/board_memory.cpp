@@ -96,6 +96,7 @@ std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
   touched_at_ = core_.cycles();
   polls_ = false;
   if (address >= kBank1 && address < kBank1End) return load_chip(address, bytes);
+  quiet_ = 0;
   const std::uint32_t word = load_word(address & ~3U) >> (address % 4 * 8);
   if (kLookedAt - address < bytes) look_ = {core_.cycles(), core_.pc()};
   return bytes == 4 ? word : word & ((1U << bytes * 8) - 1);
@@ -105,6 +106,7 @@ void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   touched_at_ = core_.cycles();
   polls_ = false;
   if (address >= kBank1 && address < kBank1End) return store_chip(address, bytes, value);
+  quiet_ = 0;
   if (bytes == 4) return store_word(address, value);
   // The bridge to APB writes whole words only, so the rest of the register is kept.
   const unsigned shift = address % 4 * 8;
@@ -112,10 +114,16 @@ void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   store_word(address & ~3U, (load_word(address & ~3U) & ~mask) | (value << shift & mask));
 }
 
+/// For the chip's port, which asks the others itself.
+void Board::come_up_for_access() {
+  if (std::exchange(quiet_, 0) > now()) return pins_->skip_to(now());
+  come_up();
+}
+
 /// Wider accesses are made byte by byte, the lowest address first.
 std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
   if (!may_access(address, false)) return 0;
-  come_up();
+  come_up_for_access();
   acts_.access(pins_->now(), core_.pc(), address & kChipMask, bytes, false);
   if (!has_right_bus()) return load_by_wrong_bus(address, bytes);
   std::uint32_t value = 0;
@@ -127,7 +135,7 @@ std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
 
 void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   if (!may_access(address, true)) return;
-  come_up();
+  come_up_for_access();
   acts_.access(pins_->now(), core_.pc(), address & kChipMask, bytes, true);
   if (!has_right_bus()) return store_by_wrong_bus(address, bytes, value);
   for (unsigned i = 0; i < bytes; ++i)

@@ -57,6 +57,8 @@ class Cpu {
   /// `Transfer::next` of the present one may have changed.
   virtual void transfer_changed() = 0;
 
+  /// It is `at` now: the caller knows that nothing happens before.
+  virtual void skip_to(Tick at) = 0;
   /// Waits; interrupts are served meanwhile, and their time counts.
   virtual void wait_until(Tick at) = 0;
   void wait(Tick ticks) { wait_until(now() + ticks); }

@@ -69,6 +69,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   void transfer(Transfer& transfer) override;
   SerialPins& serial_pins() override { return bus_; }
   void transfer_changed() override;
+  void skip_to(Tick at) override { now_ = std::max(now_, at); }
   void wait_until(Tick at) override;
   bool wait_for_wake(Tick until) override;
   bool wait_intr0(Tick until) override;

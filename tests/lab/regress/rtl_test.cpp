@@ -52,9 +52,9 @@ TEST_F(RegressRtl, EngineCosimNeedsRtlOfOnesOwnAndOneChip) {
 }
 
 /// The example, whose pulse of INTR0 has the given length; 64 is right.
-class OwnRtl : public RegressRtl {
+class RegressOwnRtl : public RegressRtl {
  protected:
-  OwnRtl() {
+  RegressOwnRtl() {
     std::filesystem::copy(DSDPV1_SOURCE_DIR "/examples/own_rtl", folder_.file("own_rtl"));
     pulse(64);
   }
@@ -70,7 +70,7 @@ class OwnRtl : public RegressRtl {
   std::string scenario() const { return "'" DSDPV1_SOURCE_DIR "/scenarios/power_on_12m.yaml'"; }
 };
 
-TEST_F(OwnRtl, IsVerifiedByEachWayAndOnlyWhatAChangeConcernsRunsAgain) {
+TEST_F(RegressOwnRtl, IsVerifiedByEachWayAndOnlyWhatAChangeConcernsRunsAgain) {
   const std::string some = scenario() + " --only scenarios,random --cycles 200000 --junit rtl.xml";
   const Called first = verify(some);
   EXPECT_EQ(first.status, 0) << first.out << first.err;
@@ -87,7 +87,7 @@ TEST_F(OwnRtl, IsVerifiedByEachWayAndOnlyWhatAChangeConcernsRunsAgain) {
   EXPECT_THAT(page, HasSubstr("difference.vcd"));
 }
 
-TEST_F(OwnRtl, GoldenAndRegressionTakeItToo) {
+TEST_F(RegressOwnRtl, GoldenAndRegressionTakeItToo) {
   const std::string own = " --rtl own_rtl --top board_chip --pins pins.yaml";
   const Called golden = call("traces check power_on_12m" + own, folder_.path());
   EXPECT_EQ(golden.status, 2);
