@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tb/chip/chip_kind.hpp"
 
@@ -97,10 +98,20 @@ class MemoryWatch {
   virtual std::string last_of_chip() const = 0;
 };
 
+/// A parameter of the chip that its RTL needs as well.
+struct RtlParameter {
+  const char* key;                   ///< of ChipKind::chip_keys()
+  std::vector<std::uint32_t> words;  ///< its value, the lowest bits first
+  int width;                         ///< bits
+  bool usual;                        ///< it is the default
+};
+
 /// Co-simulation's interface to a kind of chip, ChipKind::rtl().
 class RtlOf {
  public:
   virtual ~RtlOf() = default;
+  /// Without those that only the harness needs, and without pins.
+  virtual std::vector<RtlParameter> parameters(const tb::OwnSettings& chip) const = 0;
   virtual RtlTiming timing(const tb::OwnSettings& chip) const = 0;
   virtual std::unique_ptr<MemoryWatch> watch_memory() const = 0;
   /// The reference RTL with the parameters of `chip` and, if `fault` is not 0, a single fault of its list. Registers

@@ -4,7 +4,6 @@
 // A change at tick t is seen by the first rising edge strictly after t (P9), because at a tick with an edge the edge is
 // evaluated first; inputs that act at once (RtlTiming) are evaluated at their own tick, as are the edges of a second
 // clock. An output may follow its register later.
-// clock; an output may follow its register later.
 #include <algorithm>
 #include <array>
 #include <memory>

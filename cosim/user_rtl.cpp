@@ -11,11 +11,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <regex>
 #include <system_error>
 #include <utility>
 
 #include "cosim/reference_rtl.hpp"
 #include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 #include "io/output/write_file.hpp"
 #include "io/waves/wave_writer.hpp"
 
@@ -36,23 +39,49 @@ bool was_interrupted(int status) {
   return (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) || (WIFEXITED(status) && WEXITSTATUS(status) == kByShell);
 }
 
-/// Runs a command with its output in a file; if it fails, the first error lines of the file are the message.
-void call(const std::string& command, const std::string& log, const UserRtl& rtl) {
-  const int status = std::system((command + " >" + quoted(log) + " 2>&1").c_str());
-  if (status == 0) return;
-  if (was_interrupted(status)) std::raise(SIGINT);  // system() has kept it from this process
+/// A message about a line of the map, or, without a line, about the map or its lack.
+[[noreturn]] void fail(const UserRtl& rtl, const PinMap& map, int line, const std::string& what) {
+  if (map.path.empty()) throw tb::InputError(fmt::format("{}: {}, in --pins", rtl.command, what));
+  throw tb::InputError(map.path, line, what);
+}
+
+std::string read(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The first line of an error in the output of a command.
+std::string first_error(const std::string& log) {
   std::ifstream file(log);
-  std::string first;
-  for (std::string line; first.empty() && std::getline(file, line);)
-    if (line.find("rror:") != std::string::npos || line.find("%Error") != std::string::npos) first = line;
+  for (std::string line; std::getline(file, line);)
+    if (line.find("rror:") != std::string::npos || line.find("%Error") != std::string::npos) return line;
+  return "failed";
+}
+
+/// Runs a command with its output in a file. Returns whether it succeeded.
+bool succeeds(const std::string& command, const std::string& log) {
+  const int status = std::system((command + " >" + quoted(log) + " 2>&1").c_str());
+  if (was_interrupted(status)) std::raise(SIGINT);  // system() has kept it from this process
+  return status == 0;
+}
+
+[[noreturn]] void fail_build(const std::string& log, const UserRtl& rtl) {
   throw tb::InputError(fmt::format("{}: {}: {} (all of it in {}), expected RTL that Verilator 5.006 builds",
-                                   rtl.command, rtl.top, first.empty() ? "failed" : first, log));
+                                   rtl.command, rtl.top, first_error(log), log));
+}
+
+/// The path of a file or folder in the map; it exists.
+std::string existing(const UserRtl& rtl, const PinMap& map, const MapWord& word) {
+  const fs::path path = fs::absolute(fs::path(rtl.folder) / word.text);
+  if (!fs::exists(path))
+    fail(rtl, map, word.line, fmt::format("{} is not in {}, expected a path from there", word.text, rtl.folder));
+  return path.string();
 }
 
 std::vector<std::string> sources(const UserRtl& rtl, const PinMap& map) {
   std::vector<std::string> files;
-  for (const std::string& file : map.files) files.push_back(fs::absolute(fs::path(rtl.folder) / file).string());
-  if (!files.empty()) return files;
+  for (const MapWord& file : map.files) files.push_back(existing(rtl, map, file));
+  if (!files.empty() || !map.file_list.text.empty()) return files;
   for (const auto& entry : fs::directory_iterator(rtl.folder)) {
     const std::string ending = entry.path().extension().string();
     if (ending == ".sv" || ending == ".v") files.push_back(fs::absolute(entry.path()).string());
@@ -158,7 +187,8 @@ std::string output_line(const tb::PinInfo& pin, std::size_t number, const PinMap
 
 }  // namespace
 
-std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced) {
+std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced,
+                           const std::string& constants) {
   std::string text = fmt::format(
       "// Generated: the pins of {0} for the co-simulation.\n"
       "#include \"V{0}.h\"\n#include \"verilated.h\"\n{1}#include <memory>\n\nnamespace {{\n"
@@ -166,7 +196,7 @@ std::string adapter_source(const std::string& top, const PinMap& map, const tb::
       "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n{2}}};\n}}  // namespace\n\n"
       "extern \"C\" void* dsdpv1_rtl_create(const Start* start) {{\n  auto* design = new Design;\n"
       "  design->context.randReset(start->fill);\n  design->context.randSeed(static_cast<int>(start->seed));\n{3}"
-      "  design->model = std::make_unique<V{0}>(&design->context);\n  return design;\n}}\n\n"
+      "  design->model = std::make_unique<V{0}>(&design->context);\n{7}  return design;\n}}\n\n"
       "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{\n  auto* design = static_cast<Design*>(self);\n"
       "  Verilated::threadContextp(&design->context);  // whose names the model takes out\n  delete design;\n"
       "  Verilated::threadContextp(Verilated::defaultContextp());\n}}\n{4}\n"
@@ -174,7 +204,7 @@ std::string adapter_source(const std::string& top, const PinMap& map, const tb::
       "  V{0}& model = *static_cast<Design*>(self)->model;\n  model.{5} = {6}clk;\n",
       top, traced ? kTraceIncluded : "", traced ? kTraceMember : "",
       traced ? "  design->context.traceEverOn(true);\n" : "", traced ? kTraceFunctions : "", map.clock.name,
-      map.clock.inverted ? "!" : "");
+      map.clock.inverted ? "!" : "", constants);
   for (std::size_t i = 0; i < pins.size(); ++i)
     if (pins[i].input) text += input_line(pins[i], i, map.pins.at(pins[i].name));
   text += "  model.eval();\n";
@@ -198,33 +228,170 @@ std::vector<std::string> reference_folders(const UserRtl& rtl) {
   return folders;
 }
 
-std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::string& build,
-                              const std::string& adapter) {
+/// A parameter's value in Verilog.
+std::string literal(const RtlParameter& parameter) {
+  if (parameter.words.size() == 1) return fmt::format("{}", parameter.words.front());
+  std::string text = fmt::format("{}'h", parameter.width);
+  for (auto word = parameter.words.rbegin(); word != parameter.words.rend(); ++word)
+    text += fmt::format("{:08x}", *word);
+  return text;
+}
+
+std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::vector<RtlParameter>& parameters,
+                              const std::string& build, const std::string& adapter) {
   std::string command = "verilator --cc --exe -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC'";
+  const auto add = [&command](const std::string& option) { command.append(" ").append(quoted(option)); };
   command += rtl.traced ? " --trace-fst --trace-structs -LDFLAGS '-shared -lz'" : " -LDFLAGS -shared";
   command += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", rtl.top, rtl.top, quoted(build),
                          quoted(fs::absolute(rtl.folder).string()));
-  for (const std::string& folder : map.include)
-    command += " -I" + quoted(fs::absolute(fs::path(rtl.folder) / folder).string());
+  for (const MapWord& folder : map.include) add("-I" + existing(rtl, map, folder));
   if (map.reference)
-    for (const std::string& folder : reference_folders(rtl)) command += " -I" + quoted(folder);
-  for (const auto& [name, value] : map.parameters)
-    command.append(" ").append(quoted(fmt::format("-G{}={}", name, value)));
-  for (const std::string& source : sources(rtl, map)) command += " " + quoted(source);
-  return command + " " + quoted(adapter);
+    for (const std::string& folder : reference_folders(rtl)) add("-I" + folder);
+  for (const auto& [name, value] : map.defines)
+    add(fmt::format("-D{}{}{}", name, value.text.empty() ? "" : "=", value.text));
+  for (const auto& [name, value] : map.parameters) add(fmt::format("-G{}={}", name, value.text));
+  for (const RtlParameter& each : parameters)
+    if (const auto place = map.chip.find(each.key); place != map.chip.end() && !place->second.port)
+      add(fmt::format("-G{}={}", place->second.name, literal(each)));
+  if (!map.file_list.text.empty()) command += " -F " + quoted(existing(rtl, map, map.file_list));
+  for (const std::string& source : sources(rtl, map)) add(source);
+  add(adapter);
+  return command;
 }
 
-/// Checks that every port in the map is one of the Verilated top, whose header declares them as VL_IN8(&name,7,0).
-void check_ports(const UserRtl& rtl, const PinMap& map, const std::string& build) {
-  std::ifstream file(fmt::format("{}/V{}.h", build, rtl.top));
-  const std::string header{std::istreambuf_iterator<char>(file), {}};
-  const auto check = [&](const std::string& pin, const std::string& name) {
-    if (header.find("(&" + name + ",") != std::string::npos) return;
-    throw tb::InputError(fmt::format("{}: {} has no port {} for {}, expected its ports, named in --pins", rtl.command,
-                                     rtl.top, name, pin));
+/// The chip's parameters whose value the RTL cannot know: it would differ for that reason alone.
+void check_parameters(const UserRtl& rtl, const PinMap& map, const std::vector<RtlParameter>& parameters) {
+  for (const RtlParameter& each : parameters)
+    if (!each.usual && map.chip.count(each.key) == 0)
+      fail(
+          rtl, map, 0,
+          fmt::format("chip.{0} is not the default and the RTL is not told, expected chip: {{{0}: PARAMETER}} or chip: "
+                      "{{{0}: {{port: INPUT}}}}",
+                      each.key));
+}
+
+/// What Verilator says of -G.
+void check_found(const UserRtl& rtl, const PinMap& map, const std::string& log) {
+  const std::string missing = "not found in the design: ", error = first_error(log);
+  const std::size_t at = error.find(missing);
+  if (at == std::string::npos) return;
+  std::string name = error.substr(at + missing.size());
+  name.resize(std::min(name.size(), name.find_first_of(", ")));
+  const auto says = [&](const std::string& what, int line) {
+    fail(rtl, map, line,
+         fmt::format("{} has no parameter {} for {}, expected one of its parameters", rtl.top, name, what));
   };
-  check("CLK", map.clock.name);
-  for (const auto& [pin, port] : map.pins) check(pin, port.name);
+  if (const auto found = map.parameters.find(name); found != map.parameters.end())
+    says("parameters", found->second.line);
+  for (const auto& [key, place] : map.chip)
+    if (!place.port && place.name == name) says("chip." + key, place.line);
+}
+
+// --- the ports of the top -------------------------------------------------------------------------------------------
+
+/// A port of the top as the Verilated header declares it: VL_IN8(&name,7,0), VL_INW(&name,127,0,4).
+struct TopPort {
+  bool input = false, output = false;
+  int width = 0;
+};
+using TopPorts = std::map<std::string, TopPort>;
+
+TopPorts ports_of(const std::string& header) {
+  static const std::regex kPort(R"(VL_(IN|OUT|INOUT)(?:8|16|64|W)?\(\(?&(\w+)\)?[^,]*,(\d+),(\d+)[,)])");
+  TopPorts ports;
+  for (auto at = std::sregex_iterator(header.begin(), header.end(), kPort); at != std::sregex_iterator(); ++at) {
+    const std::string direction = (*at)[1];
+    const int left = std::stoi((*at)[3]), right = std::stoi((*at)[4]);
+    ports[(*at)[2]] = {direction != "OUT", direction != "IN", std::abs(left - right) + 1};
+  }
+  return ports;
+}
+
+std::string names_of(const TopPorts& ports, bool inputs) {
+  std::vector<std::string> names;
+  for (const auto& [name, port] : ports)
+    if (inputs ? port.input : port.output) names.push_back(name);
+  return names.empty() ? "none" : tb::join(names);
+}
+
+/// Compares the map with the ports: each port in the map is there with the right direction and width, and each input is
+/// in the map.
+class PortCheck {
+ public:
+  PortCheck(const UserRtl& rtl, const PinMap& map, const TopPorts& ports) : rtl_(rtl), map_(map), ports_(ports) {}
+
+  void run(const tb::PinTable& pins, const std::vector<RtlParameter>& parameters) {
+    check("CLK", map_.clock.name, 1, true, map_.clock.line);
+    for (const tb::PinInfo& pin : pins) {
+      check(pin.name, map_.pins.at(pin.name), pin.width, pin.input);
+      if (pin.released) check(enable_of(pin), map_.pins.at(enable_of(pin)), 1, false);
+    }
+    for (const RtlParameter& each : parameters)
+      if (const auto place = map_.chip.find(each.key); place != map_.chip.end() && place->second.port)
+        check("chip." + std::string(each.key), place->second.name, 0, true, place->second.line);
+    for (const auto& [name, tie] : map_.ties) check_tie(name, tie);
+    for (const auto& [name, port] : ports_)
+      if (port.input && used_.count(name) == 0)
+        fail(rtl_, map_, 0,
+             fmt::format("{}'s input {} is not in the map, expected it in pins, chip or tie: {{{}: 0}}", rtl_.top, name,
+                         name));
+  }
+
+ private:
+  void check(const std::string& what, const Port& port, int width, bool input) {
+    check(what, port.name, width, input, port.line);
+  }
+  /// `width` 0: any.
+  void check(const std::string& what, const std::string& name, int width, bool input, int line) {
+    const auto found = ports_.find(name);
+    const char* const direction = input ? "input" : "output";
+    if (found == ports_.end() || !(input ? found->second.input : found->second.output))
+      fail(rtl_, map_, line,
+           fmt::format("{} has no port {} that is an {}, for {}, expected one of {}", rtl_.top, name, direction, what,
+                       names_of(ports_, input)));
+    if (width != 0 && found->second.width != width)
+      fail(rtl_, map_, line,
+           fmt::format("port {} of {} has {} bits, {} has {}, expected as many", name, rtl_.top, found->second.width,
+                       what, width));
+    if (!used_.emplace(name, what).second)
+      fail(rtl_, map_, line, fmt::format("port {} is {} and {}, expected one of them", name, used_.at(name), what));
+  }
+  void check_tie(const std::string& name, const Tie& tie) {
+    check("tie", name, 0, true, tie.line);
+    constexpr int kValueBits = 64;
+    const int width = ports_.at(name).width;
+    if (width < kValueBits && tie.value >> static_cast<unsigned>(width) != 0)
+      fail(rtl_, map_, tie.line, fmt::format("tie of {} is {}, expected a number of {} bits", name, tie.value, width));
+  }
+
+  const UserRtl& rtl_;
+  const PinMap& map_;
+  const TopPorts& ports_;
+  std::map<std::string, std::string> used_;
+};
+
+/// Sets an input to a constant; the upper words that `words` lacks are 0.
+std::string constant(const std::string& port, int width, std::vector<std::uint32_t> words) {
+  constexpr int kWordBits = 32;
+  const std::string input = "  design->model->" + port;
+  if (width <= kWordBits) return fmt::format("{} = {}U;\n", input, words.at(0));
+  words.resize(static_cast<std::size_t>((width + kWordBits - 1) / kWordBits));
+  if (words.size() == 2) return fmt::format("{} = {}ULL << 32U | {}U;\n", input, words[1], words[0]);
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) text += fmt::format("{}[{}] = {}U;\n", input, i, words[i]);
+  return text;
+}
+
+/// The inputs that keep one level: those of parameters and the tied ones.
+std::string constants(const PinMap& map, const TopPorts& ports, const std::vector<RtlParameter>& parameters) {
+  std::string text;
+  for (const RtlParameter& each : parameters)
+    if (const auto place = map.chip.find(each.key); place != map.chip.end() && place->second.port)
+      text += constant(place->second.name, ports.at(place->second.name).width, each.words);
+  for (const auto& [name, tie] : map.ties)
+    text += constant(name, ports.at(name).width,
+                     {static_cast<std::uint32_t>(tie.value), static_cast<std::uint32_t>(tie.value >> 32U)});
+  return text;
 }
 
 /// It is used in names of files and classes, and in commands.
@@ -254,19 +421,28 @@ std::string make_command(const UserRtl& rtl, const std::string& build) {
 
 }  // namespace
 
-MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind) {
+MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind,
+                           const tb::OwnSettings& chip) {
   check_top(rtl);
+  const std::vector<RtlParameter> parameters = kind.rtl()->parameters(chip);
   if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, expected one with RTL");
+  check_parameters(rtl, map, parameters);
   if (!installed("verilator"))
     throw tb::InputError(rtl.command + ": Verilator is missing, expected version 5.006 or later in PATH");
   const std::string build = fs::absolute(rtl.traced ? fs::path(rtl.build) / "traced" : fs::path(rtl.build)).string();
   create_folder(build);
-  const std::string adapter = build + "/adapter.cpp";
-  tb::write_file(adapter, adapter_source(rtl.top, map, kind.pins(), rtl.traced));
+  const std::string adapter = build + "/adapter.cpp", verilated = build + "/verilator.log",
+                    compiled = build + "/compiler.log";
 
-  call(verilator_command(rtl, map, build, adapter), build + "/verilator.log", rtl);
-  check_ports(rtl, map, build);
-  call(make_command(rtl, build), build + "/compiler.log", rtl);
+  if (!succeeds(verilator_command(rtl, map, parameters, build, adapter), verilated)) {
+    check_found(rtl, map, verilated);
+    fail_build(verilated, rtl);
+  }
+  const TopPorts ports = ports_of(read(fmt::format("{}/V{}.h", build, rtl.top)));
+  PortCheck(rtl, map, ports).run(kind.pins(), parameters);
+  const std::string source = adapter_source(rtl.top, map, kind.pins(), rtl.traced, constants(map, ports, parameters));
+  if (read(adapter) != source) tb::write_file(adapter, source);  // the same one is not compiled again
+  if (!succeeds(make_command(rtl, build), compiled)) fail_build(compiled, rtl);
   return [library = load(build + "/librtl.so"), &pins = kind.pins()](const std::optional<RtlTrace>& trace) {
     return std::make_unique<UserDesigns>(library, pins, trace);
   };

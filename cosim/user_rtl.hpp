@@ -22,11 +22,15 @@ struct UserRtl {
 /// internal signals.
 using MakeUserRtl = std::function<std::unique_ptr<Rtl>(const std::optional<RtlTrace>& trace)>;
 
-/// Builds it; throws tb::InputError with Verilator's or the compiler's message. The result makes chips that run three
+/// Builds it with the parameters of `chip`; throws tb::InputError for a map that does not fit the top, and with
+/// Verilator's or the compiler's message. The result makes chips that run three
 /// times, with different values wherever nothing is initialised or reset: a pin is X if the three differ.
-MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind);
+MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind,
+                           const tb::OwnSettings& chip);
 
-/// The generated file between the Verilated class and this program; `traced` as in UserRtl.
-std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced);
+/// The generated file between the Verilated class and this program; `traced` as in UserRtl, `constants`: statements
+/// that set inputs of a new design.
+std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced,
+                           const std::string& constants = {});
 
 }  // namespace dsdpv1::cosim

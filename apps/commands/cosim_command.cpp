@@ -26,6 +26,7 @@ class Cosim : public Command {
     app.add_option("SCENARIO", run_.scenario, "Scenario in YAML");
     CLI::Option* replay =
         app.add_option("--replay", replay_, "Play a stimulus file instead: a case of rtl-random, with its --set");
+    add_chip_option(app, chip_)->needs(replay);
     add_own_rtl_options(app, own_, true);
     app.add_option("--difference", run_.difference, "Write a wave of both sides' pins when they differ")
         ->capture_default_str();
@@ -44,7 +45,7 @@ class Cosim : public Command {
         "scenarios/two_slaves.yaml\n"
         "  dsdpv1-sim cosim --rtl my_chip --top chip my.yaml --wave inside.fst --wave-from 1.6ms --log my.log --result "
         "my.json\n"
-        "  dsdpv1-sim cosim --rtl my_chip --top chip --replay lockstep.stimulus --wave inside.fst\n"
+        "  dsdpv1-sim cosim --rtl my_chip --top chip --replay lockstep.stimulus --chip dsdpv1_rsu --wave inside.fst\n"
         "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input, 3 nothing was judged, 130 "
         "interrupted.\n");
   }
@@ -62,7 +63,8 @@ class Cosim : public Command {
     request.options.wave = wave_options(kCosim, run_.wave, *request.scenario.kind);
     request.options.wave.inside = true;
     check_files(request.scenario);
-    const OwnRtl own = build_own_rtl(own_, kCosim, *request.scenario.kind, !run_.wave.file.empty());
+    const OwnRtl own =
+        build_own_rtl(own_, kCosim, *request.scenario.kind, *request.scenario.chip, !run_.wave.file.empty());
     return run_own_rtl(std::move(request), own);
   }
 
@@ -71,6 +73,7 @@ class Cosim : public Command {
   RtlRandomArguments stimulus() const {
     RtlRandomArguments stimulus;
     stimulus.command = kCosim;
+    stimulus.chip = chip_;
     stimulus.replay = replay_;
     stimulus.own = own_;
     stimulus.set = run_.set;
@@ -114,6 +117,7 @@ class Cosim : public Command {
   RunArguments run_;
   bool wave_save_ = false;  ///< once the wave has both sides, so not the run's
   std::string replay_;      ///< a stimulus file instead of a scenario
+  RtlChip chip_;            ///< ... for this kind of chip
   OwnRtlArguments own_;
 };
 

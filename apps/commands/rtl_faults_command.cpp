@@ -42,6 +42,7 @@ class RtlFaults : public Command {
     app.add_option("--cycles", cycles_, "Most random cycles for each fault")->capture_default_str();
     app.add_option("--seed", seed_, "Seed of the random cases")->capture_default_str();
     app.add_option("--jobs", jobs_, "Threads (default: one per processor)")->check(CLI::Range(1, 256));
+    add_no_dpram_option(app, no_dpram_);
     app.add_option("--tsv", tsv_, "Write the table also as tab-separated text into this file");
     app.footer(
         "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --chip dsdpv1_rsu --mode spi\n  "
@@ -63,6 +64,7 @@ class RtlFaults : public Command {
     WantedFile tsv(tsv_);
     cosim::CampaignOptions options{seed_, cycles_ / 10, at_a_time(jobs_), cosim::quick_options(kind)};
     cosim::set_parameters(options.play, chip_.port().set);
+    if (no_dpram_) judge_by_pins(options.play);
     const cosim::Kill none =
         cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed, options);
     options.cycles = cycles_;
@@ -84,7 +86,8 @@ class RtlFaults : public Command {
   std::string list_, directed_;  ///< empty: those of the program's own sources, wherever it is called
   std::string tsv_;              ///< the kill table for other programs; empty: none
   std::uint64_t cycles_ = 30'000'000, seed_ = 1;
-  unsigned jobs_ = 0;  ///< threads; 0: as many as there are processors
+  unsigned jobs_ = 0;      ///< threads; 0: as many as there are processors
+  bool no_dpram_ = false;  ///< as RTL of the user's own is judged
 };
 
 }  // namespace

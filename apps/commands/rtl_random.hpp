@@ -10,7 +10,7 @@ namespace dsdpv1::app {
 
 struct RtlRandomArguments {
   std::string command = "dsdpv1-sim rtl-random";  ///< for messages
-  RtlChip chip;                                   ///< of the reference RTL
+  RtlChip chip;                                   ///< of the RTL
   std::uint64_t cycles = 10'000'000, seed = 1;
   unsigned jobs = 0;                           ///< threads; 0: as many as there are processors
   std::string replay;                          ///< a stimulus file instead of random cases
@@ -23,6 +23,7 @@ struct RtlRandomArguments {
   bool campaign = false;                       ///< all four host ports in turn, kept in `state`
   std::string state = "rtl-campaign";          ///< folder
   bool wave_save = false;
+  bool no_dpram = false;  ///< the reference RTL is judged as the user's own: by its pins
 };
 
 /// Returns the exit code; throws tb::InputError.

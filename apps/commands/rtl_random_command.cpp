@@ -64,11 +64,13 @@ Bench bench_of(const RtlRandomArguments& arguments) {
   Bench bench{arguments.own.rtl.empty() ? cosim::quick_options(kind) : cosim::usual_options(kind), {}, {}};
   cosim::set_parameters(bench.options, arguments.set);
   cosim::set_parameters(bench.options, arguments.chip.port().set);
+  if (arguments.no_dpram || !arguments.own.rtl.empty()) judge_by_pins(bench.options);
   if (arguments.own.rtl.empty()) {
     bench.make = reference_of(arguments)(bench.options);
     return bench;
   }
-  const OwnRtl own = build_own_rtl(arguments.own, arguments.command, kind, !arguments.wave.empty());
+  const OwnRtl own =
+      build_own_rtl(arguments.own, arguments.command, kind, *bench.options.chip, !arguments.wave.empty());
   bench.options.lockstep.tolerances = own.map.tolerances;
   bench.make_own = own.make;
   bench.make = [make = own.make] { return make(std::nullopt); };
@@ -172,6 +174,7 @@ std::string command_text(const RtlRandomArguments& arguments) {
   add("--pins", arguments.own.pins);
   add("--build", own && arguments.own.build != OwnRtlArguments().build ? arguments.own.build : "");
   for (const std::string& each : arguments.set) add("--set", each);
+  if (arguments.no_dpram) text += " --no-dpram";
   add("--fault", arguments.fault == 0 ? "" : std::to_string(arguments.fault));
   return text + fmt::format(" --seed {} --replay {}", arguments.seed, tb::shell_word(arguments.stimulus));
 }
@@ -294,6 +297,8 @@ int rtl_random(const RtlRandomArguments& arguments) {
   cosim::Stimulus stimulus;
   if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, arguments.chip.kind());
   const Bench bench = bench_of(arguments);
+  if (!arguments.own.rtl.empty())
+    std::cout << fmt::format("{} as a {}\n", bus::printable(arguments.own.top), bench.options.kind->title());
   StimulusOutputs outputs(arguments);
   cosim::StimulusResult result;
   result.kind = &arguments.chip.kind();
@@ -340,8 +345,10 @@ class RtlRandom : public Command {
     app.add_option("--replay", given_.replay, "This stimulus file instead of random cases");
     add_own_rtl_options(app, given_.own, false);
     add_fault_option(app, given_.fault)->excludes("--rtl");
+    CLI::Option* no_dpram = add_no_dpram_option(app, given_.no_dpram)->excludes("--rtl");
     campaign_ = app.add_flag("--campaign", given_.campaign,
-                             "Use the DSDPV1 and each port of the DSDPV1-RSU in turn; resume from --state");
+                             "Use the DSDPV1 and each port of the DSDPV1-RSU in turn; resume from --state")
+                    ->excludes(no_dpram);
     for (const char* each : {"--chip", "--mode", "--replay", "--rtl"}) campaign_->excludes(each);
     app.add_option("--state", given_.state, "Folder that keeps a campaign's progress")
         ->capture_default_str()

@@ -21,10 +21,14 @@ std::vector<const tb::ChipKind*> random_kinds() {
 
 }  // namespace
 
-void add_chip_options(CLI::App& app, RtlChip& chip, bool with_mode) {
-  app.add_option("--chip", chip.chip, "The chip of the reference RTL: dsdpv1, dsdpv1_r, dsdpv1_rsu")
+CLI::Option* add_chip_option(CLI::App& app, RtlChip& chip) {
+  return app.add_option("--chip", chip.chip, "The chip: dsdpv1, dsdpv1_r, dsdpv1_rsu")
       ->type_name("WORD")
       ->capture_default_str();
+}
+
+void add_chip_options(CLI::App& app, RtlChip& chip, bool with_mode) {
+  add_chip_option(app, chip);
   if (!with_mode) return;
   app.add_option("--mode", chip.mode, "The dsdpv1_rsu's host port in random cases: parallel, spi or uart")
       ->capture_default_str();
@@ -62,6 +66,16 @@ bool has_tolerance(const cosim::PinMap& map) {
       map.tolerances.begin(), map.tolerances.end(), [](auto each) { return each != 0; });
 }
 
+CLI::Option* add_no_dpram_option(CLI::App& app, bool& no_dpram) {
+  return app.add_flag("--no-dpram", no_dpram,
+                      "As with --rtl: the DPRAM is not compared, and a second user reads what the chip has written");
+}
+
+void judge_by_pins(cosim::PlayOptions& options) {
+  options.lockstep.compare_dpram = false;
+  options.reads_back = true;
+}
+
 void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool required) {
   CLI::Option* rtl = app.add_option(
       "--rtl", arguments.rtl, required ? "Folder of the RTL" : "Folder of your RTL, which replaces the reference RTL");
@@ -80,15 +94,18 @@ void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool require
 }
 
 cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind) {
-  return arguments.pins.empty() ? cosim::default_pin_map(kind.pins())
-                                : cosim::load_pin_map(arguments.pins, kind.pins());
+  if (arguments.pins.empty()) return cosim::default_pin_map(kind.pins());
+  std::vector<std::string> parameters;
+  for (const cosim::RtlParameter& each : kind.rtl()->parameters(*kind.make_chip_settings()))
+    parameters.emplace_back(each.key);
+  return cosim::load_pin_map(arguments.pins, kind.pins(), parameters);
 }
 
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
-                     bool traced) {
+                     const tb::OwnSettings& chip, bool traced) {
   OwnRtl own{own_map(arguments, kind), {}};
   own.make = cosim::build_user_rtl({command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced},
-                                   own.map, kind);
+                                   own.map, kind, chip);
   return own;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cosim/pin_map.hpp"
+#include "cosim/random/play_options.hpp"
 #include "cosim/random/random_cases.hpp"
 #include "cosim/user_rtl.hpp"
 
@@ -21,8 +22,15 @@ struct RtlChip {
   const cosim::HostPort& port() const;
 };
 void add_chip_options(CLI::App& app, RtlChip& chip, bool with_mode = true);
+/// --chip alone.
+CLI::Option* add_chip_option(CLI::App& app, RtlChip& chip);
 /// --fault: a single one in the reference RTL.
 CLI::Option* add_fault_option(CLI::App& app, unsigned& fault);
+
+/// --no-dpram: the reference RTL as if it were the user's own.
+CLI::Option* add_no_dpram_option(CLI::App& app, bool& no_dpram);
+/// The DPRAM is not compared; what the chip writes there is read back, so that it appears at pins.
+void judge_by_pins(cosim::PlayOptions& options);
 
 struct OwnRtlArguments {
   std::string rtl, top, pins, build = "build/cosim";
@@ -42,9 +50,9 @@ void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool require
 /// The map of its pins, the names of the reference RTL when there is none. Throws tb::InputError.
 cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind);
 
-/// Reads the map of its pins, the names of the reference RTL when there is none, and builds it, `traced` so that its
-/// inside can be recorded. `command` as "dsdpv1-sim cosim". Throws tb::InputError.
+/// Reads the map of its pins and builds it with the parameters of `chip`, `traced` so that its inside can be recorded.
+/// `command` as "dsdpv1-sim cosim". Throws tb::InputError.
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
-                     bool traced);
+                     const tb::OwnSettings& chip, bool traced);
 
 }  // namespace dsdpv1::app

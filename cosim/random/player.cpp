@@ -27,13 +27,14 @@ class Lane : public bus::Agent {
     plan(at, action);
     announce();
   }
-  bool idle() const { return next() == bus::kNever; }
+  virtual bool idle() const { return next() == bus::kNever; }
 
  protected:
   virtual void plan(Tick at, const Action& action) = 0;
 };
 
 class PinLane;
+class Reader;
 
 /// The chip as a station of the segment, model and RTL in one.
 class ChipAgent : public bus::Agent, private bus::Listener {
@@ -56,14 +57,18 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     tell();
     for (PlayListener* each : listeners_) each->evaluated(now, *lockstep_);
     tell_of_accesses(now);
+    tell_reader(now);
   }
   /// `lane` receives the items on which the chip's accesses work.
   void tell_of_accesses(PinLane& lane) { aimed_.push_back(&lane); }
+  /// `reader` receives each input's level and each evaluation.
+  void tell(Reader& reader) { reader_ = &reader; }
   Lockstep& lockstep() { return *lockstep_; }
   const tb::BoardPins& places() const { return places_; }
   Level level(PinNumber pin) const { return lockstep_->level(pin); }
   void set(Tick at, PinNumber pin, Level level) {
     lockstep_->set(at, pin, level);
+    tell_reader(at, pin, level);
     announce();
   }
 
@@ -85,12 +90,15 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     due_.clear();
   }
   void tell_of_accesses(Tick now);
+  void tell_reader(Tick now);
+  void tell_reader(Tick at, PinNumber pin, Level level);
   void line_changed(Tick at, bool level) override { set(at, places_.rxd, level ? 1 : 0); }
 
   std::unique_ptr<Lockstep> lockstep_;
   const std::vector<PlayListener*>& listeners_;
   const tb::BoardPins& places_;
   std::vector<PinLane*> aimed_;
+  Reader* reader_ = nullptr;
   bus::Segment& segment_;
   bus::StationId station_;
   bool enabled_ = false, level_ = true;
@@ -154,9 +162,20 @@ class PinLane : public Lane {
     item_ = item;
     if (aimed_ != nullptr && std::strcmp(aimed_->during, item) == 0) fire(now);
   }
-  Tick next() const override {
-    if (aimed_ != nullptr) return by_;
-    return edge_ < plan_.edges.size() ? plan_.edges[edge_].at : look_;
+  Tick next() const override { return paused_ ? bus::kNever : due(); }
+  bool idle() const override { return due() == bus::kNever; }
+  /// No action is under way or due.
+  bool rests(Tick now) const { return due() > now && (edge_ == 0 || idle() || aimed_ != nullptr); }
+  /// Nothing is done at the pins up to the next call, which puts off a due action; only where it rests.
+  void pause() {
+    paused_ = true;
+    announce();
+  }
+  void resume(Tick now) {
+    paused_ = false;
+    by_ = std::max(by_, now);
+    if (aimed_ == nullptr && due() < now) put_off(now - due());
+    announce();
   }
   void run(Tick now) override {
     if (aimed_ != nullptr) return fire(now);
@@ -166,12 +185,16 @@ class PinLane : public Lane {
       if (edge.until_low == 0)
         chip_.set(edge.at, edge.pin, edge.level);
       else if (any_high(edge.until_low) && ++polls_ < kMostPolls)
-        put_off();
+        poll_again();
     }
   }
 
  private:
   static constexpr int kMostPolls = 400;  // after so many polls a user continues anyway
+  Tick due() const {
+    if (aimed_ != nullptr) return by_;
+    return edge_ < plan_.edges.size() ? plan_.edges[edge_].at : look_;
+  }
   UserPlan plan_of(const Action& action) const {
     const PinNumber reset = chip_.places().reset;
     if (action.verb == Verb::kReset) return {{{0, reset, 0}, {action.low, reset, 1}}};
@@ -206,9 +229,16 @@ class PinLane : public Lane {
       if ((pins >> pin & 1) != 0 && chip_.level(pin) != 0) return true;
     return false;
   }
-  void put_off() {
-    for (std::size_t i = edge_; i < plan_.edges.size(); ++i) plan_.edges[i].at += plan_.poll_every;
+  void poll_again() {
+    put_off(plan_.poll_every);
     --edge_;
+  }
+  /// The rest of the action.
+  void put_off(Tick ticks) {
+    for (std::size_t i = edge_; i < plan_.edges.size(); ++i) plan_.edges[i].at += ticks;
+    if (look_ == bus::kNever) return;
+    look_ += ticks;
+    reply_by_ += ticks;
   }
   /// Checks the reply every half bit.
   void look(Tick now) {
@@ -227,7 +257,54 @@ class PinLane : public Lane {
   const char* item_ = "";
   const Action* aimed_ = nullptr;  ///< waiting
   Tick by_ = 0;                    ///< ... at most until then
+  bool paused_ = false;
 };
+
+/// PlayOptions::reads_back: acts where the user rests, who waits meanwhile.
+class Reader : public PinLane {
+ public:
+  Reader(ChipAgent& chip, PinLane& user, const PlayOptions& options)
+      : PinLane(chip, options.kind->random()->words().verbs, Verb::kPin, kLastVerb),
+        user_(user),
+        source_(options.kind->random()->read_back(*options.chip)) {}
+
+  bool busy() const { return next_ < actions_.size() || !idle(); }
+  void input(Tick at, PinNumber pin, Level level) { source_->input(at, pin, level); }
+  void evaluated(Tick now, const tb::PinDevice& model) {
+    source_->works_on(model.works_on());
+    if (busy() || !user_.rests(now)) return;
+    actions_ = source_->due(now, model);
+    next_ = 0;
+    if (actions_.empty()) return;
+    user_.pause();
+    go_on(now);
+  }
+  void run(Tick now) override {
+    PinLane::run(now);
+    if (!idle()) return;
+    if (next_ < actions_.size()) return go_on(now);
+    user_.resume(now);
+  }
+
+ private:
+  void go_on(Tick now) {
+    const Action& action = actions_[next_++];
+    begin(now + action.delay, action);
+  }
+
+  PinLane& user_;
+  const std::unique_ptr<ReadBack> source_;
+  Stimulus actions_;
+  std::size_t next_ = 0;
+};
+
+void ChipAgent::tell_reader(Tick now) {
+  if (reader_ != nullptr) reader_->evaluated(now, *lockstep_);
+}
+
+void ChipAgent::tell_reader(Tick at, PinNumber pin, Level level) {
+  if (reader_ != nullptr) reader_->input(at, pin, level);
+}
 
 void ChipAgent::tell_of_accesses(Tick now) {
   if (aimed_.empty()) return;
@@ -248,6 +325,11 @@ class Player {
     if (std::any_of(stimulus.begin(), stimulus.end(), [](const Action& each) { return each.during != nullptr; }))
       for (PinLane* each : {&user_, &board_}) chip_.tell_of_accesses(*each);
     for (Place& place : places_) timeline_.add(*place.lane);
+    if (options.reads_back) {
+      reader_.emplace(chip_, user_, options);
+      chip_.tell(*reader_);
+      timeline_.add(*reader_);
+    }
     lockstep().on_event({[](void* self, const profibus::Event& event) {
                            auto& player = *static_cast<Player*>(self);
                            player.coverage_.happened(event);
@@ -326,6 +408,8 @@ class Player {
     const Tick end = std::min(options_.limit, timeline_.now() + kAfterwards);
     while (!lockstep().difference() && timeline_.step(end)) {
     }
+    while (!lockstep().difference() && reader_ && reader_->busy() && timeline_.step(options_.limit)) {
+    }
     if (!lockstep().difference()) lockstep().advance(std::max(end, timeline_.now()));
   }
 
@@ -336,6 +420,7 @@ class Player {
   ChipAgent chip_;
   BusLane bus_;
   PinLane user_, board_;
+  std::optional<Reader> reader_;
   std::optional<bus::Monitor> monitor_;
   Place places_[3] = {{&bus_}, {&user_}, {&board_}};
   std::size_t sync_ = 0, passed_ = 0, begun_ = 0;

@@ -23,6 +23,7 @@ struct PlayOptions {
   std::shared_ptr<const tb::OwnSettings> chip = {};  ///< the resulting settings
   tb::Engine engine = tb::Engine::kSkip;
   LockstepOptions lockstep = {};
+  bool reads_back = false;     ///< ReadBack acts between the user's actions: the RTL's memory cannot be compared
   std::string wave = {};       ///< for the wave of a difference; empty: none
   Tick limit = Tick{1} << 50;  ///< the run ends here at the latest
   std::vector<PlayListener*> listeners = {};

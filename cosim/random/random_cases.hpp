@@ -63,6 +63,20 @@ struct Vocabulary {
   std::string faults = {}, stimuli = {};       ///< paths in the source tree: its list of faults, its directed stimuli
 };
 
+/// A second user, who reads what the chip has written whenever the stimulus leaves the host port at rest: so the cells
+/// appear at pins. Its actions depend on the inputs and the model alone.
+class ReadBack {
+ public:
+  virtual ~ReadBack() = default;
+  /// An input of the chip has a new level; in order of time.
+  virtual void input(Tick at, PinNumber pin, Level level) = 0;
+  /// The part of an access that the chip works on now, PinDevice::works_on(), after each evaluation.
+  virtual void works_on(const char* part) = 0;
+  /// The actions that read what was written since the last call that gave some; empty: nothing was, or the port is not
+  /// at rest.
+  virtual Stimulus due(Tick now, const tb::PinDevice& model) = 0;
+};
+
 class RandomCases {
  public:
   virtual ~RandomCases() = default;
@@ -72,6 +86,8 @@ class RandomCases {
   /// One case from power-on, the same for the same seed. For a chip with times about as short as the quick ones: waits
   /// use the times of `chip`. Runs for a few hundred thousand cycles, some for two millions (slow rates).
   virtual Stimulus make_case(std::uint64_t seed, const tb::OwnSettings& chip) const = 0;
+  /// For PlayOptions::reads_back.
+  virtual std::unique_ptr<ReadBack> read_back(const tb::OwnSettings& chip) const = 0;
   /// All situations that may occur, in the order of a table. Some are possible by the rulings, but no random case
   /// reaches them.
   virtual std::vector<Situation> known_situations(const tb::OwnSettings& chip) const = 0;

@@ -62,6 +62,7 @@ void stimulus_fields(Fields& out, const StimulusResult& result) {
   out.constant("schema", kSchema, "what this file is");
   out.constant("version", "1.2", "of the contents");
   out.word("verdict", result.difference ? "different" : "same", {"same", "different"}, "model and RTL");
+  out.field("chip", result.kind->name(), "its kind, as in scenarios");
   out.field("rtl", only_if(!result.rtl.empty(), result.rtl), "the folder of `--rtl`; null: the reference RTL");
   out.field("fault", only_if(result.fault != 0, result.fault), "the number of `--fault`; null: none");
   out.field("seed", result.seed, "of the random cases, and of the reference RTL's initial values");

@@ -126,25 +126,25 @@ std::string line_with(const std::string& text, const std::string& word) {
   return at == std::string::npos ? "none" : text.substr(at, text.find('\n', at) - at);
 }
 
-/// One build for everything: the pulse of INTR0 is 60 cycles long, P7 requires 64.
-/// The reference RTL of the DSDPV1-RSU used as a user's: SPI, where SCK is a separate clock and MISO is late.
-TEST(OwnRtl, OfTheRsuIsTheSameAtItsSerialPort) {
+/// The CRC that the chip writes is of no use to its user: nothing else than a reading user sees it at pins.
+TEST(NoDpram, SwappedCrcIsFoundWhereItIsReadBack) {
   const app_test::Folder folder;
-  std::ofstream(folder.file("pins.yaml")) << "reference: true\n";
-  const app_test::Called called =
-      call("rtl-random --chip dsdpv1_rsu --mode spi --rtl rtl_ref/dsdpv1_rsu --top dsdpv1_rsu --pins '" +
-               folder.file("pins.yaml") + "' --build '" + folder.file("build") + "' --cycles 500000 --stimulus '" +
-               folder.file("case") + "' --difference '" + folder.file("both.vcd") + "'",
-           kSource);
-  EXPECT_EQ(called.status, 0) << called.out << called.err;
-  EXPECT_THAT(called.out, HasSubstr("telegrams of the host"));
+  const std::string fault =
+      " --fault 166 --replay '" + std::string(kSource) + "/tests/cosim/stimuli/dsdpv1/set_prm.stimulus'";
+  const app_test::Called images = call("rtl-random" + fault, folder.path());
+  EXPECT_THAT(images.out, HasSubstr("DPRAM B4FE: model "));
+  const app_test::Called pins = call("rtl-random --no-dpram" + fault, folder.path());
+  EXPECT_EQ(pins.status, 1) << pins.out;
+  EXPECT_THAT(pins.out, HasSubstr("pin D_OUT: model "));
+  EXPECT_THAT(pins.out, HasSubstr("last access       read B4FE"));
 }
 
-/// In the libraries of the reference RTL the parameters of a top are inputs, here they are parameters.
+/// In the libraries of the reference RTL the parameters of a top are inputs, here they are parameters, which the map
+/// names.
 TEST(OwnRtl, OfTheDsdpv1WithOtherParametersIsTheSame) {
   const app_test::Folder folder;
   std::ofstream(folder.file("pins.yaml"))
-      << "reference: true\nparameters: {RTS_LEAD: 0, RTS_TRAIL: 32, SEARCH_WINDOW_MS: 3}\n";
+      << "reference: true\nchip: {rts_lead: RTS_LEAD, rts_trail: RTS_TRAIL, search_window_ms: SEARCH_WINDOW_MS}\n";
   const app_test::Called called = call(
       "rtl-random --set chip.rts_lead=0 --set chip.rts_trail=32 --set chip.search_window_ms=3 --rtl "
       "rtl_ref/dsdpv1 --top dsdpv1 --pins '" +
@@ -154,11 +154,11 @@ TEST(OwnRtl, OfTheDsdpv1WithOtherParametersIsTheSame) {
   EXPECT_EQ(called.status, 0) << called.out << called.err;
 }
 
+/// One build for everything: the pulse of INTR0 is 60 cycles long, P7 requires 64.
 TEST(OwnRtl, DefectIsFoundAtRandomShownFromInsideAndPlayedAgainExactly) {
   const app_test::Folder folder;
   copy_example(folder);
-  std::ofstream(folder.file("own_rtl/pins.yaml"), std::ios::app)
-      << "parameters: {RESET_VALUE: 1, SEARCH_WINDOW_MS: 1}\n";
+  std::ofstream(folder.file("own_rtl/pins.yaml"), std::ios::app) << "parameters: {RESET_VALUE: 1}\n";
   const std::string rtl =
       " --rtl own_rtl --top board_chip --pins own_rtl/pins.yaml --set chip.search_window_ms=1 --wave inside.fst ";
 

@@ -105,6 +105,7 @@ TEST_F(PlayedStimulus, ResultNamesVerdictCountsAndFirstDifference) {
   const nlohmann::json json = nlohmann::json::parse(cosim::result_json(result));
   EXPECT_EQ(json["schema"], "dsdpv1-sim rtl-random");
   EXPECT_EQ(json["version"], "1.2");
+  EXPECT_EQ(json["chip"], "dsdpv1");
   EXPECT_EQ(json["verdict"], "different");
   EXPECT_EQ(json["replayed"], "case.stimulus");
   EXPECT_EQ(json["difference"]["cycle"], kWrongFrom);

@@ -7,6 +7,7 @@
 #include "kinds/dsdpv1/random/access_parts.hpp"
 #include "kinds/dsdpv1/random/host_verbs.hpp"
 #include "kinds/dsdpv1/random/random_case.hpp"
+#include "kinds/dsdpv1/random/read_back.hpp"
 #include "kinds/dsdpv1/random/situation_watch.hpp"
 #include "kinds/dsdpv1/random/situations.hpp"
 
@@ -60,6 +61,7 @@ class Dsdpv1Cases : public RandomCases {
   Stimulus make_case(std::uint64_t seed, const tb::OwnSettings& chip) const override {
     return RandomCase(seed, own(chip)).make();
   }
+  std::unique_ptr<ReadBack> read_back(const tb::OwnSettings& chip) const override { return make_read_back(own(chip)); }
   std::vector<Situation> known_situations(const tb::OwnSettings& chip) const override {
     return cosim::known_situations(own(chip).part, own(chip).mode);
   }

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "bus/telegram/telegram.hpp"
+#include "kinds/dsdpv1/random/chip_blocks.hpp"
 #include "kinds/dsdpv1/random/situations.hpp"
 #include "model/profibus/request.hpp"
 
@@ -99,6 +102,31 @@ void SituationWatch::access_begins(bool write) {
   situations_.count("accesses of the user",
                     fmt::format("{}, {}, {}", write ? "write" : "read", owner,
                                 level(Pin::kLSta) != 0 ? "the chip in an access" : "the chip away"));
+  if (!write && req && sta) cell_read(level(Pin::kA));
+}
+
+/// The block on which the chip's access has worked so far waits for the user.
+void SituationWatch::block_written() {
+  for (std::size_t i = 0; i < kChipBlocks.size(); ++i) {
+    const ChipBlock& block = kChipBlocks.at(i);
+    if (item_ == nullptr || std::strcmp(item_, item_of(block.part)) != 0) continue;
+    const auto wait = [&](int first, int count, std::size_t cells) {
+      const auto begin = unread_.begin() + first;
+      std::fill(begin, begin + count, static_cast<std::uint8_t>(1 + i * std::size(kBlockCells) + cells));
+    };
+    wait(block.base, block.header, 0);
+    wait(block.base + block.header, data_of(block, *model_), 1);
+    wait(block.crc, 2, 2);
+    wait(block.flag, 1, 3);
+  }
+}
+
+void SituationWatch::cell_read(int address) {
+  const unsigned what = std::exchange(unread_.at(static_cast<std::size_t>(address)), std::uint8_t{0});
+  if (what == 0) return;
+  const ChipBlock& block = kChipBlocks.at((what - 1) / std::size(kBlockCells));
+  situations_.count("written and read",
+                    fmt::format("{}, {}", item_of(block.part), kBlockCells[(what - 1) % std::size(kBlockCells)]));
 }
 
 /// The straps are in force.
@@ -116,6 +144,7 @@ void SituationWatch::released(Tick at) {
 void SituationWatch::evaluated(Tick /*now*/, tb::PinDevice& model) {
   const char* item = model.works_on();
   if (item == item_) return;
+  block_written();
   item_ = item;
   if (std::strcmp(item, "-") != 0) situations_.count("transfers", item);
 }
@@ -167,7 +196,7 @@ void SituationWatch::telegram(Tick /*now*/, const bus::WireTelegram& telegram) {
 
 void SituationWatch::host_telegram(const tb::HostTelegram& telegram) {
   if (!telegram.reply) {
-    if (!telegram.bytes.empty()) command_ = telegram.bytes[0] >> 5U;
+    request_ = telegram.bytes;
     return;
   }
   if (telegram.wrong.empty()) host_reply(telegram.bytes);
@@ -176,9 +205,10 @@ void SituationWatch::host_telegram(const tb::HostTelegram& telegram) {
 /// SP4, SP10, UA8, UA13.
 void SituationWatch::host_reply(const bus::Bytes& bytes) {
   constexpr unsigned kExchange = 2, kErrorReply = 7, kErrorFunction = 0x80;
-  const bool exchange = chip_.mode == HostMode::kUart && command_ == kExchange;
+  const unsigned command = request_.empty() ? 0 : request_[0] >> 5U;
+  const bool exchange = chip_.mode == HostMode::kUart && command == kExchange;
   const char* third = exchange ? "exchange" : "read and write";
-  const char* kind = command_ == 0 ? "read" : command_ == 1 ? "write" : third;
+  const char* kind = command == 0 ? "read" : command == 1 ? "write" : third;
   if (bytes.size() < 3) return;
   const bool error = exchange ? (bytes[1] & kErrorFunction) != 0 : bytes[0] >> 5U == kErrorReply;
   const unsigned code = !error ? 0U : bytes[exchange ? 2 : 1];
@@ -186,6 +216,8 @@ void SituationWatch::host_reply(const bus::Bytes& bytes) {
   situations_.count("telegrams of the host",
                     refused ? fmt::format("{}, refused", kind) : fmt::format("{}, code {:02X}", kind, code));
   if (exchange && !error) exchange_reply(bytes[1]);
+  if (command == 0 && !error && request_.size() > 3)
+    for (int i = 0; i < request_[3]; ++i) cell_read((request_[1] << 8 | request_[2]) + i);
 }
 
 void SituationWatch::exchange_reply(unsigned function) {

@@ -7,6 +7,7 @@
 #include "cosim/random/play_listener.hpp"
 #include "cosim/random/situations.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
+#include "registers/dsdpv1_regs.hpp"
 #include "tb/chip/host_reader.hpp"
 
 namespace dsdpv1::cosim {
@@ -24,6 +25,8 @@ class SituationWatch : public PlayListener {
  private:
   void input_changed(Tick at, Pin pin, Level level);
   void access_begins(bool write);
+  void block_written();
+  void cell_read(int address);
   void released(Tick at);
   void global_control(unsigned command);
   void host_telegram(const tb::HostTelegram& telegram);
@@ -38,11 +41,13 @@ class SituationWatch : public PlayListener {
   const tb::PinDevice* model_ = nullptr;
   std::array<Level, kRsuPinCount> levels_{};
   const char* item_ = nullptr;  ///< of the access in progress, counted
+  std::array<std::uint8_t, regs::kDpramSize>
+      unread_{};  ///< cells of a block: its number and its part of kBlockCells, from 1
   unsigned state_ = 0;
   bool sync_ = false, freeze_ = false;
   std::string service_;  ///< requested from this station and not answered yet; empty: none
   std::unique_ptr<tb::HostReader> reader_;
-  unsigned command_ = 0;  ///< bits 7..5 of the last request of the host
+  bus::Bytes request_;  ///< the last one of the host
 };
 
 }  // namespace dsdpv1::cosim

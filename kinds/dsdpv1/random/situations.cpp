@@ -6,7 +6,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "kinds/dsdpv1/random/access_parts.hpp"
+#include "kinds/dsdpv1/random/chip_blocks.hpp"
 #include "model/dsdpv1/reasons.hpp"
 
 namespace dsdpv1::cosim {
@@ -157,6 +157,13 @@ Words services() {
 
 Words transfers() { return {std::begin(kAccessParts) + kFirstTransfer, std::end(kAccessParts)}; }
 
+Words cells_read() {
+  Words all;
+  for (const ChipBlock& block : kChipBlocks)
+    for (const char* cells : kBlockCells) all.push_back(fmt::format("{}, {}", item_of(block.part), cells));
+  return all;
+}
+
 /// Relative to the chip's accesses: in none, in each part of one.
 Words phases() {
   Words all = {"-"};
@@ -228,6 +235,7 @@ std::vector<Situation> known_situations(Part part, HostMode mode) {
   }
   add(all, "Sync and Freeze", sync_and_freeze());
   add(all, "transfers", transfers());
+  add(all, "written and read", cells_read());
   add(all, "RESET falls in", phases());
   if (mode == HostMode::kParallel) {
     add(all, "R_REQ rises in", phases());

@@ -9,9 +9,38 @@ namespace {
 
 const dsdpv1::Config& config_of(const tb::OwnSettings& chip) { return static_cast<const tb::Dsdpv1Settings&>(chip); }
 
+RtlParameter parameter(const char* key, std::uint32_t value, std::uint32_t usual) {
+  return {key, {value}, 32, value == usual};
+}
+
+/// Several numbers are one vector of 16 bits each.
+template <std::size_t N>
+RtlParameter parameter(const char* key, const std::array<std::uint32_t, N>& values,
+                       const std::array<std::uint32_t, N>& usual) {
+  RtlParameter row{key, {}, 16 * static_cast<int>(N), values == usual};
+  for (std::size_t i = 0; i < N; i += 2) row.words.push_back(values.at(i) | values.at(i + 1) << 16U);
+  return row;
+}
+
+std::vector<RtlParameter> parameters_of(const dsdpv1::Config& config, bool serial) {
+  const dsdpv1::Config usual;
+  std::vector<RtlParameter> rows;
+#define DSDPV1_PARAMETER(name, ...) rows.push_back(parameter(#name, config.name, usual.name));
+#define DSDPV1_RSU_PARAMETER(name, ...) \
+  if (serial) rows.push_back(parameter(#name, config.name, usual.name));
+#define DSDPV1_RSU_TICKS(...)
+#define DSDPV1_RSU_LIST DSDPV1_RSU_PARAMETER
+#include "model/dsdpv1/parameters.inc"
+  return rows;
+}
+
 class Dsdpv1Rtl : public RtlOf {
  public:
   explicit Dsdpv1Rtl(Part part) : part_(part) {}
+
+  std::vector<RtlParameter> parameters(const tb::OwnSettings& chip) const override {
+    return parameters_of(config_of(chip), has_serial_ports(part_));
+  }
 
   /// Strobes act at their own tick, as does SCK of the DSDPV1-RSU; MISO follows its register later
   /// (docs/microarchitecture_rsu.md, 5.1).
