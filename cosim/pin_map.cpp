@@ -16,8 +16,11 @@ namespace {
 
 constexpr int kLargestTolerance = 1000;
 
-const std::vector<std::string> kKeys = {"clock",   "pins",  "tie",       "tolerance", "chip",     "parameters",
-                                        "defines", "files", "file_list", "include",   "reference"};
+const std::vector<std::string>& known_keys() {
+  static const std::vector<std::string> keys = {"clock",   "pins",  "tie",       "tolerance", "chip",     "parameters",
+                                                "defines", "files", "file_list", "include",   "reference"};
+  return keys;
+}
 
 class Reader {
  public:
@@ -28,7 +31,7 @@ class Reader {
 
   PinMap read(const std::string& content) {
     const YAML::Node root = load(content);
-    check_keys(root, kKeys);
+    check_keys(root, known_keys());
     for (const char* key : {"pins", "tie", "tolerance", "chip", "parameters", "defines"}) check_map(key, root[key]);
     for (const char* key : {"files", "include"})
       if (root[key] && !root[key].IsSequence())
@@ -57,7 +60,7 @@ class Reader {
   YAML::Node load(const std::string& content) const {
     try {
       YAML::Node root = YAML::Load(content);
-      if (!root.IsMap() && !root.IsNull()) fail(root, "is no map, expected " + tb::join(kKeys));
+      if (!root.IsMap() && !root.IsNull()) fail(root, "is no map, expected " + tb::join(known_keys()));
       return root;
     } catch (const YAML::ParserException& error) {
       throw tb::InputError(path_, error.mark.line + 1, error.msg + ", expected YAML");

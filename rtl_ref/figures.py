@@ -13,6 +13,8 @@ LEAST_MHZ = 48.0
 RTL = pathlib.Path(__file__).resolve().parent
 CHIPS = sorted(path.parent.name for path in RTL.glob("*/files.txt"))
 HEADERS = ("profibus_types.svh", "dpram_types.svh", "dsdpv1_types.svh")
+# Code of the build with faults alone
+FAULTS = re.compile(r"`ifdef SINGLE_FAULTS((?!`else).)*?`endif", re.S)
 # Code that only another chip's build enables; the DSDPV1's build ignores it
 OPTION = re.compile(r"`ifdef DPRAM_CRC_MAY_NOT_COUNT.*?`endif|\s*`(CRC_COUNTS_PORT|AND_CRC_COUNTS)\b", re.S)
 PAGE = RTL.parent / "docs" / "rtl.md"
@@ -33,7 +35,7 @@ def checksum(chip):
 
 
 def code(file, chip):
-    text = re.sub(r"//.*|/\*.*?\*/", "", file.read_text(encoding="utf-8"))
+    text = FAULTS.sub("", re.sub(r"//.*|/\*.*?\*/", "", file.read_text(encoding="utf-8")))
     return OPTION.sub("", text) if chip == "dsdpv1" else text
 
 

@@ -115,12 +115,12 @@ module dpram_move (
       SEQ_WRITE_CRC_HIGH: begin
         we_o = 1'b1;
         addr_o = crc_addr_i;
-        wdata_o = `FAULT(166) ? crc_low : crc_high;
+        wdata_o = crc_high;
       end
       SEQ_WRITE_CRC_LOW: begin
         we_o = !`FAULT(54);
         addr_o = crc_addr_i;
-        wdata_o = `FAULT(166) ? crc_high : crc_low;
+        wdata_o = crc_low;
       end
       SEQ_READ_CRC_HIGH, SEQ_READ_CRC_LOW: addr_o = crc_addr_i;
       SEQ_FLAG: begin
@@ -135,5 +135,9 @@ module dpram_move (
       end
       default: ;
     endcase
+`ifdef SINGLE_FAULTS
+    if (`FAULT(166) && state_i == SEQ_WRITE_CRC_HIGH) wdata_o = crc_low;
+    if (`FAULT(166) && state_i == SEQ_WRITE_CRC_LOW) wdata_o = crc_high;
+`endif
   end
 endmodule

@@ -64,7 +64,7 @@ TEST_F(PinMapFile, NamesPolaritiesAndTolerancesAreRead) {
   EXPECT_EQ(map.files.front().text, "a.sv");
   EXPECT_EQ(map.file_list.text, "chip.f");
   EXPECT_EQ(map.ties.at("scan").value, 0x1FU);
-  EXPECT_EQ(map.ties.at("test").line, 10);
+  EXPECT_EQ(map.ties.at("test").line, 11);
   EXPECT_EQ(map.defines.at("FPGA").text, "1");
   EXPECT_EQ(map.defines.at("SIM").text, "");
   EXPECT_EQ(map.chip.at("search_window_ms").name, "SW");
