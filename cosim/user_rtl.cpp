@@ -1,7 +1,10 @@
 #include "cosim/user_rtl.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -13,12 +16,15 @@
 #include <iterator>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "cosim/reference_rtl.hpp"
+#include "io/input/hash.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
+#include "io/output/shell_word.hpp"
 #include "io/output/write_file.hpp"
 #include "io/waves/wave_writer.hpp"
 
@@ -26,12 +32,6 @@ namespace dsdpv1::cosim {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
 
 /// Ctrl-C, which the command received as well.
 bool was_interrupted(int status) {
@@ -60,7 +60,7 @@ std::string first_error(const std::string& log) {
 
 /// Runs a command with its output in a file. Returns whether it succeeded.
 bool succeeds(const std::string& command, const std::string& log) {
-  const int status = std::system((command + " >" + quoted(log) + " 2>&1").c_str());
+  const int status = std::system((command + " >" + tb::shell_word(log) + " 2>&1").c_str());
   if (was_interrupted(status)) std::raise(SIGINT);  // system() has kept it from this process
   return status == 0;
 }
@@ -240,10 +240,10 @@ std::string literal(const RtlParameter& parameter) {
 std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::vector<RtlParameter>& parameters,
                               const std::string& build, const std::string& adapter) {
   std::string command = "verilator --cc --exe -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC'";
-  const auto add = [&command](const std::string& option) { command.append(" ").append(quoted(option)); };
+  const auto add = [&command](const std::string& option) { command.append(" ").append(tb::shell_word(option)); };
   command += rtl.traced ? " --trace-fst --trace-structs -LDFLAGS '-shared -lz'" : " -LDFLAGS -shared";
-  command += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", rtl.top, rtl.top, quoted(build),
-                         quoted(fs::absolute(rtl.folder).string()));
+  command += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", rtl.top, rtl.top,
+                         tb::shell_word(build), tb::shell_word(fs::absolute(rtl.folder).string()));
   for (const MapWord& folder : map.include) add("-I" + existing(rtl, map, folder));
   if (map.reference)
     for (const std::string& folder : reference_folders(rtl)) add("-I" + folder);
@@ -253,7 +253,7 @@ std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::
   for (const RtlParameter& each : parameters)
     if (const auto place = map.chip.find(each.key); place != map.chip.end() && !place->second.port)
       add(fmt::format("-G{}={}", place->second.name, literal(each)));
-  if (!map.file_list.text.empty()) command += " -F " + quoted(existing(rtl, map, map.file_list));
+  if (!map.file_list.text.empty()) command += " -F " + tb::shell_word(existing(rtl, map, map.file_list));
   for (const std::string& source : sources(rtl, map)) add(source);
   add(adapter);
   return command;
@@ -415,9 +415,103 @@ void create_folder(const std::string& folder) {
 
 /// With ccache, if present: RTL that has been built before is not compiled again.
 std::string make_command(const UserRtl& rtl, const std::string& build) {
-  return fmt::format("{}make -s -j2 -C {} -f V{}.mk", installed("ccache") ? "OBJCACHE=ccache " : "", quoted(build),
-                     rtl.top);
+  return fmt::format("{}make -s -j2 -C {} -f V{}.mk", installed("ccache") ? "OBJCACHE=ccache " : "",
+                     tb::shell_word(build), rtl.top);
 }
+
+/// One process at a time builds in a folder; another waits, and then finds what it needs.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& folder)
+      : file_(open((folder + "/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (file_ >= 0) flock(file_, LOCK_EX);
+  }
+  ~FolderLock() {
+    if (file_ >= 0) close(file_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_;
+};
+
+/// Other parameters of the chip than the usual ones have a build of their own.
+std::string build_folder(const UserRtl& rtl, const std::vector<RtlParameter>& parameters) {
+  fs::path folder = fs::absolute(rtl.build);
+  if (rtl.traced) folder /= "traced";
+  tb::Hash values;
+  for (const RtlParameter& each : parameters)
+    for (const std::uint32_t word : each.words) values.add(word);
+  const auto usual = [](const RtlParameter& each) { return each.usual; };
+  if (!std::all_of(parameters.begin(), parameters.end(), usual)) folder /= fmt::format("{:016x}", values.value());
+  return folder.string();
+}
+
+/// A build in its folder.
+class Build {
+ public:
+  Build(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind, const std::vector<RtlParameter>& parameters)
+      : rtl_(rtl), map_(map), kind_(kind), parameters_(parameters), folder_(build_folder(rtl, parameters)) {
+    create_folder(folder_);
+  }
+
+  /// Makes the library unless it is there and nothing that it depends on has changed. Returns its path.
+  std::string library() {
+    const FolderLock lock(folder_);
+    const std::string command = verilator_command(rtl_, map_, parameters_, folder_, adapter());
+    if (!is_made(command)) make(command);
+    return file("librtl.so");
+  }
+
+ private:
+  std::string file(const std::string& name) const { return folder_ + "/" + name; }
+  std::string adapter() const { return file("adapter.cpp"); }
+  std::string header() const { return file("V" + rtl_.top + ".h"); }
+  std::string state() const { return file(kBuiltFrom); }
+
+  bool is_made(const std::string& command) const {
+    return fs::exists(file("librtl.so")) && fs::exists(header()) && read(state()) == made_from(command, source());
+  }
+
+  void make(const std::string& command) {
+    fs::remove(state());
+    if (!succeeds(command, file("verilator.log"))) {
+      check_found(rtl_, map_, file("verilator.log"));
+      fail_build(file("verilator.log"), rtl_);
+    }
+    PortCheck(rtl_, map_, ports_of(read(header()))).run(kind_.pins(), parameters_);
+    const std::string made = source();
+    if (read(adapter()) != made) tb::write_file(adapter(), made);  // the same one is not compiled again
+    if (!succeeds(make_command(rtl_, folder_), file("compiler.log"))) fail_build(file("compiler.log"), rtl_);
+    tb::write_file(state(), made_from(command, made));
+  }
+
+  /// Of the adapter.
+  std::string source() const {
+    const TopPorts ports = ports_of(read(header()));
+    return adapter_source(rtl_.top, map_, kind_.pins(), rtl_.traced, constants(map_, ports, parameters_));
+  }
+
+  /// A fingerprint of the command, the adapter, and all files that Verilator has read.
+  std::string made_from(const std::string& command, const std::string& made) const {
+    tb::Hash all;
+    all.add(command);
+    all.add(made);
+    std::istringstream files(read(file("V" + rtl_.top + "__ver.d")));
+    std::string word;
+    while (files >> word && word != ":") {
+    }
+    while (files >> word) all.add(read(word));
+    return fmt::format("{:016x}\n", all.value());
+  }
+
+  const UserRtl& rtl_;
+  const PinMap& map_;
+  const tb::ChipKind& kind_;
+  const std::vector<RtlParameter>& parameters_;
+  std::string folder_;
+};
 
 }  // namespace
 
@@ -429,23 +523,8 @@ MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::Chip
   check_parameters(rtl, map, parameters);
   if (!installed("verilator"))
     throw tb::InputError(rtl.command + ": Verilator is missing, expected version 5.006 or later in PATH");
-  const std::string build = fs::absolute(rtl.traced ? fs::path(rtl.build) / "traced" : fs::path(rtl.build)).string();
-  create_folder(build);
-  const std::string adapter = build + "/adapter.cpp", verilated = build + "/verilator.log",
-                    compiled = build + "/compiler.log";
-
-  if (!succeeds(verilator_command(rtl, map, parameters, build, adapter), verilated)) {
-    check_found(rtl, map, verilated);
-    fail_build(verilated, rtl);
-  }
-  const TopPorts ports = ports_of(read(fmt::format("{}/V{}.h", build, rtl.top)));
-  PortCheck(rtl, map, ports).run(kind.pins(), parameters);
-  const std::string source = adapter_source(rtl.top, map, kind.pins(), rtl.traced, constants(map, ports, parameters));
-  if (read(adapter) != source) tb::write_file(adapter, source);  // the same one is not compiled again
-  if (!succeeds(make_command(rtl, build), compiled)) fail_build(compiled, rtl);
-  return [library = load(build + "/librtl.so"), &pins = kind.pins()](const std::optional<RtlTrace>& trace) {
-    return std::make_unique<UserDesigns>(library, pins, trace);
-  };
+  return [library = load(Build(rtl, map, kind, parameters).library()), &pins = kind.pins()](
+             const std::optional<RtlTrace>& trace) { return std::make_unique<UserDesigns>(library, pins, trace); };
 }
 
 }  // namespace dsdpv1::cosim

@@ -18,6 +18,9 @@ struct UserRtl {
   bool traced = false;                ///< records internal signals; needs a separate build
 };
 
+/// In the folder of a build: a fingerprint of all that it was made from.
+constexpr const char* kBuiltFrom = "built_from";
+
 /// Makes the design for one run, also on several threads. With a trace, in a build with UserRtl::traced, records its
 /// internal signals.
 using MakeUserRtl = std::function<std::unique_ptr<Rtl>(const std::optional<RtlTrace>& trace)>;

@@ -167,9 +167,9 @@ int status_of(const Report& report) {
 
 /// Once, so that the runs find it as it is.
 void build(const std::string& command, tb::regress::OwnRtl& rtl) {
-  const OwnRtl own =
-      build_own_rtl({rtl.folder, rtl.top, rtl.pins, rtl.build}, command, *tb::find_chip_kind(rtl.chip), false);
-  rtl.files = {rtl.build + "/librtl.so"};
+  const tb::ChipKind& kind = *tb::find_chip_kind(rtl.chip);
+  build_own_rtl({rtl.folder, rtl.top, rtl.pins, rtl.build}, command, kind, *cosim::usual_options(kind).chip, false);
+  rtl.files = {rtl.build + "/" + cosim::kBuiltFrom};
   if (!rtl.pins.empty()) rtl.files.push_back(rtl.pins);
 }
 

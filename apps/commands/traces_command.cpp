@@ -106,39 +106,24 @@ int for_scenarios(const TracesArguments& given, const std::function<int(const st
   return for_each(files, work);
 }
 
-/// RTL of the user's own, for the chip of the first scenario; RTL has the pins of one.
-class OwnRtlOfTraces {
- public:
-  explicit OwnRtlOfTraces(const TracesArguments& given) : given_(given) {
-    if (!given.own.rtl.empty() && given.scenarios.empty())
-      throw tb::InputError("dsdpv1-sim traces check: --rtl needs the scenarios of its chip, expected SCENARIO...");
-  }
-
-  /// Empty: there is none.
-  cosim::MakeRtl make_for(const std::string& file) {
-    if (given_.own.rtl.empty()) return {};
-    const tb::ChipKind* const kind = tb::scenario::load(file).kind;
-    if (kind_ == nullptr) build(*kind);
-    if (kind_ != kind)
-      throw tb::InputError(file, 0, fmt::format("is about another chip, a {}, expected one chip", kind->name()));
-    return [make = own_.make](auto&&...) { return make(std::nullopt); };
-  }
-
- private:
-  void build(const tb::ChipKind& kind) {
-    own_ = build_own_rtl(given_.own, "dsdpv1-sim traces", kind, false);
-    kind_ = &kind;
-    if (has_tolerance(own_.map))
-      throw tb::InputError(given_.own.pins, 0, "has a tolerance, goldens have none, expected cosim and scenarios");
-  }
-
-  const TracesArguments& given_;
-  const tb::ChipKind* kind_ = nullptr;
-  OwnRtl own_;
-};
+/// Makes the user's own RTL as the scenario wants it; empty: there is none. Its chip is that of the first scenario.
+cosim::MakeRtl own_rtl_for(const std::string& file, const TracesArguments& given, const tb::ChipKind*& chip) {
+  if (given.own.rtl.empty()) return {};
+  const tb::scenario::Scenario scenario = tb::scenario::load(file);
+  if (chip == nullptr) chip = scenario.kind;
+  if (chip != scenario.kind)
+    throw tb::InputError(file, 0,
+                         fmt::format("is about a {}, expected a {} as before", scenario.kind->name(), chip->name()));
+  const OwnRtl own = build_own_rtl(given.own, "dsdpv1-sim traces", *scenario.kind, *scenario.chip, false);
+  if (has_tolerance(own.map))
+    throw tb::InputError(given.own.pins, 0, "has a tolerance, goldens have none, expected cosim and scenarios");
+  return [make = own.make](auto&&...) { return make(std::nullopt); };
+}
 
 int check(const TracesArguments& given) {
-  OwnRtlOfTraces own(given);
+  if (!given.own.rtl.empty() && given.scenarios.empty())
+    throw tb::InputError("dsdpv1-sim traces check: --rtl needs the scenarios of its chip, expected SCENARIO...");
+  const tb::ChipKind* chip = nullptr;
   return for_scenarios(given, [&](const std::string& file) {
     RunArguments one;
     one.scenario = file;
@@ -148,7 +133,7 @@ int check(const TracesArguments& given) {
     one.difference = "";
     one.progress = given.progress;
     one.quiet = true;
-    return run(one, own.make_for(file));
+    return run(one, own_rtl_for(file, given, chip));
   });
 }
 

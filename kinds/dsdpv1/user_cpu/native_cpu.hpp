@@ -1,6 +1,7 @@
 #pragma once
 // A user CPU that runs a C++ program on a separate stack and suspends it during every access and wait, so that blocking
 // code like the driver takes simulated time.
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
