@@ -2,6 +2,7 @@
 import re
 
 import check
+import mutation
 from data import BadData, letters
 
 ORIGIN = "<!-- Generated from docs/conformance/*.yaml by docs/conformance/generate.py (./run generate). Do not edit. -->\n"
@@ -15,7 +16,7 @@ documents are Chinese; the lines are our words, and the documents take precedenc
 *Clause*: section, table (T) or figure (F) of the document, and after the dash the statement; in tables the cell, bit or row. Clauses of the
 manual begin with M and the chapter. *Last run*: the number of tests passed, of how many; a suite counts with each of its tests. A clause that cannot have
 a test gives its reason instead. If no file of the RTL is named, the clause concerns the user or the master; the model's file is then that of the driver,
-the checks or the bus.
+the checks or the bus. *Mutants*: of those of the model that alter what the row says, how many its own tests find ([below](#mutants)).
 
 The data are in `docs/conformance/`; [CONTRIBUTING.md](../CONTRIBUTING.md) explains how to add a clause, a ruling or a run's results.
 """
@@ -60,17 +61,22 @@ def shown(result):
 
 
 # ---------------------------------------------------------------------------------------------------------- conformance
+def mutants(root, name):
+    found, total = mutation.counts(root).get(name, (0, 0))
+    return f"{found} of {total}" if total else "-"
+
+
 def clause_row(root, known, clause, run):
     if clause.tests:
         asserted, last = tests(known, clause.tests), shown(run.of(clause.tests))
     else:
         asserted, last = (f"*none: {clause.reason}*" if clause.reason else "**NO TEST**"), "-"
     return row(anchored(clause.name), clause.says, ", ".join(clause.rulings) or "-", files(root, "model", clause.model),
-               files(root, "rtl", clause.rtl), asserted, last)
+               files(root, "rtl", clause.rtl), asserted, last, mutants(root, clause.name))
 
 
 def part_text(root, known, part, run):
-    lines = [f"\n### {part.title}\n\n", head("clause", "what it says", "ruling", "model", "RTL", "tests", "last run")]
+    lines = [f"\n### {part.title}\n\n", head("clause", "what it says", "ruling", "model", "RTL", "tests", "last run", "mutants")]
     return "".join(lines + [clause_row(root, known, clause, run) for clause in part.clauses])
 
 
@@ -106,6 +112,26 @@ def missing(data):
     return text + "".join(row(clause.name, clause.reason) for clause in reasoned)
 
 
+MUTANTS = """
+## Mutants
+
+`./run mutants` alters the model: each mutant changes the number or the condition that its rows state (`tests/planted/mutants.yaml`). It runs the tests that a row
+names, and no others. A mutant is found when an EXPECT or ASSERT of such a test fails. A crash, a time limit and a difference between two executions of the chip do not count.
+
+"""
+
+
+def mutant_section(root, known, data):
+    found, alive = mutation.recorded(root), mutation.survivors(root)
+    whole = sum(not rows for _, rows in found.values())
+    pairs = sum(total for _, total in mutation.counts(root).values())
+    text = MUTANTS + f"{whole} of {len(found)} mutants are found by each of their rows; {pairs - len(alive)} of {pairs} times a row finds one.\n\n"
+    if alive:
+        text += "Not found:\n\n" + head("row", "mutant") + "".join(row(name, f"`{mutant}`") for name, mutant in alive) + "\n"
+    text += "Rows without a mutant:\n\n" + head("why", "rows")
+    return text + "".join(row(reason, ", ".join(names)) for reason, names in mutation.reasons(root, data, known, mutation.counts(root)).items())
+
+
 def rulings(root, known, data, run):
     cited = {name: [] for name in data.rulings}
     for document in data.documents:
@@ -113,15 +139,16 @@ def rulings(root, known, data, run):
             for name in clause.rulings:
                 cited.get(name, []).append(clause.name)
     text = "\n## The rulings\n\n[chip.md](../docs/chip.md) has their texts; R, SP and UA are in [chip_rsu.md](../docs/chip_rsu.md). If no clause is named, these two documents have none; its mark there says what it rests on.\n\n"
-    text += head("ruling", "clauses", "model", "RTL", "tests", "last run")
+    text += head("ruling", "clauses", "model", "RTL", "tests", "last run", "mutants")
     for ruling in data.rulings.values():
         text += row(ruling.name, ", ".join(cited[ruling.name]) or "-", files(root, "model", ruling.model),
-                    files(root, "rtl", ruling.rtl), tests(known, ruling.tests), shown(run.of(ruling.tests)))
+                    files(root, "rtl", ruling.rtl), tests(known, ruling.tests), shown(run.of(ruling.tests)),
+                    mutants(root, ruling.name))
     return text
 
 
 def conformance(root, known, data, run):
-    text = ORIGIN + CONFORMANCE + summary(data, run) + missing(data)
+    text = ORIGIN + CONFORMANCE + summary(data, run) + missing(data) + mutant_section(root, known, data)
     for document in data.documents:
         text += f"\n## {document.title}\n\n{document.text.strip()}\n"
         text += "".join(part_text(root, known, part, run) for part in document.parts)

@@ -156,7 +156,7 @@ a cycle too many, a wrong bit, a missing transition. Each is built in a separate
 that no test finds fails the command. The lists are `tests/planted/systemc.yaml`, `driver.yaml`, `checks.yaml` and `board.yaml`. That of the checks has one fault for each of
 [checks.md](checks.md). The command also checks that the same tests, built the same way, pass without a fault. The tests run in a fixed order, so
 the table names the first test that found a fault, not the only one. `./run nightly` plants all faults; for the RTL there is `./run rtl-faults` ([cosim.md](cosim.md)).
-The model has mutants instead, each for rows of the conformance page: `./run mutants` ([conformance.md](conformance.md)).
+The model has mutants instead, each for rows of the conformance page: `./run mutants` ([conformance.md](conformance.md#mutants)).
 
 """
 FAULT_TITLES = {"systemc": "The SystemC modules", "driver": "The driver", "checks": "The checks, each fault named after its check",

@@ -17,7 +17,7 @@ constexpr std::uint8_t kNoCount = 0x4D;  ///< FCB = 0, FCV = 0
 
 dsdpv1::Config with_rule(std::uint32_t fcb_rule) {
   dsdpv1::Config config = quick_search();
-  config.fcb_rule = fcb_rule;
+  if (fcb_rule != 0) config.fcb_rule = fcb_rule;  // 0, the letter, is the default
   return config;
 }
 

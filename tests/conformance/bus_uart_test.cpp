@@ -235,10 +235,7 @@ TEST_P(Transmitter, EveryBitIsExactInCyclesWithEvenParity) {
 INSTANTIATE_TEST_SUITE_P(AllRates, Transmitter, testing::Range(0, bus::kBaudCount),
                          [](const auto& at) { return "Code" + std::to_string(at.param); });
 
-void expect_driver(std::uint32_t lead, std::uint32_t trail) {
-  dsdpv1::Config config = quick_search();
-  config.rts_lead = lead;
-  config.rts_trail = trail;
+void expect_driver(const dsdpv1::Config& config, std::uint32_t lead, std::uint32_t trail) {
   SlaveBench bench(config);
   bench.to_wait_prm({}, 0);
   for (const bool wide : {false, true}) {
@@ -254,12 +251,15 @@ void expect_driver(std::uint32_t lead, std::uint32_t trail) {
   }
 }
 
-TEST(Driver, IsEnabledFourCyclesBeforeAndAfter) { expect_driver(4, 4); }
+TEST(Driver, IsEnabledFourCyclesBeforeAndAfter) { expect_driver(quick_search(), 4, 4); }
 TEST(Driver, TakesOtherTimesFromTheConfiguration) {
-  expect_driver(0, 0);
-  expect_driver(1, 0);
-  expect_driver(0, 1);
-  expect_driver(20, 37);
+  for (const auto& [lead, trail] :
+       std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 0}, {1, 0}, {0, 1}, {20, 37}}) {
+    dsdpv1::Config config = quick_search();
+    config.rts_lead = lead;
+    config.rts_trail = trail;
+    expect_driver(config, lead, trail);
+  }
 }
 
 TEST(Driver, StaysOffAndThePinHighWhenNothingIsAnswered) {

@@ -227,6 +227,8 @@ TEST(Services, StateAndMasterAreLookedAtBeforeTheLength) {
 TEST(Services, StatesFollowTheirOrder) {
   SlaveBench bench(quick_search());
   EXPECT_EQ(bench.dp_state(), DpState::kOffline);
+  bench.power_on();
+  EXPECT_EQ(bench.chip.level(Pin::kPbf), 1) << "before the initialisation";
   bench.to_wait_prm();
   settle(bench);
   EXPECT_EQ(bench.peek(0x012) & 0x0C, 0x04);

@@ -114,7 +114,7 @@ TEST_F(C2, ManagerRefusesWhatIsNoInitiate) {
   Bytes shorter = initiate_pdu();
   shorter.resize(13);
   EXPECT_TRUE(is_rs(c2(kManagerSap, shorter)));
-  EXPECT_TRUE(is_rs(c2(kManagerSap, {0x5E, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})));
+  EXPECT_TRUE(is_rs(c2(kManagerSap, {0x5E, 0, 0, 1, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0})));
   EXPECT_TRUE(is_rs(c2(kManagerSap, initiate_pdu(0)))) << "a Send_Timeout of 0 cannot be kept";
   EXPECT_EQ(bench.count(Reason::kC2InitiateWrong), 3);
   EXPECT_TRUE(is_sc(c2(kManagerSap))) << "a poll";

@@ -357,7 +357,9 @@ TEST(RsuSpiStartUp, ReadsAreZeroAndWritesWait) {
     return part_of(miso, request.size(), size);
   };
   EXPECT_EQ(reply(read_telegram(0x014, 1), 5), with_crc({0x81, 0x00, 0x01}));
-  EXPECT_EQ(reply(read_telegram(0x000, 1), 5), with_crc({0x81, 0x00, 0x00}));
+  bench.poke(0x700, 0xAA);
+  EXPECT_EQ(reply(read_telegram(0x700, 1), 5), with_crc({0x81, 0x00, 0x00}));
+  EXPECT_EQ(bench.peek(0x700), 0xAA) << "not cleared yet";
   EXPECT_EQ(reply(write_telegram(0x014, {0x02, 0x77}), 4), with_crc({0xE1, 0x00}));
   EXPECT_EQ(bench.last(R::kSpiBusy).a, 0);
   EXPECT_EQ(reply(inputs_telegram({}), 4), with_crc({0xE1, 0x00}));

@@ -456,8 +456,12 @@ TEST(UserOutputs, NewestWins) {
     bench.chip_accesses();
     EXPECT_EQ(bench.peek(regs::kOutput, 3), (Bytes{2, value, value})) << "H5: not fetched, overwritten";
   }
+  EXPECT_EQ(bench.chip.status().outputs_missed, 2U);
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{3, 3}));
   EXPECT_FALSE(bench.fetch_outputs().has_value());
+  bench.data_exchange({4, 4});
+  bench.chip_accesses();
+  EXPECT_EQ(bench.chip.status().outputs_missed, 2U) << "the last one was fetched";
 }
 
 TEST(UserOutputs, WhileTheUserHoldsTheNewestIsKept) {

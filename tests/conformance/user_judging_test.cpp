@@ -164,9 +164,14 @@ TEST_P(Modes, VerdictWithoutABlockIsDiscarded) {
 
 TEST_P(Modes, VerdictOnAnythingTheChipJudgesIsDiscarded) {
   if (prm_mode() == 2 || cfg_mode() == 2) return;  // the chip judges both
-  bench.to_data_exch(judged_by(prm_mode(), cfg_mode()), with_user({0, 2, 3}));
-  bench.verdict(false, false);
+  const Init init = judged_by(prm_mode(), cfg_mode());
+  bench.to_wait_cfg(init, with_user({0, 2, 3}));
+  bench.verdict(true, true);
   EXPECT_EQ(bench.count(Reason::kVerdictUnexpected), 2);
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
+  ASSERT_TRUE(bench.check_cfg(init.cfg).short_acknowledge());
+  bench.verdict(false, false);
+  EXPECT_EQ(bench.count(Reason::kVerdictUnexpected), 4);
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
 }
 
@@ -324,6 +329,7 @@ TEST_F(ByUser, EachVerdictLooksOnlyAtItsOwnBit) {
   bench.write(regs::kUserCommand1, regs::kUserCommand1CfgVerdict);
   bench.chip_accesses();
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
+  EXPECT_EQ(bench.count(Reason::kVerdictUnexpected), 0) << "neither flag gives the other verdict";
 }
 
 TEST_F(ByUser, CheckCfgWhileTheParametersAreJudgedIsRefused) {
@@ -628,7 +634,8 @@ TEST_F(ByUser, CheckCfgInDataExchangeNeedsNoVerdict) {
 }
 
 TEST_F(ByUser, WhatTheUserMayNotJudgeIsACfgFault) {
-  for (const Bytes& cfg : {Bytes{0x11, 0x40}, Bytes{0x40, 0xFF, 0x40, 0xFF}}) {  // incomplete; more than 244 bytes
+  // incomplete; 256 and 245 bytes
+  for (const Bytes& cfg : {Bytes{0x11, 0x40}, Bytes{0x40, 0xFF, 0x40, 0xFF}, Bytes{0x40, 0x7F, 0x40, 0x79, 0x10}}) {
     SlaveBench fresh;
     fresh.to_wait_cfg(judged_by(0, 2));
     fresh.chip_accesses(3);

@@ -252,6 +252,20 @@ TEST(UserReset, ValidFlagComesInTheFirstAccessFrom4096CyclesOn) {
   EXPECT_EQ(bench.chip.status().accesses, accesses(bench).size());
 }
 
+TEST(UserReset, ValidFlagComesInAnAccessThatBegins4096CyclesAfterTheReleaseAndInNoneBefore) {
+  for (const Cycle start : {4095, 4096}) {
+    SlaveBench bench;
+    const Cycle r = release_reset(bench, 77);
+    run_to_cycle(bench, r + 3000);
+    bench.acquire();
+    run_to_cycle(bench, r + start - 3);
+    bench.release();
+    ASSERT_EQ(run_to_l_sta(bench, 1), r + start);
+    run_to_l_sta(bench, 0);
+    EXPECT_EQ(bench.peek(regs::kValidFlag), start < 4096 ? 0 : 0xC5);
+  }
+}
+
 TEST(UserReset, ValidFlagWaitsForAUserWhoHolds) {
   SlaveBench bench;
   const Cycle r = release_reset(bench, 77);

@@ -81,7 +81,16 @@ TEST_F(Msac2Block, FIsReportedWhenItEndsTogetherWithU) {
   for (const Event& event : recorder.events) EXPECT_TRUE(event.reason != Reason::kC2Timeout || event.b == 1);
 }
 
-TEST_F(Msac2Block, RestsWhileNoChannelIsInUse) { EXPECT_EQ(msac2.next(), kNever); }
+TEST_F(Msac2Block, RestsWhileNoChannelIsInUse) {
+  EXPECT_EQ(msac2.next(), kNever);
+  connect(1000, 1);
+  const std::uint8_t abort[3] = {0x58, 0, 0};
+  Request request = to(48);
+  request.data = abort;
+  request.size = sizeof abort;
+  ASSERT_EQ(msac2.handle(2000, request).kind, Reply::Kind::kShort);
+  EXPECT_EQ(msac2.next(), kNever) << "free again";
+}
 
 }  // namespace
 }  // namespace dsdpv1::profibus

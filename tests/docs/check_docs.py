@@ -152,10 +152,12 @@ def trust(root):
     cycles = figure(root, "trust", r"^[\d-]+: ([\d ]+) cycles, [\d.]+ % of the goal\. No difference\.$")
     planted = re.findall(r"(\d+) of (\d+) found\.$", (root / "docs/trust.md").read_text(encoding="utf-8"), re.M)
     found, faults = (sum(int(each[side]) for each in planted) for side in (0, 1))
+    killed, mutants = figure(root, "conformance", r"^(\d+) of (\d+) mutants are found by each of their rows")
     speed, faster = (figure(root, "performance", rf"^\| `{row}` \| ([\d.]+) \| at least") for row in ("demo", "core_vs_rtl"))
     met, goals = figure(root, "performance", r"^(\d+) of (\d+) goals are met\.$")
     return f"""- **Against the documents**: {sheet[1]} of {sheet[0]} clauses of the datasheet, {manual[1]} of {manual[0]} of the software manual and {rulings[1]} of {rulings[0]} rulings have tests, the other
-  clauses a reason why not. In the recorded run {passed} of {run} tests passed ([conformance](docs/conformance.md)).
+  clauses a reason why not. In the recorded run {passed} of {run} tests passed. The tests that a clause or ruling names find {killed} of {mutants} mutants of the model
+  ([conformance](docs/conformance.md)).
 - **Against RTL**: model and reference RTL agree in every pin change over {cycles} cycles of random stimulus; tests find {found} of {faults} faults planted into
   SystemC modules, driver, checks and board ([trust](docs/trust.md)).
 - **Speed**: the demo runs at {speed} times real time, the core {faster} times as fast as the RTL; {met} of {goals} goals are met ([performance](docs/performance.md)).

@@ -14,9 +14,9 @@ RIGHT = {
     "docs/README.md": "# Documents\n| [chip.md](chip.md) | the chip |\n| [chip_rsu.md](chip_rsu.md) | the chip |\n| [install.md](install.md) | packages |\n| [tutorials/one.md](tutorials/one.md) | first |\n"
                       "".join(f"| [{name}.md]({name}.md) | figures |\n" for name in ("conformance", "trust", "performance", "calibrate")),
     "docs/tutorials/one.md": "# One\n",
-    "docs/conformance.md": "| The DSDPV1 datasheet V1.1 | 404 | 387 | 17 |\n| The user software manual | 115 | 108 | 7 |\n| Rulings | 136 | 136 | 0 |\n3096 of all 3097 tests passed\n",
+    "docs/conformance.md": "| The DSDPV1 datasheet V1.1 | 404 | 387 | 17 |\n| The user software manual | 115 | 108 | 7 |\n| Rulings | 136 | 136 | 0 |\n3096 of all 3097 tests passed\n575 of 579 mutants are found by each of their rows\n",
     "docs/calibrate.md": "# A real chip\n",
-    "docs/trust.md": "Of the model: 97 of 97 found.\nOf the driver: 28 of 29 found.\n2026-11-25: 1 010 cycles, 101.0 % of the goal. No difference.\n",
+    "docs/trust.md": "Of the SystemC modules: 97 of 97 found.\nOf the driver: 28 of 29 found.\n2026-11-25: 1 010 cycles, 101.0 % of the goal. No difference.\n",
     "docs/performance.md": "| `demo` | 4.93 | at least 3 x |\n| `core_vs_rtl` | 769 | at least 200 |\n22 of 28 goals are met.\n",
     "docs/install.md": "# Install\n<!-- packages: x -->\n| `./run` | groups |\n|---|---|\n| `demo`, `sim` | tools |\n"
                        "\n| group | packages | what they are |\n|---|---|---|\n| tools | cmake g++ | to build |\n<!-- /packages -->\n",
@@ -142,7 +142,7 @@ class Project(small_project.SmallProject):
         for old, new in (("installs 2", "installs 3"), ("wheel 71", "wheel 17"), ("load of 0.1", "load of 0.0")):
             with self.subTest(new):
                 self.change("README.md", old, new)
-                self.expect("README.md:19: docs/trust/bare.tsv has other times")
+                self.expect("README.md:20: docs/trust/bare.tsv has other times")
                 self.change("README.md", new, old)
 
     def test_a_command_that_is_not_the_measured_one(self):

@@ -18,7 +18,7 @@ import switches
 from known_tests import KnownTests
 
 EXAMPLES = """examples:
-  ./run mutants                             # all; about a quarter of an hour with two processors, and the build
+  ./run mutants                             # all; six minutes with two processors and other work on them, after the build
   ./run mutants --only syn_32 --only le_min
   ./run mutants --row S3 --row T15-Tw       # the mutants of these rows
   ./run mutants --json > mutants.json
@@ -36,9 +36,10 @@ TREE = ROOT / "build" / "mutants"
 BUILD = TREE / "build" / "edit"
 RECORD = ROOT / mutation.RECORD
 PROGRAMS = {program: "tests/core" if program == "core_blocks" else "tests/conformance" for program in mutation.PROGRAMS}
-COMPARING = ("Scripts", "TwinCampaign")  # suites that only compare executions of the chip
+COMPARING = ("RsuRandom", "Scripts", "Torture", "TwinCampaign", "UserTorture")  # suites that only compare executions of the chip
 HEAD = ["mutant", "row", "result", "test", "not counted"]
-SECONDS = 300  # of a program
+SECONDS = 20   # of a program, besides ten times as long as without a mutant
+LIMITS = 3     # of a row: when so many of its tests have reached it, the others would, too
 STEPS = (0.02, 0.2)  # seconds: tests that take less run first
 NOT_OF_A_TEST = ("twin_chip.cpp", "rtl_twin.cpp")  # these compare executions of the chip with each other
 
@@ -71,8 +72,8 @@ class Outcome:
         self.failed, self.others, self.passed = [], {}, {}
 
     def read(self, printed):
-        """Returns the case that had not ended, if any."""
-        running, kinds = None, set()
+        """Returns the case that had not ended, if any. After a failure GoogleTest skips the others (--gtest_fail_fast)."""
+        running, kinds, failed = None, set(), False
         for line in printed.splitlines():
             begun = re.match(r"\[ RUN      \] (\S+)", line)
             place = re.match(r"(\S+): Failure$", line)
@@ -84,8 +85,9 @@ class Outcome:
             elif "unknown file: Failure" in line:
                 kinds.add("exception")
             elif ended and ended.group(2) == running:
-                self.take(running, ended.group(1), kinds, float(re.search(r"\((\d+) ms\)", line).group(1)) / 1000)
-                running = None
+                if not (failed and ended.group(1) == "SKIPPED"):
+                    self.take(running, ended.group(1), kinds, float(re.search(r"\((\d+) ms\)", line).group(1)) / 1000)
+                running, failed = None, failed or ended.group(1) == "FAILED"
         return running
 
     def take(self, case, end, kinds, seconds):
@@ -110,27 +112,33 @@ class Runner:
     def __init__(self):
         self.running = faults.Running()
         self.cases = {program: list(cases_of(program)) for program in PROGRAMS}
-        self.order = {}  # of a case: the number of STEPS that it exceeds
+        self.seconds = {}  # of a case, without a mutant
 
     def named(self, tests):
         """(program, case) that these names mean: the shortest of each program, then those that take longer."""
         found = [(program, case) for program, cases in self.cases.items() for case in cases if any(matches(case, test.name) for test in tests)]
-        return sorted(found, key=lambda pair: self.order.get(pair[1], 0))
+        return sorted(found, key=lambda pair: self.order(pair[1]))
+
+    def order(self, case):
+        return sum(self.seconds.get(case, 0) > step for step in STEPS)
 
     def run(self, number, tests, outcome, fast=True):
         """Adds what these tests do with a mutant, until one has found it; number 0 is none."""
         left = [pair for pair in self.named(tests) if pair[1] not in outcome.ended()]
         while left and not (fast and outcome.failed and outcome.failed[-1] in [case for _, case in self.named(tests)]):
             program, first = left[0]
-            group = [case for of, case in left if of == program and self.order.get(case) == self.order.get(first)]
+            group = [case for of, case in left if of == program and self.order(case) == self.order(first)]
             self.run_program(number, program, group, outcome, fast)
+            if sum(outcome.others.get(case) == "time limit" for _, case in self.named(tests)) >= LIMITS:
+                return
             left = [pair for pair in left if pair[1] not in outcome.ended()]
 
     def run_program(self, number, program, cases, outcome, fast):
         flags = BUILD / f"flags_{os.getpid()}_{threading.get_ident()}"
         flags.write_text("--gtest_filter=" + ":".join(cases) + ("\n--gtest_fail_fast" if fast else "") + "\n", encoding="utf-8")
         try:
-            status, printed = self.running.call([BUILD / PROGRAMS[program] / program, f"--gtest_flagfile={flags}"], limit=SECONDS, cwd=BUILD,
+            limit = SECONDS + 10 * sum(self.seconds.get(case, 100) for case in cases)
+            status, printed = self.running.call([BUILD / PROGRAMS[program] / program, f"--gtest_flagfile={flags}"], limit=limit, cwd=BUILD,
                                                 env={**os.environ, "DSDPV1_MUTANT": str(number)})
         finally:
             flags.unlink()
@@ -145,7 +153,7 @@ class Runner:
         bad = [*outcome.failed, *outcome.others]
         if bad:
             raise lists.BadList(f"mutants: {bad[0]} fails without a mutant")
-        self.order = {case: sum(seconds > step for step in STEPS) for case, seconds in outcome.passed.items()}
+        self.seconds = outcome.passed
 
 
 # ------------------------------------------------------------------------------------------------------------ building
@@ -174,8 +182,8 @@ def look(number, mutant, rows, runner):
         if not own & set(outcome.failed):
             runner.run(number, tests, outcome)
         killer = next((case for case in outcome.failed if case in own), None)
-        others = "; ".join(f"{case}: {kind}" for case, kind in outcome.others.items() if case in own)
-        lines.append([mutant.name, name, "killed" if killer else "survived", killer or "-", others or "-"])
+        others = [f"{case}: {kind}" for case, kind in outcome.others.items() if case in own]
+        lines.append([mutant.name, name, "killed" if killer else "survived", killer or "-", "; ".join([*others[:2], *(["..."] if others[2:] else [])]) or "-"])
     return lines
 
 

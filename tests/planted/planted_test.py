@@ -193,10 +193,13 @@ class Mutants(unittest.TestCase):
         running = outcome.read("[ RUN      ] A.Asserts\n/x/a_test.cpp:3: Failure\n[  FAILED  ] A.Asserts (1 ms)\n"
                                "[ RUN      ] A.Throws\nunknown file: Failure\n[  FAILED  ] A.Throws (1 ms)\n"
                                "[ RUN      ] R/A.Differs/1\n/x/twin_chip.cpp:9: Failure\n[  FAILED  ] R/A.Differs/1, where GetParam() = 1 (1 ms)\n"
-                               "[ RUN      ] A.Right\n[       OK ] A.Right (0 ms)\n[ RUN      ] A.Ends\n")
+                               "[ RUN      ] A.Right\n[       OK ] A.Right (0 ms)\n[ RUN      ] A.Skips\n[  SKIPPED ] A.Skips (0 ms)\n[ RUN      ] A.Ends\n")
         self.assertEqual(outcome.failed, ["A.Asserts"])
         self.assertEqual(outcome.others, {"A.Throws": "exception", "R/A.Differs/1": "twins differ"})
+        self.assertEqual(list(outcome.passed), ["A.Right"])
         self.assertEqual(running, "A.Ends")
+        self.assertIsNone(outcome.read("[ RUN      ] A.B\n[  FAILED  ] A.B (1 ms)\n[ RUN      ] A.C\n[  SKIPPED ] A.C (0 ms)\n"))
+        self.assertNotIn("A.C", outcome.ended())
 
     def test_a_row_names_suites_and_tests_with_and_without_parameters(self):
         for case, name, found in (("A.B", "A", True), ("A.B", "A.B", True), ("R/A1.B/2", "A1.B", True), ("R/A1.B/Code2", "A1", True), ("A/0.B", "A.B", True),

@@ -160,13 +160,11 @@ class File:
         return 0
 
     def at_run_time(self, begin, end, instead):
+        """The edit that makes a declaration one without constexpr, if it is one with it."""
         found = re.compile(r"\bconstexpr\b").search(self.code, begin, end)
-        if not found:
-            return
-        known = instead
-        if instead == "const" and not re.search(r"\binline\b", self.code[begin:found.start()]):
-            known = "inline const"
-        yield found.start(), found.end(), known
+        if found:
+            has_inline = re.search(r"\binline\b", self.code[begin:found.start()])
+            yield found.start(), found.end(), "inline const" if instead == "const" and not has_inline else instead
 
 
 CONSTANT = re.compile(r"\bconstexpr [^;{}()=]*?\b(\w+)(?:\[\])? ?(?:= ?|\{)[^;]*;")
