@@ -95,7 +95,11 @@ std::string advice_of(const ChipKind& kind, const std::string& code) {
 }  // namespace
 
 ExchangeWatch::ExchangeWatch(const scenario::Scenario& scenario, const Stations& stations)
-    : scenario_(scenario), stations_(stations), steps_(scenario.slaves.size()), ends_(scenario.slaves.size()) {
+    : scenario_(scenario),
+      stations_(stations),
+      steps_(scenario.slaves.size()),
+      ends_(scenario.slaves.size()),
+      entered_(scenario.slaves.size()) {
   if (!scenario.expects_exchange) return;
   for (const scenario::Master& master : scenario.masters)
     for (const scenario::MasterSlave& listed : master.slaves) add(master, listed);
@@ -121,6 +125,8 @@ void ExchangeWatch::event(std::size_t slave, const profibus::Event& event) {
   if (profibus::severity(event.reason) == profibus::Severity::kViolation) return;  // neither step nor end is one
   const char* const code = profibus::code(event.reason);
   if (is_end(code)) ends_[slave] = event;
+  if (event.reason == profibus::Reason::kDpState && event.b == static_cast<unsigned>(profibus::DpState::kDataExch))
+    entered_[slave] = event.at;
   const std::optional<std::size_t> step = step_of(code);
   if (!step) return;
   std::optional<profibus::Event>& stands = steps_[slave][*step];
@@ -138,7 +144,8 @@ void ExchangeWatch::master_state(Tick now, const std::string& master, const std:
   const bool in = state == bus::name(bus::SlaveState::kDataExchange);
   if (in) {
     entry->since = now;
-    entry->disturbed = entry->kept_away = false;
+    // What was done after the slave's own step, of which the master knows only now, may still show.
+    if (entry->acted < entered_[index_of(entry->slave)]) entry->disturbed = entry->kept_away = false;
   } else if (entry->in && !entry->disturbed && !entry->kept_away && !entry->may_leave && entry->left++ == 0) {
     entry->first_left = now;
     entry->why = stations_.master(master).slave(*stations_.listed_address(member)).step_reason;
@@ -156,6 +163,7 @@ void ExchangeWatch::acts(const Action& action, Tick now) {
   for (Entry& entry : entries_) {
     if (!concerns(action, scenario_.masters.front().name.text, entry.master, entry.slave)) continue;
     entry.disturbed = true;
+    entry.acted = now;
     if (effect != Effect::kDisturbs) entry.kept_away = effect == Effect::kKeepsAway;
   }
 }

@@ -38,6 +38,7 @@ class ExchangeWatch : public Observer {
     bool in = false;                 ///< data exchange, according to its master
     bool disturbed = false;          ///< by the script since it reached data exchange: it may leave it
     bool kept_away = false;          ///< by the script, until the script restores it
+    Tick acted = -1;                 ///< when the script did
     std::optional<Tick> since = {};  ///< when it last reached data exchange
     std::uint64_t left = 0;          ///< how often it left without the script
     Tick first_left = 0;
@@ -54,6 +55,7 @@ class ExchangeWatch : public Observer {
   std::vector<Entry> entries_;
   std::vector<Steps> steps_;                          ///< by slave
   std::vector<std::optional<profibus::Event>> ends_;  ///< by slave: the last event that ends data exchange
+  std::vector<Tick> entered_;                         ///< by slave: when it has entered data exchange
 };
 
 }  // namespace dsdpv1::tb

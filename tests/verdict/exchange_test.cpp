@@ -119,6 +119,13 @@ TEST(ImpliedExchange, IsNotJudgedToTheEndWhenTheScriptKeepsTheSlaveAway) {
   }
 }
 
+/// The slave is in data exchange at 1121 us, its master knows at 1164 us. The telegram is a Set_Prm with a wrong ident.
+TEST(ImpliedExchange, MayBeLeftByATelegramBetweenTheStepsOfSlaveAndMaster) {
+  for (const char* at : {"1125us", "1140us", "1160us", "1170us"})
+    expect_passes({std::string("script: [{at: ") + at +
+                   ", do: telegram, bytes: \"68 0C 0C 68 85 82 6D 3D 3E 80 00 00 0B 0C C8 00 4E 16\"}]\n"});
+}
+
 TEST(ImpliedExchange, MustHaveBeenThereBeforeTheScriptKeepsTheSlaveAway) {
   for (const char* action : {"do: unplug, slave: io", "do: stop_master", "do: reinitialise, slave: io, cfg: \"32\""})
     expect_fails({std::string("script:\n  - {at: 7ms, ") + action + "}\n" + kCut, ", ident: 0xC90C"}, "never, ");
