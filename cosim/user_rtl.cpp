@@ -102,11 +102,13 @@ RtlLibrary load(const std::string& path) {
 /// (Verilator's randReset). The first is traced.
 class UserDesigns : public Rtl {
  public:
-  UserDesigns(const RtlLibrary& library, const tb::PinTable& pins, std::optional<RtlTrace> trace)
+  UserDesigns(const RtlLibrary& library, const tb::PinTable& pins, const std::vector<std::uint32_t>& constants,
+              std::optional<RtlTrace> trace)
       : library_(library), pins_(pins), trace_(std::move(trace)) {
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       RtlStart start;
       start.fill = static_cast<int>(i);
+      start.parameters = constants.data();
       designs_.at(i) = library.create(&start);
     }
     if (trace_) library_.trace(designs_.front(), trace_->file.c_str());
@@ -195,6 +197,7 @@ std::string adapter_source(const std::string& top, const PinMap& map, const tb::
       "struct Start {{\n  int fill;\n  unsigned seed, fault;\n  const void* parameters;\n}};\nstruct Design {{\n"
       "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n{2}}};\n}}  // namespace\n\n"
       "extern \"C\" void* dsdpv1_rtl_create(const Start* start) {{\n  auto* design = new Design;\n"
+      "  [[maybe_unused]] const auto* values = static_cast<const unsigned*>(start->parameters);\n"
       "  design->context.randReset(start->fill);\n  design->context.randSeed(static_cast<int>(start->seed));\n{3}"
       "  design->model = std::make_unique<V{0}>(&design->context);\n{7}  return design;\n}}\n\n"
       "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{\n  auto* design = static_cast<Design*>(self);\n"
@@ -370,29 +373,42 @@ class PortCheck {
   std::map<std::string, std::string> used_;
 };
 
-/// Sets an input to a constant; the upper words that `words` lacks are 0.
-std::string constant(const std::string& port, int width, std::vector<std::uint32_t> words) {
-  constexpr int kWordBits = 32;
-  const std::string input = "  design->model->" + port;
-  if (width <= kWordBits) return fmt::format("{} = {}U;\n", input, words.at(0));
-  words.resize(static_cast<std::size_t>((width + kWordBits - 1) / kWordBits));
-  if (words.size() == 2) return fmt::format("{} = {}ULL << 32U | {}U;\n", input, words[1], words[0]);
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) text += fmt::format("{}[{}] = {}U;\n", input, i, words[i]);
-  return text;
-}
+/// The inputs that keep one level: those of parameters and the tied ones. The values are given to each design when it
+/// is made, so that others need no other build.
+class Constants {
+ public:
+  Constants(const PinMap& map, const TopPorts& ports, const std::vector<RtlParameter>& parameters) {
+    for (const RtlParameter& each : parameters)
+      if (const auto place = map.chip.find(each.key); place != map.chip.end() && place->second.port)
+        add(place->second.name, ports, each.words);
+    for (const auto& [name, tie] : map.ties)
+      add(name, ports, {static_cast<std::uint32_t>(tie.value), static_cast<std::uint32_t>(tie.value >> 32U)});
+  }
 
-/// The inputs that keep one level: those of parameters and the tied ones.
-std::string constants(const PinMap& map, const TopPorts& ports, const std::vector<RtlParameter>& parameters) {
-  std::string text;
-  for (const RtlParameter& each : parameters)
-    if (const auto place = map.chip.find(each.key); place != map.chip.end() && place->second.port)
-      text += constant(place->second.name, ports.at(place->second.name).width, each.words);
-  for (const auto& [name, tie] : map.ties)
-    text += constant(name, ports.at(name).width,
-                     {static_cast<std::uint32_t>(tie.value), static_cast<std::uint32_t>(tie.value >> 32U)});
-  return text;
-}
+  /// Statements of the generated file.
+  const std::string& code() const { return code_; }
+  const std::vector<std::uint32_t>& values() const { return values_; }
+
+ private:
+  /// Upper words that `words` lacks are 0. A port that the top does not have is for PortCheck.
+  void add(const std::string& name, const TopPorts& ports, std::vector<std::uint32_t> words) {
+    constexpr int kWordBits = 32;
+    const auto port = ports.find(name);
+    const int width = port == ports.end() ? 1 : port->second.width;
+    words.resize(static_cast<std::size_t>((width + kWordBits - 1) / kWordBits));
+    const std::string input = "  design->model->" + name;
+    const auto value = [this](std::size_t i) { return fmt::format("values[{}]", values_.size() + i); };
+    if (words.size() == 1) code_ += fmt::format("{} = {};\n", input, value(0));
+    if (words.size() == 2)
+      code_ += fmt::format("{} = {}ULL * {} + {};\n", input, std::uint64_t{1} << 32U, value(1), value(0));
+    for (std::size_t i = 0; i < words.size() && words.size() > 2; ++i)
+      code_ += fmt::format("{}[{}] = {};\n", input, i, value(i));
+    values_.insert(values_.end(), words.begin(), words.end());
+  }
+
+  std::string code_;
+  std::vector<std::uint32_t> values_;
+};
 
 /// It is used in names of files and classes, and in commands.
 void check_top(const UserRtl& rtl) {
@@ -436,15 +452,17 @@ class FolderLock {
   int file_;
 };
 
-/// Other parameters of the chip than the usual ones have a build of their own.
-std::string build_folder(const UserRtl& rtl, const std::vector<RtlParameter>& parameters) {
+/// Other parameters of the top than the usual ones have a build of their own.
+std::string build_folder(const UserRtl& rtl, const PinMap& map, const std::vector<RtlParameter>& parameters) {
   fs::path folder = fs::absolute(rtl.build);
   if (rtl.traced) folder /= "traced";
-  tb::Hash values;
+  std::string unusual;
   for (const RtlParameter& each : parameters)
-    for (const std::uint32_t word : each.words) values.add(word);
-  const auto usual = [](const RtlParameter& each) { return each.usual; };
-  if (!std::all_of(parameters.begin(), parameters.end(), usual)) folder /= fmt::format("{:016x}", values.value());
+    if (const auto place = map.chip.find(each.key); !each.usual && place != map.chip.end() && !place->second.port)
+      unusual += fmt::format("{}={} ", each.key, literal(each));
+  tb::Hash values;
+  values.add(unusual);
+  if (!unusual.empty()) folder /= fmt::format("{:016x}", values.value());
   return folder.string();
 }
 
@@ -452,16 +470,20 @@ std::string build_folder(const UserRtl& rtl, const std::vector<RtlParameter>& pa
 class Build {
  public:
   Build(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind, const std::vector<RtlParameter>& parameters)
-      : rtl_(rtl), map_(map), kind_(kind), parameters_(parameters), folder_(build_folder(rtl, parameters)) {
+      : rtl_(rtl), map_(map), kind_(kind), parameters_(parameters), folder_(build_folder(rtl, map, parameters)) {
     create_folder(folder_);
   }
 
-  /// Makes the library unless it is there and nothing that it depends on has changed. Returns its path.
-  std::string library() {
+  /// Makes the library unless it is there and nothing that it depends on has changed; loads it.
+  MakeUserRtl library() {
     const FolderLock lock(folder_);
     const std::string command = verilator_command(rtl_, map_, parameters_, folder_, adapter());
     if (!is_made(command)) make(command);
-    return file("librtl.so");
+    check_ports();
+    return [library = load(file("librtl.so")), &pins = kind_.pins(),
+            values = constants().values()](const std::optional<RtlTrace>& trace) {
+      return std::make_unique<UserDesigns>(library, pins, values, trace);
+    };
   }
 
  private:
@@ -480,18 +502,18 @@ class Build {
       check_found(rtl_, map_, file("verilator.log"));
       fail_build(file("verilator.log"), rtl_);
     }
-    PortCheck(rtl_, map_, ports_of(read(header()))).run(kind_.pins(), parameters_);
+    check_ports();
     const std::string made = source();
     if (read(adapter()) != made) tb::write_file(adapter(), made);  // the same one is not compiled again
     if (!succeeds(make_command(rtl_, folder_), file("compiler.log"))) fail_build(file("compiler.log"), rtl_);
     tb::write_file(state(), made_from(command, made));
   }
 
+  void check_ports() const { PortCheck(rtl_, map_, ports()).run(kind_.pins(), parameters_); }
+  TopPorts ports() const { return ports_of(read(header())); }
+  Constants constants() const { return {map_, ports(), parameters_}; }
   /// Of the adapter.
-  std::string source() const {
-    const TopPorts ports = ports_of(read(header()));
-    return adapter_source(rtl_.top, map_, kind_.pins(), rtl_.traced, constants(map_, ports, parameters_));
-  }
+  std::string source() const { return adapter_source(rtl_.top, map_, kind_.pins(), rtl_.traced, constants().code()); }
 
   /// A fingerprint of the command, the adapter, and all files that Verilator has read.
   std::string made_from(const std::string& command, const std::string& made) const {
@@ -523,8 +545,7 @@ MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::Chip
   check_parameters(rtl, map, parameters);
   if (!installed("verilator"))
     throw tb::InputError(rtl.command + ": Verilator is missing, expected version 5.006 or later in PATH");
-  return [library = load(Build(rtl, map, kind, parameters).library()), &pins = kind.pins()](
-             const std::optional<RtlTrace>& trace) { return std::make_unique<UserDesigns>(library, pins, trace); };
+  return Build(rtl, map, kind, parameters).library();
 }
 
 }  // namespace dsdpv1::cosim

@@ -61,7 +61,8 @@ cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
 
 Bench bench_of(const RtlRandomArguments& arguments) {
   const tb::ChipKind& kind = arguments.chip.kind();
-  Bench bench{arguments.own.rtl.empty() ? cosim::quick_options(kind) : cosim::usual_options(kind), {}, {}};
+  const bool quick = arguments.own.rtl.empty() || takes(own_map(arguments.own, kind), kind.random()->words().quick);
+  Bench bench{quick ? cosim::quick_options(kind) : cosim::usual_options(kind), {}, {}};
   cosim::set_parameters(bench.options, arguments.set);
   cosim::set_parameters(bench.options, arguments.chip.port().set);
   if (arguments.no_dpram || !arguments.own.rtl.empty()) judge_by_pins(bench.options);
@@ -354,8 +355,8 @@ class RtlRandom : public Command {
         ->capture_default_str()
         ->needs(campaign_);
     app.add_option("--set", given_.set,
-                   "chip.KEY=VALUE, once for each: a parameter of the model, as in a scenario (default: those of "
-                   "scenarios; with the reference RTL, short times)")
+                   "chip.KEY=VALUE, once for each: a parameter of the model, as in a scenario (default: short times; those "
+                   "of scenarios for RTL whose map does not take them)")
         ->allow_extra_args(false);
   }
 

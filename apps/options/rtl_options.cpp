@@ -101,6 +101,13 @@ cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind
   return cosim::load_pin_map(arguments.pins, kind.pins(), parameters);
 }
 
+bool takes(const cosim::PinMap& map, const std::vector<std::string>& set) {
+  const std::string chip = "chip.";
+  return std::all_of(set.begin(), set.end(), [&](const std::string& each) {
+    return each.rfind(chip, 0) == 0 && map.chip.count(each.substr(chip.size(), each.find('=') - chip.size())) != 0;
+  });
+}
+
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
                      const tb::OwnSettings& chip, bool traced) {
   OwnRtl own{own_map(arguments, kind), {}};

@@ -49,6 +49,8 @@ void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool require
 
 /// The map of its pins, the names of the reference RTL when there is none. Throws tb::InputError.
 cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind);
+/// Whether the map takes all these texts of --set, chip.KEY=VALUE, to the RTL.
+bool takes(const cosim::PinMap& map, const std::vector<std::string>& set);
 
 /// Reads the map of its pins and builds it with the parameters of `chip`, `traced` so that its inside can be recorded.
 /// `command` as "dsdpv1-sim cosim". Throws tb::InputError.

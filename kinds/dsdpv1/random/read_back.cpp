@@ -14,6 +14,7 @@ namespace dsdpv1::cosim {
 namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
+constexpr Tick kLeast = 150;            // table 15: Td
 constexpr int kFlagsAndStatus = 0x014;  // B000 .. B013
 
 struct Cells {
@@ -88,7 +89,8 @@ class ChipReader : public ReadBack {
     return cells;
   }
 
-  /// Accesses as short as table 15 and CLK allow, so that the chip is kept off briefly.
+  /// Accesses as short as table 15 and CLK allow, so that the chip is kept off briefly. The flags are cleared, as a
+  /// driver does, so that each transfer shows its own.
   Stimulus hold(const std::vector<Cells>& cells) const {
     Stimulus actions;
     Action take;
@@ -96,15 +98,9 @@ class ChipReader : public ReadBack {
     take.low = 4 * kCycle;
     actions.push_back(take);
     for (const Cells& each : cells)
-      for (int i = 0; i < each.count; ++i) {
-        Action read;
-        read.verb = verb::kRead;
-        read.address = each.first + i;
-        read.setup = 50;
-        read.low = 400;
-        read.hold = 50;
-        actions.push_back(read);
-      }
+      for (int i = 0; i < each.count; ++i) actions.push_back(access(verb::kRead, each.first + i, 50));
+    for (const int flags : {regs::kChipCommand1, regs::kChipCommand2})
+      actions.push_back(access(verb::kWrite, flags, kLeast));
     Action address;  // as the stimulus left it
     address.verb = Verb::kPin;
     address.pin = number(Pin::kA);
@@ -114,6 +110,15 @@ class ChipReader : public ReadBack {
     give.verb = verb::kGive;
     actions.push_back(give);
     return actions;
+  }
+  /// `around`: setup and hold. A write is one of 0.
+  static Action access(Verb verb, int address, Tick around) {
+    Action action;
+    action.verb = verb;
+    action.address = address;
+    action.setup = action.hold = around;
+    action.low = 400;
+    return action;
   }
 
   /// Both serial ports read with the same bytes (SP4, UA8).
