@@ -116,7 +116,7 @@ MUTANTS = """
 ## Mutants
 
 `./run mutants` alters the model: each mutant changes the number or the condition that its rows state (`tests/planted/mutants.yaml`). It runs the tests that a row
-names, and no others. A mutant is found when an EXPECT or ASSERT of such a test fails. A crash, a time limit and a difference between two executions of the chip do not count.
+names, and no others. A mutant is found when an EXPECT or ASSERT in the source of such a test fails. A crash, a time limit, a failure of the bench and a difference between two executions of the chip do not count.
 
 """
 

@@ -316,6 +316,7 @@ TEST_F(C1, EveryCoveredByteIsInTheCrcAndNoOther) {
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(is_sc(c1(read_request(1, 2, 3))));
     bench.chip_accesses();
+    EXPECT_EQ(bench.peek(0x6C4, 2), (Bytes{0x6D, 0x03})) << "of 5E 01 02 03";
     fetch(kC1Area);
     bench.acquire();
     bench.write_block(kC1Area.base, answer, kC1Area.crc);

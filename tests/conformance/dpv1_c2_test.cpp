@@ -194,6 +194,7 @@ TEST_F(C2, ReadWriteAndTransportReachTheUserAndTheAnswerTheMaster) {
   for (const auto& [request, answer] : cases) {
     SCOPED_TRACE(testing::PrintToString(request));
     to_user(kFirstChannel, request);
+    if (request == read_request(1, 2, 20)) EXPECT_EQ(bench.peek(0x7C4, 2), (Bytes{0x63, 0x43})) << "its CRC";
     EXPECT_TRUE(registry(0x30).exchanging);
     EXPECT_TRUE(is_sc(c2(kFirstChannel)));
     EXPECT_TRUE(is_rr(c2(kFirstChannel, read_request(0, 0, 1))));

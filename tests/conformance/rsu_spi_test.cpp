@@ -53,9 +53,9 @@ TEST_F(RsuSpi, ClaimUseRelease) {
   EXPECT_EQ(bench_.count(R::kSpiClaimed), 1);
   EXPECT_EQ(bench_.read(0x014, 1), Bytes{0x02});
   EXPECT_EQ(bench_.peek(0x014), 0x02);
-  bench_.write(0x020, {1, 2, 3, 4});
+  EXPECT_EQ(bench_.ask(write_telegram(0x020, {1, 2, 3, 4}), 4), with_crc({0xA1, 0x00}));
   EXPECT_EQ(bench_.peek(0x020, 4), (Bytes{1, 2, 3, 4}));
-  EXPECT_EQ(bench_.read(0x01F, 6), (Bytes{0, 1, 2, 3, 4, 0}));
+  EXPECT_EQ(bench_.ask(read_telegram(0x01F, 6), 10), with_crc({0x81, 0x00, 0, 1, 2, 3, 4, 0}));
   const std::uint64_t accesses = bench_.status().accesses;
   bench_.run_cycles(1000);
   EXPECT_EQ(bench_.status().accesses, accesses) << "the chip keeps off";

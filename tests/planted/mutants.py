@@ -26,8 +26,8 @@ EXAMPLES = """examples:
   ./run mutants --record                    # into docs/trust/mutants.tsv, from which docs/conformance.md is made
 
 The mutants are tests/planted/mutants.yaml. All are in one build, build/mutants, each behind a switch. A line of the tab-separated table is a mutant and
-one of its rows: killed and the first test that found it, or survived. Only a failed EXPECT or ASSERT of a test that the row names counts. What does
-not: a crash, a time limit, an exception, a difference between the executions of the chip (twin_chip.cpp). These are named behind the result.
+one of its rows: killed and the first test that found it, or survived. Only a failed EXPECT or ASSERT in the source of a test that the row names counts. What does
+not: a crash, a time limit, an exception, a failure of the bench, a difference between the executions of the chip (twin_chip.cpp). These are named behind the result.
 
 Exit codes: 0 each row finds its mutants, 1 one does not, 2 wrong input, a mutant whose text is no longer in its file, or a test that fails without a mutant.
 """
@@ -41,7 +41,7 @@ HEAD = ["mutant", "row", "result", "test", "not counted"]
 SECONDS = 20   # of a program, besides ten times as long as without a mutant
 LIMITS = 3     # of a row: when so many of its tests have reached it, the others would, too
 STEPS = (0.02, 0.2)  # seconds: tests that take less run first
-NOT_OF_A_TEST = ("twin_chip.cpp", "rtl_twin.cpp")  # these compare executions of the chip with each other
+OF_A_TEST = "_test.cpp"  # where its assertions stand; those of the bench only say that it cannot go on
 
 
 # -------------------------------------------------------------------------------------------------------------- tests
@@ -103,7 +103,7 @@ class Outcome:
 
 
 def kind_of(place):
-    return "twins differ" if any(name in place for name in NOT_OF_A_TEST) else "assertion"
+    return "assertion" if OF_A_TEST in place else "twins differ" if "twin" in place else "in the bench"
 
 
 class Runner:
