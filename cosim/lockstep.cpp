@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/input/units.hpp"
-#include "tb/report/ruling_place.hpp"
+#include "tb/bench/ruling_place.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -9,8 +9,8 @@
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "kinds/dsdpv1/checks/markdown.hpp"
+#include "tb/bench/ruling_place.hpp"
 #include "tb/chip/chip_kind.hpp"
-#include "tb/report/ruling_place.hpp"
 #include "tb/report/text_table.hpp"
 #include "tb/scenario/event_codes.hpp"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "io/input/units.hpp"
+#include "tb/bench/ruling_place.hpp"
 #include "tb/bench/verdict.hpp"
 #include "tb/report/fields.hpp"
-#include "tb/report/ruling_place.hpp"
 
 namespace dsdpv1::tb {
 namespace {

@@ -16,7 +16,7 @@
 #include "kinds/dsdpv1/chip/core_device.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/kind.hpp"
-#include "tb/report/ruling_place.hpp"
+#include "tb/bench/ruling_place.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
 namespace dsdpv1 {

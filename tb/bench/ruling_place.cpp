@@ -1,4 +1,4 @@
-#include "tb/report/ruling_place.hpp"
+#include "tb/bench/ruling_place.hpp"
 
 #include <algorithm>
 #include <regex>
