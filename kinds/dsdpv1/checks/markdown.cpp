@@ -43,7 +43,7 @@ checks:
   COUNT_BY_USER: {enabled: false}
 ```
 
-A run with checks takes 1.8 times the host instructions of one without in `power_on_12m`, and 1.2 times in `arm_board_12m` (rows `demo_checks` and `demo`, `arm_checks` and `arm` of
+A run with checks takes 1.9 times the host instructions of one without in `power_on_12m`, and 1.2 times in `arm_board_12m` (rows `demo_checks` and `demo`, `arm_checks` and `arm` of
 `./run bench --instructions`).
 
 ## What is recorded
