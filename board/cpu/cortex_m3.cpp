@@ -18,9 +18,9 @@ struct Region {
   std::uint32_t size;
 };
 constexpr Region kOutside[] = {
+    {0x40000000, 0xA0000000},  // first, as the most frequent: peripherals with bit-band alias, external RAM and devices
     {0x1FFFF000, 0x00001000},  // system memory, option bytes and unique id of the STM32F1
     {0x22000000, 0x02000000},  // bit-band alias of RAM
-    {0x40000000, 0xA0000000},  // peripherals with their bit-band alias, external RAM, external devices
     {0xE0000000, 0x00100000},  // private peripheral bus
 };
 

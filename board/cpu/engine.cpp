@@ -278,6 +278,7 @@ unsigned part_of(std::uint32_t address, unsigned bytes) {
 bool Engine::load_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t& value) {
   if (reports_data_) events_.on_data(address, bytes, false);
   value = 0;
+  if (part_of(address, bytes) == bytes) return load_part(address, bytes, value) || fail(address);
   for (unsigned done = 0; done < bytes;) {
     const std::uint32_t at = address + done;
     const unsigned part = part_of(at, bytes - done);

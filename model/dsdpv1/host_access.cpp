@@ -1,7 +1,8 @@
 #include "model/dsdpv1/host_access.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <cstring>
+#include <type_traits>
 
 namespace dsdpv1 {
 namespace {
@@ -19,12 +20,10 @@ int rank(const HostAccess::Edge& edge) {
 
 }  // namespace
 
+// Compared at each access.
 bool operator==(const AccessTiming& a, const AccessTiming& b) {
-  const auto fields = [](const AccessTiming& t) {
-    return std::tie(t.address_setup, t.cs_lead, t.rd_low, t.rd_sample, t.wr_low, t.data_setup, t.data_hold,
-                    t.address_hold, t.cs_trail, t.recovery);
-  };
-  return fields(a) == fields(b);
+  static_assert(std::has_unique_object_representations_v<AccessTiming>);
+  return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 HostAccess HostAccess::read(std::uint16_t address, const AccessTiming& timing) {

@@ -58,20 +58,30 @@ const Journal::Tally& Journal::tally(std::size_t slave, const profibus::Event& e
   return kept->tally;
 }
 
+void Journal::count(const Tally& tally, Tick at) {
+  const Occurrence& sample = tally.sample;
+  const bool violation = sample.severity == profibus::Severity::kViolation;
+  observers_.counted(at, sample.station, sample.code, violation, ++*tally.count);
+  if (violation) ++(sample.allowed ? allowed_ : violations_);
+}
+
+/// Neither listed nor logged, and not the first of its kind.
+bool Journal::is_only_counted(const Tally& tally) const {
+  return !lists() && !log_ && (tally.repeated == nullptr || tally.repeated->count != 0);
+}
+
+void Journal::count_again(const Tally& tally, Tick at) {
+  count(tally, at);
+  ++occurrences_dropped_;
+  if (tally.repeated != nullptr) tally.repeated->add_again(at);
+}
+
 template <class Where>
 void Journal::happened(const Tally& tally, Tick at, const std::string& words, const profibus::Event* event,
                        const Where& where) {
   const auto text = [&] { return event != nullptr ? scenario_.kind->describe(*event) : words; };
   const Occurrence& sample = tally.sample;
-  const bool violation = sample.severity == profibus::Severity::kViolation;
-  observers_.counted(at, sample.station, sample.code, violation, ++*tally.count);
-  if (violation) ++(sample.allowed ? allowed_ : violations_);
-  const bool lists = kept_.size() < RunResult::kKept, first = tally.repeated != nullptr && tally.repeated->count == 0;
-  if (!lists) ++occurrences_dropped_;
-  if (!lists && !first && !log_) {
-    if (tally.repeated != nullptr) tally.repeated->add(at, text);
-    return;
-  }
+  count(tally, at);
   const std::optional<user_cpu::Place> place = where();
   if (tally.repeated != nullptr) tally.repeated->add(at, text, place);
   if (log_) {
@@ -79,7 +89,10 @@ void Journal::happened(const Tally& tally, Tick at, const std::string& words, co
     entry.where = place;
     log(entry);
   }
-  if (!lists) return;
+  if (!lists()) {
+    ++occurrences_dropped_;
+    return;
+  }
   kept_.push_back({sample, event != nullptr ? std::optional(*event) : std::nullopt});
   kept_.back().occurrence.at = at;
   kept_.back().occurrence.text = words;
@@ -99,13 +112,13 @@ void Journal::violated(const std::string& slave, const checks::Violation& violat
 }
 
 void Journal::event(std::size_t slave, const profibus::Event& event) {
-  happened(
-      tally(slave, event), event.at, {}, &event,
-      [&]() -> std::optional<user_cpu::Place> {
-        const bool done_by_user = profibus::severity(event.reason) != profibus::Severity::kInfo;
-        const std::optional<user_cpu::Act> act = done_by_user ? scenario_.kind->act_of(event) : std::nullopt;
-        return act ? observers_.where(slave, *act) : std::nullopt;
-      });
+  const Tally& kept = tally(slave, event);
+  if (is_only_counted(kept)) return count_again(kept, event.at);
+  happened(kept, event.at, {}, &event, [&]() -> std::optional<user_cpu::Place> {
+    const bool done_by_user = profibus::severity(event.reason) != profibus::Severity::kInfo;
+    const std::optional<user_cpu::Act> act = done_by_user ? scenario_.kind->act_of(event) : std::nullopt;
+    return act ? observers_.where(slave, *act) : std::nullopt;
+  });
 }
 
 void Journal::telegram(const HeardTelegram& telegram) {

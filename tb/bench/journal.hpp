@@ -67,6 +67,11 @@ class Journal : public Observer {
   Tally tally(const std::string& station, const std::string& code, profibus::Severity severity,
               const std::string& place = {});
   const Tally& tally(std::size_t slave, const profibus::Event& event);
+  /// Room in the result's list of events.
+  bool lists() const { return kept_.size() < RunResult::kKept; }
+  void count(const Tally& tally, Tick at);
+  bool is_only_counted(const Tally& tally) const;
+  void count_again(const Tally& tally, Tick at);
   /// An error of the program, a flag of the monitor; or `event`, one of the chip, whose text is made on demand.
   /// `where()` gives the place of the user's act; it is asked only when it is listed or logged.
   template <class Where>

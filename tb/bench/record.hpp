@@ -48,11 +48,15 @@ struct Repeated {
   /// `words` writes the text of the first time.
   template <class Words>
   void add(Tick at, const Words& words, const std::optional<user_cpu::Place>& first_where = std::nullopt) {
-    if (count++ == 0) {
+    if (count == 0) {
       text = words();
       where = first_where;
       first = last = at;
     }
+    add_again(at);
+  }
+  void add_again(Tick at) {
+    ++count;
     last = std::max(last, at);
   }
 };

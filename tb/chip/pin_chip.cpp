@@ -28,7 +28,7 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, con
   begin_watch(watched, late);
   device_->on_event({[](void* self, const profibus::Event& event) {
                        auto& chip = *static_cast<PinChip*>(self);
-                       if (chip.acts_on_events()) chip.pause_access();
+                       if (!chip.pauses_ && chip.acts_on_events()) chip.pause_access();
                        if (chip.listener_ != nullptr) chip.listener_->event(chip.number_, event);
                      },
                      this});

@@ -134,14 +134,16 @@ void Dsdpv1PinChip::catch_up_host(Tick at) {
 // Listeners act before the next edge.
 void Dsdpv1PinChip::run_edges(Tick until) {
   hear_line();
-  pauses_ = put_off_ = false;
+  put_off_ = false;
   if (until >= pins_->last_edge() && run_whole()) return announce(next());  // only the host port has acted
+  pauses_ = false;
   run_edges_singly(until);
   plan_again();
 }
 
 bool Dsdpv1PinChip::run_whole() {
   const bool quiet = !acts_on_events();
+  pauses_ = quiet;  // a whole access does not pause: its events need not ask again
   if (!reports_host()) return pins_->run_whole(quiet);
   if (!reports_late() || !quiet || !pins_->run_whole(false)) return false;
   report_whole(pins_->access(), pins_->last_edge() - pins_->access().last());

@@ -89,7 +89,7 @@ void NativeCpu::begin_access() {
   put_off_ = others != nullptr && !in_one_go && bus_.put_off();
   if (put_off_) return;
   const Tick until = in_one_go ? bus_.end() : now_;
-  if (bus_.next_edge() <= until) bus_.run_edges(until);
+  if (in_one_go || bus_.next_edge() <= until) bus_.run_edges(until);
 }
 
 void NativeCpu::end_access() {
