@@ -72,7 +72,7 @@ TEST_F(SlurmCommands, SubmissionIsAnArrayWhoseTasksCallTheProgramBack) {
   EXPECT_THAT(words_of("sbatch"), HasSubstr("--array=0-1 "));
   EXPECT_THAT(words_of("sbatch"), HasSubstr(" --partition=x " + (base_ / "slurm/1.sh").string()));
   EXPECT_THAT(tb::campaign::content((base_ / "slurm/1.sh").string()),
-              HasSubstr("'sweep' 'it'\\''s.yaml' --slurm-task 1\n"));
+              HasSubstr(" sweep 'it'\\''s.yaml' --slurm-task 1\n"));
   setenv("SLURM_ARRAY_TASK_ID", "1", 1);
   EXPECT_THAT(tb::campaign::jobs_of_task(base_, 1, 6), ElementsAre(5));
 }
