@@ -6,6 +6,9 @@
 `include "dpram_types.svh"
 
 module dpram (
+`ifdef SINGLE_FAULTS
+  `FAULT_PORT
+`endif
   input  logic        clk_i,
   input  logic        rst_ni,
   // the user's writes and reads
@@ -36,7 +39,11 @@ module dpram (
   // At the same edge the chip's write comes after the user's: it hides an equal address
   assign head_overwritten = chip_we_i && head_addr == chip_addr_i;
   assign head_blocked = chip_we_i && head_addr[1:0] == chip_addr_i[1:0] && !head_overwritten;
-  assign head_goes = head_valid && !head_blocked;
+  assign head_goes =
+`ifdef SINGLE_FAULTS
+      (`FAULT(205) && head_valid) ||
+`endif
+      head_valid && !head_blocked;
   assign settles = user_we_i && !(chip_we_i && user_waddr_i == chip_addr_i);
 
   logic first_stays, second_stays;

@@ -256,7 +256,11 @@ module dpram_sequencer (
   assign reads_covered = begins_read || state_q == SEQ_READ_HEADER || state_q == SEQ_READ_BYTES;
 
   logic [15:0] crc_start;
-  assign crc_start = `FAULT(55) ? 16'h0000 : 16'hFFFF;
+  assign crc_start =
+`ifdef SINGLE_FAULTS
+      `FAULT(170) && pick == ITEM_C2_REQUEST ? 16'h0000 :
+`endif
+      `FAULT(55) ? 16'h0000 : 16'hFFFF;
 
   // The CRC of a written block begins with the byte that the choice writes
   logic [15:0] crc_first;
@@ -292,6 +296,9 @@ module dpram_sequencer (
       if (starts) begin
         behind_q <= 20'hFFFFF;
         valid_due_q <= up_q == ready_cycles_i;
+`ifdef SINGLE_FAULTS
+        if (`FAULT(201)) crc_wrong_q <= 1'b0;
+`endif
       end
       if (state_q == SEQ_FLAGS_U2) u_q <= rdata_i;
       if (state_q == SEQ_FLAGS_E) w_q <= rdata_i;
@@ -308,6 +315,9 @@ module dpram_sequencer (
         if (pick == ITEM_HISTORY && !`FAULT(104)) w_q[7] <= 1'b0;
         too_long_q <= 1'b0;
         crc_wrong_q <= 1'b0;
+`ifdef SINGLE_FAULTS
+        if (`FAULT(201)) crc_wrong_q <= crc_wrong_q;
+`endif
         address_q <= addr_o + 11'd1;
         case (pick)
           ITEM_PRM: left_q <= prm_length;
@@ -351,11 +361,17 @@ module dpram_sequencer (
       // the CRC read is compared as it arrives
       if (arrives_high_q && rdata_i != crc_high `AND_CRC_COUNTS) crc_wrong_q <= 1'b1;
       if (state_q == SEQ_READ_LAST && rdata_i != crc_low && !`FAULT(57) `AND_CRC_COUNTS) crc_wrong_q <= 1'b1;
+`ifdef SINGLE_FAULTS
+      if (`FAULT(203) && (arrives_high_q || state_q == SEQ_READ_LAST) && taken_q == 8'd0) crc_wrong_q <= 1'b0;
+`endif
 
       if (state_q == SEQ_COMMIT && !answer_item) u_q <= u_without;
       if (state_q == SEQ_COMMIT && answer_item) w_q <= w_without;
       if (state_q == SEQ_FLAG && !request_item) e_q <= e_with;
       if (state_q == SEQ_FLAG && request_item) v_q <= v_with;
+`ifdef SINGLE_FAULTS
+      if (`FAULT(202) && state_q == SEQ_FLAG) {e_q, v_q} <= {e_q, v_q};
+`endif
     end
   end
 

@@ -48,6 +48,9 @@ module init_block (
           8'd0: begin
             address_byte_q <= byte_i[6:0];
             if (byte_i > DSDPV1_REG_INIT_ADDRESS_LIMIT && !`FAULT(60)) limits_wrong_q <= 1'b1;
+`ifdef SINGLE_FAULTS
+            if (`FAULT(204) && byte_i == 8'd0) limits_wrong_q <= 1'b1;
+`endif
           end
           8'd1: ident_q[15:8] <= byte_i;
           8'd2: ident_q[7:0] <= byte_i;

@@ -91,6 +91,9 @@ module dsdpv1 #(
     .d_oe_o(d_oe_o), .we_o(user_we), .waddr_o(user_waddr), .wdata_o(user_wdata), .raddr_o(user_raddr), .rdata_i(rdata));
 
   dpram u_dpram (
+`ifdef SINGLE_FAULTS
+    `FAULT_CONNECT
+`endif
     .clk_i(clk_i), .rst_ni(rst_n), .user_we_i(user_we), .user_waddr_i(user_waddr), .user_wdata_i(user_wdata),
     .user_raddr_i(user_raddr), .chip_owns_i(chip_owns), .chip_we_i(chip_we), .chip_addr_i(chip_addr),
     .chip_wdata_i(chip_wdata), .rdata_o(rdata));

@@ -18,8 +18,16 @@ module handshake (
   synchroniser #(.POWER_ON(1'b0)) u_r_req (.clk_i(clk_i), .d_i(r_req_i), .q_o(r_req));
   synchroniser #(.POWER_ON(1'b0)) u_r_sta (.clk_i(clk_i), .d_i(r_sta_i), .q_o(r_sta_seen));
   assign r_sta = `FAULT(96) ? r_sta_i : r_sta_seen;
+`ifdef SINGLE_FAULTS
+  logic r_req_first_q = 1'b0;
+  always_ff @(posedge clk_i) r_req_first_q <= r_req_i;
+`endif
 
-  assign user_holds_o = (r_req && !`FAULT(49)) || (r_sta && !`FAULT(95));
+  assign user_holds_o =
+`ifdef SINGLE_FAULTS
+      `FAULT(206) ? r_req_first_q || r_sta_seen :
+`endif
+      (r_req && !`FAULT(49)) || (r_sta && !`FAULT(95));
   assign l_req_o = owns_i;
   assign l_sta_o = owns_i;
 endmodule

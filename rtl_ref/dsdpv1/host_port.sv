@@ -57,6 +57,10 @@ module host_port (
         2'd2: entry2_q <= entry;
         default: entry3_q <= entry;
       endcase
+`ifdef SINGLE_FAULTS
+      if (`FAULT(207) && head_q[1:0] == 2'd2) entry0_q <= entry;
+      if (`FAULT(207) && head_q[1:0] == 2'd3) entry1_q <= entry;
+`endif
     end
   end
 
@@ -79,7 +83,11 @@ module host_port (
 
   logic [18:0] oldest;
   logic [1:0] tail_low;
-  assign tail_low = tail_q[1:0];
+  assign tail_low =
+`ifdef SINGLE_FAULTS
+      `FAULT(207) ? {1'b0, tail_q[0]} :
+`endif
+      tail_q[1:0];
   always_comb begin
     case (tail_low)
       2'd0: oldest = entry0_q;
@@ -115,6 +123,9 @@ module host_port (
 
   always_ff @(negedge clk_i) begin
     if (taken_q && !driven_q) d_q <= rdata_i;
+`ifdef SINGLE_FAULTS
+    if (`FAULT(208) && taken_q) d_q <= rdata_i;
+`endif
   end
 
   assign d_o = d_q;

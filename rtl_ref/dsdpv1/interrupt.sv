@@ -26,12 +26,18 @@ module interrupt (
       count_q <= 14'd0;
     end else begin
       waiting_q <= (waiting_q || flag_i) && !falls;
+`ifdef SINGLE_FAULTS
+      if (`FAULT(171) && !low_q && count_q != 14'd0) waiting_q <= waiting_q;
+`endif
       if (falls) begin
         low_q <= 1'b1;
         count_q <= low_i - (`FAULT(46) ? 14'd2 : 14'd1);
       end else if (rises) begin
         low_q <= 1'b0;
         count_q <= gap_i - 14'd1;
+`ifdef SINGLE_FAULTS
+        if (`FAULT(209) && gap_i != 14'd1) count_q <= gap_i - 14'd2;
+`endif
       end else if (count_q != 14'd0) begin
         count_q <= count_q - 14'd1;
       end

@@ -140,6 +140,9 @@ module dsdpv1_rsu #(
     .d_oe_o(d_oe_o), .we_o(user_we), .waddr_o(user_waddr), .wdata_o(user_wdata), .raddr_o(user_raddr), .rdata_i(rdata));
 
   dpram u_dpram (
+`ifdef SINGLE_FAULTS
+    `FAULT_CONNECT
+`endif
     .clk_i(clk_i), .rst_ni(rst_n), .user_we_i(serial ? host_we : user_we), .user_waddr_i(serial ? host_waddr : user_waddr),
     .user_wdata_i(serial ? host_wdata : user_wdata),
     .user_raddr_i(user_raddr), .chip_owns_i(chip_owns), .chip_we_i(chip_we), .chip_addr_i(chip_addr),

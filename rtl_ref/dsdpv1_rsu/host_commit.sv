@@ -179,7 +179,11 @@ module host_commit (
   logic [10:0] flag_address;
   logic [7:0] with_flag, e_without, v_without;
   assign flag_address = telegram_i.area[1] && !spi_i ? DSDPV1_REG_USER_COMMAND_2 : DSDPV1_REG_USER_COMMAND_1;
-  assign with_flag = f_q | (telegram_i.area[0] && !spi_i ? 8'h02 : 8'h01);
+  assign with_flag =
+`ifdef SINGLE_FAULTS
+      (`FAULT(217) ? 8'h00 : 8'hFF) &
+`endif
+      f_q | (telegram_i.area[0] && !spi_i ? 8'h02 : 8'h01);
   always_comb begin
     case (area_q)
       PARAMETERS: e_without = e_q & ~DSDPV1_REG_CHIP_COMMAND_1_PRM;

@@ -26,7 +26,11 @@ module host_judgement (
   assign carried_out = judged_i && !wrong && !refused;
   assign judgement_o.replies = judged_i && replies_i;
   assign judgement_o.refused = wrong || refused;
-  assign judgement_o.code = telegram_i.crc_wrong ? 4'b0001 :
+  assign judgement_o.code =
+`ifdef SINGLE_FAULTS
+      `FAULT(219) && telegram_i.crc_wrong ? {telegram_i.length_wrong, telegram_i.data_wrong, telegram_i.address_wrong, 1'b1} :
+`endif
+      telegram_i.crc_wrong ? 4'b0001 :
                             {telegram_i.length_wrong, telegram_i.data_wrong, telegram_i.address_wrong, 1'b0};
   assign judgement_o.crc_right = judged_i && !telegram_i.crc_wrong;
   assign judgement_o.commits = carried_out && (changes || !spi_i);

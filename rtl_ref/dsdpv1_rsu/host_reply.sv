@@ -100,6 +100,9 @@ module host_reply (
         CRC_HIGH: state_d = CRC_LOW;
         default: state_d = OFF;
       endcase
+`ifdef SINGLE_FAULTS
+      if (`FAULT(214) && state == LENGTH) state_d = DATA;
+`endif
     end
     if (ends_i) state_d = OFF;
   end

@@ -120,7 +120,11 @@ module host_telegram (
       claims_q <= 1'b0;
     end else if (take_i && field_q == LENGTH) begin
       covers_q <= 1'b0;
-    end else if (take_i && field_q == DATA && cell_after == RSU_REG_OWNERSHIP + 11'd1 && ask_q == ASK_WRITE) begin
+    end else if (take_i &&
+`ifdef SINGLE_FAULTS
+      !(`FAULT(213) && index_q != 8'd1) &&
+`endif
+      field_q == DATA && cell_after == RSU_REG_OWNERSHIP + 11'd1 && ask_q == ASK_WRITE) begin
       covers_q <= spi_i;
       claims_q <= byte_i[1];
     end
@@ -133,7 +137,11 @@ module host_telegram (
   logic known, beyond, exchange;
   assign exchange = ask_q == ASK_EXCHANGE;
   assign end_address = {1'b0, address_q} + {4'd0, length_q};
-  assign beyond = end_address > DSDPV1_REG_DPRAM_SIZE && !`FAULT(136);
+  assign beyond =
+`ifdef SINGLE_FAULTS
+      (`FAULT(212) && end_address == DSDPV1_REG_DPRAM_SIZE) ||
+`endif
+      end_address > DSDPV1_REG_DPRAM_SIZE && !`FAULT(136);
   always_comb begin
     known = 1'b1;
     area = TO_INPUTS;

@@ -162,6 +162,9 @@ module host_uart (
     bits = interval_bits;
     if (last_i) begin
       first = rest_less(ubr_i, 13'd3);  // the synchroniser's two cycles are taken back
+`ifdef SINGLE_FAULTS
+      if (`FAULT(215)) first = half_less(ubr_i, 13'd3);
+`endif
       bits = {5'd0, tsdr};
     end else if (break_ends) begin
       first = interval_odd ? half_less(ubr_i, 13'd0) : 13'd0;
@@ -204,6 +207,9 @@ module host_uart (
         phase_q <= bit_last;
         bits_q <= bits_q - 13'd1;
       end
+`ifdef SINGLE_FAULTS
+      if (`FAULT(216) && break_ends) {phase_q, bits_q} <= {phase_q, bits_q};
+`endif
 
       if (judged_i) answers_q <= 1'b1;
       else if (all_sent) answers_q <= 1'b0;

@@ -123,6 +123,9 @@ module serial_port (
     end else if (we_o) begin
       if (waddr_o == RSU_REG_U_TIMER) enable_q <= wdata_o[0];
       if (waddr_o == RSU_REG_UART_INTERVAL) interval_q <= wdata_o[7:3] == 5'd0 ? wdata_o[2:0] : 3'd0;
+`ifdef SINGLE_FAULTS
+      if (`FAULT(218) && waddr_o == RSU_REG_UART_INTERVAL) interval_q <= wdata_o[2:0];
+`endif
       if (waddr_o == RSU_REG_UART_TSDR) tsdr_q <= wdata_o;
     end
   end

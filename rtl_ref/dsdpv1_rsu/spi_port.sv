@@ -49,7 +49,11 @@ module spi_port (
   assign frame_begins = listening_q && !xss && xss_before_q;
   assign ends_o = listening_q && xss && !xss_before_q;
   assign take_o = listening_q && flip_q != flip_before_q;
-  assign heard = (gap_q >= write_gap_i || `FAULT(131)) && !deaf_i;
+  assign heard =
+`ifdef SINGLE_FAULTS
+      !(`FAULT(210) && gap_q == write_gap_i) &&
+`endif
+      (gap_q >= write_gap_i || `FAULT(131)) && !deaf_i;
   assign begins_o = frame_begins && heard;
   assign odd_o = odd_q;
 
@@ -65,6 +69,9 @@ module spi_port (
       xss_before_q <= xss;
       if (frame_begins) odd_q <= 1'b0;
       else if (take_o) odd_q <= !odd_q;
+`ifdef SINGLE_FAULTS
+      if (`FAULT(211) && frame_begins) odd_q <= odd_q;
+`endif
       if (gap_i) gap_q <= 13'd1;
       else if (gap_q != 13'h1FFF) gap_q <= gap_q + 13'd1;
     end

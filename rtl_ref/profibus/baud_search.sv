@@ -47,6 +47,10 @@ module baud_search (
     if (start_i) rate_d = 4'd0;
     else if (ends) rate_d = rate_q == RATE_LAST - (`FAULT(61) ? 4'd1 : 4'd0) ? 4'd0 : rate_q + 4'd1;
     window_d = loads_q ? window_of_rate : window_q - 32'd1;
+`ifdef SINGLE_FAULTS
+    if (`FAULT(168) && loads_q) window_d = window_of_rate + 32'd1;
+    if (`FAULT(199) && loads_q) window_d = window_ms_i * 32'd48000 - 32'd2;
+`endif
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

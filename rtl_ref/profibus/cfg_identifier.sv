@@ -57,6 +57,9 @@ module cfg_identifier (
         wants_input_q <= byte_i[6];
         skip_q <= byte_i[3:0] == 4'd15 ? 4'd0 : byte_i[3:0];
       end else if (!at_identifier) skip_q <= skip_q - 4'd1;
+`ifdef SINGLE_FAULTS
+      if (`FAULT(189) && at_identifier && special && byte_i[3:0] == 4'd14) skip_q <= 4'd0;
+`endif
     end
   end
 

@@ -80,7 +80,11 @@ module check_cfg #(
 
   logic moved;
   assign moved = moved_q || accept_commit_i;
-  assign same_o = moved ? same_last_q && length_i == last_length_i : same_in_use_q && length_i == in_use_length_i;
+  assign same_o =
+`ifdef SINGLE_FAULTS
+      `FAULT(190) ? (moved ? same_last_q : same_in_use_q) :
+`endif
+      moved ? same_last_q && length_i == last_length_i : same_in_use_q && length_i == in_use_length_i;
 
   // Outside DATA_EXCH nothing but bytes and initialisation counts: through a register
   logic right_q, mode_right, decoded, fits;

@@ -26,7 +26,11 @@ module diagnosis (
   assign static_diag = diagnosis_i.kind == DIAG_STATIC;
   assign extended = diagnosis_i.kind == DIAG_EXTENDED;  // ends external diagnosis
   assign legal = diagnosis_i.kind != DIAG_UNKNOWN;
-  assign store_o = diagnosis_i.commit && legal && diagnosis_i.length <= max_length_i;
+  assign store_o =
+`ifdef SINGLE_FAULTS
+      !(`FAULT(192) && diagnosis_i.length == max_length_i) &&
+`endif
+      diagnosis_i.commit && legal && diagnosis_i.length <= max_length_i;
 
   assign ext_diag_now_o = store_o && (external || (extended && !`FAULT(158))) ? external && diagnosis_i.present : ext_q;
   assign stat_diag_now_o = store_o && ((static_diag && !`FAULT(26)) || (extended && `FAULT(159))) ? static_diag && diagnosis_i.present : stat_q;

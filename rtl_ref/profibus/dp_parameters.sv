@@ -4,6 +4,9 @@
 `include "profibus_types.svh"
 
 module dp_parameters (
+`ifdef SINGLE_FAULTS
+  `FAULT_PORT
+`endif
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       init_i,            // an initialisation is committed
@@ -42,6 +45,9 @@ module dp_parameters (
       end
       if (accept_i) in_force_q <= prm_i;
       if (accept_i || min_tsdr_only_i) in_force_q.min_tsdr <= new_min_tsdr(prm_i.min_tsdr, in_force_q.min_tsdr);
+`ifdef SINGLE_FAULTS
+      if (`FAULT(187) && waits_i) in_force_q.min_tsdr <= new_min_tsdr(prm_i.min_tsdr, in_force_q.min_tsdr);
+`endif
     end
   end
 

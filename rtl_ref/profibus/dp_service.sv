@@ -133,6 +133,9 @@ module dp_service (
             else begin
               answer = ANS_SC;
               set_address = length_i == 8'd4 && ssa_ident_right && ssa_address <= 8'd125;
+`ifdef SINGLE_FAULTS
+              if (`FAULT(176) && ssa_address == 8'd126) set_address = length_i == 8'd4 && ssa_ident_right;
+`endif
             end
           end
         end
@@ -226,7 +229,11 @@ module dp_service (
   assign decision_o.set_address = set_address;
   assign decision_o.store = store;
   assign decision_o.clear = clear || (global_control && gc_clear);
-  assign decision_o.copy_outputs = global_control && (gc_sync || (gc_unsync && sync_i));
+  assign decision_o.copy_outputs =
+`ifdef SINGLE_FAULTS
+      (`FAULT(191) && global_control && gc_unsync) ||
+`endif
+      global_control && (gc_sync || (gc_unsync && sync_i));
   assign decision_o.copy_inputs = global_control && (gc_freeze || gc_unfreeze);
   assign decision_o.diag_read = diag_read;
   assign decision_o.enter_wait_prm = enter_wait_prm;

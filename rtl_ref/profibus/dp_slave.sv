@@ -206,6 +206,10 @@ module dp_slave #(
   assign gc_unsync = decision.unsync;
   assign gc_freeze = decision.freeze;
   assign gc_unfreeze = decision.unfreeze;
+`ifdef SINGLE_FAULTS
+  logic by_data_exchange;
+  assign by_data_exchange = service_i.default_sap;
+`endif
 
   always_comb begin
     leave = 1'b0;
@@ -222,6 +226,9 @@ module dp_slave #(
     else if (gc_sync) sync_d = 1'b1;
     if (gc_unfreeze) freeze_d = 1'b0;
     else if (gc_freeze) freeze_d = 1'b1;
+`ifdef SINGLE_FAULTS
+    if (`FAULT(175) && gc_sync && gc_freeze) sync_d = sync_b;
+`endif
 
     // S15, S18
     if (good_prm) begin
@@ -253,6 +260,9 @@ module dp_slave #(
       sync_d = 1'b0;
       freeze_d = 1'b0;
     end
+`ifdef SINGLE_FAULTS
+    if (`FAULT(185) && enter_wait_prm && by_data_exchange) held_d = held_b;
+`endif
   end
 
   // Slave_Diag's standard bytes (section 11)
@@ -266,6 +276,9 @@ module dp_slave #(
                           1'b0, prm_fault_b, 1'b0, unsupported_b, diag_ext, cfg_fault_b, !in_data_exch, 1'b0};
 
   dp_parameters u_parameters (
+`ifdef SINGLE_FAULTS
+    `FAULT_CONNECT
+`endif
     .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init), .accept_waiting_i(accept_prm_b), .prm_i(prm), .sa_i(sa_i), .waits_i(good_prm),
     .accept_i(accept_prm), .min_tsdr_only_i(decision.min_tsdr_only), .waiting_wd_on_o(wait_wd_on), .waiting_sa_o(wait_sa),
     .in_force_o(in_force));
@@ -289,6 +302,10 @@ module dp_slave #(
   assign new_address = head_i[6:0];
   assign ssa_lock = head_i[31:24];
   assign init_address = commands_i.initialise.address;
+`ifdef SINGLE_FAULTS
+  logic lock_low;
+  assign lock_low = head_i[24];
+`endif
   always_comb begin
     holder_d = holder_b;
     address_d = address_q;
@@ -297,6 +314,9 @@ module dp_slave #(
     if (set_address) begin
       address_d = new_address;
       locked_d = ssa_lock != 8'h00;
+`ifdef SINGLE_FAULTS
+      if (`FAULT(186)) locked_d = lock_low;
+`endif
     end
     if (init) begin
       holder_d = NO_MASTER;

@@ -62,8 +62,16 @@ module fdl (
   assign saps = {da_i[7], sa_i[7], dsap, ssap};
   logic same_sa, same_fcb, same_fc, same_dsap, same_ssap, same_length, same_fcs;
   assign same_sa = memory_sa_q == sa_i[6:0] || `FAULT(112);
-  assign same_fcb = memory_fc_q[5] == fcb || `FAULT(39);
-  assign same_fc = memory_fc_q == fc_i || `FAULT(39);
+  assign same_fcb =
+`ifdef SINGLE_FAULTS
+      (`FAULT(167) && same_fcs) ||
+`endif
+      memory_fc_q[5] == fcb || `FAULT(39);
+  assign same_fc =
+`ifdef SINGLE_FAULTS
+      (`FAULT(167) && {memory_fc_q[6], memory_fc_q[4:0]} == {fc_i[6], fc_i[4:0]}) ||
+`endif
+      memory_fc_q == fc_i || `FAULT(39);
   assign same_dsap = {memory_saps_q[17], memory_saps_q[15:8]} == {saps[17], saps[15:8]} || `FAULT(113);
   assign same_ssap = {memory_saps_q[16], memory_saps_q[7:0]} == {saps[16], saps[7:0]} || `FAULT(114);
   assign same_length = memory_data_length_q == length_i || `FAULT(115);
@@ -82,6 +90,12 @@ module fdl (
     refuse_q <= function_code != 4'h4 && function_code != 4'h6 && function_code != 4'h9 && function_code != 4'hC &&
                 function_code != 4'hD;  // S29
     fdl_status_q <= function_code == 4'h9;
+`ifdef SINGLE_FAULTS
+    if (`FAULT(184) && function_code == 4'h6) begin
+      sdn_q <= 1'b0;
+      refuse_q <= 1'b1;
+    end
+`endif
     default_sap_q <= !da_i[7];
     fcb_q <= fcb;
     fcv_q <= fcv;
@@ -96,6 +110,9 @@ module fdl (
     ignored_q <= kind_q && own_q && request_q && saps_ok_q && from_nobody_q;
     repetition_q <= own_q && (fcv_q || `FAULT(118)) && memory_valid_q && same_series_q &&
                     (content ? same_saps_q && same_rest_q : !sdn_q || `FAULT(163));
+`ifdef SINGLE_FAULTS
+    if (`FAULT(169) && !default_sap_q && dsap_i == SAP_READ_INPUTS) repetition_q <= 1'b0;
+`endif
   end
 
   logic legal, execute, answered, sends;

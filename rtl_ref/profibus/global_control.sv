@@ -23,7 +23,11 @@ module global_control (
 );
   logic legal, addressed, acts, asks_sync, asks_freeze;
   assign legal = length_i == 8'd2 && (command_i & 8'hC1) == 8'h00;
-  assign addressed = group_select_i == 8'h00 || (group_select_i & group_ident_i) != 8'h00 || `FAULT(24);
+  assign addressed = group_select_i == 8'h00 || (group_select_i &
+`ifdef SINGLE_FAULTS
+      (`FAULT(174) ? 8'h7F : 8'hFF) &
+`endif
+      group_ident_i) != 8'h00 || `FAULT(24);
   assign acts = legal && addressed;
   assign acts_o = acts;
   assign clear_o = acts && command_i[1];

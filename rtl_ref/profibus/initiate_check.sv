@@ -30,7 +30,11 @@ module initiate_check (
   logic [8:0] long_length_q;
   logic is_short, is_long, features;
   assign is_short = length_i == LEAST;
-  assign is_long = length_i >= LONG_HEADER && (long_length_q == {1'b0, length_i - LONG_HEADER} || `FAULT(71));
+  assign is_long =
+`ifdef SINGLE_FAULTS
+      (`FAULT(195) && length_i >= LONG_HEADER && long_length_q[7:0] == length_i - LONG_HEADER) ||
+`endif
+      length_i >= LONG_HEADER && (long_length_q == {1'b0, length_i - LONG_HEADER} || `FAULT(71));
   assign features = head_i[48] || `FAULT(70);  // DS_Read and DS_Write
   assign timeout_o = {head_i[39:32], head_i[47:40]};
 

@@ -85,6 +85,9 @@ module msac1 (
     end else begin
       state_q <= state_d;
       mail_q <= state_d == OPEN && (accept_o || (mail_q && !take_i));
+`ifdef SINGLE_FAULTS
+      if (`FAULT(194) && state_d == IDLE) mail_q <= mail_q && !take_i;
+`endif
       taken_q <= state_d == OPEN && !accept_o && (taken_q || take_i);
       length_q <= asks ? length_i : length_b;
       if (asks) begin

@@ -75,9 +75,15 @@ module msac2_channel (
   assign watch_late = watch_i_q ? `FAULT(79) : `FAULT(78);
   assign user_late = `FAULT(80);
   msac2_timer u_watch (
+`ifdef SINGLE_FAULTS
+    `FAULT_CONNECT
+`endif
     .clk_i(clk_i), .rst_ni(rst_ni), .start_i(watch_start), .stop_i(watch_stop), .units_i(watch_units), .late_i(watch_late),
     .end_o(watch_end));
   msac2_timer u_user (
+`ifdef SINGLE_FAULTS
+    `FAULT_CONNECT
+`endif
     .clk_i(clk_i), .rst_ni(rst_ni), .start_i(turn_i), .stop_i(user_stop), .units_i(timeout_q), .late_i(user_late),
     .end_o(user_end));
 
@@ -135,6 +141,9 @@ module msac2_channel (
         ANSWERED: if (poll_i) begin
           state_d = OPEN;
           starts = 1'b1;
+`ifdef SINGLE_FAULTS
+          if (`FAULT(172)) starts = aborts;
+`endif
         end
         default: state_d = FREE;
       endcase
@@ -143,7 +152,11 @@ module msac2_channel (
   end
   assign watch_stop = state_d == FREE;
   assign watch_start = starts && !watch_stop;
-  assign user_stop = state_d != BUSY;
+  assign user_stop =
+`ifdef SINGLE_FAULTS
+      `FAULT(196) ? state_d == FREE || state_d == ABORTED :
+`endif
+      state_d != BUSY;
 
   // ---- the answer
   logic wrong_address;  // of Initiate

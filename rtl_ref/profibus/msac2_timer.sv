@@ -5,6 +5,9 @@
 `include "profibus_types.svh"
 
 module msac2_timer (
+`ifdef SINGLE_FAULTS
+  `FAULT_PORT
+`endif
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        start_i,  // at this edge, also when it runs
@@ -31,6 +34,9 @@ module msac2_timer (
       if (load_q) begin
         base_q <= late_i ? UNIT_LAST : UNIT_LAST - 19'd1;
         units_q <= units_i - 16'd1;
+`ifdef SINGLE_FAULTS
+        if (`FAULT(173)) units_q <= {8'h00, units_i[7:0] - 8'd1};
+`endif
       end else if (base_q == 19'd0) begin
         base_q <= UNIT_LAST;
         units_q <= units_q - 16'd1;

@@ -43,7 +43,11 @@ module msac_buffers (
 );
   // ---- banks of requests
   logic [1:0] c1_q, c30_q, c2f_q, spare_q, transfer_q, transfer_bank;
-  assign transfer_bank = take_c1_i ? c1_q : take_c2_i ? (owner_2f_i ? c2f_q : c30_q) : transfer_q;
+  assign transfer_bank =
+`ifdef SINGLE_FAULTS
+      `FAULT(197) && take_c2_i ? c30_q :
+`endif
+      take_c1_i ? c1_q : take_c2_i ? (owner_2f_i ? c2f_q : c30_q) : transfer_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -142,6 +142,12 @@ module sap_buffers (
       in2_d = in1_b;
       in2_zero_d = in1_zero_b;
     end
+`ifdef SINGLE_FAULTS
+    if (`FAULT(193) && leave_i && hold_inputs_i) begin
+      in2_d = in2_b;
+      in2_zero_d = in2_zero_b;
+    end
+`endif
     if (accept_cfg) begin
       in_use_d = receive_q;
       input_length_d = cfg_input_length_i;

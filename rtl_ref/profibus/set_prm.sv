@@ -55,7 +55,11 @@ module set_prm #(
   assign ident_wrong = ident_counts && {head_i[39:32], head_i[47:40]} != initial_i.ident && !`FAULT(19);
   assign unsupported = (status[5] && !initial_i.sync && !`FAULT(20)) || (status[4] && !initial_i.freeze) ||
                        (fail_safe && !initial_i.fail_safe) || (dpv1 && !dpv1_on_i);
-  assign rest_wrong = (dpv1 && length_i < 8'd10) ||
+  assign rest_wrong =
+`ifdef SINGLE_FAULTS
+      (`FAULT(188) && dpv1 && length_i == 8'd10) ||
+`endif
+      (dpv1 && length_i < 8'd10) ||
                       (status[3] && (wd_factor_1 == 8'd0 || wd_factor_2 == 8'd0) && !`FAULT(21)) || user_length_wrong;
 
   // The bytes stand still long before the decision: all checks are taken through registers

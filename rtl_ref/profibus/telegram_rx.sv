@@ -74,7 +74,11 @@ module telegram_rx (
   logic is_dsap, is_ssap, is_service_data, last_data;
   assign sap_count = {6'd0, {1'b0, da_q[7]} + {1'b0, sa_q[7]}};
   assign is_dsap = da_q[7] && data_count_q == 8'd0;
-  assign is_ssap = sa_q[7] && data_count_q == {7'd0, da_q[7]};
+  assign is_ssap =
+`ifdef SINGLE_FAULTS
+      !(`FAULT(183) && !da_q[7]) &&
+`endif
+      sa_q[7] && data_count_q == {7'd0, da_q[7]};
   assign is_service_data = next && ok_i && !gap_i && state_q == RECEIVING && field_q == DATA && !is_dsap && !is_ssap;
   assign last_data = data_count_q + 8'd1 == data_length_q;
   assign data_valid_o = is_service_data;
@@ -169,6 +173,9 @@ module telegram_rx (
           end
           default: state_q <= fcs_ok_q && !end_wrong ? COMPLETE : NONE;
         endcase
+`ifdef SINGLE_FAULTS
+        if (`FAULT(182) && field_q == LER && le_q == 8'd249) state_q <= NONE;
+`endif
       end
     end else if (due_i && !busy_i) begin
       state_q <= NONE;  // decided, or a gap

@@ -64,12 +64,19 @@ module uart_rx (
     else if (complete) state_d = rxd_i ? IDLE : BREAK;
     else if (run_i && state_q == BREAK && rxd_i) state_d = IDLE;
     if (restart_rate_i || restart_rts_i) state_d = rxd_i ? IDLE : BREAK;
+`ifdef SINGLE_FAULTS
+    if (`FAULT(180) && complete && !restart_rate_i) state_d = IDLE;
+    if (`FAULT(181) && restart_rts_i && !restart_rate_i) state_d = IDLE;
+`endif
   end
 
   always_comb begin
     timer_d = timer_q - 13'd1;
     if (starts) timer_d = half - (`FAULT(4) ? 13'd0 : 13'd1);
     else if (samples) timer_d = bit_len - 13'd1;
+`ifdef SINGLE_FAULTS
+    if (`FAULT(179) && starts && rate_i == 4'd7) timer_d = half - 13'd2;
+`endif
   end
 
   assign busy_o = starts || (run_i && state_q == RECEIVING && !glitch);

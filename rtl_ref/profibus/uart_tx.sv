@@ -47,7 +47,11 @@ module uart_tx (
   assign no_trail = rts_trail_i == 6'd0;
 
   assign phase_last = bit_cycles(rate_q) - 13'd1;
-  assign tsdr_limit = max_tsdr(rate_q);
+  assign tsdr_limit =
+`ifdef SINGLE_FAULTS
+      (`FAULT(177) && rate_q == 4'd4 ? 8'd1 : 8'd0) +
+`endif
+      max_tsdr(rate_q);
   assign tsdr_now = !fresh_q ? tsdr_q : min_tsdr_i > tsdr_limit && !`FAULT(43) ? tsdr_limit : min_tsdr_i;
 
   logic time_comes, rises, character_starts, bit_ends, all_sent, parity;
@@ -80,6 +84,9 @@ module uart_tx (
       risen_q <= 1'b0;
       txd_q <= 1'b1;
       rts_q <= 1'b0;
+`ifdef SINGLE_FAULTS
+      if (`FAULT(200)) txd_q <= txd_q;
+`endif
     end else begin
       fresh_q <= send_i;
       risen_q <= rises;

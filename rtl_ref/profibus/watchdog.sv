@@ -88,6 +88,9 @@ module watchdog (
       load_dp = 1'b0;
       load_baud = 1'b0;
     end
+`ifdef SINGLE_FAULTS
+    if (`FAULT(198) && trigger_i && dp_state && state_d == WD_DP_CONTROL) load_dp = 1'b1;
+`endif
   end
 
   always_comb begin
@@ -107,6 +110,9 @@ module watchdog (
       inner_d = inner_q == 8'd0 ? inner_start_q : inner_q - 8'd1;
       if (inner_q == 8'd0) outer_d = outer_q - 8'd1;
     end
+`ifdef SINGLE_FAULTS
+    if (`FAULT(178) && load_dp_q && factor_2_i > 8'd1) outer_d = factor_2_i;
+`endif
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
