@@ -34,8 +34,8 @@ TEST_P(DirectedRsuStimulus, DoesNotDifferAndReachesWhatItIsFor) {
 
 TEST(RepetitionStimulus, DoesNotDifferInEitherFormOfFcbRule) {
   const std::string replay = " --replay tests/cosim/stimuli/dsdpv1/";
-  plays({"repetition", {"REPETITION 4", "FCB_NOT_TOGGLED 17"}}, "--set chip.fcb_rule=letter" + replay);
-  plays({"repetition", {"REPETITION 5"}}, "--set chip.fcb_rule=content" + replay);
+  plays({"repetition", {"REPETITION 13", "FCB_NOT_TOGGLED 17"}}, "--set chip.fcb_rule=letter" + replay);
+  plays({"repetition", {"REPETITION 14"}}, "--set chip.fcb_rule=content" + replay);
 }
 
 void PrintTo(const Directed& each, std::ostream* out) { *out << each.name; }
@@ -58,8 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
         Directed{"max_tsdr", {"BAUD_FOUND 6", "FDL status 17", "PRM_MIN_TSDR 6"}},
         Directed{"max_tsdr_45k45", {"BAUD_FOUND 4", "FDL status 8", "WD_ON 2"}},
         Directed{"max_tsdr_19k2", {"BAUD_FOUND 2", "FDL status 4", "WD_ON 1"}},
-        Directed{"max_tsdr_9k6", {"BAUD_FOUND 2", "FDL status 3", "WD_ON 1"}},
-        Directed{"search_window", {"INITIALISED 2", "BAUD_FOUND 1"}},
+        Directed{"max_tsdr_9k6", {"BAUD_FOUND 2", "FDL status 3", "WD_ON 1"}}, Directed{"interrupt", {"PRM_OK 12"}},
+        Directed{"search_window", {"INITIALISED 4", "BAUD_FOUND 2"}},
         Directed{"c2_timer_restart", {"C2_INITIATE 2", "C2_CONNECTED 2", "C2_ANSWER 1"}},
         Directed{"offline_count", {"PRM_OK 257", "CFG_OK 257"}},
         Directed{"initialise_while_sending", {"INITIALISED 2", "BAUD_FOUND 2"}},
