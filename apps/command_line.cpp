@@ -28,12 +28,13 @@ struct Entry {
 };
 
 /// In the order of --help.
-constexpr Entry kCommands[] = {
-    {kRun, make_demo},     {kRun, make_run},        {kRun, make_serve},      {kRun, make_sweep},
-    {kRun, make_regress},  {kRun, make_accept},     {kLook, make_decode},    {kLook, make_compare},
-    {kLook, make_replay},  {kLook, make_calibrate}, {kLook, make_recover},   {kLook, make_gsd},
-    {kLook, make_reasons}, {kRtl, make_cosim},      {kRtl, make_rtl_random}, {kRtl, make_rtl_faults},
-    {kRtl, make_verify_rtl}, {kRtl, make_traces},   {kBeside, make_schema},  {kBeside, make_manual},  {kBeside, make_completion}};
+constexpr Entry kCommands[] = {{kRun, make_demo},       {kRun, make_run},        {kRun, make_serve},
+                               {kRun, make_sweep},      {kRun, make_regress},    {kRun, make_accept},
+                               {kLook, make_decode},    {kLook, make_compare},   {kLook, make_replay},
+                               {kLook, make_calibrate}, {kLook, make_recover},   {kLook, make_gsd},
+                               {kLook, make_reasons},   {kRtl, make_cosim},      {kRtl, make_rtl_random},
+                               {kRtl, make_rtl_faults}, {kRtl, make_verify_rtl}, {kRtl, make_traces},
+                               {kBeside, make_schema},  {kBeside, make_manual},  {kBeside, make_completion}};
 
 using Commands = std::vector<std::unique_ptr<Command>>;
 

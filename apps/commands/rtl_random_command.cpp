@@ -354,9 +354,10 @@ class RtlRandom : public Command {
     app.add_option("--state", given_.state, "Folder that keeps a campaign's progress")
         ->capture_default_str()
         ->needs(campaign_);
-    app.add_option("--set", given_.set,
-                   "chip.KEY=VALUE, once for each: a parameter of the model, as in a scenario (default: short times; those "
-                   "of scenarios for RTL whose map does not take them)")
+    app.add_option(
+           "--set", given_.set,
+           "chip.KEY=VALUE, once for each: a parameter of the model, as in a scenario (default: short times; those "
+           "of scenarios for RTL whose map does not take them)")
         ->allow_extra_args(false);
   }
 

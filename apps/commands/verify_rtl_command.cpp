@@ -64,8 +64,9 @@ class VerifyRtl : public Command {
     for (const std::string& word : only_)
       check_word("dsdpv1-sim verify-rtl: --only", word, {"scenarios", "goldens", "stimuli", "random"});
     std::vector<Run>& runs = description.plan.runs;
-    if (wants("scenarios")) add_scenarios(runs);
-    if (wants("goldens") && !has_tolerance(own_map(own_, chip_.kind()))) add_goldens(runs);
+    const std::vector<std::string> of_program = shipped();
+    if (wants("scenarios")) add_scenarios(of_program, runs);
+    if (wants("goldens") && !has_tolerance(own_map(own_, chip_.kind()))) add_goldens(of_program, runs);
     if (wants("stimuli")) add_stimuli(runs);
     if (wants("random")) add_random(runs);
     return run_regression(std::move(description), regression_);
@@ -93,13 +94,13 @@ class VerifyRtl : public Command {
     return files;
   }
 
-  void add_scenarios(std::vector<Run>& runs) const {
-    const std::vector<std::string> files = scenarios_.empty() ? shipped() : tb::regress::all_files(scenarios_);
+  void add_scenarios(const std::vector<std::string>& of_program, std::vector<Run>& runs) const {
+    const std::vector<std::string> files = scenarios_.empty() ? of_program : tb::regress::all_files(scenarios_);
     for (const std::string& file : files) runs.push_back({file, "cosim", "pins", "", {}});
   }
 
-  void add_goldens(std::vector<Run>& runs) const {
-    for (const std::string& file : shipped())
+  static void add_goldens(const std::vector<std::string>& of_program, std::vector<Run>& runs) {
+    for (const std::string& file : of_program)
       if (fs::exists(fs::path(data_folder()) / "traces" / (fs::path(file).stem().string() + ".json")))
         runs.push_back({file, "golden", "pins", "", {}});
   }

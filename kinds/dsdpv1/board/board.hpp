@@ -239,9 +239,9 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   MemoryBus memory_bus_;
   bool bus_changed_ = true;  ///< since memory_bus_ was looked at
   std::vector<Wire> wires_;
-  std::uint64_t touched_at_ = 0;            ///< the cycle of the last access or wake-up
-  Tick quiet_ = 0;     ///< before it no other agent acts, as long as the firmware touches nothing outside of RAM
-  bool polls_ = false;                      ///< that was a read of a register that stays
+  std::uint64_t touched_at_ = 0;  ///< the cycle of the last access or wake-up
+  Tick quiet_ = 0;      ///< before it no other agent acts, as long as the firmware touches nothing outside of RAM
+  bool polls_ = false;  ///< that was a read of a register that stays
   std::uint64_t look_at_ = 0;               ///< the cycle at which it is looked whether the firmware is stuck
   bool in_service_ = false;                 ///< the chip has been accessed
   bool slow_flash_ = false, fast_ = false;  ///< the clocks are wrong, and that has been told

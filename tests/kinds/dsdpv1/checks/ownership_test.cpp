@@ -184,7 +184,8 @@ TEST(LookInWindow, LookThatFoundTheChipAtWorkIsNone) {
     board.set(Pin::kRSta, 1);
     EXPECT_EQ(violations(board, Check::kLookInWindow), looks_again ? 0U : 1U);
     if (!looks_again)
-      EXPECT_EQ(board.violations.at(0).text, "0.000 ns of at least 62.500 ns, no look at L_REQ and L_STA since they fell");
+      EXPECT_EQ(board.violations.at(0).text,
+                "0.000 ns of at least 62.500 ns, no look at L_REQ and L_STA since they fell");
   }
 }
 
