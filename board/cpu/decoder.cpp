@@ -64,6 +64,7 @@ Operation alu_of(Alu what, Second second, bool flags, U8 rd) {
     case Second::kImmediate: return alu_of<Second::kImmediate>(what, flags, to_sp);
     case Second::kRegister: return alu_of<Second::kRegister>(what, flags, to_sp);
     case Second::kLeft: return alu_of<Second::kLeft>(what, flags, to_sp);
+    case Second::kRight: return alu_of<Second::kRight>(what, flags, to_sp);
     case Second::kShifted: return alu_of<Second::kShifted>(what, flags, to_sp);
   }
   return nullptr;
@@ -144,6 +145,12 @@ Operation branch_if_of(unsigned condition, std::integer_sequence<unsigned, condi
 Operation branch_if_of(unsigned condition) {
   return branch_if_of(condition, std::make_integer_sequence<unsigned, 14>());
 }
+template <unsigned... conditions>
+Operation it_of(unsigned condition, std::integer_sequence<unsigned, conditions...> /*all*/) {
+  static constexpr Operation kAll[] = {&O::it<conditions>...};
+  return kAll[condition];
+}
+Operation it_of(unsigned condition) { return it_of(condition, std::make_integer_sequence<unsigned, 16>()); }
 
 // --- instructions
 
@@ -232,11 +239,13 @@ Instruction many(bool loads, bool up, bool writes_back, U8 rn, U32 list) {
 Instruction branch_to(Operation run, U32 target) {
   Instruction made = always(run);
   made.value = target;
+  made.kind = Kind::kBranch;
   return made;
 }
 
 Instruction if_then(U32 state) {
-  Instruction made = branch_to(&O::it, state);
+  Instruction made = always(it_of(bits(state, 4, 4)));
+  made.value = state;
   made.kind = Kind::kIt;
   return made;
 }
@@ -261,6 +270,12 @@ void set_shift(Instruction& of, U32 type, U32 amount) {
   if (amount == 0 && type == kRor) of.shift = kRrx;
 }
 
+Second second_of(const Instruction& shifted) {
+  if (shifted.amount < 32 && shifted.shift == kLsr) return Second::kRight;
+  if (shifted.shift != kLsl) return Second::kShifted;
+  return shifted.amount == 0 ? Second::kRegister : Second::kLeft;
+}
+
 Instruction shift_add_subtract(U32 h) {
   const U8 rd = low(h, 0), rm = low(h, 3);
   if (bits(h, 11, 2) == 3) {
@@ -268,10 +283,10 @@ Instruction shift_add_subtract(U32 h) {
     if (bit(h, 10)) return alu16(what, Second::kImmediate, rd, rm, 0, bits(h, 6, 3));
     return alu16(what, Second::kRegister, rd, rm, low(h, 6), 0);
   }
-  const U32 type = bits(h, 11, 2), amount = bits(h, 6, 5);
-  if (type == kLsl && amount == 0) return alu16(Alu::kMov, Second::kRegister, rd, 0, rm, 0);
-  Instruction made = alu16(Alu::kMov, Second::kShifted, rd, 0, rm, 0);
-  set_shift(made, type, amount);
+  Instruction shifted;
+  set_shift(shifted, bits(h, 11, 2), bits(h, 6, 5));
+  Instruction made = alu16(Alu::kMov, second_of(shifted), rd, 0, rm, 0);
+  made.shift = shifted.shift, made.amount = shifted.amount;
   return made;
 }
 
@@ -456,8 +471,7 @@ Instruction alu32(U32 h, U32 h2, bool is_immediate) {
     made.shift = rotated ? 1 : 0;
   } else {
     set_shift(made, bits(h2, 4, 2), bits(h2, 12, 3) << 2 | bits(h2, 6, 2));
-    const bool left = made.shift == kLsl, plain = left && made.amount == 0;
-    second = plain ? Second::kRegister : left && !(flags && is_logical(what)) ? Second::kLeft : Second::kShifted;
+    second = second_of(made);
   }
   made.run = made.run_in_it = alu_of(what, second, flags, rd);
   return made;

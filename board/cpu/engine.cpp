@@ -15,6 +15,9 @@ constexpr std::uint32_t kNegative = 1U << 31, kZero = 1U << 30, kCarry = 1U << 2
 constexpr std::uint32_t kCycle = 1000;
 constexpr std::uint32_t kItLow = 25, kItHigh = 10;  // where its bits 1..0 and 7..2 stand in EPSR
 constexpr Instruction kNotDecoded = {&Operations::not_decoded, &Operations::not_decoded_in_it};
+constexpr Instruction kNextPage = {&Operations::next_page, &Operations::next_page};
+constexpr Instruction kNoMemory = {&Operations::no_memory, &Operations::no_memory};
+constexpr std::size_t kLongestBlock = 4;  // where no memory is, its instructions whose condition fails are passed
 
 /// It is decoded again; if it is at work, it still ends as it began.
 void forget(Instruction& instruction) {
@@ -32,8 +35,9 @@ std::uint8_t following(std::uint8_t state) {
 }  // namespace
 
 Engine::Engine(EngineEvents& events, std::uint32_t cost)
-    : events_(events), cost_(cost), cycle_(cost == 0 ? kCycle : 0), nowhere_(std::make_unique<CodePage>()) {
-  nowhere_->instructions.fill({&Operations::no_memory, &Operations::no_memory});
+    : events_(events), cost_(cost), cycle_(cost == 0 ? kCycle : 0) {
+  nowhere_.instructions = std::make_unique<Instruction[]>(kLongestBlock);
+  std::fill_n(nowhere_.instructions.get(), kLongestBlock, kNoMemory);
   leave_memory(0);
 }
 
@@ -49,11 +53,11 @@ Trap Engine::run() {
   running_ = true;
   trap_ = thumb_ ? Trap::kNone : Trap::kInvalidState;
   while (trap_ == Trap::kNone && before_next()) {
+    until_ = attend_at_;
     if (it_ != 0) {
-      step_in_block();
+      run_block(true);
       continue;
     }
-    until_ = attend_at_;
     do at_->run(*this, *at_);
     while (now_ < until_);
   }
@@ -71,7 +75,7 @@ bool Engine::before_next() {
 }
 
 /// The instruction in an IT block whose condition fails.
-void Engine::skip() {
+inline void Engine::skip() {
   if (at_->run == kNotDecoded.run) decode_here();
   executed_ = now_ += cost_ != 0 ? cost_ : kCycle;
   ++instructions_;
@@ -79,47 +83,52 @@ void Engine::skip() {
   it_ = following(it_);
 }
 
-void Engine::step_in_block() {
+/// The part of an IT block that needs no call of before_instruction(). `passes`: the first condition.
+void Engine::run_block(bool passes) {
+  for (;; passes = this->passes(it_ >> 4U)) {
+    if (passes)
+      execute_in_block();
+    else
+      skip();
+    if (it_ == 0) return;
+    if (!goes_on()) return leave_block();
+  }
+}
+
+inline void Engine::execute_in_block() {
   const std::uint8_t state = it_;
   at_->run_in_it(*this, *at_);
   if (trap_ <= Trap::kInvalidState) it_ = following(state);
 }
 
-/// The part of an IT block that needs no call of before_instruction().
-void Engine::run_block() {
-  while (it_ != 0 && trap_ == Trap::kNone && now_ < attend_at_ && !at_end_of_page())
-    passes(it_ >> 4U) ? step_in_block() : skip();
-  if (it_ != 0) until_ = 0;
-}
-
 void Engine::turn_page(std::uint32_t target) {
   if (code_ == nullptr || target - code_->start >= code_->size) code_ = memory_at(target);
   if (code_ != nullptr) {
-    std::unique_ptr<CodePage>& page = code_->pages[(target - code_->start) / kPageBytes];
-    if (!page) make_page(*code_, page, target);
-    page_ = page.get();
-    at_ = &page_->instructions[(target - page_->start) / 2];
+    const std::uint32_t offset = target - code_->start;
+    CodePage& page = code_->pages[offset / kPageBytes];
+    if (!page.instructions) make_page(*code_, page, offset & ~(kPageBytes - 1));
+    page_ = &page;
+    at_ = &page.instructions[offset % kPageBytes / 2];
     line_wait_ = page_->in_flash ? flash_wait_ : 0;
-    line_ready_ = now_ + line_wait_ + cycle_;
   } else {
     leave_memory(target);
   }
 }
 
 void Engine::leave_memory(std::uint32_t pc) {
-  nowhere_->start = pc;
-  page_ = nowhere_.get();
-  at_ = page_->instructions.data();
+  nowhere_.start = pc;
+  page_ = &nowhere_;
+  at_ = page_->instructions.get();
   line_wait_ = 0;
 }
 
-void Engine::make_page(Memory& memory, std::unique_ptr<CodePage>& page, std::uint32_t address) {
-  page.reset(new CodePage);  // not set to 0: all of it follows
-  page->start = address & ~(kPageBytes - 1);
-  page->in_flash = !memory.writable;
-  page->instructions.fill(kNotDecoded);
-  for (std::size_t behind = kPageBytes / 2; behind < page->instructions.size(); ++behind)
-    page->instructions[behind] = {&Operations::next_page, &Operations::next_page};
+void Engine::make_page(const Memory& memory, CodePage& page, std::uint32_t offset) {
+  page.start = memory.start + offset;
+  page.bytes = std::min(kPageBytes, memory.size - offset);
+  page.in_flash = !memory.writable;
+  page.instructions.reset(new Instruction[page.bytes / 2 + 2]);
+  std::fill_n(page.instructions.get(), page.bytes / 2, kNotDecoded);
+  std::fill_n(&page.instructions[page.bytes / 2], 2, kNextPage);
   if (memory.writable) {
     ram_has_code_ = true;
     set_direct();
@@ -127,21 +136,19 @@ void Engine::make_page(Memory& memory, std::unique_ptr<CodePage>& page, std::uin
 }
 
 /// The target is not known yet, or stands in two of the words that the processor fetches.
-void Engine::enter_split(Refill refill) {
+void Engine::enter_split(Reach reach, Refill refill) {
   if (at_->run == kNotDecoded.run) decode_here();
-  if (at_->entry == Entry::kSplit && refill < kLoaded) spend(1);
+  if (at_->entry >= Entry::kSplit && refill < kLoaded) spend(1);
+  fetch_target(reach);
+  if (at_->entry == Entry::kSplitLine) next_line();
 }
 
-/// `last`: where the branch ends. Its own line is there, the next one is under way, any other has to be asked for.
-void Engine::fetch_target(std::uint32_t last) {
-  const std::uint32_t here = pc(), lines = (here >> line_bits_) - (last >> line_bits_);
-  if (lines == 1) {
-    next_line();
-  } else if (lines != 0) {
-    now_ += line_wait_;
-    line_ready_ = now_ + line_wait_ + cycle_;
-  }
-  if (at_->entry == Entry::kSplit && ((here + 2) >> line_bits_) != here >> line_bits_) next_line();
+/// A branch's own line is there, the next one is under way, any other has to be asked for.
+void Engine::fetch_target(Reach reach) {
+  if (reach == kSameLine) return;
+  if (reach == kNextLine) return next_line();
+  now_ += line_wait_;
+  line_ready_ = now_ + line_wait_ + cycle_;
 }
 
 /// The next line is needed. With prefetch its fetch began when this one was there.
@@ -193,11 +200,21 @@ void Engine::decode_here() {
   Instruction made = decode_at(here);
   const std::uint32_t behind = here + 2U * made.halfwords;
   const Instruction next = decode_at(behind);
-  made.entry = made.halfwords == 2 && here % 4 != 0 ? Entry::kSplit : Entry::kPlain;
+  const bool splits = made.halfwords == 2 && here % 4 != 0;
+  made.entry = !splits ? Entry::kPlain : reach(here, here + 2) == kSameLine ? Entry::kSplit : Entry::kSplitLine;
   made.cost = static_cast<std::uint16_t>(cost_ != 0 ? cost_ : kCycle * cycles_before(made, next));
   const std::uint32_t last = behind + 2U * (next.halfwords - 1U);  // halfword that has to be there
-  made.ends_line = line_wait_ != 0 && (behind - 2) >> line_bits_ != last >> line_bits_;
-  *at_ = made;
+  made.ends_line = reach(behind - 2, last) != kSameLine;
+  if (made.kind == Kind::kBranch) aim(made, here);
+  page_->instructions[(here - page_->start) / 2] = made;
+}
+
+void Engine::aim(Instruction& branch, std::uint32_t here) const {
+  const std::uint32_t target = branch.value;
+  branch.shift = kFar;
+  if (target - page_->start >= page_->bytes) return;
+  branch.shift = reach(here + 2 * (branch.halfwords - 1U), target);
+  branch.value = static_cast<std::uint32_t>(static_cast<std::int32_t>(target - here) / 2);
 }
 
 // --- memory
@@ -205,7 +222,7 @@ void Engine::decode_here() {
 // NOLINTNEXTLINE(readability-non-const-parameter): stores go there
 void Engine::map(std::uint32_t address, std::uint32_t size, std::uint8_t* memory, bool writable) {
   memories_.push_back({address, size, memory, writable, {}});
-  memories_.back().pages.resize(size / kPageBytes);
+  memories_.back().pages.resize((size + kPageBytes - 1) / kPageBytes);
   code_ = nullptr;
   set_direct();
 }
@@ -234,16 +251,16 @@ void Engine::report_data(bool on) {
 
 void Engine::forget_code() {
   for (Memory& memory : memories_)
-    for (std::unique_ptr<CodePage>& page : memory.pages)
-      if (page) std::for_each_n(page->instructions.begin(), kPageBytes / 2, forget);
+    for (const CodePage& page : memory.pages)
+      if (page.instructions) std::for_each_n(page.instructions.get(), page.bytes / 2, forget);
 }
 
 /// The instructions that have one of these bytes.
-void Engine::forget_code(Memory& memory, std::uint32_t address, unsigned bytes) {
+void Engine::forget_code(const Memory& memory, std::uint32_t address, unsigned bytes) {
   const std::uint32_t first = (address - memory.start) / 2, end = (address - memory.start + bytes + 1) / 2;
   for (std::uint32_t halfword = first == 0 ? 0 : first - 1; halfword < end; ++halfword) {
-    const std::unique_ptr<CodePage>& page = memory.pages[halfword / (kPageBytes / 2)];
-    if (page) forget(page->instructions[halfword % (kPageBytes / 2)]);
+    const CodePage& page = memory.pages[halfword / (kPageBytes / 2)];
+    if (page.instructions) forget(page.instructions[halfword % (kPageBytes / 2)]);
   }
 }
 
@@ -380,7 +397,10 @@ std::uint32_t Engine::read(Register which) const {
 void Engine::write(Register which, std::uint32_t value) {
   switch (which) {
     case Register::kSp: r_[13] = value & ~3U; break;
-    case Register::kPc: turn_page(value & ~1U); break;
+    case Register::kPc:
+      turn_page(value & ~1U);
+      line_ready_ = now_ + line_wait_ + cycle_;
+      break;
     case Register::kXpsr:
       bank_out();
       set_xpsr(value);

@@ -141,22 +141,22 @@ class Engine {
  private:
   friend struct Operations;
 
-  static constexpr std::uint32_t kPageBytes = 4096;
+  static constexpr std::uint32_t kPageBytes = 64 * 1024;
   static constexpr unsigned kLineBits = 3, kWordBits = 2;  ///< flash gives 8 bytes at once with prefetch, 4 without
   static constexpr std::uint32_t kNotPrivileged = 1, kSpSel = 2;
 
   /// Instructions of a page of memory by their halfwords, and two after it, since a long one may begin in its last
-  /// halfword.
+  /// halfword. None: not executed yet.
   struct CodePage {
-    std::uint32_t start = 0;
+    std::uint32_t start = 0, bytes = 0;
     bool in_flash = false;
-    std::array<Instruction, kPageBytes / 2 + 2> instructions;
+    std::unique_ptr<Instruction[]> instructions;  // NOLINT(modernize-avoid-c-arrays)
   };
   struct Memory {
     std::uint32_t start, size;
     std::uint8_t* bytes;
     bool writable;
-    std::vector<std::unique_ptr<CodePage>> pages;
+    std::vector<CodePage> pages;
   };
   struct Window {
     std::uint32_t start, size;
@@ -169,20 +169,22 @@ class Engine {
 
   // --- what comes next
   bool before_next();
-  void step_in_block();
-  void run_block();
+  void run_block(bool passes);
+  void leave_block() { until_ = 0; }
+  void execute_in_block();
   void skip();
-  bool at_end_of_page() const { return at_ - page_->instructions.data() >= kPageBytes / 2; }
+  bool at_end_of_page() const;
+  bool goes_on() const { return now_ < until_ && !at_end_of_page(); }
   void pay(const Instruction& of) {
     executed_ = now_ += of.cost;
     ++instructions_;
   }
   void pass(const Instruction& what) {
-    at_ += what.halfwords;
+    at_ = &what + what.halfwords;
     if (what.ends_line) next_line();
   }
   /// The instruction at work was executed.
-  void done(const Instruction& what) {
+  [[gnu::always_inline]] void done(const Instruction& what) {
     pay(what);
     pass(what);
   }
@@ -197,21 +199,35 @@ class Engine {
   /// The next instruction is at an even `target`.
   void go(std::uint32_t target, Refill refill) {
     const std::uint32_t last = pc() + 2 * (at_->halfwords - 1U), offset = target - page_->start;
-    if (offset < kPageBytes)
+    if (offset < page_->bytes)
       at_ = &page_->instructions[offset / 2];
     else
       turn_page(target);
-    spend(refill);
-    if (at_->entry != Entry::kPlain) enter_split(refill);
-    if (line_wait_ != 0) fetch_target(last);
+    arrive(reach(last, target), refill);
   }
-  void enter_split(Refill refill);
-  void fetch_target(std::uint32_t last);
+  /// It is the target of `branch`.
+  [[gnu::always_inline]] void follow(const Instruction& branch, Refill refill) {
+    if (branch.shift == kFar) return go(branch.value, refill);
+    at_ = &branch + static_cast<std::int32_t>(branch.value);
+    arrive(static_cast<Reach>(branch.shift), refill);
+  }
+  [[gnu::always_inline]] void arrive(Reach reach, Refill refill) {
+    spend(refill);
+    if (at_->entry != Entry::kPlain) return enter_split(reach, refill);
+    if (reach != kSameLine) fetch_target(reach);
+  }
+  /// Of `target` for a branch whose last halfword is at `last`.
+  Reach reach(std::uint32_t last, std::uint32_t target) const {
+    const std::uint32_t lines = (target >> line_bits_) - (last >> line_bits_);
+    return line_wait_ == 0 ? kSameLine : lines < kOtherLine ? static_cast<Reach>(lines) : kOtherLine;
+  }
+  void enter_split(Reach reach, Refill refill);
+  void fetch_target(Reach reach);
   void next_line();
   void read_flash();
   void turn_page(std::uint32_t target);
   void leave_memory(std::uint32_t pc);
-  void make_page(Memory& memory, std::unique_ptr<CodePage>& page, std::uint32_t address);
+  void make_page(const Memory& memory, CodePage& page, std::uint32_t offset);
   /// BXWritePC (ARMv7-M, A2.3.1): a change of state, or the return from an exception.
   void exchange(std::uint32_t target, Refill refill);
   /// Ends run(), the instruction at work executed or not.
@@ -223,15 +239,22 @@ class Engine {
     pay(*at_);
     trap(why);
   }
-  std::uint32_t pc() const { return page_->start + static_cast<std::uint32_t>(at_ - page_->instructions.data()) * 2; }
+  std::uint32_t pc() const { return page_->start + static_cast<std::uint32_t>(at_ - page_->instructions.get()) * 2; }
   Instruction decode_at(std::uint32_t address);
   void decode_here();
+  /// Replaces the target of a branch at `here` by the way there, if that is in the page.
+  void aim(Instruction& branch, std::uint32_t here) const;
 
   // --- memory; false: a trap, the instruction is to be left as it is
   template <unsigned bytes>
-  bool load(std::uint32_t address, std::uint32_t& value);
+  [[gnu::always_inline]] bool load(std::uint32_t address, std::uint32_t& value);
   template <unsigned bytes>
-  bool store(std::uint32_t address, std::uint32_t value);
+  [[gnu::always_inline]] bool store(std::uint32_t address, std::uint32_t value);
+  /// `bytes` of memory that is reached at once; nullptr: not all of them are.
+  static std::uint8_t* all_of(const Direct& memory, std::uint32_t address, std::uint32_t bytes) {
+    const std::uint32_t offset = address - memory.start;
+    return offset < memory.limit && memory.limit - offset >= bytes ? memory.bytes + offset : nullptr;
+  }
   bool load_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t& value);
   bool store_elsewhere(std::uint32_t address, unsigned bytes, std::uint32_t value);
   bool load_part(std::uint32_t address, unsigned bytes, std::uint32_t& value);
@@ -250,7 +273,10 @@ class Engine {
   }
   Memory* memory_at(std::uint32_t address);
   bool is_window(std::uint32_t address) const;
-  void forget_code(Memory& memory, std::uint32_t address, unsigned bytes);
+  bool is_watched(std::uint32_t address, std::uint32_t bytes) const {
+    return address - watched_.start < watched_.size || watched_.start - address < bytes;
+  }
+  void forget_code(const Memory& memory, std::uint32_t address, unsigned bytes);
   void set_direct();
 
   // --- registers
@@ -273,8 +299,8 @@ class Engine {
   Direct loads_, stores_, constants_;  ///< RAM, RAM without code, flash
   bool reports_data_ = false, ram_has_code_ = false;
   bool looks_at_stores_ = false, has_stored_ = false;
-  std::unique_ptr<CodePage> nowhere_;  ///< where no memory is
-  Memory* code_ = nullptr;             ///< that instructions came from last
+  CodePage nowhere_;        ///< where no memory is
+  Memory* code_ = nullptr;  ///< that instructions came from last
   Window watched_ = {};
   // Thousandths of a cycle: what a read of flash waits, what the fetch of instructions does here; when the line is
   // there that follows.
@@ -282,8 +308,8 @@ class Engine {
   unsigned line_bits_ = kLineBits;  ///< of an address inside of what is fetched at once
   bool prefetches_ = true;
 
-  CodePage* page_ = nullptr;
-  Instruction* at_ = nullptr;  ///< at work, or next
+  const CodePage* page_ = nullptr;
+  const Instruction* at_ = nullptr;  ///< at work, or next
   std::uint64_t now_ = 0, until_ = 0, attend_at_ = 0, instructions_ = 0;
   // The end of the last instruction, without the fetch of the next one; the last instruction that could be broken off,
   // whether it begins again, and whether that fetch is part of it; the end of the last access outside.

@@ -22,10 +22,14 @@ enum class Kind : std::uint8_t {
   kMany,          ///< several words from rn on
   kTable,         ///< a branch by what stands at rn + rm
   kIt,
+  kBranch,  ///< to `value`
 };
 
-/// A branch's target: kSplit fills the pipeline a cycle later.
-enum class Entry : std::uint8_t { kUnknown, kPlain, kSplit };
+/// A branch's target: kSplit fills the pipeline a cycle later, kSplitLine also needs the next line of flash.
+enum class Entry : std::uint8_t { kUnknown, kPlain, kSplit, kSplitLine };
+
+/// Where a branch leads, seen from its end: a line of flash, or beyond what is known when it is decoded.
+enum Reach : std::uint8_t { kSameLine, kNextLine, kOtherLine, kFar };
 
 /// Registers and numbers mean what the operation (operations.hpp) takes them for.
 struct Instruction {
@@ -34,7 +38,9 @@ struct Instruction {
 
   Operation run = nullptr;
   Operation run_in_it = nullptr;  ///< inside of an IT block, where most halfword instructions leave the flags alone
-  std::uint32_t value = 0;        ///< immediate, offset, list of registers; address of a branch's target or literal
+  /// Immediate, offset, list of registers; address of a literal or a branch's target. The engine keeps a branch's Reach
+  /// in `shift`, and unless that is kFar the way to its target in `value`, in halfwords.
+  std::uint32_t value = 0;
   std::uint8_t rd = 0, rn = 0, rm = 0, ra = 0;
   std::uint8_t shift = 0, amount = 0;
   std::uint8_t halfwords = 1;

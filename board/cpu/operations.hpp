@@ -64,9 +64,9 @@ constexpr bool has_result(Alu what) {
 
 enum Shift : std::uint8_t { kLsl, kLsr, kAsr, kRor, kRrx };
 
-/// The second operand: `value`, with `shift` 1 rotated, so that its bit 31 is C; rm; rm shifted left by `amount` where
-/// flags do not matter; rm shifted as `shift` and `amount` (1..32) say.
-enum class Second : std::uint8_t { kImmediate, kRegister, kLeft, kShifted };
+/// The second operand: `value`, with `shift` 1 rotated, so that its bit 31 is C; rm; rm shifted left or right by
+/// `amount` (1..31); rm shifted as `shift` and `amount` (1..32) say.
+enum class Second : std::uint8_t { kImmediate, kRegister, kLeft, kRight, kShifted };
 
 /// Where a load or store goes: rn + value, without, before or after writing it back; rn + (rm << amount); `value`.
 enum class Index : std::uint8_t { kOffset, kBefore, kAfter, kRegister, kAbsolute };
@@ -118,7 +118,11 @@ struct Operations {
     } else if constexpr (second == Second::kRegister) {
       return e.r_[i.rm];
     } else if constexpr (second == Second::kLeft) {
+      carry = e.r_[i.rm] >> (32 - i.amount) & 1;
       return e.r_[i.rm] << i.amount;
+    } else if constexpr (second == Second::kRight) {
+      carry = e.r_[i.rm] >> (i.amount - 1) & 1;
+      return e.r_[i.rm] >> i.amount;
     } else {
       return shifted(i.shift, e.r_[i.rm], i.amount, carry);
     }
@@ -384,16 +388,25 @@ struct Operations {
     U32 from = before ? base - i.amount : base;
     const U32 after = before ? from : base + i.amount;
     const U64 since = e.now_;
-    std::array<U32, 16> values{};
+    std::array<U32, 16> values;
     if (!e.aligned(from, 4)) return;
-    for (U32 left = i.value; left != 0; left &= left - 1, from += 4)
-      if (!e.load<4>(from, values[first_of(left)])) return;
+    const std::uint8_t* words = Engine::all_of(e.loads_, from, i.amount);
+    if (words == nullptr && (words = load_words(e, from, i.amount, values.data())) == nullptr) return;
     if (i.shift != 0) e.r_[i.rn] = after;
-    for (U32 left = i.value & 0x7FFF; left != 0; left &= left - 1) e.r_[first_of(left)] = values[first_of(left)];
+    for (U32 left = i.value & 0x7FFF; left != 0; left &= left - 1, words += 4)
+      std::memcpy(&e.r_[first_of(left)], words, 4);
     if ((i.value >> 15) == 0) return e.done(i, since, e.it_ != 0);
+    U32 target = 0;
+    std::memcpy(&target, words, 4);
     e.pay(i);
     e.breakable(since, e.it_ != 0, true);
-    e.exchange(values[15], kLoaded);
+    e.exchange(target, kLoaded);
+  }
+  /// As bytes; nullptr: a trap.
+  static const std::uint8_t* load_words(Engine& e, U32 from, U32 bytes, U32* to) {
+    for (U32 done = 0; done < bytes; done += 4)
+      if (!e.load<4>(from + done, to[done / 4])) return nullptr;
+    return reinterpret_cast<const std::uint8_t*>(to);
   }
   template <bool before>
   static void store_many(Engine& e, const Instruction& i) {
@@ -402,8 +415,12 @@ struct Operations {
     const U32 after = before ? to : base + i.amount;
     const U64 since = e.now_;
     if (!e.aligned(to, 4)) return;
-    for (U32 left = i.value; left != 0; left &= left - 1, to += 4)
-      if (!e.store<4>(to, e.r_[first_of(left)])) return;
+    if (std::uint8_t* place = e.is_watched(to, i.amount) ? nullptr : Engine::all_of(e.stores_, to, i.amount)) {
+      for (U32 left = i.value; left != 0; left &= left - 1, place += 4) std::memcpy(place, &e.r_[first_of(left)], 4);
+    } else {
+      for (U32 left = i.value; left != 0; left &= left - 1, to += 4)
+        if (!e.store<4>(to, e.r_[first_of(left)])) return;
+    }
     if (i.shift != 0) e.r_[i.rn] = after;
     e.done(i, since, e.it_ != 0);
   }
@@ -436,7 +453,7 @@ struct Operations {
   template <Refill refill = kDecoded>
   static void branch(Engine& e, const Instruction& i) {
     e.pay(i);
-    e.go(i.value, refill);
+    e.follow(i, refill);
   }
   template <unsigned condition>
   static void branch_if(Engine& e, const Instruction& i) {
@@ -493,10 +510,12 @@ struct Operations {
     e.pay(i);
     e.go(e.pc() + 4, kLoaded);
   }
+  /// The first condition stands in ITSTATE, too.
+  template <unsigned condition>
   static void it(Engine& e, const Instruction& i) {
     e.it_ = static_cast<std::uint8_t>(i.value);
     e.done(i);
-    e.run_block();
+    e.goes_on() ? e.run_block(e.passes(condition)) : e.leave_block();
   }
   template <Trap why>
   static void executed(Engine& e, const Instruction& i) {
@@ -548,5 +567,7 @@ struct Operations {
     e.trap(Trap::kBadFetch);
   }
 };
+
+inline bool Engine::at_end_of_page() const { return at_->run == &Operations::next_page; }
 
 }  // namespace dsdpv1::arm

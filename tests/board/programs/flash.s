@@ -60,6 +60,27 @@ function main
         nop
         .endr
         end
-        exit
+        b       2f
+        .ltorg
         .balign 4
 1:      .word   7
+2:
+        .macro  into_next count, bytes  @ from the end of a block of so many bytes into the next line, and back
+        begin
+        mov     r6, #\count
+        b.w     1f
+        .balign \bytes
+        .skip   \bytes - 8
+1:      nop
+        nop
+        nop
+        b       2f
+2:      subs    r6, #1
+        bne     1b
+        end
+        .endm
+        into_next 10, 64
+        into_next 20, 64
+        into_next 10, 0x10000
+        into_next 20, 0x10000
+        exit
