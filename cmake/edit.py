@@ -13,6 +13,8 @@ Which tests a file concerns:
                                  named by a word of the file's name
   a scenario                     its runs in step, skip and TLM
   the reference RTL              its lint
+  a file with planted faults or  whether their lists still fit; whether the tests find them: ./run faults, ./run mutants
+  mutants, or a list of them
   a document                     links, names, rulings, rooms and arrows
   a file on a ctest command line that test
 
@@ -112,6 +114,13 @@ def ruled(file):
             for test in ruling["tests"]}
 
 
+def planted(file):
+    """The tests whether the lists of faults and mutants still fit, if one alters the file or the file is one."""
+    lists = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "tests/planted").glob("*.yaml")}
+    return {"Mutants.FitTheSourcesAndTheRows" if name == "mutants" else "PlantedFaults.FitTheSources" for name, text in lists.items()
+            if file == f"tests/planted/{name}.yaml" or re.search(rf"\bfile: {re.escape(file)}[,\n]", text)}
+
+
 def patterns(name):
     """The --gtest_filter for a suite, or one of its tests, with parameters or without."""
     suite, _, test = name.partition(".")
@@ -128,7 +137,7 @@ class Concern:
 
     def add(self, file, named):
         """Whether the file concerns any test; `named`: tests of ctest by the files on their command lines."""
-        tests = named(file) | ({"Rtl.LintFindsNothing"} if file.startswith("rtl_ref/") else set())
+        tests = named(file) | planted(file) | ({"Rtl.LintFindsNothing"} if file.startswith("rtl_ref/") else set())
         self.ctest |= tests
         suites = self._suites_of(file)
         for source, filters in suites.items():

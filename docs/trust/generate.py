@@ -228,8 +228,20 @@ def random_holes(rows):
     return [[port, group, "; ".join(names), why or "-"] for (port, group, why), names in holes.items()]
 
 
+def random_changed():
+    """What the record does not have, because it is older, in words; and its situations that no longer are."""
+    rows = results("random_changed.tsv")
+    come = {}
+    for group, situation, what, why in rows:
+        if what == "come":
+            come.setdefault(why, []).append(group if situation == "*" else situation)
+    words = "".join(f"- {'; '.join(names)} ({why})\n" for why, names in come.items())
+    return words and f"\nThe record is older than these situations:\n\n{words}", {(group, situation) for group, situation, what, _ in rows if what == "gone"}
+
+
 def random_lockstep():
-    rows = results("random.tsv")
+    older, gone = random_changed()
+    rows = [row for row in results("random.tsv") if (row[1], row[2]) not in gone]
     compared = {(port, what): int(count) for port, group, what, count in rows if group == "compared"}
     rows = [row for row in rows if row[1] != "compared"]
     when = next(line[2:] for line in (HERE / "random.tsv").read_text(encoding="utf-8").splitlines() if line.startswith("# 2"))
@@ -244,7 +256,7 @@ def random_lockstep():
     for group in groups:
         cells = [[int(count) > 0 for of_port, of_group, _, count in rows if (of_port, of_group) == (port, group)] for port in ports]
         seen.append([group, *[f"{sum(cell)} of {len(cell)}" if cell else "-" for cell in cells]])
-    text += "\nSituations that were reached:\n\n" + table(["situations", *ports], seen)
+    text += "\nSituations that were reached:\n\n" + table(["situations", *ports], seen) + older
     return text + RANDOM_HOLES + table(["host port", "situations", "not reached", "why"], random_holes(rows))
 
 

@@ -144,8 +144,9 @@ void ExchangeWatch::master_state(Tick now, const std::string& master, const std:
   const bool in = state == bus::name(bus::SlaveState::kDataExchange);
   if (in) {
     entry->since = now;
-    // What was done after the slave's own step, of which the master knows only now, may still show.
-    if (entry->acted < entered_[index_of(entry->slave)]) entry->disturbed = entry->kept_away = false;
+    // What was done after the slave's own step, of which the master knows only now, may still show. Of a kind that does
+    // not tell its steps the master's is all there is.
+    if (entry->acted < entered_[index_of(entry->slave)].value_or(now)) entry->disturbed = entry->kept_away = false;
   } else if (entry->in && !entry->disturbed && !entry->kept_away && !entry->may_leave && entry->left++ == 0) {
     entry->first_left = now;
     entry->why = stations_.master(master).slave(*stations_.listed_address(member)).step_reason;

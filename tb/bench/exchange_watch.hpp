@@ -55,7 +55,7 @@ class ExchangeWatch : public Observer {
   std::vector<Entry> entries_;
   std::vector<Steps> steps_;                          ///< by slave
   std::vector<std::optional<profibus::Event>> ends_;  ///< by slave: the last event that ends data exchange
-  std::vector<Tick> entered_;                         ///< by slave: when it has entered data exchange
+  std::vector<std::optional<Tick>> entered_;          ///< by slave: when it has entered data exchange; absent: not told
 };
 
 }  // namespace dsdpv1::tb

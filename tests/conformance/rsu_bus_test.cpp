@@ -214,6 +214,29 @@ TEST_F(RsuUartOnBus, BitZeroOfTheFunctionIsDataExchange) {
   EXPECT_EQ(part_of(talk(exchange_telegram(2, 0x227, {0, 0})), 0, 4), (Bytes{0x01, 0x00, 0x03, 0x19}));
 }
 
+// UA9 and D9: an exchange hands over each type of diagnosis; 00 ends Ext_Diag and leaves Stat_Diag, without a word to
+// the master.
+TEST_F(RsuUartOnBus, ExchangeOfEachTypeOfDiagnosis) {
+  const auto give = [this](const Bytes& block) {
+    EXPECT_EQ(part_of(talk(exchange_telegram(2, 0x227, block)), 0, 4), (Bytes{0x01, 0x01, 0x03, 0x19}));
+    return bench_.data_exchange({0xAA}).answer().fc;
+  };
+  const auto read = [this] { return bench_.slave_diag(); };
+  EXPECT_EQ(give({0x81, 1, 0x11}), 0x0A);
+  EXPECT_EQ(read(), (Bytes{0x08, 0x04, 0, 2, 0x0C, 0xC9, 0x11}));
+  EXPECT_EQ(give({0x00, 1, 0x12}), 0x08);
+  EXPECT_EQ(read(), (Bytes{0x00, 0x04, 0, 2, 0x0C, 0xC9, 0x12})) << "Ext_Diag has gone";
+  EXPECT_EQ(give({0x82, 1, 0x13}), 0x0A);
+  EXPECT_EQ(read(), (Bytes{0x00, 0x06, 0, 2, 0x0C, 0xC9, 0x13}));
+  EXPECT_EQ(give({0x81, 0}), 0x0A);
+  EXPECT_EQ(read(), (Bytes{0x08, 0x06, 0, 2, 0x0C, 0xC9}));
+  EXPECT_EQ(give({0x00, 0}), 0x0A) << "Stat_Diag stands";
+  EXPECT_EQ(read(), (Bytes{0x00, 0x06, 0, 2, 0x0C, 0xC9}));
+  EXPECT_EQ(give({0x02, 0}), 0x0A);
+  EXPECT_EQ(read(), (Bytes{0x00, 0x04, 0, 2, 0x0C, 0xC9}));
+  EXPECT_EQ(bench_.data_exchange({0xAA}).answer().fc, 0x08);
+}
+
 /// The same slave with its host at the SPI port.
 class RsuSpiOnBus : public ::testing::Test {
  protected:

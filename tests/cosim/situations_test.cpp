@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "cosim/random/campaign_record.hpp"
 #include "io/input/input_error.hpp"
@@ -179,6 +182,36 @@ TEST(CampaignRecord, GivesEachPortItsShare) {
   EXPECT_EQ(record.ports[0].counts.cycles, kGoal * 55 / 100);
   EXPECT_EQ(record.ports[3].counts.cycles, kGoal * 20 / 100);
   EXPECT_EQ(record.cycles(), kGoal);
+}
+
+/// The rows of a file of docs/trust.
+std::vector<std::vector<std::string>> trust_rows(const char* name) {
+  std::vector<std::vector<std::string>> rows;
+  std::ifstream file(fs::path(DSDPV1_SOURCE_DIR) / "docs" / "trust" / name);
+  for (std::string line, cell; std::getline(file, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    std::istringstream cells(line);
+    rows.emplace_back();
+    while (std::getline(cells, cell, '\t')) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+/// A ruling that changes what is answered changes random_changed.tsv, until random.tsv is recorded again.
+TEST(CampaignRecord, OfDocsTrustHasTheSituationsOfTodayButForTheChangedOnes) {
+  std::map<std::string, std::set<Situation>> recorded;
+  for (const auto& row : trust_rows("random.tsv")) recorded[row.at(0)].emplace(row.at(1), row.at(2));
+  std::set<Situation> come, gone;
+  for (const auto& row : trust_rows("random_changed.tsv"))
+    (row.at(2) == "come" ? come : gone).emplace(row.at(0), row.at(1));
+  for (const PortRecord& port : new_record(1).ports) {
+    const std::set<Situation>& old = recorded.at(port.name());
+    for (const Situation& each : port.known()) {
+      const bool is_new = come.count(each) + come.count({each.first, "*"}) != 0;
+      EXPECT_NE(old.count(each) != 0, is_new) << port.name() << ": " << each.first << ", " << each.second;
+      EXPECT_EQ(gone.count(each), 0U) << port.name() << ": " << each.first << ", " << each.second;
+    }
+  }
 }
 
 TEST(CaseSettings, VaryTheLimitsOfTheSearchInSomeCases) {

@@ -64,6 +64,13 @@ class Concerns(unittest.TestCase):
     def test_reference_rtl_its_lint(self):
         self.assertEqual(self.of("rtl_ref/dsdpv1/dsdpv1.sv"), (True, {}, {"Rtl.LintFindsNothing"}))
 
+    def test_a_file_with_planted_faults_or_mutants_whether_their_lists_fit(self):
+        self.assertEqual(edit.planted("model/profibus/uart_rx.cpp"), {"Mutants.FitTheSourcesAndTheRows"})
+        self.assertEqual(edit.planted("kinds/dsdpv1/checks/refusals.cpp"), {"PlantedFaults.FitTheSources"})
+        self.assertEqual(edit.planted("tests/planted/mutants.yaml"), {"Mutants.FitTheSourcesAndTheRows"})
+        self.assertEqual(edit.planted("bus/line.cpp"), set())
+        self.assertEqual(self.of("tests/planted/driver.yaml"), (True, {}, {"PlantedFaults.FitTheSources"}))
+
     def test_a_file_of_the_model_the_tests_of_its_rulings(self):
         self.assertIn("UserReset", edit.ruled("model/dsdpv1/chip.cpp"))
         self.assertEqual(edit.ruled("bus/line.cpp"), set())

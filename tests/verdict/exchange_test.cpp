@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 
 #include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
+#include "tb/bench/exchange_watch.hpp"
 #include "tb/bench/verdict.hpp"
 
 namespace dsdpv1 {
@@ -20,14 +22,18 @@ struct Given {
   std::string end = "8ms";
 };
 
-tb::RunResult run(const Given& given) {
+tb::scenario::Scenario scenario_of(const Given& given) {
   const std::string text =
       "name: x\nbaud: 12M\nend: " + given.end +
       "\nslaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: \"31\"" +
       given.init + "}, user_cpu: {" + given.user_cpu +
       "}}\nmasters:\n  - {name: plc, address: 2, slaves: [{slave: io, outputs: \"01 02\"" + given.master_slave +
       "}]}\n" + given.more;
-  const tb::scenario::Scenario scenario = tb::scenario::parse(text, "x.yaml");
+  return tb::scenario::parse(text, "x.yaml");
+}
+
+tb::RunResult run(const Given& given) {
+  const tb::scenario::Scenario scenario = scenario_of(given);
   tb::Bench bench(scenario, {}, tb::make_pin_execution());
   return bench.run([](tb::Tick) { return true; });
 }
@@ -134,6 +140,34 @@ TEST(ImpliedExchange, MustHaveBeenThereBeforeTheScriptKeepsTheSlaveAway) {
 TEST(ImpliedExchange, MustComeBackAfterAReinitialisation) {
   expect_passes({"script:\n  - {at: 4ms, do: reinitialise, slave: io}\nallow:\n  - {event: INIT_REPEATED}\n"});
   expect_fails({"script:\n  - {at: 4ms, do: reinitialise, slave: io, new_address: 6}\n"}, "at the end");
+}
+
+/// Without DP_STATE events a disturbance ends with the master's step: the slave that leaves later does so alone.
+TEST(ImpliedExchange, OfAKindThatDoesNotTellItsStepsIsJudgedByTheMasters) {
+  const tb::scenario::Scenario scenario = scenario_of({});
+  bus::Segment segment;
+  tb::Stations stations;
+  stations.masters.push_back({&scenario.masters[0], std::make_unique<bus::Master1>(segment, bus::MasterConfig{}), {}});
+  bus::SlaveParameters parameters;
+  parameters.address = 5;
+  parameters.cfg = {0x31};
+  parameters.input_length = parameters.output_length = 2;
+  stations.masters[0].master->add_slave(parameters);
+  stations.masters[0].slaves[5] = "io";
+  tb::ExchangeWatch watch(scenario, stations);
+  const auto step = [&watch](tb::Tick now, bus::SlaveState state) {
+    watch.master_state(now, "plc", "io", bus::name(state));
+  };
+  step(100, bus::SlaveState::kDataExchange);
+  tb::scenario::Action glitch;
+  glitch.what = tb::scenario::ActionKind::kGlitch;
+  watch.acts(glitch, 200);
+  step(300, bus::SlaveState::kDiagnose);
+  step(400, bus::SlaveState::kDataExchange);
+  tb::SlaveResult slave;
+  EXPECT_THAT(watch.finish({slave}).at(0).seen, HasSubstr("since "));
+  step(500, bus::SlaveState::kDiagnose);
+  EXPECT_THAT(watch.finish({slave}).at(0).seen, HasSubstr("left 1 time without the script"));
 }
 
 TEST(ImpliedExchange, OfASlaveThatIsListedByItsAddressIsExpectedToo) {

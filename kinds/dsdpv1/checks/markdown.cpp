@@ -125,7 +125,7 @@ valid first byte the end is unknown. Violations show the margin in bit times too
   evaluate all checks of U1 to U11 and violate none (`RightUsers`, nightly). The time of such a violation is that from which the action was owed.
 - Whether outputs came for the user. OUTPUTS_FETCHED takes each Data_Exchange of the station that was answered, not repeated and had outputs, until the user looks and finds B00E.0 clear.
   OUTPUTS_OVERWRITTEN counts the later ones of them, when the user clears B00E.0 and at the end of the run.
-- What the chip refuses. USER_REFUSED takes it from the chip's events. RTL without a core beside it and the checker of the C API have none: a report leaves it out there, its count is 0.
+- What the chip refuses. USER_REFUSED takes it from the chip's events. RTL without a core beside it and the checker of the C API have none: a report leaves it out there, its count is 0. Without them REQUEST_ANSWERED allows a second on C2 and cannot see that a request on C1 was withdrawn.
 - The number of lost outputs. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one
   replaced before the user fetched them (cleared B00E.0). The chip may have been held off, or the user was slower than the master. The
   core counts them since the last reset; if RTL replaces the core, a core beside it counts on the same pins.

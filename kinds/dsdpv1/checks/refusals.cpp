@@ -43,17 +43,25 @@ void Refusals::hold(const UserHold& hold, const UserHolds& holds) {
       fetched_.at(kind) = true;
     if ((hold.user_1.set() & verdict) != 0) unfounded_.at(kind) = !std::exchange(fetched_.at(kind), false);
   }
-  if ((fetched & regs::kChipCommand1Cfg) != 0) lengths_ = 0;
+  if (hold.initialises() || (fetched & regs::kChipCommand1Cfg) != 0) lengths_ = 0;
+  if (hold.chip_1.looked_at() || hold.told_news) cfg_waits_ = (hold.chip_1.after & regs::kChipCommand1Cfg) != 0;
   if (told_ && (hold.user_1.set() | hold.user_2.set()) != 0)
     recorder_.kept(Check::kUserRefused, hold.ended, true, [] { return std::string(); });
 }
 
-/// Over the UART the user may hand over the empty inputs of the DPRAM to get news (UA10), and a newer request may come
-/// between its look and its answer.
+/// More than the area holds is never right (D12). A configuration that the user has not fetched may have another
+/// length, and over the UART it may hand over the empty inputs of the DPRAM to get news (UA10).
+bool Refusals::is_wrong_length(unsigned length, Port port) {
+  if (length > regs::kInputDataSize) return true;
+  if (cfg_waits_ || (port == Port::kUart && length == 0)) return false;
+  return ++lengths_ > kUnknowing;
+}
+
+/// Over the UART a newer request may come between the user's look and its answer.
 bool Refusals::is_users_fault(const profibus::Event& event, Port port) {
   const profibus::Reason reason = event.reason;
   if (reason == profibus::Reason::kVerdictUnexpected) return unfounded_.at(event.a == 0 ? 0 : 1);
-  if (reason == profibus::Reason::kInputLength) return (port != Port::kUart || event.a != 0) && ++lengths_ > kUnknowing;
+  if (reason == profibus::Reason::kInputLength) return is_wrong_length(event.a, port);
   if (reason == profibus::Reason::kAcyclicAnswerDiffers) return port != Port::kUart;
   return is_of_block(reason) || is_of_telegram(reason) || (is_of_crc(reason) && port != Port::kParallel);
 }

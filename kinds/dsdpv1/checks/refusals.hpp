@@ -20,7 +20,9 @@ class Refusals {
   void reset() {
     fetched_ = unfounded_ = {};
     lengths_ = 0;
+    cfg_waits_ = false;
   }
+  void intr0_fell() { cfg_waits_ = true; }
   /// False until the chip has told something, as when it has started up.
   bool judges() const { return told_; }
   /// `holds` has what the user has read in it.
@@ -29,12 +31,14 @@ class Refusals {
 
  private:
   bool is_users_fault(const profibus::Event& event, Port port);
+  bool is_wrong_length(unsigned length, Port port);
 
   Recorder& recorder_;
   bool told_ = false;                ///< an event
   std::array<bool, 2> fetched_{};    ///< parameters, configuration: since the last verdict
   std::array<bool, 2> unfounded_{};  ///< the last verdict was on nothing
   unsigned lengths_ = 0;             ///< inputs of another length since the user fetched a configuration
+  bool cfg_waits_ = false;           ///< a configuration may: since INTR0 no look has found B00E.2 clear
 };
 
 }  // namespace dsdpv1::checks

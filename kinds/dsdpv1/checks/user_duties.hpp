@@ -21,7 +21,9 @@ class UserDuties {
   /// RESET is low.
   void reset();
   void intr0(Tick at, bool level) {
-    if (!level) served_.intr0_fell(at);
+    if (level) return;
+    served_.intr0_fell(at);
+    refusals_.intr0_fell();
   }
   /// A telegram on the line, at `now`.
   void telegram(Tick now, const bus::WireTelegram& telegram);

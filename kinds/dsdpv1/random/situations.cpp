@@ -35,7 +35,7 @@ const std::vector<Detail>& details() {
       {"SAP_STATE",
        "SAP {0} in {1}",
        {"SAP 0 in 1", "SAP 0 in 2", "SAP 51 in 1", "SAP 51 in 2", "SAP 55 in 2", "SAP 55 in 3", "SAP 56 in 1",
-        "SAP 56 in 2", "SAP 58 in 1", "SAP 58 in 2", "SAP 58 in 3", "SAP 62 in 1"}},
+        "SAP 56 in 2", "SAP 57 in 1", "SAP 57 in 2", "SAP 58 in 1", "SAP 58 in 2", "SAP 58 in 3", "SAP 62 in 1"}},
       {"SAP_MASTER", "SAP {0}", {"SAP 0", "SAP 51", "SAP 61", "SAP 62"}},
       {"SAP_DATA", "SAP {0}", {"SAP 56", "SAP 57", "SAP 59", "SAP 60"}},
       {"PRM_USER_LENGTH", "mode {2}", {"mode 0", "mode 1"}},

@@ -551,15 +551,43 @@ TEST(UserRefused, VerdictOverTheUartMayBeOnABlockThatWasReadOnceMore) {
   }
 }
 
+void fetch_configuration(Board& board) {
+  fetch(board, 0x00E, 0x04, {{0x500, 0}, {0x501, 0}, {0x502, 0}, {0x5CB, 0}, {0x5CC, 0}});
+  look(board, 0x00);
+}
+
 TEST(UserRefused, InputsOfAnotherLengthCountFromTheThirdSinceAConfigurationWasFetched) {
   Board board;
   for (int i = 0; i < 2; ++i) refuse(board, profibus::Reason::kInputLength, 3);
-  fetch(board, 0x00E, 0x04, {{0x500, 0}, {0x501, 0}, {0x502, 0}, {0x5CB, 0}, {0x5CC, 0}});
-  look(board, 0x00);
+  fetch_configuration(board);
   for (int i = 0; i < 2; ++i) refuse(board, profibus::Reason::kInputLength, 3);
   EXPECT_EQ(violations(board, Check::kUserRefused), 0U);
   refuse(board, profibus::Reason::kInputLength, 3);
   EXPECT_EQ(violations(board, Check::kUserRefused), 1U);
+}
+
+TEST(UserRefused, InputsOfAnotherLengthAreRightUntilTheUserFetchesTheConfigurationThatWaits) {
+  Board board;
+  fetch_configuration(board);
+  news(board);
+  for (int i = 0; i < 5; ++i) refuse(board, profibus::Reason::kInputLength, 3);
+  look(board, 0x04);  // seen, and left
+  for (int i = 0; i < 5; ++i) refuse(board, profibus::Reason::kInputLength, 3);
+  EXPECT_EQ(violations(board, Check::kUserRefused), 0U);
+  fetch_configuration(board);
+  for (int i = 0; i < 3; ++i) refuse(board, profibus::Reason::kInputLength, 3);
+  EXPECT_EQ(violations(board, Check::kUserRefused), 1U);
+  initialise(board, 0, 1);  // with other lengths
+  for (int i = 0; i < 2; ++i) refuse(board, profibus::Reason::kInputLength, 3);
+  EXPECT_EQ(violations(board, Check::kUserRefused), 1U);
+}
+
+TEST(UserRefused, InputsLongerThanTheirAreaCountAtOnce) {
+  for (const std::uint16_t length : {std::uint16_t{244}, std::uint16_t{245}}) {
+    Board board;
+    refuse(board, profibus::Reason::kInputLength, length);
+    EXPECT_EQ(violations(board, Check::kUserRefused), length - 244U);
+  }
 }
 
 TEST(UserRefused, IsJudgedOnlyOfAChipThatTellsItsEvents) {
