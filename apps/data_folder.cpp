@@ -23,4 +23,6 @@ std::string data_folder() {
   return fs::is_directory(installed / "scenarios") ? installed : source_tree(folder);
 }
 
+std::string golden_folder() { return fs::path(data_folder()) / "traces"; }
+
 }  // namespace dsdpv1::app

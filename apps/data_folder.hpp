@@ -8,4 +8,7 @@ namespace dsdpv1::app {
 /// source tree.
 std::string data_folder();
 
+/// The folder in it with the golden traces.
+std::string golden_folder();
+
 }  // namespace dsdpv1::app

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
 #include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,7 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <csignal>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -33,12 +35,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ctrl-C, which the command received as well.
-bool was_interrupted(int status) {
-  constexpr int kByShell = 128 + SIGINT;
-  return (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) || (WIFEXITED(status) && WEXITSTATUS(status) == kByShell);
-}
-
 /// A message about a line of the map, or, without a line, about the map or its lack.
 [[noreturn]] void fail(const UserRtl& rtl, const PinMap& map, int line, const std::string& what) {
   if (map.path.empty()) throw tb::InputError(fmt::format("{}: {}, in --pins", rtl.command, what));
@@ -58,10 +54,16 @@ std::string first_error(const std::string& log) {
   return "failed";
 }
 
-/// Runs a command with its output in a file. Returns whether it succeeded.
+/// Runs a command with its output in a file. Returns whether it succeeded. Not by system(), which keeps Ctrl-C from
+/// this process.
 bool succeeds(const std::string& command, const std::string& log) {
-  const int status = std::system((command + " >" + tb::shell_word(log) + " 2>&1").c_str());
-  if (was_interrupted(status)) std::raise(SIGINT);  // system() has kept it from this process
+  std::string text = command + " >" + tb::shell_word(log) + " 2>&1", shell = "sh", option = "-c";
+  const std::array<char*, 4> words = {shell.data(), option.data(), text.data(), nullptr};
+  pid_t pid = 0;
+  if (posix_spawn(&pid, "/bin/sh", nullptr, nullptr, words.data(), environ) != 0) return false;
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
   return status == 0;
 }
 
@@ -262,15 +264,12 @@ std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::
   return command;
 }
 
-/// The chip's parameters whose value the RTL cannot know: it would differ for that reason alone.
-void check_parameters(const UserRtl& rtl, const PinMap& map, const std::vector<RtlParameter>& parameters) {
-  for (const RtlParameter& each : parameters)
-    if (!each.usual && map.chip.count(each.key) == 0)
-      fail(
-          rtl, map, 0,
-          fmt::format("chip.{0} is not the default and the RTL is not told, expected chip: {{{0}: PARAMETER}} or chip: "
-                      "{{{0}: {{port: INPUT}}}}",
-                      each.key));
+void check_parameters(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip) {
+  for (const std::string& key : untold(map, kind, chip))
+    fail(rtl, map, 0,
+         fmt::format("chip.{0} is not the default and the RTL is not told, expected chip: {{{0}: PARAMETER}} or chip: "
+                     "{{{0}: {{port: INPUT}}}}",
+                     key));
 }
 
 /// What Verilator says of -G.
@@ -435,11 +434,11 @@ std::string make_command(const UserRtl& rtl, const std::string& build) {
                      tb::shell_word(build), rtl.top);
 }
 
-/// One process at a time builds in a folder; another waits, and then finds what it needs.
+/// One process at a time builds in a folder; another waits, and then finds what it needs. Verilator and make inherit
+/// the lock: when this process is killed, the next one waits for their end.
 class FolderLock {
  public:
-  explicit FolderLock(const std::string& folder)
-      : file_(open((folder + "/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  explicit FolderLock(const std::string& folder) : file_(open((folder + "/lock").c_str(), O_RDWR | O_CREAT, 0666)) {
     if (file_ >= 0) flock(file_, LOCK_EX);
   }
   ~FolderLock() {
@@ -465,6 +464,8 @@ std::string build_folder(const UserRtl& rtl, const PinMap& map, const std::vecto
   if (!unusual.empty()) folder /= fmt::format("{:016x}", values.value());
   return folder.string();
 }
+
+constexpr const char* kCompiling = "compiling";  ///< in the folder of a build while make works there
 
 /// A build in its folder.
 class Build {
@@ -505,8 +506,18 @@ class Build {
     check_ports();
     const std::string made = source();
     if (read(adapter()) != made) tb::write_file(adapter(), made);  // the same one is not compiled again
+    if (fs::exists(file(kCompiling))) remove_objects();
+    tb::write_file(file(kCompiling), "");
     if (!succeeds(make_command(rtl_, folder_), file("compiler.log"))) fail_build(file("compiler.log"), rtl_);
+    fs::remove(file(kCompiling));
     tb::write_file(state(), made_from(command, made));
+  }
+
+  /// A killed compiler may have left half of one, which make takes for a whole one.
+  void remove_objects() const {
+    for (const auto& entry : fs::directory_iterator(folder_))
+      if (const auto ending = entry.path().extension(); ending == ".o" || ending == ".a" || ending == ".so")
+        fs::remove(entry.path());
   }
 
   void check_ports() const { PortCheck(rtl_, map_, ports()).run(kind_.pins(), parameters_); }
@@ -537,15 +548,29 @@ class Build {
 
 }  // namespace
 
+std::string verilator_version() {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> said(popen("verilator --version 2>/dev/null", "r"), pclose);
+  std::array<char, 256> line{};
+  if (!said || std::fgets(line.data(), static_cast<int>(line.size()), said.get()) == nullptr) return "";
+  const std::string text(line.data());
+  return text.substr(0, text.find('\n'));
+}
+
+std::vector<std::string> untold(const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip) {
+  std::vector<std::string> keys;
+  for (const RtlParameter& each : kind.rtl()->parameters(chip))
+    if (!each.usual && map.chip.count(each.key) == 0) keys.emplace_back(each.key);
+  return keys;
+}
+
 MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind,
                            const tb::OwnSettings& chip) {
   check_top(rtl);
-  const std::vector<RtlParameter> parameters = kind.rtl()->parameters(chip);
   if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, expected one with RTL");
-  check_parameters(rtl, map, parameters);
+  check_parameters(rtl, map, kind, chip);
   if (!installed("verilator"))
     throw tb::InputError(rtl.command + ": Verilator is missing, expected version 5.006 or later in PATH");
-  return Build(rtl, map, kind, parameters).library();
+  return Build(rtl, map, kind, kind.rtl()->parameters(chip)).library();
 }
 
 }  // namespace dsdpv1::cosim

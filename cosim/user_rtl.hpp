@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cosim/pin_map.hpp"
 #include "cosim/rtl_trace.hpp"
@@ -24,6 +25,13 @@ constexpr const char* kBuiltFrom = "built_from";
 /// Makes the design for one run, also on several threads. With a trace, in a build with UserRtl::traced, records its
 /// internal signals.
 using MakeUserRtl = std::function<std::unique_ptr<Rtl>(const std::optional<RtlTrace>& trace)>;
+
+/// "Verilator 5.006 2023-01-22 rev (Debian 5.006-3)", of the one in PATH; empty: there is none.
+std::string verilator_version();
+
+/// Keys of the chip's parameters, `chip:` of scenarios, that are not the default and that the map does not take to the
+/// RTL: it would differ for that reason alone.
+std::vector<std::string> untold(const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip);
 
 /// Builds it with the parameters of `chip`; throws tb::InputError for a map that does not fit the top, and with
 /// Verilator's or the compiler's message. The result makes chips that run three

@@ -29,7 +29,7 @@ if(there)
         user_cpu.elf=${CMAKE_CURRENT_BINARY_DIR}/firmware/device_O2.elf PRINTS "PASSED")
 endif()
 
-# Your RTL compared with the model: it contains two faults, of which the first is found here (docs/tutorials/rtl_cosim.md).
+# Your RTL compared with the model: it contains two faults, of which the first is found here (docs/tutorials/own_rtl.md).
 find_program(verilator verilator)
 needs(there own_rtl verilator)
 if(there)

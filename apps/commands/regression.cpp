@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "apps/commands/command.hpp"
+#include "apps/data_folder.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/terminal.hpp"
 #include "io/input/input_error.hpp"
@@ -16,6 +17,7 @@
 #include "lab/campaign/jobs.hpp"
 #include "lab/regress/page.hpp"
 #include "lab/regress/tables.hpp"
+#include "lab/traces/golden.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/report/text_table.hpp"
 #include "tb/scenario/scenario.hpp"
@@ -36,14 +38,18 @@ using tb::regress::Verdict;
 
 constexpr int kNotStarted = 127;
 
-/// Those of the RTL of its own, and the scenario's. A scenario that cannot be read is refused by its run, which says
-/// why.
+/// Those of the RTL of its own, the scenario's, and the golden. A scenario that cannot be read is refused by its run,
+/// which says why.
 std::vector<std::string> files_of(const Run& run, const Description& description) {
   std::vector<std::string> files;
   if (run.has_own_rtl()) files = description.rtl.files;
-  if (run.engine == "random") return files;
+  if (run.engine == "random" || !run.not_run.empty()) return files;
   files.push_back(run.scenario);
   if (run.is_stimulus()) return files;
+  if (run.engine == "golden") {
+    const std::string folder = golden_folder(), name = tb::traces::golden_name(run.scenario);
+    files.insert(files.end(), {tb::traces::manifest_path(folder, name), tb::traces::trace_path(folder, name)});
+  }
   try {
     const std::vector<std::string> named =
         tb::scenario::files(run.scenario, tb::scenario::parse_settings(run.settings));
@@ -60,6 +66,7 @@ std::string key_of(const Description& description, const Run& run, const Json& c
                     {"wave", description.wave},
                     {"keep", static_cast<int>(description.keep)},
                     {"report", description.report},
+                    {"verilator", run.has_own_rtl() ? description.rtl.verilator : ""},
                     {"contents", contents}};
   return tb::campaign::fingerprint(tb::campaign::text_of(all));
 }
@@ -108,7 +115,9 @@ class RegressJobs : public tb::campaign::Jobs {
   std::size_t size() const override { return outcomes_.size(); }
   bool finished(std::size_t job) const override { return outcomes_[job].has_value(); }
   bool look(std::size_t job) override {
-    outcomes_[job] = folder_.finished(plan_.runs[job], anyhow_ ? "" : inputs_.key(job));
+    const Run& run = plan_.runs[job];
+    outcomes_[job] = run.not_run.empty() ? folder_.finished(run, anyhow_ ? "" : inputs_.key(job))
+                                         : tb::regress::not_run(run.not_run);
     return finished(job);
   }
   std::vector<std::string> begin(std::size_t job) override {
@@ -156,20 +165,28 @@ void remove_stale(const Folder& folder, const Description& description, bool fai
   }
 }
 
-int status_of(const Report& report) {
+int status_of(const Report& report, bool strict) {
   const auto any = [&report](const auto& is) {
     return std::any_of(report.outcomes.begin(), report.outcomes.end(), is);
   };
   const auto judged_nothing = [](const Outcome& each) { return each.verdict == tb::regress::Verdict::kNothingJudged; };
-  if (any([&](const Outcome& each) { return !each.passed() && !judged_nothing(each); })) return kFailed;
-  return any(judged_nothing) ? kNothingJudged : kPassed;
+  if (any([&](const Outcome& each) { return each.was_run() && !each.passed() && !judged_nothing(each); }))
+    return kFailed;
+  const bool all_run = !any([](const Outcome& each) { return !each.was_run(); });
+  return report.passed() && (all_run || !strict) ? kPassed : kNothingJudged;
 }
 
 /// Once, so that the runs find it as it is.
 void build(const std::string& command, tb::regress::OwnRtl& rtl) {
   const tb::ChipKind& kind = *tb::find_chip_kind(rtl.chip);
-  build_own_rtl({rtl.folder, rtl.top, rtl.pins, rtl.build}, command, kind, *cosim::usual_options(kind).chip, false);
-  rtl.files = {rtl.build + "/" + cosim::kBuiltFrom};
+  const OwnRtl own =
+      build_own_rtl({rtl.folder, rtl.top, rtl.pins, rtl.build}, command, kind, *cosim::usual_options(kind).chip, false);
+  const std::string built_from = rtl.build + "/" + cosim::kBuiltFrom;
+  rtl.files = {built_from};
+  rtl.fingerprint = tb::campaign::last_line(tb::campaign::content(built_from));
+  rtl.verilator = cosim::verilator_version();
+  for (std::size_t pin = 0; pin < kind.pins().size(); ++pin)
+    if (const auto cycles = own.map.tolerances.at(pin)) rtl.tolerance[kind.pins()[pin].name] = cycles;
   if (!rtl.pins.empty()) rtl.files.push_back(rtl.pins);
 }
 
@@ -179,6 +196,20 @@ void check_files(const RegressionArguments& arguments, const RegressInputs& inpu
   std::vector<NamedFile> written = outputs_in(arguments.campaign.out, tb::regress::kind());
   written.push_back({"--junit", arguments.junit});
   check_outputs(arguments.command, read, written);
+}
+
+/// How the first failures are seen again.
+std::string again_text(const Report& report) {
+  constexpr int kMost = 5;
+  std::string text;
+  int shown = 0;
+  for (std::size_t i = 0; i < report.outcomes.size() && shown < kMost; ++i) {
+    const Outcome& outcome = report.outcomes[i];
+    if (outcome.passed() || !outcome.was_run()) continue;
+    text += "again: " + report.again(report.runs()[i], outcome) + "\n";
+    ++shown;
+  }
+  return text;
 }
 
 void write_report(const RegressionArguments& arguments, const Report& report, const Folder& folder, WantedFile& junit) {
@@ -191,7 +222,7 @@ void write_report(const RegressionArguments& arguments, const Report& report, co
                   : to_terminal  ? tb::regress::table(report)
                                  : tb::regress::tsv(report))
               << std::flush;
-  std::cerr << "regression: " << tb::regress::summary(report) << "; " << index << "\n";
+  std::cerr << "regression: " << tb::regress::summary(report) << "; " << index << "\n" << again_text(report);
 }
 
 }  // namespace
@@ -207,29 +238,30 @@ void add_regression_options(CLI::App& app, RegressionArguments& arguments, const
 }
 
 tb::regress::OwnRtl rtl_of_regression(const OwnRtlArguments& arguments, const std::string& chip) {
-  return {arguments.rtl, arguments.top, arguments.pins, arguments.build, chip, {}};
+  return {arguments.rtl, arguments.top, arguments.pins, arguments.build, chip};
 }
 
 int run_regression(Description description, const RegressionArguments& arguments, bool failed) {
   const CampaignArguments& campaign = arguments.campaign;
   if (!description.rtl.folder.empty()) build(arguments.command, description.rtl);
-  const std::string program = tb::campaign::program_identity(DSDPV1_VERSION);
-  const RegressInputs inputs(description, program);
+  description.program = tb::campaign::program_identity(DSDPV1_VERSION);
+  const RegressInputs inputs(description, description.program);
   if (!campaign.is_task()) check_files(arguments, inputs);
   WantedFile junit(campaign.is_task() ? "" : arguments.junit);
   catch_signals();
   const Folder folder(campaign.out, description, campaign.access());
   if (!campaign.is_task()) remove_stale(folder, description, failed);
   RegressJobs jobs(description.plan, inputs, folder, failed);
-  const std::string identity = tb::campaign::fingerprint(program + tb::campaign::text_of(json_of(description)) +
-                                                         tb::campaign::text_of(inputs.contents().all()));
+  const std::string identity =
+      tb::campaign::fingerprint(description.program + tb::campaign::text_of(json_of(description)) +
+                                tb::campaign::text_of(inputs.contents().all()));
   std::optional<std::chrono::duration<double>> limit;
   if (arguments.time_limit > 0) limit.emplace(arguments.time_limit);
   if (!carry_out_jobs(campaign, tb::regress::kind(), jobs, folder.base(), identity, limit)) return kInterrupted;
   if (campaign.is_task()) return kPassed;
-  const Report report{description, jobs.outcomes()};
+  const Report report{description, jobs.outcomes(), campaign.out};
   write_report(arguments, report, folder, junit);
-  return status_of(report);
+  return status_of(report, arguments.strict);
 }
 
 }  // namespace dsdpv1::app

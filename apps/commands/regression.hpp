@@ -15,12 +15,13 @@ struct RegressionArguments {
   double time_limit = 600;                     ///< seconds for a run; 0: none
   std::string junit;                           ///< file; empty: none
   bool json = false;                           ///< the table as JSON
+  bool strict = false;                         ///< a run that is only listed counts as one that judged nothing
   CampaignArguments campaign;                  ///< its words are those of the command line, its folder is named
 };
 /// Time limit, tables and campaign; `usual_folder`: in words, where --out is left out.
 void add_regression_options(CLI::App& app, RegressionArguments& arguments, const std::string& usual_folder);
 
-/// RTL of the user's own with the pins of the kind `chip`; its files are known when it is built.
+/// RTL of the user's own with the pins of the kind `chip`; its files and facts are known when it is built.
 tb::regress::OwnRtl rtl_of_regression(const OwnRtlArguments& arguments, const std::string& chip);
 
 /// Builds the RTL of its own, if there is one. Carries out the runs without a result in the folder, and writes the

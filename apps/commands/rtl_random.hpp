@@ -23,6 +23,7 @@ struct RtlRandomArguments {
   bool campaign = false;                       ///< all four host ports in turn, kept in `state`
   std::string state = "rtl-campaign";          ///< folder
   bool wave_save = false;
+  bool shrink = false;    ///< the stimulus of `replay`, when it differs
   bool no_dpram = false;  ///< the reference RTL is judged as the user's own: by its pins
 };
 

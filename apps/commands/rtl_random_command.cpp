@@ -180,20 +180,27 @@ std::string command_text(const RtlRandomArguments& arguments) {
   return text + fmt::format(" --seed {} --replay {}", arguments.seed, tb::shell_word(arguments.stimulus));
 }
 
-int shrink_and_play(RtlRandomArguments arguments, const cosim::CampaignResult& campaign, tb::OutputFile& file,
-                    Bench bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
-  take_case(campaign, arguments, bench);
-  std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", campaign.cases, campaign.difference->what)
-            << std::flush;
-  const cosim::Stimulus shrunk =
-      cosim::shrink(cosim::random_case(campaign.failed_seed, bench.options), bench.make, kShrinkRuns, bench.options);
+/// Shrinks a case that differs into the file of --stimulus; returns its text.
+std::string shrink(const RtlRandomArguments& arguments, const cosim::Stimulus& stimulus, const Bench& bench,
+                   tb::OutputFile& file, cosim::StimulusResult& result) {
+  std::cout << "shrinking it ...\n" << std::flush;
+  const cosim::Stimulus shrunk = cosim::shrink(stimulus, bench.make, kShrinkRuns, bench.options);
   const std::string text = cosim::to_text(shrunk, *bench.options.kind);
   file.write(text);
   file.commit();
-  result.case_seed = campaign.failed_seed;
   result.stimulus = arguments.stimulus;
   result.actions = shrunk.size();
   std::cout << fmt::format("{} actions, to be seen again with\n  {}\n", shrunk.size(), command_text(arguments));
+  return text;
+}
+
+int shrink_and_play(RtlRandomArguments arguments, const cosim::CampaignResult& campaign, tb::OutputFile& file,
+                    Bench bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
+  take_case(campaign, arguments, bench);
+  std::cout << fmt::format("case {} differs: {}\n", campaign.cases, campaign.difference->what);
+  result.case_seed = campaign.failed_seed;
+  const cosim::Stimulus stimulus = cosim::random_case(campaign.failed_seed, bench.options);
+  const std::string text = shrink(arguments, stimulus, bench, file, result);
   // The content, not the file: a FIFO cannot be read here.
   return play_stimulus(arguments, cosim::parse_stimulus(text, arguments.stimulus, *bench.options.kind),
                        arguments.stimulus, bench, outputs, result);
@@ -208,6 +215,16 @@ cosim::CampaignOptions options_of(const RtlRandomArguments& arguments, const Ben
   options.make_for = make_for(arguments);
   options.counts_situations = true;
   return options;
+}
+
+/// The stimulus of --replay; when it differs, it is shrunk if that is wanted.
+int replay(const RtlRandomArguments& arguments, const cosim::Stimulus& stimulus, const Bench& bench,
+           StimulusOutputs& outputs, cosim::StimulusResult& result) {
+  std::optional<tb::OutputFile> file;
+  if (arguments.shrink) file.emplace(arguments.stimulus);
+  const int status = play_stimulus(arguments, stimulus, arguments.replay, bench, outputs, result);
+  if (status == kFailed && file) shrink(arguments, stimulus, bench, *file, result);
+  return status;
 }
 
 int random_cases(const RtlRandomArguments& arguments, const Bench& bench, StimulusOutputs& outputs,
@@ -280,7 +297,7 @@ void check_files(const RtlRandomArguments& arguments) {
   tb::check_wave_name(arguments.difference);
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
   std::vector<NamedFile> outputs = wave_files(arguments.command, arguments.wave, arguments.wave_save);
-  outputs.insert(outputs.end(), {{"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""},
+  outputs.insert(outputs.end(), {{"--stimulus", arguments.replay.empty() || arguments.shrink ? arguments.stimulus : ""},
                                  {"--difference", arguments.difference},
                                  {"--log", arguments.log},
                                  {"--result", arguments.result},
@@ -307,9 +324,8 @@ int rtl_random(const RtlRandomArguments& arguments) {
   result.fault = arguments.fault;
   result.seed = arguments.seed;
   result.replayed = arguments.replay;
-  const int status = arguments.replay.empty()
-                         ? random_cases(arguments, bench, outputs, result)
-                         : play_stimulus(arguments, stimulus, arguments.replay, bench, outputs, result);
+  const int status = arguments.replay.empty() ? random_cases(arguments, bench, outputs, result)
+                                              : replay(arguments, stimulus, bench, outputs, result);
   outputs.finish(result);
   return status;
 }
@@ -343,7 +359,8 @@ class RtlRandom : public Command {
     app.add_option("--cycles", given_.cycles, "Number of cycles to compare")->capture_default_str();
     app.add_option("--seed", given_.seed, "Seed; equal seeds give equal cases")->capture_default_str();
     app.add_option("--jobs", given_.jobs, "Threads (default: one per processor)")->check(CLI::Range(1, 256));
-    app.add_option("--replay", given_.replay, "This stimulus file instead of random cases");
+    CLI::Option* replay = app.add_option("--replay", given_.replay, "This stimulus file instead of random cases");
+    app.add_flag("--shrink", given_.shrink, "Shrink it into the file of --stimulus if it differs")->needs(replay);
     add_own_rtl_options(app, given_.own, false);
     add_fault_option(app, given_.fault)->excludes("--rtl");
     CLI::Option* no_dpram = add_no_dpram_option(app, given_.no_dpram)->excludes("--rtl");

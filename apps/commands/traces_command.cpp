@@ -54,10 +54,7 @@ struct TracesArguments {
   std::optional<bool> progress;
 };
 
-std::string folder_of(const TracesArguments& given) {
-  if (!given.folder.empty()) return given.folder;
-  return fs::path(data_folder()) / "traces";
-}
+std::string folder_of(const TracesArguments& given) { return given.folder.empty() ? golden_folder() : given.folder; }
 
 /// Exit codes of several scenarios: wrong input before a difference, and that before one that judged nothing.
 int worse(int a, int b) {

@@ -15,6 +15,7 @@
 #include "apps/options/scenario_files.hpp"
 #include "apps/options/words.hpp"
 #include "io/input/input_error.hpp"
+#include "lab/traces/golden.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::app {
@@ -23,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using tb::regress::Run;
 
+constexpr const char* kStimulus = ".stimulus";
 constexpr std::uint64_t kPiece = 2'500'000;  // cycles of a run of random cases: less than a minute or two
 
 class VerifyRtl : public Command {
@@ -33,18 +35,20 @@ class VerifyRtl : public Command {
   }
 
   void options(CLI::App& app) override {
-    app.add_option("SCENARIO", scenarios_,
-                   "Scenarios, and folders of them (default: those of this program, of the chip)");
+    app.add_option("FILE", names_,
+                   "Scenarios, folders of them, and stimuli (default of each: those of this program, of the chip)");
     add_own_rtl_options(app, own_, true);
     add_chip_options(app, chip_, false);
     app.add_option("--only", only_, "Only these: scenarios, goldens, stimuli, random, separated by commas")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app.add_option("--cycles", cycles_, "Cycles of random cases, at all of the chip's host ports together")
         ->capture_default_str();
-    app.add_option("--seed", seed_, "Of the first random cases")->capture_default_str();
+    app.add_option("--seed", seed_, "Seed of the first random cases")->capture_default_str();
     app.add_option("--set", set_, "chip.KEY=VALUE of stimuli and random cases, once for each: a parameter of the model")
         ->allow_extra_args(false);
     add_regression_options(app, regression_, "rtl-verification");
+    app.add_flag("--strict", regression_.strict, "Exit code 3 when a run is only listed, and not run");
     app.footer(
         "\nThe same command resumes an interrupted one, and repeats what a change of the RTL concerns.\n"
         "\nExamples:\n"
@@ -52,7 +56,7 @@ class VerifyRtl : public Command {
         "  dsdpv1-sim verify-rtl --rtl my_chip --top chip --only random --cycles 1000000000 --seed 7\n"
         "  dsdpv1-sim verify-rtl --rtl my_chip --top chip --chip dsdpv1_rsu --slurm\n"
         "\nExit codes: 0 no difference, 1 a difference or a run that failed, 2 wrong input, 3 none failed, but some "
-        "judged nothing, 130 interrupted.\n");
+        "judged nothing, or nothing was run, 130 interrupted.\n");
   }
 
   int carry_out() override {
@@ -63,12 +67,13 @@ class VerifyRtl : public Command {
     description.rtl = rtl_of_regression(own_, chip_.kind().name());
     for (const std::string& word : only_)
       check_word("dsdpv1-sim verify-rtl: --only", word, {"scenarios", "goldens", "stimuli", "random"});
+    take_names();
     std::vector<Run>& runs = description.plan.runs;
-    const std::vector<std::string> of_program = shipped();
-    if (wants("scenarios")) add_scenarios(of_program, runs);
-    if (wants("goldens") && !has_tolerance(own_map(own_, chip_.kind()))) add_goldens(of_program, runs);
+    if (wants("scenarios")) add_scenarios(runs);
+    if (wants("goldens")) add_goldens(runs);
     if (wants("stimuli")) add_stimuli(runs);
     if (wants("random")) add_random(runs);
+    std::stable_partition(runs.begin(), runs.end(), [](const Run& run) { return run.not_run.empty(); });
     return run_regression(std::move(description), regression_);
   }
 
@@ -77,40 +82,72 @@ class VerifyRtl : public Command {
     return only_.empty() || std::find(only_.begin(), only_.end(), what) != only_.end();
   }
 
-  /// A scenario that cannot be read counts: its run says why.
-  bool is_of_the_chip(const std::string& scenario) const {
-    try {
-      return tb::scenario::load(scenario).kind == &chip_.kind();
-    } catch (const tb::InputError&) {
-      return !scenarios_.empty();
-    }
+  /// Sorts the names on the command line.
+  void take_names() {
+    for (const std::string& name : names_)
+      (fs::path(name).extension() == kStimulus ? stimuli_ : scenarios_)
+          .push_back(scenario_file("dsdpv1-sim verify-rtl", name));
+    scenarios_ = tb::regress::all_files(scenarios_);
+    stimuli_ = tb::regress::all_files(stimuli_);
   }
 
+  bool names(const std::string& scenario) const {
+    return scenarios_.empty() || std::any_of(
+                                     scenarios_.begin(), scenarios_.end(),
+                                     [&](const std::string& each) { return fs::equivalent(each, scenario); });
+  }
+
+  /// Those of this program and of the chip. One that cannot be read is listed, with the reason.
   std::vector<std::string> shipped() const {
     std::vector<std::string> files = shipped_scenarios();
-    files.erase(
-        std::remove_if(files.begin(), files.end(), [this](const std::string& file) { return !is_of_the_chip(file); }),
-        files.end());
+    const auto is_other = [this](const std::string& file) {
+      try {
+        return tb::scenario::load(file).kind != &chip_.kind();
+      } catch (const tb::InputError&) {
+        return false;
+      }
+    };
+    files.erase(std::remove_if(files.begin(), files.end(), is_other), files.end());
     return files;
   }
 
-  void add_scenarios(const std::vector<std::string>& of_program, std::vector<Run>& runs) const {
-    const std::vector<std::string> files = scenarios_.empty() ? of_program : tb::regress::all_files(scenarios_);
-    for (const std::string& file : files) runs.push_back({file, "cosim", "pins", "", {}});
+  void add_scenarios(std::vector<Run>& runs) const {
+    for (const std::string& file : scenarios_.empty() ? shipped() : scenarios_) {
+      Run run{file, "cosim", "pins", "", {}};
+      if (scenarios_.empty()) run.not_run = why_not(file);
+      runs.push_back(run);
+    }
   }
 
-  static void add_goldens(const std::vector<std::string>& of_program, std::vector<Run>& runs) {
-    for (const std::string& file : of_program)
-      if (fs::exists(fs::path(data_folder()) / "traces" / (fs::path(file).stem().string() + ".json")))
-        runs.push_back({file, "golden", "pins", "", {}});
+  void add_goldens(std::vector<Run>& runs) const {
+    const bool tolerant = has_tolerance(own_map(own_, chip_.kind()));
+    for (const std::string& file : shipped()) {
+      if (!names(file) || !fs::exists(tb::traces::manifest_path(golden_folder(), tb::traces::golden_name(file))))
+        continue;
+      Run run{file, "golden", "pins", "", {}};
+      run.not_run = tolerant ? "the map has a tolerance, goldens have none" : why_not(file);
+      runs.push_back(run);
+    }
+  }
+
+  /// Why a scenario of the program is not run; empty: it is.
+  std::string why_not(const std::string& scenario) const {
+    try {
+      const auto keys = cosim::untold(own_map(own_, chip_.kind()), chip_.kind(), *tb::scenario::load(scenario).chip);
+      if (keys.empty()) return "";
+      return fmt::format("chip.{} {} not the default here, and the map's chip: does not take {}",
+                         fmt::join(keys, ", chip."), keys.size() == 1 ? "is" : "are", keys.size() == 1 ? "it" : "them");
+    } catch (const tb::InputError& error) {
+      return error.what();
+    }
   }
 
   void add_stimuli(std::vector<Run>& runs) const {
-    const fs::path folder = fs::path(data_folder()) / chip_.kind().random()->words().stimuli;
-    std::vector<std::string> files;
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".stimulus") files.push_back(entry.path().string());
-    std::sort(files.begin(), files.end());
+    std::vector<std::string> files = stimuli_;
+    if (files.empty())
+      for (const auto& entry : fs::directory_iterator(fs::path(data_folder()) / chip_.kind().random()->words().stimuli))
+        if (entry.path().extension() == kStimulus) files.push_back(entry.path().string());
+    if (stimuli_.empty()) std::sort(files.begin(), files.end());
     for (const std::string& file : files) runs.push_back({file, "replay", "pins", "", set_, {"--chip", chip_.chip}});
   }
 
@@ -120,16 +157,18 @@ class VerifyRtl : public Command {
     const std::uint64_t each = cycles_ / ports.size();
     for (const cosim::HostPort& port : ports)
       for (std::uint64_t done = 0, seed = seed_; done < each; done += kPiece, ++seed)
-        runs.push_back({"random",
-                        "random",
-                        "pins",
-                        std::to_string(seed),
-                        set_,
-                        {"--chip", chip_.chip, "--mode", port.word, "--jobs", "1", "--cycles",
-                         std::to_string(std::min(kPiece, each - done))}});
+        runs.push_back(
+            {"random",
+             "random",
+             "pins",
+             std::to_string(seed),
+             set_,
+             {"--chip", chip_.chip, "--jobs", "1", "--cycles", std::to_string(std::min(kPiece, each - done))},
+             port.word});
   }
 
-  std::vector<std::string> scenarios_, only_, set_;
+  std::vector<std::string> names_, only_, set_;
+  std::vector<std::string> scenarios_, stimuli_;  ///< in `names_`
   OwnRtlArguments own_;
   RtlChip chip_;
   std::uint64_t cycles_ = 20'000'000, seed_ = 1;

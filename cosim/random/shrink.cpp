@@ -6,6 +6,8 @@
 namespace dsdpv1::cosim {
 namespace {
 
+constexpr std::uint64_t kMostCycles = 20'000'000;  // of all runs together: about a minute
+
 class Shrinker {
  public:
   Shrinker(Stimulus stimulus, const MakeTop& make, int runs, PlayOptions options)
@@ -29,7 +31,11 @@ class Shrinker {
     options_.limit = result.difference->at * 2;
   }
   bool try_it(const Stimulus& candidate) {
-    if (runs_-- <= 0 || !play(candidate, make_, options_).difference) return false;
+    if (runs_-- <= 0) return false;
+    const PlayResult result = play(candidate, make_, options_);
+    cycles_ += result.counts.cycles;
+    if (cycles_ >= kMostCycles) runs_ = 0;
+    if (!result.difference) return false;
     best_ = candidate;
     return true;
   }
@@ -61,6 +67,7 @@ class Shrinker {
   const MakeTop& make_;
   PlayOptions options_;
   int runs_;
+  std::uint64_t cycles_ = 0;
 };
 
 }  // namespace

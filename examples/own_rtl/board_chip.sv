@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0
 // A chip as a user might provide it for co-simulation: the pins have other names and polarities, and a separate pulse generator makes
-// INTR0. It contains two faults; docs/tutorials/rtl_cosim.md shows how they are found.
+// INTR0. It contains two faults; docs/tutorials/own_rtl.md shows how they are found.
 module board_chip #(
   parameter integer SEARCH_WINDOW_MS = 50,
   parameter integer PULSE = 60,           // wrong: the low time is 64 cycles (P7)

@@ -9,6 +9,8 @@
 
 #include "io/input/input_error.hpp"
 #include "io/output/part_file.hpp"
+#include "io/output/shell_word.hpp"
+#include "io/output/write_file.hpp"
 #include "lab/campaign/fingerprint.hpp"
 
 namespace dsdpv1::tb::regress {
@@ -20,6 +22,8 @@ using campaign::Json;
 
 constexpr const char* kLog = "run.log";
 constexpr const char* kResult = "result.json";
+constexpr const char* kStimulus = "lockstep.stimulus";
+constexpr const char* kDifference = "difference.vcd";
 
 bool is_result(const std::string& name) { return name == "index.html"; }
 
@@ -60,6 +64,23 @@ std::string end_of(const fs::path& file) {
   return size > kMost ? text.substr(std::min(text.find('\n'), text.size() - 1) + 1) : text;
 }
 
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+/// The words of a run that plays its stimulus, shortened, instead of what has led to it.
+std::vector<std::string> words_of_stimulus(const Run& run, const std::string& stimulus) {
+  Run played = run;
+  played.engine = "replay";
+  played.scenario = stimulus;
+  played.seed.clear();
+  const auto random = std::find(played.options.begin(), played.options.end(), "--jobs");
+  played.options.erase(random, played.options.end());  // and --cycles
+  return played.words();
+}
+
 }  // namespace
 
 const campaign::Kind& kind() {
@@ -81,24 +102,30 @@ std::optional<Keep> keep_named(const std::string& word) {
 namespace {
 
 Json rtl_json(const OwnRtl& rtl) {
-  return {{"folder", rtl.folder}, {"top", rtl.top},   {"pins", rtl.pins},
-          {"build", rtl.build},   {"chip", rtl.chip}, {"files", rtl.files}};
+  if (rtl.folder.empty()) return nullptr;
+  return {{"folder", rtl.folder},          {"top", rtl.top},    {"pins", rtl.pins},
+          {"tolerance", rtl.tolerance},    {"chip", rtl.chip},  {"build", rtl.build},
+          {"built_from", rtl.fingerprint}, {"files", rtl.files}};
 }
 
 OwnRtl rtl_of(const Json& json) {
   if (json.is_null()) return {};  // not in folders of earlier versions
-  return {json.at("folder"), json.at("top"),  json.at("pins"),
-          json.at("build"),  json.at("chip"), json.at("files").get<std::vector<std::string>>()};
+  return {json.at("folder"), json.at("top"), json.at("pins"), json.at("build"), json.at("chip")};
 }
 
 }  // namespace
 
 Json json_of(const Description& description) {
-  Json json = {
-      {"format", kind().format()},        {"checks", description.checks},
-      {"wave", description.wave},         {"keep", keep_words().at(static_cast<std::size_t>(description.keep))},
-      {"report", description.report},     {"left_out", description.plan.left_out},
-      {"rtl", rtl_json(description.rtl)}, {"runs", Json::array()}};
+  Json json = {{"format", kind().format()},
+               {"versions", {{"dsdpv1", description.program}}},
+               {"checks", description.checks},
+               {"wave", description.wave},
+               {"keep", keep_words().at(static_cast<std::size_t>(description.keep))},
+               {"report", description.report},
+               {"left_out", description.plan.left_out},
+               {"rtl", rtl_json(description.rtl)},
+               {"runs", Json::array()}};
+  if (!description.rtl.verilator.empty()) json["versions"]["verilator"] = description.rtl.verilator;
   for (const Run& run : description.plan.runs) json["runs"].push_back(json_of(run));
   return campaign::as_kept(json);
 }
@@ -145,9 +172,9 @@ std::vector<std::string> Folder::words(const Run& run) const {
     return words;
   }
   words.insert(words.end(), {"--result", files / kResult, "--log", files / kLog});
-  if (run.has_own_rtl() || run.engine == "lockstep")
-    words.insert(words.end(), {"--difference", files / "difference.vcd"});
-  if (run.engine == "random") words.insert(words.end(), {"--stimulus", files / "lockstep.stimulus"});
+  if (run.has_own_rtl() || run.engine == "lockstep") words.insert(words.end(), {"--difference", files / kDifference});
+  if (run.is_stimulus()) words.insert(words.end(), {"--stimulus", files / kStimulus});
+  if (run.engine == "replay") words.emplace_back("--shrink");
   if (run.is_stimulus()) return words;
   if (!run.has_own_rtl()) words.insert(words.end(), {"--quiet", "--no-progress"});
   if (!description_.checks.empty()) words.insert(words.end(), {"--checks", description_.checks});
@@ -172,9 +199,29 @@ Outcome Folder::finish(const Run& run, const std::string& key, const Ended& ende
   in_folder(folder_, [&files] { tidy_up(files); });
   Outcome outcome = outcome_of(ended, campaign::read_json((files / kResult).string()));
   if (!outcome.passed()) outcome.log = end_of(files / kLog);
-  in_folder(folder_, [&] { keep_files(run, outcome); });
+  in_folder(folder_, [&] {
+    if (!outcome.passed()) write_again(run);
+    keep_files(run, outcome);
+  });
+  outcome.output = replaced(outcome.output, files.string(), folder_.item_file(run.file_name()));
   const Json kept = folder_.keep(run.file_name(), {{"key", key}, {"run", json_of(run)}, {"outcome", json_of(outcome)}});
   return outcome_of(kept.at("outcome"));
+}
+
+/// A script that plays what differs again, from anywhere; it takes more options.
+void Folder::write_again(const Run& run) const {
+  const std::string kept = folder_.item_file(run.file_name());
+  const bool has_stimulus = fs::exists(fs::path(place(run)) / kStimulus);
+  std::vector<std::string> words = has_stimulus ? words_of_stimulus(run, kept + "/" + kStimulus) : run.words();
+  if (run.has_own_rtl()) {
+    const std::vector<std::string> own = description_.rtl.words();
+    words.insert(words.end(), own.begin(), own.end());
+    if (run.engine != "golden") words.insert(words.end(), {"--difference", kept + "/" + kDifference});
+  }
+  std::string text = fmt::format("#!/bin/sh\ncd {} && exec {}", shell_word(fs::current_path().string()),
+                                 shell_word(fs::read_symlink("/proc/self/exe").string()));
+  for (const std::string& word : words) text += " " + shell_word(word);
+  write_file((fs::path(place(run)) / kAgain).string(), text + " \"$@\"\n");
 }
 
 void Folder::keep_files(const Run& run, Outcome& outcome) const {
@@ -182,6 +229,8 @@ void Folder::keep_files(const Run& run, Outcome& outcome) const {
   fs::remove_all(kept);
   const bool wanted = description_.keep == Keep::kAll || (description_.keep == Keep::kFailed && !outcome.passed());
   if (!wanted || !fs::is_directory(files) || fs::is_empty(files)) return forget(run);
+  if (const fs::path result = files / kResult; fs::exists(result))
+    write_file(result.string(), replaced(campaign::content(result.string()), files.string(), kept.string()));
   fs::rename(files, kept);
   for (const auto& entry : fs::directory_iterator(kept)) outcome.files.push_back(entry.path().filename());
   std::sort(outcome.files.begin(), outcome.files.end());

@@ -14,6 +14,10 @@ namespace dsdpv1::tb::regress {
 
 const campaign::Kind& kind();
 
+/// In the folder of a run that did not pass: `sh again.sh` repeats it, of random cases and stimuli by the shortened
+/// one.
+constexpr const char* kAgain = "again.sh";
+
 /// The runs whose files are kept.
 enum class Keep : std::uint8_t { kNone, kFailed, kAll };
 /// "none", "failed", "all", and back.
@@ -27,6 +31,7 @@ struct Description {
   Keep keep = Keep::kFailed;
   bool report = false;  ///< write each run's page (run --report)
   OwnRtl rtl;
+  std::string program = {};  ///< version and fingerprint
 
   /// Arguments of this program that carry it out.
   std::vector<std::string> words(const Run& run) const;
@@ -55,6 +60,7 @@ class Folder {
   void remove(const Run& run) const;
 
  private:
+  void write_again(const Run& run) const;
   void keep_files(const Run& run, Outcome& outcome) const;
 
   Description description_;

@@ -14,7 +14,8 @@ namespace {
 using campaign::Ended;
 using campaign::Json;
 
-constexpr std::array<const char*, 6> kNames = {"passed", "failed", "nothing_judged", "refused", "crashed", "hung"};
+constexpr std::array<const char*, 7> kNames = {"passed",  "failed", "nothing_judged", "refused",
+                                               "crashed", "hung",   "not_run"};
 
 Verdict verdict_of(const Ended& ended) {
   if (ended.too_long) return Verdict::kHung;
@@ -57,7 +58,8 @@ std::string failure(const Ended& ended, const Json& result) {
 
 std::string reason_of(Verdict verdict, const Ended& ended, const Json& result) {
   switch (verdict) {
-    case Verdict::kPassed: return "";
+    case Verdict::kPassed:
+    case Verdict::kNotRun: return "";
     case Verdict::kHung: return fmt::format("still ran after {:.1f} s and was killed", ended.seconds);
     case Verdict::kCrashed: {
       const int signal = ended.exit - campaign::kSignalled;
@@ -80,6 +82,13 @@ Verdict verdict_named(const std::string& text) {
 }  // namespace
 
 const char* name(Verdict verdict) { return kNames.at(static_cast<std::size_t>(verdict)); }
+
+Outcome not_run(const std::string& reason) {
+  Outcome outcome;
+  outcome.verdict = Verdict::kNotRun;
+  outcome.reason = reason;
+  return outcome;
+}
 
 Outcome outcome_of(const Ended& ended, const Json& result) {
   Outcome outcome;

@@ -14,10 +14,11 @@ enum class Verdict : std::uint8_t {
   kNothingJudged,  ///< exit code 3
   kRefused,        ///< exit code 2: the scenario, a file of it or the settings are wrong
   kCrashed,        ///< ended by a signal
-  kHung            ///< killed at its time limit
+  kHung,           ///< killed at its time limit
+  kNotRun          ///< only listed, with the reason
 };
 
-/// "passed", "failed", "nothing_judged", "refused", "crashed", "hung".
+/// "passed", "failed", "nothing_judged", "refused", "crashed", "hung", "not_run".
 const char* name(Verdict verdict);
 
 struct Outcome {
@@ -30,7 +31,11 @@ struct Outcome {
   std::vector<std::string> files;  ///< the kept files
 
   bool passed() const { return verdict == Verdict::kPassed; }
+  bool was_run() const { return verdict != Verdict::kNotRun; }
 };
+
+/// Of a run that is only listed.
+Outcome not_run(const std::string& reason);
 
 /// `result` is the result file of the run, null when there is none.
 Outcome outcome_of(const campaign::Ended& ended, const campaign::Json& result);

@@ -26,6 +26,7 @@ th[aria-sort=descending]::after { content: " \25BC" }
 td.number { text-align: right; font-variant-numeric: tabular-nums }
 .verdict { font-weight: 600; color: var(--bad) }
 .verdict.passed { color: var(--good) }
+.verdict.not_run { color: inherit; font-weight: normal }
 pre { margin: .3rem 0; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .85rem }
 input { font: inherit; padding: .2rem .4rem; width: 20rem }
 </style>
@@ -63,7 +64,7 @@ std::string cell(const std::string& text) { return "<td>" + escaped(text) + "</t
 std::string reason_cell(const Outcome& outcome, const std::string& again) {
   std::string text = "<td>" + escaped(outcome.reason);
   for (const auto& [what, lines] : {std::pair{"output", outcome.output}, std::pair{"end of the log", outcome.log},
-                                    std::pair{"again", outcome.passed() ? "" : again}})
+                                    std::pair{"again", outcome.passed() || !outcome.was_run() ? "" : again}})
     if (!lines.empty())
       text += fmt::format("<details><summary>{}</summary><pre>{}</pre></details>", what, escaped(lines));
   return text + "</td>";
@@ -79,7 +80,8 @@ std::string files_cell(const Run& run, const Outcome& outcome) {
 }
 
 std::string settings_text(const Run& run) {
-  std::string text = run.seed.empty() ? "" : "seed=" + run.seed;
+  std::string text = run.mode + (run.mode.empty() || run.seed.empty() ? "" : " ");
+  if (!run.seed.empty()) text += "seed=" + run.seed;
   for (const auto* words : {&run.options, &run.settings})
     for (const std::string& word : *words) text += (text.empty() ? "" : " ") + word;
   return text;
@@ -90,14 +92,26 @@ std::string row(const Report& report, const Run& run, const Outcome& outcome) {
   return fmt::format("<tr><td class=\"verdict {0}\">{0}</td>", verdict) + cell(run.scenario) + cell(run.engine) +
          cell(run.view) + cell(settings_text(run)) +
          fmt::format(R"(<td class="number" data-key="{0:.3f}">{0:.2f}</td>)", outcome.seconds) +
-         reason_cell(outcome, report.again(run)) + files_cell(run, outcome) + "</tr>\n";
+         reason_cell(outcome, report.again(run, outcome)) + files_cell(run, outcome) + "</tr>\n";
+}
+
+/// What all runs have in common: the RTL, the versions.
+std::string facts(const Description& description) {
+  std::string text = "dsdpv1-sim " + description.program;
+  const OwnRtl& rtl = description.rtl;
+  if (rtl.folder.empty()) return text;
+  text += fmt::format("; {}; {} of {} as a {}", rtl.verilator, rtl.top, rtl.folder, rtl.chip);
+  if (!rtl.pins.empty()) text += ", pins " + rtl.pins;
+  for (const auto& pin : rtl.tolerance.items())
+    text += fmt::format(", {} within {} cycles", pin.key(), pin.value().get<int>());
+  return text;
 }
 
 }  // namespace
 
 std::string page(const Report& report) {
   std::string text = kHead;
-  text += "<h1>" + escaped(summary(report)) + "</h1>\n";
+  text += "<h1>" + escaped(summary(report)) + "</h1>\n<p>" + escaped(facts(report.description)) + "</p>\n";
   text +=
       "<p><input type=\"search\" placeholder=\"filter: words of a row\" "
       "aria-label=\"filter\"></p>\n<table>\n<thead><tr>";

@@ -117,7 +117,7 @@ std::vector<std::string> all_files(const std::vector<std::string>& paths) {
 }
 
 std::string Run::variant() const {
-  std::string text = engine + " " + view;
+  std::string text = engine + " " + view + (mode.empty() ? "" : " " + mode);
   for (const std::string& option : options) text += " " + option;
   if (!seed.empty()) text += " seed=" + seed;
   for (const std::string& setting : settings) text += " " + setting;
@@ -136,6 +136,7 @@ std::string Run::file_name() const {
 std::vector<std::string> Run::words() const {
   std::vector<std::string> words = command_of(*this);
   append(words, options);
+  if (!mode.empty()) append(words, {"--mode", mode});
   if (!seed.empty()) append(words, {"--seed", seed});
   for (const std::string& setting : settings) append(words, {"--set", setting});
   return words;
@@ -183,8 +184,8 @@ Plan plan_of(const Request& request, const Shard& shard) {
 }
 
 campaign::Json json_of(const Run& run) {
-  return {{"scenario", run.scenario}, {"engine", run.engine},     {"view", run.view},
-          {"seed", run.seed},         {"settings", run.settings}, {"options", run.options}};
+  return {{"scenario", run.scenario}, {"engine", run.engine},   {"view", run.view}, {"seed", run.seed},
+          {"settings", run.settings}, {"options", run.options}, {"mode", run.mode}, {"not_run", run.not_run}};
 }
 
 Run run_of(const campaign::Json& json) {
@@ -193,7 +194,9 @@ Run run_of(const campaign::Json& json) {
           json.at("view"),
           json.at("seed"),
           json.at("settings").get<std::vector<std::string>>(),
-          json.value("options", std::vector<std::string>())};
+          json.value("options", std::vector<std::string>()),
+          json.value("mode", ""),
+          json.value("not_run", "")};
 }
 
 }  // namespace dsdpv1::tb::regress

@@ -12,9 +12,11 @@ namespace dsdpv1::tb::regress {
 
 /// RTL of the user's own, which runs with these engines are about.
 struct OwnRtl {
-  std::string folder, top, pins, build;  ///< as --rtl, --top, --pins, --build; empty: there is none
-  std::string chip;                      ///< its kind
-  std::vector<std::string> files;        ///< a run depends on them
+  std::string folder, top, pins, build;                 ///< as --rtl, --top, --pins, --build; empty: there is none
+  std::string chip;                                     ///< its kind
+  std::vector<std::string> files = {};                  ///< a run depends on them
+  campaign::Json tolerance = campaign::Json::object();  ///< of pins, in cycles of 48 MHz
+  std::string fingerprint = {}, verilator = {};         ///< of its build; which built it
 
   /// The options.
   std::vector<std::string> words() const;
@@ -27,6 +29,8 @@ struct Run {
   std::string seed;                       ///< empty: the run does not depend on one
   std::vector<std::string> settings;      ///< PATH=VALUE
   std::vector<std::string> options = {};  ///< more words of its command
+  std::string mode = {};                  ///< host port of random cases; empty: the scenario, or stimulus, sets it
+  std::string not_run = {};               ///< why it is only listed; empty: it is run
 
   bool has_own_rtl() const { return engine == "cosim" || engine == "golden" || is_stimulus(); }
   /// It has no scenario.

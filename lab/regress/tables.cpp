@@ -15,8 +15,8 @@ namespace {
 
 using campaign::Json;
 
-constexpr Verdict kOthers[] = {Verdict::kFailed, Verdict::kNothingJudged, Verdict::kRefused, Verdict::kCrashed,
-                               Verdict::kHung};
+constexpr Verdict kOthers[] = {Verdict::kFailed,  Verdict::kNothingJudged, Verdict::kRefused,
+                               Verdict::kCrashed, Verdict::kHung,          Verdict::kNotRun};
 
 std::size_t count(const Report& report, Verdict verdict) {
   const auto is = [verdict](const Outcome& outcome) { return outcome.verdict == verdict; };
@@ -43,36 +43,43 @@ Json json_of(const Report& report, const Run& run, const Outcome& outcome) {
   Json json = regress::json_of(run);
   json.update(regress::json_of(outcome));
   json["folder"] = folder_of(run, outcome);
-  json["again"] = report.again(run);
+  json["again"] = report.again(run, outcome);
   return json;
 }
 
 JunitCase case_of(const Run& run, const Outcome& outcome) {
   JunitCase made{run.scenario, run.variant(), outcome.seconds, std::nullopt, outcome.log};
-  if (!outcome.passed())
+  if (!outcome.was_run())
+    made.skipped = outcome.reason;
+  else if (!outcome.passed())
     made.failure = std::string(name(outcome.verdict)) + ": " + outcome.reason + "\n\n" + outcome.output;
   return made;
 }
 
 }  // namespace
 
-std::string Report::again(const Run& run) const {
+std::string Report::again(const Run& run, const Outcome& outcome) const {
+  if (std::find(outcome.files.begin(), outcome.files.end(), kAgain) != outcome.files.end())
+    return "sh " + shell_word(folder + "/" + folder_of(run, outcome) + "/" + kAgain);
   std::string text = "dsdpv1-sim";
   for (const std::string& word : description.words(run)) text += " " + shell_word(word);
   return text;
 }
 
-bool Report::passed() const { return count(*this, Verdict::kPassed) == outcomes.size(); }
+bool Report::passed() const {
+  const std::size_t passed = count(*this, Verdict::kPassed);
+  return passed != 0 && passed + count(*this, Verdict::kNotRun) == outcomes.size();
+}
 
 std::string tsv(const Report& report) {
-  std::string text =
-      tsv_line({"verdict", "scenario", "engine", "view", "seed", "settings", "exit", "seconds", "reason", "folder"});
+  std::string text = tsv_line(
+      {"verdict", "scenario", "engine", "view", "seed", "settings", "exit", "seconds", "reason", "folder", "mode"});
   for (std::size_t i = 0; i < report.outcomes.size(); ++i) {
     const Run& run = report.runs()[i];
     const Outcome& outcome = report.outcomes[i];
     text += tsv_line({name(outcome.verdict), run.scenario, run.engine, run.view, run.seed, joined(run.settings),
                       fmt::format("{}", outcome.exit), fmt::format("{:.3f}", outcome.seconds), outcome.reason,
-                      folder_of(run, outcome)});
+                      folder_of(run, outcome), run.mode});
   }
   return text;
 }
@@ -89,7 +96,12 @@ std::string table(const Report& report) {
 }
 
 std::string json(const Report& report) {
-  Json all = {{"passed", report.passed()}, {"left_out", report.description.plan.left_out}, {"counts", Json::object()}};
+  const Json description = regress::json_of(report.description);
+  Json all = {{"passed", report.passed()},
+              {"versions", description["versions"]},
+              {"rtl", description["rtl"]},
+              {"left_out", report.description.plan.left_out},
+              {"counts", Json::object()}};
   all["counts"][name(Verdict::kPassed)] = count(report, Verdict::kPassed);
   for (const Verdict verdict : kOthers) all["counts"][name(verdict)] = count(report, verdict);
   all["runs"] = Json::array();
@@ -106,9 +118,13 @@ std::string junit(const Report& report) {
 }
 
 std::string summary(const Report& report) {
-  std::string text = fmt::format("{} of {} runs passed", count(report, Verdict::kPassed), report.outcomes.size());
+  const std::size_t not_run = count(report, Verdict::kNotRun);
+  std::string text =
+      fmt::format("{} of {} runs passed", count(report, Verdict::kPassed), report.outcomes.size() - not_run);
   for (const Verdict verdict : kOthers)
-    if (const std::size_t many = count(report, verdict)) text += fmt::format(", {} {}", many, name(verdict));
+    if (const std::size_t many = verdict == Verdict::kNotRun ? 0 : count(report, verdict))
+      text += fmt::format(", {} {}", many, name(verdict));
+  if (not_run != 0) text += fmt::format("; {} are not run", not_run);
   if (report.description.plan.left_out != 0)
     text += fmt::format("; {} combinations that cannot be are left out", report.description.plan.left_out);
   return text;

@@ -12,11 +12,13 @@ namespace dsdpv1::tb::regress {
 struct Report {
   Description description;
   std::vector<Outcome> outcomes;  ///< of the runs, in their order
+  std::string folder;             ///< as the user has named it
 
+  /// All that were run, and at least one was.
   bool passed() const;
   const std::vector<Run>& runs() const { return description.plan.runs; }
   /// The command line that carries a run out again, in the folder in which this was called.
-  std::string again(const Run& run) const;
+  std::string again(const Run& run, const Outcome& outcome) const;
 };
 
 /// One line per run, with a heading, its fields separated by tabs. Control characters in them are shown as escapes.

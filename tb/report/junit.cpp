@@ -70,6 +70,7 @@ void add_case(pugi::xml_node suite, const JunitCase& each) {
     set(failure, "type", "failure");
     set_text(failure, *each.failure);
   }
+  if (each.skipped) set(node.append_child("skipped"), "message", *each.skipped);
   if (!each.output.empty()) set_text(node.append_child("system-out"), each.output);
 }
 
@@ -77,7 +78,8 @@ void add_suite(pugi::xml_node root, const Suite& suite) {
   pugi::xml_node node = root.append_child("testsuite");
   set(node, "name", suite.name);
   set_counts(node, suite.cases);
-  set(node, "skipped", "0");
+  const auto skipped = [](const JunitCase* each) { return each->skipped.has_value(); };
+  set(node, "skipped", fmt::format("{}", std::count_if(suite.cases.begin(), suite.cases.end(), skipped)));
   for (const JunitCase* each : suite.cases) add_case(node, *each);
 }
 

@@ -9,8 +9,9 @@ namespace dsdpv1::tb {
 struct JunitCase {
   std::string suite, name;
   double seconds = 0;
-  std::optional<std::string> failure;  ///< why; its first line is the message
-  std::string output;                  ///< what it has printed
+  std::optional<std::string> failure;                 ///< why; its first line is the message
+  std::string output;                                 ///< what it has printed
+  std::optional<std::string> skipped = std::nullopt;  ///< why it was not run
 };
 
 /// The report `name`: a suite for each name of one, in the order of their first case. Control characters and

@@ -1,4 +1,4 @@
-// A user's RTL: the example of docs/tutorials/rtl_cosim.md, and the errors if it cannot be built.
+// A user's RTL: the example of docs/tutorials/own_rtl.md, and the errors if it cannot be built.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -91,7 +91,7 @@ TEST_F(RegressCommand, KeepsLogResultAndWaveOfWhatIsWanted) {
   write_bad();
   const nlohmann::json all = runs("--wave vcd scenarios/good.yaml scenarios/bad.yaml", 1);
   EXPECT_EQ(all[0]["files"], nlohmann::json::array());
-  EXPECT_EQ(all[1]["files"], nlohmann::json({"result.json", "run.log", "wave.vcd"}));
+  EXPECT_EQ(all[1]["files"], nlohmann::json({"again.sh", "result.json", "run.log", "wave.vcd"}));
   const std::string folder = "regression/" + all[1]["folder"].get<std::string>();
   EXPECT_THAT(file(folder + "/run.log"), HasSubstr("FAILED: demo: event BUS_TELEGRAM_ERROR"));
   EXPECT_THAT(file("regression/index.html"), HasSubstr("/wave.vcd\""));
@@ -101,7 +101,7 @@ TEST_F(RegressCommand, KeepsLogResultAndWaveOfWhatIsWanted) {
 TEST_F(RegressCommand, ReportOfEachRunThatIsKeptIsLinkedFromThePage) {
   write_bad();
   const nlohmann::json run = runs("--report scenarios/good.yaml scenarios/bad.yaml", 1)[1];
-  EXPECT_EQ(run["files"], nlohmann::json({"report.html", "result.json", "run.log"}));
+  EXPECT_EQ(run["files"], nlohmann::json({"again.sh", "report.html", "result.json", "run.log"}));
   const std::string page = run["folder"].get<std::string>() + "/report.html";
   EXPECT_THAT(file("regression/" + page), HasSubstr("event BUS_TELEGRAM_ERROR"));
   EXPECT_THAT(file("regression/index.html"), HasSubstr("<a href=\"" + page + "\">"));
@@ -136,7 +136,7 @@ TEST_F(RegressCommand, ARunThatCrashesIsAFailureWithItsSignalAndTheEndOfItsLog) 
   EXPECT_EQ(run["reason"], "killed by signal 6 (SIGABRT)");
   EXPECT_EQ(run["exit"], 134);
   EXPECT_THAT(run["log"], HasSubstr(" ns  demo "));
-  EXPECT_EQ(run["files"], nlohmann::json({"run.log"}));
+  EXPECT_EQ(run["files"], nlohmann::json({"again.sh", "run.log"}));
 }
 
 TEST_F(RegressCommand, InterruptedItExits130AndTheSameCommandGoesOn) {

@@ -7,6 +7,7 @@ carried out here.
 import contextlib
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -21,6 +22,7 @@ slaves: [{name: demo, address: 5, init: {ident: 1, max_inputs: 1, max_outputs: 1
 expect: [{slave: demo, dp_state: offline}]
 """
 POINTS = 200
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 SWEEP = ["sweep", "s.yaml", "--param", "user_cpu.fsmc.datast=1..20", "--param", "user_cpu.fsmc.addset=0..9", "--no-progress"]
 
 
@@ -127,6 +129,19 @@ def regress(sweep):
     check(verdicts[0] == verdicts[1] and len(verdicts[0]) == 5, "regress says something else: %s" % verdicts)
 
 
+def verify_rtl(sweep):
+    """RTL of one's own is built once, and its runs behave the same; the array's tasks find the build."""
+    rtl = os.path.join(ROOT, "examples", "own_rtl")
+    words = ["verify-rtl", "--rtl", rtl, "--top", "board_chip", "--pins", os.path.join(rtl, "pins.yaml"), "--only", "scenarios,random", "--cycles", "20000",
+             "s.yaml", "--no-progress", "--out"]
+    tables = []
+    for more in (["rtl_here"], ["rtl_out", "--slurm"]):
+        done = subprocess.run([sweep.program, *words, *more], cwd=sweep.folder, env=sweep.cluster.environment, capture_output=True, text=True, check=False)
+        check(done.returncode == 1, "the pulse counter of the example has no reset: %s" % done.stderr)
+        tables.append([[field for i, field in enumerate(line.split("\t")) if i != 7] for line in done.stdout.splitlines()])  # without seconds
+    check(tables[0] == tables[1] and len(tables[0]) == 3, "verify-rtl says something else: %s" % tables)
+
+
 def main(program):
     with tempfile.TemporaryDirectory(prefix="dsdpv1_slurm_") as folder:
         with open(os.path.join(folder, "s.yaml"), "w", encoding="UTF-8") as file:
@@ -140,6 +155,8 @@ def main(program):
             for name in ("results.csv", "map.svg"):
                 check(read(folder, "out", name) == read(folder, "here", name), name + " is another one")
             regress(sweep)
+            if shutil.which("verilator"):
+                verify_rtl(sweep)
             left = sorted(os.listdir(os.path.join(folder, "out")))
             check(left == ["map.svg", "points", "results.csv", "sweep.json"], "left: %s" % left)
             check(sweep.points() == set(range(POINTS)) and len(os.listdir(os.path.join(folder, "out", "points"))) == POINTS, "points")
