@@ -17,8 +17,9 @@ namespace {
 constexpr int kLargestTolerance = 1000;
 
 const std::vector<std::string>& known_keys() {
-  static const std::vector<std::string> keys = {"clock",   "pins",  "tie",       "tolerance", "chip",     "parameters",
-                                                "defines", "files", "file_list", "include",   "reference"};
+  static const std::vector<std::string> keys = {"clock",     "pins",      "tie",        "fault",
+                                                "tolerance", "chip",      "parameters", "defines",
+                                                "files",     "file_list", "include",    "reference"};
   return keys;
 }
 
@@ -39,6 +40,7 @@ class Reader {
     if (root["clock"]) map_.clock = port("clock", root["clock"]);
     for (const auto& each : root["pins"]) pin(each.first, each.second);
     for (const auto& each : root["tie"]) tie(each.first, each.second);
+    if (const YAML::Node fault = root["fault"]) map_.fault = {identifier("fault", fault), line_of(fault)};
     for (const auto& each : root["tolerance"]) tolerance(each.first, each.second);
     for (const auto& each : root["parameters"])
       map_.parameters[identifier("a parameter", each.first)] = {word("parameter " + each.first.Scalar(), each.second),

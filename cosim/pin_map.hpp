@@ -7,6 +7,7 @@
 //     D_OE: {port: d_oe_o}            # 1: the chip drives D
 //   tolerance: {READY: 1}             # cycles that a pin may be earlier or later
 //   tie: {scan_en_i: 0}               # inputs that are no pins
+//   fault: fault_i                    # an input that selects one of the RTL's single faults, 0: none
 //   chip: {search_window_ms: SW_MS, rts_lead: {port: lead_i}}   # the model's parameters: a parameter of the top, an
 //   input parameters: {FIFO_DEPTH: 5} defines: {SIMULATION: 1} files: [chip.sv, uart.sv]         # default: every .sv
 //   and .v of the folder file_list: chip.f                 # ... or files and options in the syntax of -f include:
@@ -54,6 +55,7 @@ struct PinMap {
       pins;  ///< by the datasheet's name; NAME_OE of an output that may be released, D_OE of D_OUT
   Tolerances tolerances{};
   std::map<std::string, Tie> ties;    ///< by port
+  MapWord fault;                      ///< an input: the number of the single fault; empty: there is none
   std::map<std::string, Place> chip;  ///< by the parameter's key in scenarios
   std::map<std::string, MapWord> parameters, defines;
   std::vector<MapWord> files, include;  ///< relative to the folder of the RTL

@@ -264,6 +264,13 @@ std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::
   return command;
 }
 
+/// A fault that the RTL cannot be told.
+void check_fault(const UserRtl& rtl, const PinMap& map) {
+  if (rtl.fault != 0 && map.fault.text.empty())
+    fail(rtl, map, 0,
+         fmt::format("fault: is missing, expected fault: INPUT, the input of {} that selects a single fault", rtl.top));
+}
+
 void check_parameters(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip) {
   for (const std::string& key : untold(map, kind, chip))
     fail(rtl, map, 0,
@@ -331,12 +338,13 @@ class PortCheck {
     for (const RtlParameter& each : parameters)
       if (const auto place = map_.chip.find(each.key); place != map_.chip.end() && place->second.port)
         check("chip." + std::string(each.key), place->second.name, 0, true, place->second.line);
-    for (const auto& [name, tie] : map_.ties) check_tie(name, tie);
+    for (const auto& [name, tie] : map_.ties) check_number("tie", name, tie.value, tie.line);
+    if (!map_.fault.text.empty()) check_number("fault", map_.fault.text, rtl_.fault, map_.fault.line);
     for (const auto& [name, port] : ports_)
       if (port.input && used_.count(name) == 0)
         fail(rtl_, map_, 0,
-             fmt::format("{}'s input {} is not in the map, expected it in pins, chip or tie: {{{}: 0}}", rtl_.top, name,
-                         name));
+             fmt::format("{}'s input {} is not in the map, expected it in pins, chip, fault or tie: {{{}: 0}}",
+                         rtl_.top, name, name));
   }
 
  private:
@@ -358,12 +366,12 @@ class PortCheck {
     if (!used_.emplace(name, what).second)
       fail(rtl_, map_, line, fmt::format("port {} is {} and {}, expected one of them", name, used_.at(name), what));
   }
-  void check_tie(const std::string& name, const Tie& tie) {
-    check("tie", name, 0, true, tie.line);
+  void check_number(const std::string& what, const std::string& name, std::uint64_t value, int line) {
+    check(what, name, 0, true, line);
     constexpr int kValueBits = 64;
     const int width = ports_.at(name).width;
-    if (width < kValueBits && tie.value >> static_cast<unsigned>(width) != 0)
-      fail(rtl_, map_, tie.line, fmt::format("tie of {} is {}, expected a number of {} bits", name, tie.value, width));
+    if (width < kValueBits && value >> static_cast<unsigned>(width) != 0)
+      fail(rtl_, map_, line, fmt::format("{} of {} is {}, expected a number of {} bits", what, name, value, width));
   }
 
   const UserRtl& rtl_;
@@ -372,16 +380,17 @@ class PortCheck {
   std::map<std::string, std::string> used_;
 };
 
-/// The inputs that keep one level: those of parameters and the tied ones. The values are given to each design when it
-/// is made, so that others need no other build.
+/// The inputs that keep one level: those of parameters, the tied ones and the fault's. The values are given to each
+/// design when it is made, so that others need no other build.
 class Constants {
  public:
-  Constants(const PinMap& map, const TopPorts& ports, const std::vector<RtlParameter>& parameters) {
+  Constants(const PinMap& map, const TopPorts& ports, const std::vector<RtlParameter>& parameters, unsigned fault) {
     for (const RtlParameter& each : parameters)
       if (const auto place = map.chip.find(each.key); place != map.chip.end() && place->second.port)
         add(place->second.name, ports, each.words);
     for (const auto& [name, tie] : map.ties)
       add(name, ports, {static_cast<std::uint32_t>(tie.value), static_cast<std::uint32_t>(tie.value >> 32U)});
+    if (!map.fault.text.empty()) add(map.fault.text, ports, {fault});
   }
 
   /// Statements of the generated file.
@@ -522,7 +531,7 @@ class Build {
 
   void check_ports() const { PortCheck(rtl_, map_, ports()).run(kind_.pins(), parameters_); }
   TopPorts ports() const { return ports_of(read(header())); }
-  Constants constants() const { return {map_, ports(), parameters_}; }
+  Constants constants() const { return {map_, ports(), parameters_, rtl_.fault}; }
   /// Of the adapter.
   std::string source() const { return adapter_source(rtl_.top, map_, kind_.pins(), rtl_.traced, constants().code()); }
 
@@ -568,6 +577,7 @@ MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::Chip
   check_top(rtl);
   if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, expected one with RTL");
   check_parameters(rtl, map, kind, chip);
+  check_fault(rtl, map);
   if (!installed("verilator"))
     throw tb::InputError(rtl.command + ": Verilator is missing, expected version 5.006 or later in PATH");
   return Build(rtl, map, kind, kind.rtl()->parameters(chip)).library();

@@ -17,6 +17,7 @@ struct UserRtl {
   std::string build = "build/cosim";  ///< for generated files
   std::string sources;                ///< of this program, where PinMap::reference finds the reference RTL
   bool traced = false;                ///< records internal signals; needs a separate build
+  unsigned fault = 0;                 ///< the level of PinMap::fault; 0: none
 };
 
 /// In the folder of a build: a fingerprint of all that it was made from.

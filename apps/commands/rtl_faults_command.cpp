@@ -1,4 +1,4 @@
-// rtl-faults: every single fault in the reference RTL must be found.
+// rtl-faults: every single fault in the RTL must be found.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,9 +27,12 @@ std::string given_or_own(const std::string& path, const std::string& own) {
   return path.empty() ? data_folder() + own : path;
 }
 
+constexpr const char* kCommand = "dsdpv1-sim rtl-faults";
+
 class RtlFaults : public Command {
  public:
-  RtlFaults() : Command("rtl-faults", "Test the lockstep: it must find every single fault in the RTL") {}
+  RtlFaults()
+      : Command("rtl-faults", "Test the lockstep: it must find every single fault in the reference RTL or your own") {}
 
   void options(CLI::App& app) override {
     add_chip_options(app, chip_);
@@ -42,11 +45,15 @@ class RtlFaults : public Command {
     app.add_option("--cycles", cycles_, "Most random cycles for each fault")->capture_default_str();
     app.add_option("--seed", seed_, "Seed of the random cases")->capture_default_str();
     app.add_option("--jobs", jobs_, "Threads (default: one per processor)")->check(CLI::Range(1, 256));
-    add_no_dpram_option(app, no_dpram_);
+    add_own_rtl_options(app, own_, false);
+    app.get_option("--rtl")->needs("--list");
+    add_no_dpram_option(app, no_dpram_)->excludes("--rtl");
+    app.add_option("--set", set_, "chip.KEY=VALUE, once for each: a parameter of the model, as for rtl-random")
+        ->allow_extra_args(false);
     app.add_option("--tsv", tsv_, "Write the table also as tab-separated text into this file");
     app.footer(
         "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --chip dsdpv1_rsu --mode spi\n  "
-        "dsdpv1-sim rtl-faults --list my_faults.txt --cycles 5000000\n"
+        "dsdpv1-sim rtl-faults --rtl my_chip --top chip --pins pins.yaml --list my_faults.txt --cycles 5000000\n"
         "\nExit codes: 0 all found, 1 some not, 2 wrong input, 130 interrupted.\n");
   }
 
@@ -57,16 +64,16 @@ class RtlFaults : public Command {
     const std::string list = given_or_own(list_, "/" + files.faults);
     const std::string folder = given_or_own(directed_, "/" + files.stimuli);
     const std::vector<cosim::Fault> faults = cosim::read_faults(list);
-    for (const cosim::Fault& each : faults)
-      cosim::chip_settings(kind, each.set);  // wrong ones are told before the hunt
     const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, kind);
-    check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", tsv_}});
+    check_outputs(kCommand, with_files_of(folder, {{"--list", list}, {"--pins", own_.pins}}), {{"--tsv", tsv_}});
     WantedFile tsv(tsv_);
-    cosim::CampaignOptions options{seed_, cycles_ / 10, at_a_time(jobs_), cosim::quick_options(kind)};
-    cosim::set_parameters(options.play, chip_.port().set);
-    if (no_dpram_) judge_by_pins(options.play);
+    cosim::CampaignOptions options{seed_, cycles_ / 10, at_a_time(jobs_), play_options(chip_, own_, set_, no_dpram_)};
+    check(faults, options.play);
+    const cosim::MakeFaulty make = [this](const cosim::Fault& fault, const cosim::PlayOptions& play) {
+      return make_faulty(fault, play);
+    };
     const cosim::Kill none =
-        cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed, options);
+        cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed, options, make);
     options.cycles = cycles_;
     std::cout << cosim::heading();
     if (none.found) {
@@ -74,7 +81,8 @@ class RtlFaults : public Command {
       return kFailed;
     }
     const std::vector<cosim::Kill> kills = cosim::hunt_all(
-        faults, directed, options, [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
+        faults, directed, options, make,
+        [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
     tsv.write([&] { return cosim::to_tsv(kills); });
     const auto found = std::count_if(kills.begin(), kills.end(), [](const cosim::Kill& kill) { return kill.found; });
     std::cout << fmt::format("{} of {} faults found\n", found, faults.size());
@@ -82,9 +90,26 @@ class RtlFaults : public Command {
   }
 
  private:
+  cosim::MakeTop make_faulty(const cosim::Fault& fault, const cosim::PlayOptions& play) const {
+    if (own_.rtl.empty()) return cosim::reference_top(play, fault.number, 1);
+    const OwnRtl own = build_own_rtl(own_, kCommand, *play.kind, *play.chip, false, fault.number);
+    return [make = own.make] { return make(std::nullopt); };
+  }
+  /// Wrong settings, and faults that the user's own RTL cannot be told, before the hunt.
+  void check(const std::vector<cosim::Fault>& faults, cosim::PlayOptions play) const {
+    const std::vector<std::string> set = play.set;
+    for (const cosim::Fault& each : faults) {
+      play.set = set;
+      cosim::set_parameters(play, each.set);
+      make_faulty(each, play);
+    }
+  }
+
   RtlChip chip_;
-  std::string list_, directed_;  ///< empty: those of the program's own sources, wherever it is called
-  std::string tsv_;              ///< the kill table for other programs; empty: none
+  OwnRtlArguments own_;           ///< without a folder: the reference RTL
+  std::vector<std::string> set_;  ///< parameters of the model
+  std::string list_, directed_;   ///< empty: those of the program's own sources, wherever it is called
+  std::string tsv_;               ///< the kill table for other programs; empty: none
   std::uint64_t cycles_ = 30'000'000, seed_ = 1;
   unsigned jobs_ = 0;      ///< threads; 0: as many as there are processors
   bool no_dpram_ = false;  ///< as RTL of the user's own is judged

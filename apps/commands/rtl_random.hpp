@@ -14,7 +14,7 @@ struct RtlRandomArguments {
   std::uint64_t cycles = 10'000'000, seed = 1;
   unsigned jobs = 0;                           ///< threads; 0: as many as there are processors
   std::string replay;                          ///< a stimulus file instead of random cases
-  unsigned fault = 0;                          ///< of rtl_ref/dsdpv1/faults.txt, to see one found
+  unsigned fault = 0;                          ///< of the RTL, to see one found
   std::string stimulus = "lockstep.stimulus";  ///< where a shrunk failing case goes
   std::string difference = "lockstep.vcd";     ///< ... and its wave
   OwnRtlArguments own;                         ///< without a folder: the reference RTL

@@ -60,21 +60,15 @@ cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
 }
 
 Bench bench_of(const RtlRandomArguments& arguments) {
-  const tb::ChipKind& kind = arguments.chip.kind();
-  const bool quick = arguments.own.rtl.empty() || takes(own_map(arguments.own, kind), kind.random()->words().quick);
-  Bench bench{quick ? cosim::quick_options(kind) : cosim::usual_options(kind), {}, {}};
-  cosim::set_parameters(bench.options, arguments.set);
-  cosim::set_parameters(bench.options, arguments.chip.port().set);
-  if (arguments.no_dpram || !arguments.own.rtl.empty()) judge_by_pins(bench.options);
+  Bench bench{play_options(arguments.chip, arguments.own, arguments.set, arguments.no_dpram), {}, {}};
   if (arguments.own.rtl.empty()) {
     bench.make = reference_of(arguments)(bench.options);
     return bench;
   }
-  const OwnRtl own =
-      build_own_rtl(arguments.own, arguments.command, kind, *bench.options.chip, !arguments.wave.empty());
-  bench.options.lockstep.tolerances = own.map.tolerances;
-  bench.make_own = own.make;
-  bench.make = [make = own.make] { return make(std::nullopt); };
+  bench.make_own = build_own_rtl(arguments.own, arguments.command, *bench.options.kind, *bench.options.chip,
+                                 !arguments.wave.empty(), arguments.fault)
+                       .make;
+  bench.make = [make = bench.make_own] { return make(std::nullopt); };
   return bench;
 }
 
@@ -362,7 +356,7 @@ class RtlRandom : public Command {
     CLI::Option* replay = app.add_option("--replay", given_.replay, "This stimulus file instead of random cases");
     app.add_flag("--shrink", given_.shrink, "Shrink it into the file of --stimulus if it differs")->needs(replay);
     add_own_rtl_options(app, given_.own, false);
-    add_fault_option(app, given_.fault)->excludes("--rtl");
+    add_fault_option(app, given_.fault);
     CLI::Option* no_dpram = add_no_dpram_option(app, given_.no_dpram)->excludes("--rtl");
     campaign_ = app.add_flag("--campaign", given_.campaign,
                              "Use the DSDPV1 and each port of the DSDPV1-RSU in turn; resume from --state")

@@ -57,7 +57,9 @@ const cosim::HostPort& RtlChip::port() const {
 }
 
 CLI::Option* add_fault_option(CLI::App& app, unsigned& fault) {
-  return app.add_option("--fault", fault, "Enable this single fault of rtl_ref/dsdpv1/faults.txt in the reference RTL")
+  return app
+      .add_option("--fault", fault,
+                  "Enable this single fault: of rtl_ref/dsdpv1/faults.txt, or of your RTL, whose map then has fault:")
       ->check(CLI::Range(0, 255));
 }
 
@@ -69,11 +71,6 @@ bool has_tolerance(const cosim::PinMap& map) {
 CLI::Option* add_no_dpram_option(CLI::App& app, bool& no_dpram) {
   return app.add_flag("--no-dpram", no_dpram,
                       "As with --rtl: the DPRAM is not compared, and a second user reads what the chip has written");
-}
-
-void judge_by_pins(cosim::PlayOptions& options) {
-  options.lockstep.compare_dpram = false;
-  options.reads_back = true;
 }
 
 void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool required) {
@@ -108,11 +105,25 @@ bool takes(const cosim::PinMap& map, const std::vector<std::string>& set) {
   });
 }
 
+cosim::PlayOptions play_options(const RtlChip& chip, const OwnRtlArguments& own, const std::vector<std::string>& set,
+                                bool no_dpram) {
+  const tb::ChipKind& kind = chip.kind();
+  const cosim::PinMap map = own_map(own, kind);
+  const bool is_own = !own.rtl.empty(), quick = !is_own || takes(map, kind.random()->words().quick);
+  cosim::PlayOptions options = quick ? cosim::quick_options(kind) : cosim::usual_options(kind);
+  cosim::set_parameters(options, set);
+  cosim::set_parameters(options, chip.port().set);
+  options.lockstep.tolerances = map.tolerances;
+  options.lockstep.compare_dpram = !is_own && !no_dpram;
+  options.reads_back = is_own || no_dpram;  // what the chip writes thus appears at pins
+  return options;
+}
+
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
-                     const tb::OwnSettings& chip, bool traced) {
+                     const tb::OwnSettings& chip, bool traced, unsigned fault) {
   OwnRtl own{own_map(arguments, kind), {}};
-  own.make = cosim::build_user_rtl({command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced},
-                                   own.map, kind, chip);
+  own.make = cosim::build_user_rtl(
+      {command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced, fault}, own.map, kind, chip);
   return own;
 }
 

@@ -24,14 +24,11 @@ struct RtlChip {
 void add_chip_options(CLI::App& app, RtlChip& chip, bool with_mode = true);
 /// --chip alone.
 CLI::Option* add_chip_option(CLI::App& app, RtlChip& chip);
-/// --fault: a single one in the reference RTL.
+/// --fault: a single one in the RTL.
 CLI::Option* add_fault_option(CLI::App& app, unsigned& fault);
 
 /// --no-dpram: the reference RTL as if it were the user's own.
 CLI::Option* add_no_dpram_option(CLI::App& app, bool& no_dpram);
-/// The DPRAM is not compared; what the chip writes there is read back, so that it appears at pins.
-void judge_by_pins(cosim::PlayOptions& options);
-
 struct OwnRtlArguments {
   std::string rtl, top, pins, build = "build/cosim";
 };
@@ -52,9 +49,14 @@ cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind
 /// Whether the map takes all these texts of --set, chip.KEY=VALUE, to the RTL.
 bool takes(const cosim::PinMap& map, const std::vector<std::string>& set);
 
-/// Reads the map of its pins and builds it with the parameters of `chip`, `traced` so that its inside can be recorded.
-/// `command` as "dsdpv1-sim cosim". Throws tb::InputError.
+/// How random cases and stimuli are played: with short times, and those of `set`, unless RTL of the user's own cannot
+/// be told them; RTL of his own by its pins alone. Throws tb::InputError.
+cosim::PlayOptions play_options(const RtlChip& chip, const OwnRtlArguments& own, const std::vector<std::string>& set,
+                                bool no_dpram);
+
+/// Reads the map of its pins and builds it with the parameters of `chip`, `traced` so that its inside can be recorded,
+/// for the single fault `fault`. `command` as "dsdpv1-sim cosim". Throws tb::InputError.
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
-                     const tb::OwnSettings& chip, bool traced);
+                     const tb::OwnSettings& chip, bool traced, unsigned fault = 0);
 
 }  // namespace dsdpv1::app

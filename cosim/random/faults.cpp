@@ -21,8 +21,10 @@ namespace fs = std::filesystem;
 /// Plays until the fault shows.
 class Hunt {
  public:
-  Hunt(const Fault& fault, const CampaignOptions& options) : kill_{fault, false, "", 0, 0, ""}, options_(options) {
+  Hunt(const Fault& fault, const CampaignOptions& options, const MakeFaulty& make)
+      : kill_{fault, false, "", 0, 0, ""}, options_(options) {
     set_parameters(options_.play, fault.set);
+    make_ = make(fault, options_.play);
   }
 
   bool directed(const NamedStimulus& stimulus) {
@@ -52,7 +54,7 @@ class Hunt {
 
   Kill kill_;
   CampaignOptions options_;
-  MakeTop make_ = [this] { return reference_top(options_.play, kill_.fault.number, 1)(); };
+  MakeTop make_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
@@ -98,8 +100,9 @@ std::vector<NamedStimulus> read_stimuli(const std::string& folder, const tb::Chi
   return stimuli;
 }
 
-Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options) {
-  Hunt hunt(fault, options);
+Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options,
+          const MakeFaulty& make) {
+  Hunt hunt(fault, options, make);
   for (const bool named : {true, false})
     for (const NamedStimulus& each : directed)
       if ((each.name == fault.stimulus) == named && hunt.directed(each)) return hunt.end();
@@ -108,7 +111,8 @@ Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const 
 }
 
 std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<NamedStimulus>& directed,
-                           const CampaignOptions& options, const std::function<void(const Kill&)>& found) {
+                           const CampaignOptions& options, const MakeFaulty& make,
+                           const std::function<void(const Kill&)>& found) {
   std::mutex mutex;
   std::vector<std::optional<Kill>> kills(faults.size());
   std::size_t begun = 0, told = 0;
@@ -119,7 +123,7 @@ std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<N
       if (begun == faults.size()) return false;
       number = begun++;
     }
-    Kill kill = hunt(faults[number], directed, options);
+    Kill kill = hunt(faults[number], directed, options, make);
     const std::scoped_lock lock(mutex);
     kills[number] = std::move(kill);
     for (; told < kills.size() && kills[told]; ++told) found(*kills[told]);

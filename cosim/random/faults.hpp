@@ -31,13 +31,18 @@ struct Kill {
   std::string what;  ///< the difference
 };
 
+/// Makes RTL with this fault and these parameters.
+using MakeFaulty = std::function<MakeTop(const Fault& fault, const PlayOptions& options)>;
+
 /// Plays directed stimuli, first the one that the fault names, then random cases until `cycles` are compared. For the
 /// chip and its port in `options`.
-Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options);
+Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options,
+          const MakeFaulty& make);
 
 /// Hunts all faults on several threads; `found` is called in the order of `faults`, by one thread at a time.
 std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<NamedStimulus>& directed,
-                           const CampaignOptions& options, const std::function<void(const Kill&)>& found);
+                           const CampaignOptions& options, const MakeFaulty& make,
+                           const std::function<void(const Kill&)>& found);
 
 /// One line of the kill table; its heading.
 std::string line_of(const Kill& kill);

@@ -150,6 +150,32 @@ def defect_is_found(copy, kind, mode):
     check(done.returncode == 1 and f"pin {pin}: " in result["difference"]["what"], f"swapped CRC, {kind}, {mode}", done.stdout + done.stderr)
 
 
+def faults_are_found(copy, kind, mode):
+    """A list of faults in one's own RTL: one that pins show, one that only a user who reads sees, and none; and a stimulus with one of them."""
+    pins = copy.pins("faults.yaml", tie="tie: {pad_scan: 5}", fault="fault: pad_fault")
+    folder, name = {"parallel": ("dsdpv1", "user_blocks"), "spi": ("dsdpv1_rsu", "spi_blocks"), "uart": ("dsdpv1_rsu", "news")}[mode]
+    stimulus = ROOT / f"tests/cosim/stimuli/{folder}/{name}.stimulus"
+    played = copy.folder / "played"
+    shutil.rmtree(played, ignore_errors=True)
+    played.mkdir()
+    shutil.copy2(stimulus, played)
+    (copy.folder / "faults.txt").write_text(f"46 interrupt {name} INTR0 is short\n{SWAPPED_CRC} dpram_move {name} CRC bytes are swapped\n255 nothing - none\n")
+    done = copy.call("rtl-faults", "--chip", kind, "--mode", mode, "--list", "faults.txt", "--directed", "played", "--cycles", 10000, "--tsv", "kills.tsv", pins=pins)
+    rows = [line.split("\t") for line in (copy.folder / "kills.tsv").read_text().splitlines()[1:]]
+    pin = {"parallel": "D_OUT", "spi": "MISO", "uart": "TXD"}[mode]
+    check(done.returncode == 1 and [row[3] for row in rows] == ["yes", "yes", "no"] and rows[0][6:] == [name, "pin INTR0: model 0, RTL 1"] and
+          rows[1][6] == name and rows[1][7].startswith(f"pin {pin}: "), f"rtl-faults, {kind}, {mode}", done.stdout + done.stderr)
+    done, result = copy.result("rtl-random", "--chip", kind, "--mode", mode, "--fault", 46, "--replay", stimulus, pins=pins)
+    check(done.returncode == 1 and result["fault"] == 46 and "pin INTR0: " in result["difference"]["what"], f"--fault, {kind}, {mode}", done.stdout + done.stderr)
+
+
+def fault_beyond_the_port(copy):
+    (copy.folder / "wide.txt").write_text("46 interrupt - INTR0 is short\n256 nothing - its number has 9 bits\n")
+    done = copy.call("rtl-faults", "--list", "wide.txt", pins=copy.pins("faults.yaml", tie="tie: {pad_scan: 5}", fault="fault: pad_fault"))
+    check(done.returncode == 2 and not done.stdout and re.fullmatch(r"faults.yaml:\d+: fault of pad_fault is 256, expected a number of 8 bits\n", done.stderr),
+          "a fault beyond the port", done.stdout + done.stderr)
+
+
 def wrong(copy, line, words, *more, **changes):
     """One line that names the file, the line of the map and `words`; exit 2."""
     pins = copy.pins("wrong.yaml", **changes)
@@ -166,6 +192,8 @@ def wrong_maps(copy):
     def chip(**changes):
         return f"chip: {{{', '.join(f'{key}: {value}' for key, value in {**ports, **changes}.items())}}}"
 
+    wrong(copy, "fault:", "port pad_fault is tie and fault", fault="fault: pad_fault")
+    wrong(copy, "", "fault: is missing, expected fault: INPUT", "--fault", 3)
     wrong(copy, "", "my_dsdpv1's input pad_scan is not in the map", tie="tie: {pad_fault: 0}")
     wrong(copy, "tie:", "my_dsdpv1 has no port pad_scam that is an input, for tie", tie="tie: {pad_scan: 5, pad_fault: 0, pad_scam: 0}")
     wrong(copy, "tie:", "tie of pad_scan is 8, expected a number of 3 bits", tie="tie: {pad_scan: 8, pad_fault: 0}")
@@ -209,9 +237,11 @@ def main():
                 for entrance in (by_scenario, at_random, replayed):
                     entrance(copy, kind, mode, parameters)
             defect_is_found(copy, kind, mode)
+            faults_are_found(copy, kind, mode)
     copy = copies["dsdpv1"]
     crossed(copy)
     scenario_without_mapping(copy)
+    fault_beyond_the_port(copy)
     wrong_maps(copy)
     print(f"{cells} cells")
     sys.exit("\n".join(FAILURES) or 0)

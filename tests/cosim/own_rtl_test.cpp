@@ -52,7 +52,7 @@ TEST_F(PinMapFile, NamesPolaritiesAndTolerancesAreRead) {
   const cosim::PinMap map = load(
       "clock: clk48\npins:\n  CSR: {port: cs, inverted: true}\n  RD: rd_n\ntolerance: {PBTXD: 3}\n"
       "parameters: {WIDTH: 8}\nfiles: [a.sv]\ninclude: [lib]\nreference: true\nfile_list: chip.f\n"
-      "tie: {scan: 0x1F, test: 3}\ndefines: {FPGA: 1, SIM: }\nchip: {search_window_ms: SW, rts_lead: {port: lead}}\n");
+      "tie: {scan: 0x1F, test: 3}\nfault: fault_i\ndefines: {FPGA: 1, SIM: }\nchip: {search_window_ms: SW, rts_lead: {port: lead}}\n");
   EXPECT_EQ(map.clock.name, "clk48");
   EXPECT_EQ(map.pins.at("CSR").name, "cs");
   EXPECT_TRUE(map.pins.at("CSR").inverted);
@@ -65,6 +65,7 @@ TEST_F(PinMapFile, NamesPolaritiesAndTolerancesAreRead) {
   EXPECT_EQ(map.file_list.text, "chip.f");
   EXPECT_EQ(map.ties.at("scan").value, 0x1FU);
   EXPECT_EQ(map.ties.at("test").line, 11);
+  EXPECT_EQ(map.fault.text, "fault_i");
   EXPECT_EQ(map.defines.at("FPGA").text, "1");
   EXPECT_EQ(map.defines.at("SIM").text, "");
   EXPECT_EQ(map.chip.at("search_window_ms").name, "SW");
@@ -75,8 +76,8 @@ TEST_F(PinMapFile, NamesPolaritiesAndTolerancesAreRead) {
 
 TEST_F(PinMapFile, WrongContentIsNamedWithItsLineAndWhatIsAllowed) {
   EXPECT_EQ(error_of("clock: c\npinns: {}\n"),
-            ":2: unknown name pinns (did you mean pins?), expected clock, pins, tie, tolerance, chip, parameters, "
-            "defines, files, file_list, include, reference");
+            ":2: unknown name pinns (did you mean pins?), expected clock, pins, tie, fault, tolerance, chip, "
+            "parameters, defines, files, file_list, include, reference");
   EXPECT_THAT(error_of("pins:\n  L_RQE: x\n"), HasSubstr(":2: unknown name L_RQE (did you mean L_REQ?), expected A,"));
   EXPECT_EQ(error_of("pins:\n  RD: {port: r, inverted: maybe}\n"), ":2: inverted of RD is maybe, expected true, false");
   EXPECT_EQ(error_of("pins:\n  RD: {inverted: true}\n"),
@@ -94,6 +95,7 @@ TEST_F(PinMapFile, WrongContentIsNamedWithItsLineAndWhatIsAllowed) {
   EXPECT_EQ(error_of("tie:\n  scan: high\n"),
             ":2: tie of scan is high, expected a number like 1 or 0x1F of at most 64 bits");
   EXPECT_THAT(error_of("tie:\n  scan: 0x10000000000000000\n"), HasSubstr(":2: tie of scan is 0x1"));
+  EXPECT_EQ(error_of("fault: {port: x}\n"), ":1: fault is no word, expected one name or number");
   EXPECT_THAT(error_of("tie: 5\n"), HasSubstr(":1: tie is no map"));
   EXPECT_EQ(error_of("chip:\n  rts_laed: LEAD\n"),
             ":2: unknown name rts_laed (did you mean rts_lead?), expected search_window_ms, rts_lead");
