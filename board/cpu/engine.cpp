@@ -101,6 +101,11 @@ inline void Engine::execute_in_block() {
   if (trap_ <= Trap::kInvalidState) it_ = following(state);
 }
 
+void Engine::go_far(std::uint32_t target, std::uint32_t last, Refill refill) {
+  turn_page(target);
+  arrive(reach(last, target), refill);
+}
+
 void Engine::turn_page(std::uint32_t target) {
   if (code_ == nullptr || target - code_->start >= code_->size) code_ = memory_at(target);
   if (code_ != nullptr) {
@@ -176,14 +181,15 @@ void Engine::set_flash(unsigned wait_states, bool prefetches) {
 
 void Engine::exchange(std::uint32_t target, Refill refill) {
   constexpr std::uint32_t kReturns = 0xF0000000;
-  if (ipsr_ != 0 && target >= kReturns) {
-    returned_at_ = pc();
-    leave_memory(target & ~1U);
-    return trap(Trap::kExceptionReturn);
-  }
-  thumb_ = (target & 1U) != 0;
+  if (ipsr_ != 0 && target >= kReturns) return return_by(target);
+  set_thumb(target);
   go(target & ~1U, refill);
-  if (!thumb_) trap(Trap::kInvalidState);
+}
+
+void Engine::return_by(std::uint32_t exc_return) {
+  returned_at_ = pc();
+  leave_memory(exc_return & ~1U);
+  trap(Trap::kExceptionReturn);
 }
 
 /// A halfword outside of all memories counts as 0: the value that a bus would give is unknown.

@@ -199,12 +199,11 @@ class Engine {
   /// The next instruction is at an even `target`.
   void go(std::uint32_t target, Refill refill) {
     const std::uint32_t last = pc() + 2 * (at_->halfwords - 1U), offset = target - page_->start;
-    if (offset < page_->bytes)
-      at_ = &page_->instructions[offset / 2];
-    else
-      turn_page(target);
+    if (offset >= page_->bytes) return go_far(target, last, refill);
+    at_ = &page_->instructions[offset / 2];
     arrive(reach(last, target), refill);
   }
+  void go_far(std::uint32_t target, std::uint32_t last, Refill refill);
   /// It is the target of `branch`.
   [[gnu::always_inline]] void follow(const Instruction& branch, Refill refill) {
     if (branch.shift == kFar) return go(branch.value, refill);
@@ -230,6 +229,11 @@ class Engine {
   void make_page(const Memory& memory, CodePage& page, std::uint32_t offset);
   /// BXWritePC (ARMv7-M, A2.3.1): a change of state, or the return from an exception.
   void exchange(std::uint32_t target, Refill refill);
+  void return_by(std::uint32_t exc_return);
+  void set_thumb(std::uint32_t target) {
+    thumb_ = (target & 1U) != 0;
+    if (!thumb_) trap(Trap::kInvalidState);
+  }
   /// Ends run(), the instruction at work executed or not.
   void trap(Trap why) {
     trap_ = why;

@@ -481,9 +481,8 @@ struct Operations {
     const U32 target = e.r_[i.rm];
     e.r_[14] = (e.pc() + 2) | 1;
     e.pay(i);
-    e.thumb_ = (target & 1) != 0;
+    e.set_thumb(target);
     e.go(target & ~U32{1}, by_register(i));
-    if (!e.thumb_) e.trap(Trap::kInvalidState);
   }
   /// MOV and ADD to PC.
   template <bool adds>

@@ -86,7 +86,7 @@ Board::~Board() {
 
 // The mailbox first: after it the processor has run to its next stop, which is later than `now`.
 void Board::run(Tick now) {
-  if (mailbox_) look_at_mailbox(now);
+  if (has_news()) look_at_mailbox(now);
   for (Tick at = now;;) {
     turn_ = at;
     if (device_tick() <= at) run_devices(at);
@@ -317,22 +317,23 @@ void Board::meet_devices() {
 
 /// The processor may stay ahead of the other agents as long as none of them is due.
 std::uint64_t Board::keep_up() {
-  if (acts_.sample_at() <= now()) acts_.sample(now(), core_.place(), core_.read_register(Register::kLr));
+  const Tick now = this->now();
+  if (acts_.sample_at() <= now) acts_.sample(now, core_.place(), core_.read_register(Register::kLr));
   const Tick next = stays_until();
-  const bool ahead = !has_news() && next > now();
+  const bool ahead = !has_news() && next > now;
   quiet_ = ahead ? next : 0;
-  if (ahead && core_.cycles() < look_at_) return due_cycle(next);
+  if (ahead && core_.cycles() < look_at_) return due_cycle(now, next);
   if (!ahead) come_up();
   if (core_.cycles() >= look_at_) look_if_stuck();
-  return due_cycle(stays_until());
+  return due_cycle(now, stays_until());
 }
 
 void Board::left_out(std::uint64_t since, std::uint64_t cycles) {
   if (look_.cycle > since) look_.cycle += cycles;  // else before the loop
 }
 
-std::uint64_t Board::due_cycle(Tick next) const {
-  return std::min(look_at_, cycle_of(std::max(std::min(next, acts_.sample_at()), now())));
+std::uint64_t Board::due_cycle(Tick now, Tick next) const {
+  return std::min(look_at_, cycle_of(std::max(std::min(next, acts_.sample_at()), now)));
 }
 
 /// Up to when the processor may stay ahead. A chip that runs ahead reports its edges before their time.

@@ -120,7 +120,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::uint64_t keep_up() override;
   void left_out(std::uint64_t since, std::uint64_t cycles) override;
   Tick looked_at() const { return tick_of(std::max(look_.cycle, since_cycle_)); }
-  std::uint64_t due_cycle(Tick next) const;
+  std::uint64_t due_cycle(Tick now, Tick next) const;
   Tick stays_until();
   std::optional<std::uint32_t> peek(std::uint32_t address) const override;
   std::vector<MemoryRegion> regions() const override;

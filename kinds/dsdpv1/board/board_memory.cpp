@@ -217,7 +217,7 @@ std::uint32_t Board::load_word(std::uint32_t address) {
   const std::uint32_t value = load_register(*here, address - here->base);
   if (stays(*here)) {
     polls_ = true;
-    core_.stays(due_cycle(stays_until()));
+    core_.stays(due_cycle(now(), stays_until()));
   }
   return value;
 }

@@ -13,7 +13,11 @@ constexpr std::uint32_t kPortPins =
 void Checks::pin(Tick at, Pin pin, Level level) {
   if ((dsdpv1::mask(pin) & pins_) == 0) return;
   history_.add(at, static_cast<tb::PinNumber>(pin), level);
-  if (!serial() && (dsdpv1::mask(pin) & kPortPins) != 0) return port_pin(at, pin, level);
+  const bool is_port = !serial() && (dsdpv1::mask(pin) & kPortPins) != 0;
+  is_port ? port_pin(at, pin, level) : other_pin(at, pin, level);
+}
+
+void Checks::other_pin(Tick at, Pin pin, Level level) {
   if (strap(pin, level)) return;
   if (pin == Pin::kReset)
     reset_pin(at, level != 0);
@@ -65,7 +69,7 @@ void Checks::spi_pin(Tick at, Pin pin, Level level) {
 
 /// Most changes.
 void Checks::port_pin(Tick at, Pin pin, Level level) {
-  end_hold_before(at);
+  if (hold_end_) end_hold_before(at);
   port_.pin(at, pin, level);
 }
 

@@ -83,6 +83,7 @@ class Checks : public ChipChecks, private AccessSink {
   static constexpr Level kSpi = 1, kUart = 2;  // R2; 3 as 0
 
   bool serial() const { return settings_.mode == kSpi || settings_.mode == kUart; }
+  void other_pin(Tick at, dsdpv1::Pin pin, Level level);
   bool strap(dsdpv1::Pin pin, Level level);
   void port_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void parallel_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);

@@ -154,14 +154,14 @@ bool Dsdpv1PinChip::run_whole() {
 void Dsdpv1PinChip::report_whole(const dsdpv1::HostAccess& access, Tick begin) {
   std::array<PinEdge, 11> edges;  // 8, or 7 and 4 of D
   PinEdge* last = edges.data();
-  const auto insert = [&](Tick at, Pin pin, Level level) {
-    PinEdge* place = last++;
-    for (; place != edges.data() && place[-1].at > at; --place) *place = place[-1];
-    *place = {at, number(pin), level};
-  };
   for (const dsdpv1::HostAccess::Edge& edge : access)
-    if (edge.pin != Pin::kDOut) insert(begin + edge.at, edge.pin, edge.level);
+    if (edge.pin != Pin::kDOut) *last++ = {begin + edge.at, number(edge.pin), edge.level};
   if (!access.is_write()) {
+    const auto insert = [&](Tick at, Pin pin, Level level) {
+      PinEdge* place = last++;
+      for (; place != edges.data() && place[-1].at > at; --place) *place = place[-1];
+      *place = {at, number(pin), level};
+    };
     const dsdpv1::HostAccess::Times& times = access.times();
     const Tick fall = begin + std::max(times.select, times.strobe);
     const Tick drive = profibus::first_edge_after(fall) * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2;

@@ -10,6 +10,16 @@ NativeCpu::NativeCpu(HostBus& bus, const CpuTiming& timing, Program program, Tic
 
 // ------------------------------------------------------------------------------------------------- the bench's side
 
+inline Tick NativeCpu::break_tick() const {
+  const Tick interrupt = interrupts_open() ? interrupt_at_ : bus::kNever;
+  switch (break_) {
+    case Break::kWake: return std::min(interrupt, wake_at_);
+    case Break::kIntr0: return std::min(interrupt, intr0_at_);
+    case Break::kInterrupt: break;
+  }
+  return interrupt;
+}
+
 Tick NativeCpu::next() const {
   if (fiber_.ended()) return bus::kNever;
   if (request_.op == Op::kAccess) return put_off_ ? ready_at_ : std::min(bus_.next_edge(), ready_at_);
@@ -19,6 +29,7 @@ Tick NativeCpu::next() const {
 
 void NativeCpu::run(Tick now) {
   Tick at = now;
+  refused_ = bus::kNever;
   do {
     now_ = at;
     if (request_.op == Op::kAccess && !put_off_ && bus_.next_edge() <= now_) bus_.run_edges(now_);
@@ -41,8 +52,13 @@ void NativeCpu::go_on_program() {
   if (!std::exchange(begun_, false)) take_request();
 }
 
-/// No other agent has a turn before `at`, this CPU's next one: continue with it in this turn.
-bool NativeCpu::goes_on(Tick at) { return at != bus::kNever && others != nullptr && others->go_on(at); }
+/// No other agent has a turn up to `at`: continue there in this turn.
+bool NativeCpu::goes_on(Tick at) {
+  if (at == refused_ || others == nullptr) return false;
+  if (others->go_on(at)) return true;
+  refused_ = at;
+  return false;
+}
 
 /// Starts the request that the program made before it suspended.
 void NativeCpu::take_request() {
@@ -110,16 +126,6 @@ void NativeCpu::wake(Tick at) {
   announce();
 }
 
-Tick NativeCpu::break_tick() const {
-  const Tick interrupt = interrupts_open() ? interrupt_at_ : bus::kNever;
-  switch (break_) {
-    case Break::kWake: return std::min(interrupt, wake_at_);
-    case Break::kIntr0: return std::min(interrupt, intr0_at_);
-    case Break::kInterrupt: break;
-  }
-  return interrupt;
-}
-
 // ------------------------------------------------------------------------------------------------- the program's side
 
 void NativeCpu::perform(const Request& request) {
@@ -133,7 +139,7 @@ bool NativeCpu::made_at_once() {
   if (request_.op >= Op::kWait || others == nullptr || !bus_.is_used_from_anywhere() || fiber_.unwinding())
     return false;
   take_request();
-  begun_ = !is_over_by_itself() || (ready_at_ > now_ && !others->go_on(ready_at_));
+  begun_ = !is_over_by_itself() || (ready_at_ > now_ && !goes_on(ready_at_));
   if (begun_) return false;
   now_ = std::max(now_, ready_at_);
   if (request_.op == Op::kAccess) end_access();
@@ -205,7 +211,7 @@ void NativeCpu::suspend_until(Tick at, Break reason) {
 /// No other agent has a turn, and no pin is observed, until then: the program continues without the bench.
 bool NativeCpu::passes_at_once(Tick at) {
   break_ = Break::kInterrupt;
-  return at < break_tick() && others != nullptr && others->go_on(at);
+  return at < break_tick() && goes_on(at);
 }
 
 void NativeCpu::wait_until(Tick at) {

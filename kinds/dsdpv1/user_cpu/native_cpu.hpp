@@ -103,8 +103,9 @@ class NativeCpu : public bus::Agent, private Cpu {
   Tick wake_at_ = bus::kNever;
   Request request_;
   Break break_ = Break::kInterrupt;
-  bool begun_ = false;    ///< the request, before the program suspended
-  bool put_off_ = false;  ///< the present access is put off until its end
+  bool begun_ = false;          ///< the request, before the program suspended
+  bool put_off_ = false;        ///< the present access is put off until its end
+  Tick refused_ = bus::kNever;  ///< goes_on() was false for it in this turn
   Tick now_ = 0;
   Tick ready_at_;  ///< when the program continues
   bool sampled_ = false;
