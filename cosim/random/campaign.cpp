@@ -111,7 +111,8 @@ std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number) {
   std::uint64_t z = campaign * 0x9E3779B97F4A7C15ULL + number + 1;
   z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9ULL;
   z = (z ^ z >> 27) * 0x94D049BB133111EBULL;
-  return z ^ z >> 31;
+  z ^= z >> 31;
+  return z - z % kLedCases + (number + 1 < kLedCases ? number + 1 : 0);
 }
 
 CampaignResult run_campaign(const CampaignOptions& options, const MakeTop& make, const CampaignProgress& progress) {

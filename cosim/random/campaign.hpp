@@ -36,7 +36,8 @@ struct CampaignResult {
 /// Progress of the comparison; called by one thread at a time.
 using CampaignProgress = std::function<void(std::uint64_t cases, std::uint64_t cycles)>;
 
-/// The seed of case `number` of a campaign.
+/// The seed of case `number` of a campaign. Modulo kLedCases it is number + 1 in the first cases, whose subjects are
+/// fixed (RandomCases::make_case), and 0 in the others.
 std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number);
 
 /// Runs cases until so many cycles are compared, or one differs. All threads call `make`; `progress` may be empty.

@@ -1,6 +1,7 @@
 #include "cosim/random/random_master.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace dsdpv1::cosim {
 namespace {
@@ -9,6 +10,7 @@ constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr int kNoSap = -1;
 constexpr std::uint8_t kFailSafe = 0x08, kFailSafeReq = 0x40;  // for Setup::command; byte 7 of Set_Prm
 constexpr int kReplyBits = 270;                                // longer than any min_TSDR
+constexpr Tick kToInitialisation = 24;  // cycles from the release to the search, without the bytes of Cfg_Data
 
 Tick window(const SearchTimes& times, int rate) {
   return std::max(times.window, times.window_bits * bus::baud(rate).bit);
@@ -33,6 +35,24 @@ void RandomMaster::slow_rate() {
 void RandomMaster::fastest_rate() {
   setup_.rate = 0;
   be_found();
+}
+
+void RandomMaster::rate_of_500k() {
+  setup_.rate = 4;
+  be_found();
+}
+
+void RandomMaster::rate_after_a_window() {
+  constexpr int kTelegramBits = 6 * bus::kCharacterBits + 1, kRate = 6;
+  Tick ends = 0;
+  for (int rate = 0; rate <= kRate; ++rate) ends += window(times_, rate);
+  setup_.rate = kRate;
+  const Tick bits = kTelegramBits * bit();
+  const auto bytes = static_cast<Tick>(setup_.cfg.size());
+  const Tick late = (kToInitialisation + bytes) * kCycle + random_.between(2, 5) * kCycle;
+  send(bus::encode(bus::make_telegram(setup_.address, 2, 0x49)), ends - bits + late, false);
+  setup_.rate = kRate + 1;
+  send(bus::encode(bus::make_telegram(setup_.address, 2, 0x49)), idle() + 500 * kCycle, false);
 }
 
 /// Waits for the rate's window, then sends telegrams.
@@ -86,14 +106,55 @@ bus::Bytes RandomMaster::prm(bool right) {
   return bytes;
 }
 
-void RandomMaster::set_prm_with_watchdog() {
+void RandomMaster::set_prm_with_watchdog(int factor_1, int factor_2) {
   bus::Bytes bytes = prm(true);
   bytes.resize(std::max<std::size_t>(bytes.size(), 8), 0);
   bytes[0] |= 0x08;
-  bytes[1] = static_cast<std::uint8_t>(random_.between(1, 2));
-  bytes[2] = 1;
-  bytes[7] = 0x04;
+  bytes[1] = static_cast<std::uint8_t>(factor_1);
+  bytes[2] = static_cast<std::uint8_t>(factor_2);
+  bytes[7] = static_cast<std::uint8_t>((setup_.dpv1 ? 0x80 : 0) | 0x04);
   request(bus::sap::kSetPrm, bytes);
+}
+
+void RandomMaster::set_prm_with_tsdr(int bits) {
+  bus::Bytes bytes = prm(true);
+  bytes[3] = static_cast<std::uint8_t>(bits);
+  request(bus::sap::kSetPrm, bytes);
+}
+
+void RandomMaster::set_prm_of_groups(int groups) {
+  constexpr std::uint8_t kSyncReq = 0x20, kFreezeReq = 0x10;
+  bus::Bytes bytes = prm(true);
+  bytes[0] |= kSyncReq | kFreezeReq;
+  bytes[6] = static_cast<std::uint8_t>(groups);
+  request(bus::sap::kSetPrm, bytes);
+}
+
+void RandomMaster::command(int command, int groups) {
+  send(bus::make_telegram(bus::kBroadcast, 2, bus::fc::kRequest | bus::fc::kSdnHigh,
+                          {static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(groups)},
+                          bus::sap::kGlobalControl, bus::sap::kMaster),
+       false);
+}
+
+void RandomMaster::other_fcb_same_fcs() {
+  constexpr std::uint8_t kSrd = bus::fc::kRequest | bus::fc::kSrdHigh, kFcb = bus::fc::kFcb, kFcv = bus::fc::kFcv;
+  bus::Bytes data = random_.bytes(setup_.outputs);
+  for (const std::uint8_t bits : {kFcb, kFcv, static_cast<std::uint8_t>(kFcv | kFcb)}) {
+    send(bus::make_telegram(setup_.address, 2, static_cast<std::uint8_t>(kSrd | bits), data));
+    data = random_.bytes(setup_.outputs - 1);
+    const bus::Bytes& before = last_->data;  // the sum stays when FCB, which is 20, is set
+    const int sum = std::accumulate(before.begin(), before.end(), -std::accumulate(data.begin(), data.end(), 0));
+    data.push_back(static_cast<std::uint8_t>(sum - kFcb));
+  }
+}
+
+void RandomMaster::in_a_series(int sap) {
+  const auto fc = static_cast<std::uint8_t>(bus::fc::kRequest | bus::fc::kSrdHigh | bus::fc::kFcb);
+  send(bus::make_telegram(setup_.address, 2, fc, random_.bytes(setup_.outputs)));
+  const auto next = static_cast<std::uint8_t>(bus::fc::kRequest | bus::fc::kSrdHigh | bus::fc::kFcv);
+  if (sap == 0) return send(bus::make_telegram(setup_.address, 2, next, random_.bytes(setup_.outputs)));
+  send(bus::make_telegram(setup_.address, 2, next, {}, static_cast<std::uint8_t>(sap), bus::sap::kMaster));
 }
 
 void RandomMaster::wait_watchdog() { extra_ += random_.between(9, 26) * bus::kTicksPerMs / 10; }
@@ -169,6 +230,12 @@ void RandomMaster::set_slave_address() {
   request(bus::sap::kSetSlaveAddress, data);
   if (careful_ ? right && !setup_.locked : random_.one_in(2) && to < 126) setup_.address = to;
   setup_.locked = setup_.locked || (right && data[3] != 0);
+}
+
+void RandomMaster::set_slave_address_to(int address) {
+  request(bus::sap::kSetSlaveAddress, {static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(setup_.ident >> 8),
+                                       static_cast<std::uint8_t>(setup_.ident & 0xFF), 0});
+  if (address < 126) setup_.address = static_cast<std::uint8_t>(address);
 }
 
 void RandomMaster::any_service() {

@@ -82,6 +82,12 @@ TEST(RandomUser, ExceedsEachLimitOfAnInitialisation) {
     EXPECT_GT(played.count("events", each), 0U) << each;
 }
 
+TEST(RandomCases, AtTheBeginOfACampaignHaveAFixedSubject) {
+  for (std::uint64_t number = 0; number < 20; ++number)
+    EXPECT_EQ(case_seed(9, number) % kLedCases, number < 7 ? number + 1 : 0) << number;
+  EXPECT_NE(case_seed(9, 1) / kLedCases, case_seed(10, 1) / kLedCases);
+}
+
 /// In good order first, through the port that the straps choose: soon after power-on most cases are in data exchange.
 TEST(RandomCases, BringTheSlaveUpBeforeTheyGoWild) {
   struct Port {

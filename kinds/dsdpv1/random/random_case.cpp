@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "cosim/random/random_cases.hpp"
+
 namespace dsdpv1::cosim {
 namespace {
 
@@ -23,19 +25,21 @@ constexpr int kFastEnough = 3;  // slowest rate at which reaching data exchange 
 }  // namespace
 
 RandomCase::RandomCase(std::uint64_t seed, const tb::Dsdpv1Settings& chip)
-    : random_(seed),
+    : leading_(chip.mode == HostMode::kParallel ? seed % kLedCases : 0),
+      random_(seed),
       master_(random_, setup_, stimulus_, times_of(chip)),
       host_(make_host(random_, stimulus_, chip.mode, chip.part)),
       user_(random_, setup_, *host_) {}
 
 Stimulus RandomCase::make() {
-  power_on();
+  power_on(leading_ != 0);
   if (!host_->is_quick()) return host_only();
-  for (int i = random_.between(1, 3); i > 0; --i) episode();
+  if (leading_ != 0) episode(kLeading[leading_ - 1]);
+  for (int i = leading_ != 0 ? 0 : random_.between(1, 3); i > 0; --i) episode(any_theme());
   sync();
   host_->give();
   host_->break_rules();
-  if (random_.one_in(2)) reset_amid();
+  if (leading_ == 0 && random_.one_in(2)) reset_amid();
   return std::move(stimulus_);
 }
 
@@ -46,8 +50,7 @@ Stimulus RandomCase::host_only() {
 }
 
 /// An initialisation, a baud rate, usually data exchange, and then the theme.
-void RandomCase::episode() {
-  const Theme& theme = any_theme();
+void RandomCase::episode(const Theme& theme) {
   come_up(theme);
   (this->*theme.play)();
   sync();
@@ -65,16 +68,16 @@ void RandomCase::push_reset(AccessPart part, Tick within) {
   stimulus_.push_back(reset);
 }
 
-void RandomCase::power_on() {
+void RandomCase::power_on(bool sure) {
   host_->strap();
-  const bool held = random_.one_in(6);
+  const bool held = !sure && random_.one_in(6);
   if (held) host_->hold_through_reset();
   push_reset();
   sync();
   if (held) host_->wait(random_.between(0, kReady));
   if (held) host_->give();
   // Sometimes the user acts before the chip is ready (H6).
-  host_->wait(random_.one_in(4) ? random_.between(0, kReady) : kReady);
+  host_->wait(!sure && random_.one_in(4) ? random_.between(0, kReady) : kReady);
 }
 
 /// In the right order most of the time: later steps go wrong often enough.
@@ -82,16 +85,18 @@ void RandomCase::come_up(const Theme& theme) {
   theme_ = &theme;
   setup_ = user_.any_setup();
   (this->*theme.prepare)();
-  careful(!random_.one_in(6));
+  const bool sure = theme.weight == 0;
+  careful(sure || !random_.one_in(6));
+  master_.sure(sure);
   master_.forget_series();
   if (setup_.dpv1) user_.enable_dpv1(0x1D);  // before the initialisation (D17)
   user_.initialise();
   sync();
-  if (random_.one_in(12)) user_.initialise();
-  host_->wait(200);
+  if (!sure && random_.one_in(12)) user_.initialise();
+  if (!sure) host_->wait(200);
   sync();
   (master_.*theme.find_rate)();
-  if (setup_.rate <= kFastEnough && !random_.one_in(12)) bring_up();
+  if (setup_.rate <= kFastEnough && (sure || !random_.one_in(12))) bring_up();
   careful(false);
 }
 

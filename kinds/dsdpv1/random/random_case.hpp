@@ -18,20 +18,21 @@ class RandomCase {
   Stimulus make();
 
  private:
-  /// The theme of an episode: the required state of the slave, the line's rate, and the events.
+  /// The theme of an episode: the required state of the slave, the line's rate, and the events. One of weight 0 leads a
+  /// case: everything before it is right.
   struct Theme {
     int weight;
     void (RandomCase::*prepare)();
     void (RandomMaster::*find_rate)();
     void (RandomCase::*play)();
   };
-  static const Theme kThemes[];
+  static const Theme kThemes[], kLeading[];
   const Theme& any_theme();
 
-  void episode();
+  void episode(const Theme& theme);
   Stimulus host_only();
   // the way up
-  void power_on();
+  void power_on(bool sure = false);
   void come_up(const Theme& theme);
   void bring_up();
   void reach(profibus::DpState state);
@@ -44,6 +45,8 @@ class RandomCase {
   void with_sync_and_freeze();
   void without_address();
   void with_everything();
+  void with_the_usual();
+  void with_a_long_configuration();
   // themes
   void wild();
   void acyclic();
@@ -57,6 +60,10 @@ class RandomCase {
   void slow_rates();
   void port();
   void edges();
+  // themes that lead
+  void single_bits();
+  void long_timers();
+  void late_answers();
   // parts of themes
   int steps();
   void step();
@@ -73,6 +80,11 @@ class RandomCase {
   void reset_in(AccessPart part);
   bool cause(AccessPart part);
   void reset_amid();
+  void repetitions();
+  void both_flags();
+  void groups();
+  void delivery_address();
+  void request_of_class_2();
 
   void sync() { stimulus_.push_back({}); }
   void careful(bool careful) {
@@ -82,6 +94,7 @@ class RandomCase {
   void verdict(bool prm, bool cfg);
   void push_reset(AccessPart part = AccessPart::kNone, Tick within = 0);
 
+  const std::uint64_t leading_;  ///< number of the theme that leads, from 1; 0: any theme does
   Random random_;
   Setup setup_;
   Stimulus stimulus_;

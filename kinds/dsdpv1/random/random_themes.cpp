@@ -29,6 +29,18 @@ const RandomCase::Theme RandomCase::kThemes[] = {
     {9, &RandomCase::with_everything, &RandomMaster::fastest_rate, &RandomCase::edges},
 };
 
+// The first cases of a campaign, by case_seed(): what one bit or cycle decides, and what takes long, so that also a
+// short campaign meets each.
+const RandomCase::Theme RandomCase::kLeading[] = {
+    {0, &RandomCase::with_a_long_configuration, &RandomMaster::fastest_rate, &RandomCase::single_bits},
+    {0, &RandomCase::with_the_usual, &RandomMaster::fastest_rate, &RandomCase::long_timers},
+    {0, &RandomCase::with_a_long_configuration, &RandomMaster::fastest_rate, &RandomCase::single_bits},
+    {0, &RandomCase::with_the_usual, &RandomMaster::rate_of_500k, &RandomCase::late_answers},
+    {0, &RandomCase::with_a_long_configuration, &RandomMaster::fastest_rate, &RandomCase::single_bits},
+    {0, &RandomCase::with_the_usual, &RandomMaster::rate_after_a_window, &RandomCase::as_it_is},
+    {0, &RandomCase::with_a_long_configuration, &RandomMaster::fastest_rate, &RandomCase::single_bits},
+};
+
 const RandomCase::Theme& RandomCase::any_theme() {
   int all = 0;
   for (const Theme& each : kThemes) all += each.weight;
@@ -69,6 +81,20 @@ void RandomCase::with_everything() {
   setup_.cfg_mode = 0;
   setup_.cfg = {0x31};
   setup_.inputs = setup_.outputs = 2;
+}
+
+/// No limit is in the way.
+void RandomCase::with_the_usual() {
+  setup_ = Setup();
+  setup_.address = static_cast<std::uint8_t>(random_.between(1, 125));
+  setup_.cfg = {0x31};
+  setup_.dpv1 = true;
+}
+
+/// The flag of a configuration so long comes in INTR0's gap when both blocks wait for the user's release (P7).
+void RandomCase::with_a_long_configuration() {
+  with_the_usual();
+  setup_.cfg.resize(static_cast<std::size_t>(random_.between(60, 115)), 0x00);
 }
 
 // --- everything ------------------------------------------------------------------------------------------------------
@@ -317,7 +343,8 @@ void RandomCase::timeouts() {
 /// judges newer ones (S15).
 void RandomCase::watchdog() {
   sync();
-  master_.set_prm_with_watchdog();
+  const bool two = random_.one_in(2);
+  master_.set_prm_with_watchdog(two ? 1 : random_.between(1, 2), two ? 2 : 1);
   verdict(true, false);
   if (random_.one_in(2)) master_.check_cfg(true);
   if (random_.one_in(2)) verdict(false, true);
@@ -334,6 +361,116 @@ void RandomCase::search_again() {
   master_.wait_baud_control();
   master_.choose_rate();
   master_.repeat_last();
+}
+
+// --- what one bit or cycle decides
+// ------------------------------------------------------------------------------------
+
+void RandomCase::single_bits() {
+  constexpr void (RandomCase::*kParts[])() = {&RandomCase::repetitions, &RandomCase::both_flags, &RandomCase::groups,
+                                              &RandomCase::delivery_address, &RandomCase::request_of_class_2};
+  const int first = random_.below(static_cast<int>(std::size(kParts)));
+  for (std::size_t i = 0; i < std::size(kParts); ++i) {
+    careful(true);
+    (this->*kParts[(i + static_cast<std::size_t>(first)) % std::size(kParts)])();
+  }
+  careful(false);
+}
+
+/// Requests that only their FCB tells apart, and each service repeated after the user has renewed its data (S26).
+void RandomCase::repetitions() {
+  reach(DpState::kDataExch);
+  for (int i = 0; i < 2; ++i) master_.other_fcb_same_fcs();
+  for (const int sap : {0, 56, 57, 59, 60}) {
+    master_.in_a_series(sap);
+    sync();
+    user_.inputs();
+    host_->wait(150);
+    sync();
+    master_.repeat_last();
+  }
+}
+
+/// Parameters and configuration wait for the user's release, and then come in one access (P7).
+void RandomCase::both_flags() {
+  sync();
+  host_->take();
+  host_->wait(20);
+  sync();
+  master_.set_prm(true);
+  master_.check_cfg(true);
+  sync();
+  host_->give();
+  host_->wait(600);
+  sync();
+}
+
+/// Commands to the first and the last group and to others, Sync and Freeze alone and together, and new data after each
+/// (S4).
+void RandomCase::groups() {
+  sync();
+  master_.set_prm_of_groups(0x81 | random_.byte());
+  master_.check_cfg(true);
+  for (int i = 0; i < 5; ++i) {
+    constexpr int kCommands[] = {0x20, 0x08, 0x28, 0x28}, kGroups[] = {0x80, 0x80, 0x01, 0x02, 0x10};
+    master_.command(random_.pick(kCommands), random_.pick(kGroups));
+    for (int each = 0; each < 2; ++each) {
+      sync();
+      user_.inputs();
+      master_.data_exchange();
+      sync();
+      host_->wait(150);
+    }
+    sync();
+    master_.command(0x14, 0);
+  }
+}
+
+/// Set_Slave_Address with addresses about the greatest (S5).
+void RandomCase::delivery_address() {
+  reach(DpState::kWaitPrm);
+  for (const int each : {126, 127, random_.between(1, 125)}) master_.set_slave_address_to(each);
+  master_.slave_diag();
+}
+
+void RandomCase::request_of_class_2() {
+  const int channel = random_.between(1, 2);
+  for (const int each : {1, 2}) master_.abort(each);
+  for (int i = 0; i < channel; ++i) master_.initiate();
+  master_.acyclic_poll(channel);
+  master_.acyclic_request(channel);
+  sync();
+  host_->wait(400);
+  sync();
+}
+
+/// A watchdog of two factors without its master, and T of 10 ms on channel 2F, which the poll for an answer extends;
+/// channel 30 has a T of two bytes (S22, V12).
+void RandomCase::long_timers() {
+  constexpr int kTwoBytes = 0x0101, kTen = 1, kChannel = 2;
+  careful(true);
+  master_.set_prm_with_watchdog(1, 2);
+  master_.check_cfg(true);
+  for (const int timeout : {kTwoBytes, kTen}) master_.initiate(timeout);
+  master_.acyclic_poll(kChannel);
+  master_.acyclic_request(kChannel);
+  sync();
+  host_->wait(300);
+  for (int i = 0; i < 2; ++i) user_.acyclic_answer(kChannel);
+  host_->wait(300);
+  sync();
+  master_.acyclic_poll(kChannel);
+  master_.wait_timer(11, false, 3);
+  for (const int channel : {2, 1}) master_.acyclic_poll(channel);
+  careful(false);
+}
+
+/// min_TSDR of a Set_Prm above max_TSDR (S11).
+void RandomCase::late_answers() {
+  careful(true);
+  master_.set_prm_with_tsdr(random_.between(101, 255));
+  master_.slave_diag();
+  careful(false);
 }
 
 // --- the host's port ------------------------------------------------------------------------------------------------

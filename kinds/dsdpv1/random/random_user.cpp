@@ -178,7 +178,7 @@ void RandomUser::acyclic_answer(int channel) {
     const bus::Bytes more = random_.bytes(bytes[3]);
     bytes.insert(bytes.end(), more.begin(), more.end());
   }
-  if (random_.one_in(8))
+  if (host_.mishap(8))
     bytes[static_cast<std::size_t>(random_.below(3))] ^= static_cast<std::uint8_t>(1 << random_.below(8));
   bytes.resize(std::min<std::size_t>(bytes.size(), regs::kC1Size));
   host_.take();
