@@ -54,14 +54,20 @@ void tidy_up(const fs::path& place) {
       fs::rename(part, place / kLog);
 }
 
+/// The last lines of a text, at most so many characters.
+std::string last_lines(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const std::size_t end = text.find('\n', text.size() - most);
+  return end == std::string::npos || end + 1 == text.size() ? text.substr(text.size() - most) : text.substr(end + 1);
+}
+
 /// The last lines of a file, some 2 KB.
 std::string end_of(const fs::path& file) {
   constexpr std::streamoff kMost = 2048;
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
-  in.seekg(std::max<std::streamoff>(0, size - kMost));
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  return size > kMost ? text.substr(std::min(text.find('\n'), text.size() - 1) + 1) : text;
+  in.seekg(std::max<std::streamoff>(0, size - kMost - 1));
+  return last_lines({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, kMost);
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -203,7 +209,10 @@ Outcome Folder::finish(const Run& run, const std::string& key, const Ended& ende
     if (!outcome.passed()) write_again(run);
     keep_files(run, outcome);
   });
-  outcome.output = replaced(outcome.output, files.string(), folder_.item_file(run.file_name()));
+  // Less than what is kept of it before, whose begin depends on the length of the folder's name.
+  constexpr std::size_t kMostOutput = 3072;
+  outcome.output =
+      last_lines(replaced(outcome.output, files.string(), folder_.item_file(run.file_name())), kMostOutput);
   const Json kept = folder_.keep(run.file_name(), {{"key", key}, {"run", json_of(run)}, {"outcome", json_of(outcome)}});
   return outcome_of(kept.at("outcome"));
 }

@@ -67,8 +67,8 @@ std::string Report::again(const Run& run, const Outcome& outcome) const {
 }
 
 bool Report::passed() const {
-  const std::size_t passed = count(*this, Verdict::kPassed);
-  return passed != 0 && passed + count(*this, Verdict::kNotRun) == outcomes.size();
+  const std::size_t passed = count(*this, Verdict::kPassed), not_run = count(*this, Verdict::kNotRun);
+  return passed + not_run == outcomes.size() && (passed != 0 || not_run == 0);
 }
 
 std::string tsv(const Report& report) {

@@ -14,7 +14,7 @@ struct Report {
   std::vector<Outcome> outcomes;  ///< of the runs, in their order
   std::string folder;             ///< as the user has named it
 
-  /// All that were run, and at least one was.
+  /// All that were run; false when all were only listed.
   bool passed() const;
   const std::vector<Run>& runs() const { return description.plan.runs; }
   /// The command line that carries a run out again, in the folder in which this was called.

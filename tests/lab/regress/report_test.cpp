@@ -71,6 +71,7 @@ TEST(RegressReport, WhatIsNotRunIsNoFailure) {
   Report nothing = of_rtl();
   nothing.outcomes[0] = nothing.outcomes[1];
   EXPECT_FALSE(nothing.passed()) << "nothing was run";
+  EXPECT_TRUE(Report().passed()) << "a shard without a run";
 }
 
 TEST(RegressReport, SaysWhatTheRtlWas) {

@@ -6,6 +6,7 @@ interrupted one comes to the report of one that was not.
 
 With KILLS only the interruptions: so many, at random moments; 0: a few at chosen ones. The signals go to the program alone, or to all that it has started.
 """
+import difflib
 import json
 import os
 import pathlib
@@ -90,14 +91,15 @@ def seen_again(run):
     for words, where in ((run["again"], FOLDER), (f"sh {folder / 'again.sh'}", pathlib.Path("/"))):
         again = subprocess.run(words, shell=True, cwd=where, capture_output=True, text=True, check=False)
         check(again.returncode == 1 and run["reason"].split(": ")[0] in again.stdout, f"{name}: {words}", again.stdout + again.stderr)
+    check(len(run["output"]) <= 3072, f"{name} keeps as much of the output, whatever the folder of the run was called", run["output"])
     check(".run/" not in run["output"] and ".run/" not in "".join(path.read_text() for path in folder.glob("result.json")),
           f"{name} names a folder that is gone", run["output"])
     if name in ("replay", "random"):
         actions = (folder / "lockstep.stimulus").read_text().count("\n")
         check(0 < actions < 40, f"{name} is shrunk: {actions} actions", run["output"])
-        line = re.search(r"to be seen again with\n  (.*)\n", run["output"])
-        again = subprocess.run(line[1].replace("dsdpv1-sim", str(SIM), 1), shell=True, cwd=FOLDER, capture_output=True, text=True, check=False)
-        check(again.returncode == 1, f"{name}: {line[1]}", again.stdout + again.stderr)
+        for line in re.findall(r"to be seen again with\n  (.*)\n", run["output"]):  # of random cases it may be before the end that is kept
+            again = subprocess.run(line.replace("dsdpv1-sim", str(SIM), 1), shell=True, cwd=FOLDER, capture_output=True, text=True, check=False)
+            check(again.returncode == 1, f"{name}: {line}", again.stdout + again.stderr)
 
 
 def facts(result):
@@ -233,8 +235,9 @@ def to_the_same_report(kills, chance):
 
 def differs(now, wanted):
     for name, text in wanted.items():
-        if now[name] != text:
-            FAILURES.append(f"after interruptions {name} is another\n{text}\n--- now\n{now[name]}")
+        lines = list(difflib.unified_diff(text.splitlines(), now[name].splitlines(), "whole", "interrupted", lineterm="", n=0))
+        if lines:
+            FAILURES.append("\n".join([f"after interruptions {name} is another", *lines[:20]]))
 
 
 def main():
