@@ -150,7 +150,7 @@ class Engine {
   struct CodePage {
     std::uint32_t start = 0, bytes = 0;
     bool in_flash = false;
-    std::unique_ptr<Instruction[]> instructions;  // NOLINT(modernize-avoid-c-arrays)
+    std::unique_ptr<Instruction[]> instructions;
   };
   struct Memory {
     std::uint32_t start, size;

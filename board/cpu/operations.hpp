@@ -388,10 +388,11 @@ struct Operations {
     U32 from = before ? base - i.amount : base;
     const U32 after = before ? from : base + i.amount;
     const U64 since = e.now_;
-    std::array<U32, 16> values;
+    std::array<U32, 16> values{};
     if (!e.aligned(from, 4)) return;
     const std::uint8_t* words = Engine::all_of(e.loads_, from, i.amount);
-    if (words == nullptr && (words = load_words(e, from, i.amount, values.data())) == nullptr) return;
+    if (words == nullptr) words = load_words(e, from, i.amount, values.data());
+    if (words == nullptr) return;
     if (i.shift != 0) e.r_[i.rn] = after;
     for (U32 left = i.value & 0x7FFF; left != 0; left &= left - 1, words += 4)
       std::memcpy(&e.r_[first_of(left)], words, 4);
