@@ -1,5 +1,6 @@
 #include "cosim/user_rtl.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -100,24 +101,29 @@ RtlLibrary load(const std::string& path) {
   return library;
 }
 
+/// The first is for the design that begins with zeros. The others are not slowed by counters.
+struct UserLibraries {
+  RtlLibrary first, others;
+};
+
 /// Three designs that begin with zeros, with ones and with random values wherever nothing is initialised or reset
-/// (Verilator's randReset). The first is traced.
+/// (Verilator's randReset). The first is traced and counted.
 class UserDesigns : public Rtl {
  public:
-  UserDesigns(const RtlLibrary& library, const tb::PinTable& pins, const std::vector<std::uint32_t>& constants,
+  UserDesigns(const UserLibraries& libraries, const tb::PinTable& pins, const std::vector<std::uint32_t>& constants,
               std::optional<RtlTrace> trace)
-      : library_(library), pins_(pins), trace_(std::move(trace)) {
+      : library_(libraries.first), others_(libraries.others), pins_(pins), trace_(std::move(trace)) {
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       RtlStart start;
       start.fill = static_cast<int>(i);
       start.parameters = constants.data();
-      designs_.at(i) = library.create(&start);
+      designs_.at(i) = of(i).create(&start);
     }
     if (trace_) library_.trace(designs_.front(), trace_->file.c_str());
   }
   ~UserDesigns() override {
     if (trace_) dump();
-    for (void* design : designs_) library_.destroy(design);
+    for (std::size_t i = 0; i < designs_.size(); ++i) of(i).destroy(designs_.at(i));
   }
   UserDesigns(const UserDesigns&) = delete;
   UserDesigns& operator=(const UserDesigns&) = delete;
@@ -127,7 +133,7 @@ class UserDesigns : public Rtl {
     std::copy_n(levels, pins_.size(), other.begin());
     library_.eval(designs_.front(), clk, levels);
     for (std::size_t i = 1; i < designs_.size(); ++i) {
-      library_.eval(designs_.at(i), clk, other.data());
+      others_.eval(designs_.at(i), clk, other.data());
       for (std::size_t pin = 0; pin < pins_.size(); ++pin)
         if (!pins_[pin].input && other.at(pin) != levels[pin]) levels[pin] = tb::kLevelX;
     }
@@ -140,12 +146,13 @@ class UserDesigns : public Rtl {
   }
 
  private:
+  const RtlLibrary& of(std::size_t design) const { return design == 0 ? library_ : others_; }
   void dump() {
     if (now_ >= trace_->from && now_ <= trace_->to)
       library_.dump(designs_.front(), static_cast<std::uint64_t>(tb::picoseconds(now_)));
   }
 
-  const RtlLibrary library_;
+  const RtlLibrary library_, others_;
   const tb::PinTable& pins_;
   std::array<void*, 3> designs_{};
   std::optional<RtlTrace> trace_;
@@ -163,6 +170,54 @@ constexpr const char* kTraceFunctions =
     "  design->trace.open(file);\n}\n\n"
     "extern \"C\" void dsdpv1_rtl_dump(void* self, unsigned long long picoseconds) {\n"
     "  static_cast<Design*>(self)->trace.dump(static_cast<uint64_t>(picoseconds));\n}\n";
+
+/// The parts that only a counted build needs. Each design has its counters in an array, which a design without lines
+/// lacks.
+constexpr const char* kCountIncluded =
+    "#include \"V@___024root.h\"\n#include \"V@__Syms.h\"\n#include \"verilated_cov.h\"\n#include <algorithm>\n"
+    "#include <cstddef>\n#include <mutex>\n#include <vector>\n";
+constexpr const char* kCounters = R"(
+std::mutex mutex;
+std::vector<unsigned long long> counted;
+
+template <class Symbols, class Use>
+auto for_each(Symbols* symbols, const Use& use, int) -> decltype(symbols->__Vcoverage, void()) {
+  std::size_t i = 0;
+  for (auto& counter : symbols->__Vcoverage) use(counter, i++);
+}
+template <class Symbols, class Use>
+void for_each(Symbols*, const Use&, long) {}
+
+void count(const Design& design) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  for_each(design.model->rootp->vlSymsp, [](const auto& counter, std::size_t i) {
+    if (i >= counted.size()) counted.resize(i + 1);
+    counted[i] += counter;
+  }, 0);
+}
+)";
+constexpr const char* kCountFunctions = R"(
+extern "C" void dsdpv1_rtl_counts(const char* file) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  Design design;
+  design.model = std::make_unique<V@>(&design.context);
+  for_each(design.model->rootp->vlSymsp, [](auto& counter, std::size_t i) {
+    counter = i < counted.size() ? static_cast<unsigned>(std::min(counted[i], 0xFFFFFFFFULL)) : 0;
+  }, 0);
+  counted.clear();
+  design.context.coveragep()->write(file);
+  Verilated::threadContextp(&design.context);
+  design.model.reset();
+  Verilated::threadContextp(Verilated::defaultContextp());
+}
+)";
+
+/// `text` with the top's name for each @.
+std::string of_top(std::string text, const std::string& top) {
+  for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + top.size()))
+    text.replace(at, 1, top);
+  return text;
+}
 
 }  // namespace
 
@@ -192,24 +247,25 @@ std::string output_line(const tb::PinInfo& pin, std::size_t number, const PinMap
 }  // namespace
 
 std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced,
-                           const std::string& constants) {
+                           const std::string& constants, bool counted) {
   std::string text = fmt::format(
       "// Generated: the pins of {0} for the co-simulation.\n"
       "#include \"V{0}.h\"\n#include \"verilated.h\"\n{1}#include <memory>\n\nnamespace {{\n"
       "struct Start {{\n  int fill;\n  unsigned seed, fault;\n  const void* parameters;\n}};\nstruct Design {{\n"
-      "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n{2}}};\n}}  // namespace\n\n"
+      "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n{2}}};\n{8}}}  // namespace\n\n"
       "extern \"C\" void* dsdpv1_rtl_create(const Start* start) {{\n  auto* design = new Design;\n"
       "  [[maybe_unused]] const auto* values = static_cast<const unsigned*>(start->parameters);\n"
       "  design->context.randReset(start->fill);\n  design->context.randSeed(static_cast<int>(start->seed));\n{3}"
       "  design->model = std::make_unique<V{0}>(&design->context);\n{7}  return design;\n}}\n\n"
       "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{\n  auto* design = static_cast<Design*>(self);\n"
-      "  Verilated::threadContextp(&design->context);  // whose names the model takes out\n  delete design;\n"
+      "  Verilated::threadContextp(&design->context);  // whose names the model takes out\n{9}  delete design;\n"
       "  Verilated::threadContextp(Verilated::defaultContextp());\n}}\n{4}\n"
       "extern \"C\" void dsdpv1_rtl_eval(void* self, bool clk, short* levels) {{\n"
       "  V{0}& model = *static_cast<Design*>(self)->model;\n  model.{5} = {6}clk;\n",
-      top, traced ? kTraceIncluded : "", traced ? kTraceMember : "",
-      traced ? "  design->context.traceEverOn(true);\n" : "", traced ? kTraceFunctions : "", map.clock.name,
-      map.clock.inverted ? "!" : "", constants);
+      top, (traced ? kTraceIncluded : "") + (counted ? of_top(kCountIncluded, top) : ""), traced ? kTraceMember : "",
+      traced ? "  design->context.traceEverOn(true);\n" : "",
+      (traced ? kTraceFunctions : "") + (counted ? of_top(kCountFunctions, top) : ""), map.clock.name,
+      map.clock.inverted ? "!" : "", constants, counted ? kCounters : "", counted ? "  count(*design);\n" : "");
   for (std::size_t i = 0; i < pins.size(); ++i)
     if (pins[i].input) text += input_line(pins[i], i, map.pins.at(pins[i].name));
   text += "  model.eval();\n";
@@ -242,9 +298,15 @@ std::string literal(const RtlParameter& parameter) {
   return text;
 }
 
+/// Counters make so much code that its optimisation would take longer than it saves in a night. Memories are not
+/// counted.
+constexpr const char* kCounting =
+    " '-O1 -fPIC' --coverage-line --coverage-toggle --coverage-max-width 64 --output-split 20000";
+
 std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::vector<RtlParameter>& parameters,
                               const std::string& build, const std::string& adapter) {
-  std::string command = "verilator --cc --exe -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC'";
+  std::string command = "verilator --cc --exe -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS";
+  command += rtl.counted ? kCounting : " '-O2 -fPIC'";
   const auto add = [&command](const std::string& option) { command.append(" ").append(tb::shell_word(option)); };
   command += rtl.traced ? " --trace-fst --trace-structs -LDFLAGS '-shared -lz'" : " -LDFLAGS -shared";
   command += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", rtl.top, rtl.top,
@@ -439,8 +501,8 @@ void create_folder(const std::string& folder) {
 
 /// With ccache, if present: RTL that has been built before is not compiled again.
 std::string make_command(const UserRtl& rtl, const std::string& build) {
-  return fmt::format("{}make -s -j2 -C {} -f V{}.mk", installed("ccache") ? "OBJCACHE=ccache " : "",
-                     tb::shell_word(build), rtl.top);
+  return fmt::format("{}make -s -j2 -C {} -f V{}.mk{}", installed("ccache") ? "OBJCACHE=ccache " : "",
+                     tb::shell_word(build), rtl.top, rtl.counted ? " OPT_FAST= OPT_GLOBAL=" : "");
 }
 
 /// One process at a time builds in a folder; another waits, and then finds what it needs. Verilator and make inherit
@@ -464,6 +526,7 @@ class FolderLock {
 std::string build_folder(const UserRtl& rtl, const PinMap& map, const std::vector<RtlParameter>& parameters) {
   fs::path folder = fs::absolute(rtl.build);
   if (rtl.traced) folder /= "traced";
+  if (rtl.counted) folder /= "counted";
   std::string unusual;
   for (const RtlParameter& each : parameters)
     if (const auto place = map.chip.find(each.key); !each.usual && place != map.chip.end() && !place->second.port)
@@ -479,22 +542,26 @@ constexpr const char* kCompiling = "compiling";  ///< in the folder of a build w
 /// A build in its folder.
 class Build {
  public:
-  Build(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind, const std::vector<RtlParameter>& parameters)
-      : rtl_(rtl), map_(map), kind_(kind), parameters_(parameters), folder_(build_folder(rtl, map, parameters)) {
+  Build(UserRtl rtl, const PinMap& map, const tb::ChipKind& kind, const std::vector<RtlParameter>& parameters)
+      : rtl_(std::move(rtl)),
+        map_(map),
+        kind_(kind),
+        parameters_(parameters),
+        folder_(build_folder(rtl_, map, parameters)) {
     create_folder(folder_);
   }
 
   /// Makes the library unless it is there and nothing that it depends on has changed; loads it.
-  MakeUserRtl library() {
+  RtlLibrary library() {
     const FolderLock lock(folder_);
     const std::string command = verilator_command(rtl_, map_, parameters_, folder_, adapter());
     if (!is_made(command)) make(command);
     check_ports();
-    return [library = load(file("librtl.so")), &pins = kind_.pins(),
-            values = constants().values()](const std::optional<RtlTrace>& trace) {
-      return std::make_unique<UserDesigns>(library, pins, values, trace);
-    };
+    return load(file("librtl.so"));
   }
+  /// The levels of the inputs that keep one.
+  std::vector<std::uint32_t> values() const { return constants().values(); }
+  const std::string& folder() const { return folder_; }
 
  private:
   std::string file(const std::string& name) const { return folder_ + "/" + name; }
@@ -533,7 +600,9 @@ class Build {
   TopPorts ports() const { return ports_of(read(header())); }
   Constants constants() const { return {map_, ports(), parameters_, rtl_.fault}; }
   /// Of the adapter.
-  std::string source() const { return adapter_source(rtl_.top, map_, kind_.pins(), rtl_.traced, constants().code()); }
+  std::string source() const {
+    return adapter_source(rtl_.top, map_, kind_.pins(), rtl_.traced, constants().code(), rtl_.counted);
+  }
 
   /// A fingerprint of the command, the adapter, and all files that Verilator has read.
   std::string made_from(const std::string& command, const std::string& made) const {
@@ -548,12 +617,30 @@ class Build {
     return fmt::format("{:016x}\n", all.value());
   }
 
-  const UserRtl& rtl_;
+  const UserRtl rtl_;
   const PinMap& map_;
   const tb::ChipKind& kind_;
   const std::vector<RtlParameter>& parameters_;
   std::string folder_;
 };
+
+/// Writes what the designs of a counted library have counted since the last call.
+using WriteCounts = void (*)(const char* file);
+
+/// It is loaded already.
+WriteCounts counts_of(const std::string& library) {
+  void* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD);
+  return reinterpret_cast<WriteCounts>(dlsym(handle, "dsdpv1_rtl_counts"));  // the conversion that POSIX prescribes
+}
+
+/// Verilator's records of them, through a file in `folder`.
+std::string take_counts(WriteCounts write, const std::string& folder) {
+  const std::string file = fmt::format("{}/counts.{}", folder, getpid());
+  write(file.c_str());
+  std::string records = read(file);
+  fs::remove(file);
+  return records;
+}
 
 }  // namespace
 
@@ -572,15 +659,29 @@ std::vector<std::string> untold(const PinMap& map, const tb::ChipKind& kind, con
   return keys;
 }
 
-MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind,
-                           const tb::OwnSettings& chip) {
+BuiltUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind,
+                            const tb::OwnSettings& chip) {
   check_top(rtl);
   if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, expected one with RTL");
   check_parameters(rtl, map, kind, chip);
   check_fault(rtl, map);
   if (!installed("verilator"))
     throw tb::InputError(rtl.command + ": Verilator is missing, expected version 5.006 or later in PATH");
-  return Build(rtl, map, kind, kind.rtl()->parameters(chip)).library();
+  const std::vector<RtlParameter> parameters = kind.rtl()->parameters(chip);
+  UserRtl uncounted = rtl;
+  uncounted.counted = false;
+  Build others(uncounted, map, kind, parameters), first(rtl, map, kind, parameters);
+  const RtlLibrary plain = others.library();
+  const UserLibraries libraries{rtl.counted ? first.library() : plain, plain};
+  BuiltUserRtl built;
+  built.make = [libraries, &pins = kind.pins(), values = others.values()](const std::optional<RtlTrace>& trace) {
+    return std::make_unique<UserDesigns>(libraries, pins, values, trace);
+  };
+  if (rtl.counted)
+    built.counts = [write = counts_of(first.folder() + "/librtl.so"), folder = first.folder()] {
+      return take_counts(write, folder);
+    };
+  return built;
 }
 
 }  // namespace dsdpv1::cosim

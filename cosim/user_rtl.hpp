@@ -18,6 +18,7 @@ struct UserRtl {
   std::string sources;                ///< of this program, where PinMap::reference finds the reference RTL
   bool traced = false;                ///< records internal signals; needs a separate build
   unsigned fault = 0;                 ///< the level of PinMap::fault; 0: none
+  bool counted = false;               ///< counts which lines, branches and toggles are reached; as well
 };
 
 /// In the folder of a build: a fingerprint of all that it was made from.
@@ -34,15 +35,23 @@ std::string verilator_version();
 /// RTL: it would differ for that reason alone.
 std::vector<std::string> untold(const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip);
 
+struct BuiltUserRtl {
+  MakeUserRtl make;
+  /// Verilator's records of what the designs that no longer exist have counted since the last call. Empty: UserRtl was
+  /// not counted.
+  std::function<std::string()> counts;
+};
+
 /// Builds it with the parameters of `chip`; throws tb::InputError for a map that does not fit the top, and with
 /// Verilator's or the compiler's message. The result makes chips that run three
-/// times, with different values wherever nothing is initialised or reset: a pin is X if the three differ.
-MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind,
-                           const tb::OwnSettings& chip);
+/// times, with different values wherever nothing is initialised or reset: a pin is X if the three differ. Only the one
+/// that begins with zeros is traced and counted.
+BuiltUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind,
+                            const tb::OwnSettings& chip);
 
-/// The generated file between the Verilated class and this program; `traced` as in UserRtl, `constants`: statements
-/// that set inputs of a new design.
+/// The generated file between the Verilated class and this program; `traced` and `counted` as in UserRtl, `constants`:
+/// statements that set inputs of a new design.
 std::string adapter_source(const std::string& top, const PinMap& map, const tb::PinTable& pins, bool traced,
-                           const std::string& constants = {});
+                           const std::string& constants = {}, bool counted = false);
 
 }  // namespace dsdpv1::cosim

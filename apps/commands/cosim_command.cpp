@@ -28,6 +28,7 @@ class Cosim : public Command {
         app.add_option("--replay", replay_, "Play a stimulus file instead: a case of rtl-random, with its --set");
     add_chip_option(app, chip_)->needs(replay);
     add_own_rtl_options(app, own_, true);
+    add_coverage_option(app, own_);
     app.add_option("--difference", run_.difference, "Write a wave of both sides' pins when they differ")
         ->capture_default_str();
     CLI::Option* wave =
@@ -63,9 +64,13 @@ class Cosim : public Command {
     request.options.wave = wave_options(kCosim, run_.wave, *request.scenario.kind);
     request.options.wave.inside = true;
     check_files(request.scenario);
+    CoverageFile coverage(own_);
     const OwnRtl own =
         build_own_rtl(own_, kCosim, *request.scenario.kind, *request.scenario.chip, !run_.wave.file.empty());
-    return run_own_rtl(std::move(request), own);
+    const int status = run_own_rtl(std::move(request), own);
+    coverage.add(own);
+    coverage.write();
+    return status;
   }
 
  private:
@@ -89,7 +94,10 @@ class Cosim : public Command {
     std::vector<NamedFile> inputs = scenario_inputs(run_.scenario, scenario.files);
     inputs.push_back({"--pins", own_.pins});
     std::vector<NamedFile> outputs = wave_files(kCosim, run_.wave.file, wave_save_);
-    outputs.insert(outputs.end(), {{"--difference", run_.difference}, {"--log", run_.log}, {"--result", run_.result}});
+    outputs.insert(outputs.end(), {{"--difference", run_.difference},
+                                   {"--log", run_.log},
+                                   {"--result", run_.result},
+                                   {"--coverage", own_.coverage}});
     check_outputs(kCosim, inputs, outputs);
   }
 

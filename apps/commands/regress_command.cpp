@@ -100,7 +100,19 @@ class Regress : public Command {
     CLI::Option* keep = app.add_option(
         "--keep", keep_, "Keep log, result, wave and report of these runs: none, failed, all (default: failed)");
     add_own_rtl_options(app, own_, false);
-    return {scenarios, engine, view, seed, set, checks, shard, wave, report, keep, app.get_option("--rtl")};
+    add_coverage_flag(app, description_);
+    return {scenarios,
+            engine,
+            view,
+            seed,
+            set,
+            checks,
+            shard,
+            wave,
+            report,
+            keep,
+            app.get_option("--rtl"),
+            app.get_option("--coverage")};
   }
 
   Description new_description() {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -10,11 +12,14 @@
 #include "apps/data_folder.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/terminal.hpp"
+#include "cosim/random/ruling_coverage.hpp"
 #include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
 #include "io/output/write_file.hpp"
 #include "lab/campaign/contents.hpp"
 #include "lab/campaign/fingerprint.hpp"
 #include "lab/campaign/jobs.hpp"
+#include "lab/coverage/tables.hpp"
 #include "lab/regress/page.hpp"
 #include "lab/regress/tables.hpp"
 #include "lab/traces/golden.hpp"
@@ -25,6 +30,7 @@
 namespace dsdpv1::app {
 namespace {
 
+namespace fs = std::filesystem;
 using tb::campaign::Contents;
 using tb::campaign::Ended;
 using tb::campaign::Json;
@@ -37,6 +43,7 @@ using tb::regress::Run;
 using tb::regress::Verdict;
 
 constexpr int kNotStarted = 127;
+constexpr tb::FileKind kCoverageFile{"a tracefile of coverage", 256};  // some 30 bytes a toggle
 
 /// Those of the RTL of its own, the scenario's, and the golden. A scenario that cannot be read is refused by its run,
 /// which says why.
@@ -177,10 +184,10 @@ int status_of(const Report& report, bool strict) {
 }
 
 /// Once, so that the runs find it as it is.
-void build(const std::string& command, tb::regress::OwnRtl& rtl) {
+void build(const std::string& command, tb::regress::OwnRtl& rtl, bool coverage) {
   const tb::ChipKind& kind = *tb::find_chip_kind(rtl.chip);
-  const OwnRtl own =
-      build_own_rtl({rtl.folder, rtl.top, rtl.pins, rtl.build}, command, kind, *cosim::usual_options(kind).chip, false);
+  const OwnRtl own = build_own_rtl({rtl.folder, rtl.top, rtl.pins, rtl.build, coverage ? "wanted" : ""}, command, kind,
+                                   *cosim::usual_options(kind).chip, false);
   const std::string built_from = rtl.build + "/" + cosim::kBuiltFrom;
   rtl.files = {built_from};
   rtl.fingerprint = tb::campaign::last_line(tb::campaign::content(built_from));
@@ -212,6 +219,69 @@ std::string again_text(const Report& report) {
   return text;
 }
 
+/// The sum of all runs. A run that crashed has no counts.
+tb::coverage::Files reached_by(const Plan& plan, const Folder& folder) {
+  tb::coverage::Files sum;
+  for (const Run& run : plan.runs) {
+    const std::string file = folder.counts(run);
+    if (run.has_own_rtl() && fs::exists(file))
+      tb::coverage::add(sum, tb::coverage::of_lcov(tb::read_file(file, kCoverageFile), file));
+  }
+  return sum;
+}
+
+/// Writes its files; returns its part of the page.
+std::string write_coverage(const Plan& plan, const Folder& folder) {
+  const tb::coverage::Files reached = reached_by(plan, folder);
+  const auto write = [&folder](const char* name, const std::string& text) {
+    tb::write_file(folder.base().file(name), text);
+  };
+  write(tb::regress::kCoverageInfo, tb::coverage::lcov(reached));
+  write(tb::regress::kCoverageTable, tb::coverage::tsv(reached));
+  write(tb::regress::kNotReached, tb::coverage::missing_tsv(reached));
+  std::cerr << "coverage: " << tb::coverage::summary(reached) << "; " << folder.base().file(tb::regress::kCoverageInfo)
+            << "\n";
+  return tb::coverage::html(reached);
+}
+
+cosim::Seen seen_of(const Run& run, const Json& json) {
+  cosim::Seen seen;
+  for (const auto& [code, times] : json.at("codes").items()) seen.codes[code] = times;
+  for (const auto& [group, counts] : json.at("situations").items())
+    for (const auto& [name, times] : counts.items()) seen.situations.add({group, name}, times);
+  const auto mode = std::find(run.options.begin(), run.options.end(), "--mode");
+  if (mode != run.options.end() && mode + 1 != run.options.end()) seen.mode = *(mode + 1);
+  return seen;
+}
+
+/// The same of the rulings, by the runs with the RTL.
+std::string write_rulings(const Description& description, const Folder& folder) {
+  const fs::path docs = fs::path(data_folder()) / "docs";
+  std::vector<std::string> documents = {docs / "chip.md"};
+  if (description.rtl.chip != RtlChip().chip) documents.push_back(docs / "chip_rsu.md");
+  cosim::RulingCoverage rulings(*tb::find_chip_kind(description.rtl.chip), documents);
+  std::vector<std::string> names;
+  for (const Run& run : description.plan.runs) {
+    const Json seen = run.has_own_rtl() ? folder.seen(run) : Json();
+    if (!seen.is_null()) rulings.add(names.size(), seen_of(run, seen));
+    names.push_back(run.name());
+  }
+  tb::write_file(folder.base().file(tb::regress::kRulingsInfo), tb::coverage::lcov(rulings.files()));
+  tb::write_file(folder.base().file(tb::regress::kRulingsTable), cosim::tsv(rulings));
+  std::cerr << "rulings: " << cosim::summary(rulings) << "; " << folder.base().file(tb::regress::kRulingsTable) << "\n";
+  return cosim::html(rulings, names);
+}
+
+/// Below the table of runs. Files of an earlier call that this one does not write would be wrong.
+std::string more_of(const Description& description, const Folder& folder) {
+  for (const char* name : {tb::regress::kCoverageInfo, tb::regress::kCoverageTable, tb::regress::kNotReached,
+                           tb::regress::kRulingsInfo, tb::regress::kRulingsTable})
+    fs::remove(folder.base().file(name));
+  if (description.rtl.folder.empty()) return {};
+  const std::string reached = description.coverage ? write_coverage(description.plan, folder) : "";
+  return reached + write_rulings(description, folder);
+}
+
 void write_report(const RegressionArguments& arguments, const Report& report, const Folder& folder, WantedFile& junit) {
   const std::string index = folder.base().file("index.html");
   tb::write_file(index, tb::regress::page(report));
@@ -226,6 +296,14 @@ void write_report(const RegressionArguments& arguments, const Report& report, co
 }
 
 }  // namespace
+
+void add_coverage_flag(CLI::App& app, Description& description) {
+  app.add_flag(
+         "--coverage", description.coverage,
+         "Count which lines, branches and toggles of your RTL are reached: a table in the page, coverage.info for "
+         "lcov (takes longer)")
+      ->needs("--rtl");
+}
 
 void add_regression_options(CLI::App& app, RegressionArguments& arguments, const std::string& usual_folder) {
   app.add_option("--time-limit", arguments.time_limit,
@@ -243,7 +321,7 @@ tb::regress::OwnRtl rtl_of_regression(const OwnRtlArguments& arguments, const st
 
 int run_regression(Description description, const RegressionArguments& arguments, bool failed) {
   const CampaignArguments& campaign = arguments.campaign;
-  if (!description.rtl.folder.empty()) build(arguments.command, description.rtl);
+  if (!description.rtl.folder.empty()) build(arguments.command, description.rtl, description.coverage);
   description.program = tb::campaign::program_identity(DSDPV1_VERSION);
   const RegressInputs inputs(description, description.program);
   if (!campaign.is_task()) check_files(arguments, inputs);
@@ -259,7 +337,7 @@ int run_regression(Description description, const RegressionArguments& arguments
   if (arguments.time_limit > 0) limit.emplace(arguments.time_limit);
   if (!carry_out_jobs(campaign, tb::regress::kind(), jobs, folder.base(), identity, limit)) return kInterrupted;
   if (campaign.is_task()) return kPassed;
-  const Report report{description, jobs.outcomes(), campaign.out};
+  const Report report{description, jobs.outcomes(), campaign.out, more_of(description, folder)};
   write_report(arguments, report, folder, junit);
   return status_of(report, arguments.strict);
 }

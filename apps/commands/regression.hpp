@@ -21,6 +21,9 @@ struct RegressionArguments {
 /// Time limit, tables and campaign; `usual_folder`: in words, where --out is left out.
 void add_regression_options(CLI::App& app, RegressionArguments& arguments, const std::string& usual_folder);
 
+/// --coverage, which needs --rtl.
+void add_coverage_flag(CLI::App& app, tb::regress::Description& description);
+
 /// RTL of the user's own with the pins of the kind `chip`; its files and facts are known when it is built.
 tb::regress::OwnRtl rtl_of_regression(const OwnRtlArguments& arguments, const std::string& chip);
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -50,7 +51,8 @@ std::string counts_text(const cosim::MatchCounts& counts) {
 struct Bench {
   cosim::PlayOptions options;
   cosim::MakeTop make;
-  cosim::MakeUserRtl make_own;  ///< null: it is the reference RTL
+  cosim::MakeUserRtl make_own;          ///< null: it is the reference RTL
+  std::function<std::string()> counts;  ///< of OwnRtl
 };
 
 /// Makes the reference RTL for the parameters that it is asked for.
@@ -60,15 +62,16 @@ cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
 }
 
 Bench bench_of(const RtlRandomArguments& arguments) {
-  Bench bench{play_options(arguments.chip, arguments.own, arguments.set, arguments.no_dpram), {}, {}};
+  Bench bench{play_options(arguments.chip, arguments.own, arguments.set, arguments.no_dpram), {}, {}, {}};
   if (arguments.own.rtl.empty()) {
     bench.make = reference_of(arguments)(bench.options);
     return bench;
   }
-  bench.make_own = build_own_rtl(arguments.own, arguments.command, *bench.options.kind, *bench.options.chip,
-                                 !arguments.wave.empty(), arguments.fault)
-                       .make;
-  bench.make = [make = bench.make_own] { return make(std::nullopt); };
+  const OwnRtl own = build_own_rtl(arguments.own, arguments.command, *bench.options.kind, *bench.options.chip,
+                                   !arguments.wave.empty(), arguments.fault);
+  bench.make_own = own.make;
+  bench.counts = own.counts;
+  bench.make = [make = own.make] { return make(std::nullopt); };
   return bench;
 }
 
@@ -295,7 +298,8 @@ void check_files(const RtlRandomArguments& arguments) {
                                  {"--difference", arguments.difference},
                                  {"--log", arguments.log},
                                  {"--result", arguments.result},
-                                 {"--tsv", arguments.tsv}});
+                                 {"--tsv", arguments.tsv},
+                                 {"--coverage", arguments.own.coverage}});
   check_outputs(arguments.command, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
 }
 
@@ -308,12 +312,14 @@ int rtl_random(const RtlRandomArguments& arguments) {
   if (arguments.campaign) return campaign_of_all(arguments);
   cosim::Stimulus stimulus;
   if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, arguments.chip.kind());
+  CoverageFile coverage(arguments.own);
   const Bench bench = bench_of(arguments);
   if (!arguments.own.rtl.empty())
     std::cout << fmt::format("{} as a {}\n", bus::printable(arguments.own.top), bench.options.kind->title());
   StimulusOutputs outputs(arguments);
   cosim::StimulusResult result;
   result.kind = &arguments.chip.kind();
+  result.chip = bench.options.chip;
   result.rtl = arguments.own.rtl;
   result.fault = arguments.fault;
   result.seed = arguments.seed;
@@ -321,6 +327,8 @@ int rtl_random(const RtlRandomArguments& arguments) {
   const int status = arguments.replay.empty() ? random_cases(arguments, bench, outputs, result)
                                               : replay(arguments, stimulus, bench, outputs, result);
   outputs.finish(result);
+  coverage.add(bench.counts);
+  coverage.write();
   return status;
 }
 
@@ -356,6 +364,7 @@ class RtlRandom : public Command {
     CLI::Option* replay = app.add_option("--replay", given_.replay, "This stimulus file instead of random cases");
     app.add_flag("--shrink", given_.shrink, "Shrink it into the file of --stimulus if it differs")->needs(replay);
     add_own_rtl_options(app, given_.own, false);
+    add_coverage_option(app, given_.own);
     add_fault_option(app, given_.fault);
     CLI::Option* no_dpram = add_no_dpram_option(app, given_.no_dpram)->excludes("--rtl");
     campaign_ = app.add_flag("--campaign", given_.campaign,

@@ -104,24 +104,26 @@ int for_scenarios(const TracesArguments& given, const std::function<int(const st
 }
 
 /// Makes the user's own RTL as the scenario wants it; empty: there is none. Its chip is that of the first scenario.
-cosim::MakeRtl own_rtl_for(const std::string& file, const TracesArguments& given, const tb::ChipKind*& chip) {
+OwnRtl own_rtl_for(const std::string& file, const TracesArguments& given, const tb::ChipKind*& chip) {
   if (given.own.rtl.empty()) return {};
   const tb::scenario::Scenario scenario = tb::scenario::load(file);
   if (chip == nullptr) chip = scenario.kind;
   if (chip != scenario.kind)
     throw tb::InputError(file, 0,
                          fmt::format("is about a {}, expected a {} as before", scenario.kind->name(), chip->name()));
-  const OwnRtl own = build_own_rtl(given.own, "dsdpv1-sim traces", *scenario.kind, *scenario.chip, false);
+  OwnRtl own = build_own_rtl(given.own, "dsdpv1-sim traces", *scenario.kind, *scenario.chip, false);
   if (has_tolerance(own.map))
     throw tb::InputError(given.own.pins, 0, "has a tolerance, goldens have none, expected cosim and scenarios");
-  return [make = own.make](auto&&...) { return make(std::nullopt); };
+  return own;
 }
 
 int check(const TracesArguments& given) {
   if (!given.own.rtl.empty() && given.scenarios.empty())
     throw tb::InputError("dsdpv1-sim traces check: --rtl needs the scenarios of its chip, expected SCENARIO...");
+  check_outputs("dsdpv1-sim traces check", {{"--pins", given.own.pins}}, {{"--coverage", given.own.coverage}});
+  CoverageFile coverage(given.own);
   const tb::ChipKind* chip = nullptr;
-  return for_scenarios(given, [&](const std::string& file) {
+  const int status = for_scenarios(given, [&](const std::string& file) {
     RunArguments one;
     one.scenario = file;
     one.engine = given.own.rtl.empty() ? given.engine : "rtl";
@@ -130,8 +132,14 @@ int check(const TracesArguments& given) {
     one.difference = "";
     one.progress = given.progress;
     one.quiet = true;
-    return run(one, own_rtl_for(file, given, chip));
+    const OwnRtl own = own_rtl_for(file, given, chip);
+    const cosim::MakeRtl make = [&own](auto&&...) { return own.make(std::nullopt); };
+    const int of_run = run(one, own.make ? make : cosim::MakeRtl());
+    coverage.add(own);
+    return of_run;
   });
+  coverage.write();
+  return status;
 }
 
 // --- regenerate ------------------------------------------------------------------------------------------------------
@@ -261,6 +269,7 @@ class Traces : public Command {
                               ->capture_default_str();
     CLI::Option* fault = add_fault_option(*check_them, given_.fault);
     add_own_rtl_options(*check_them, given_.own, false);
+    add_coverage_option(*check_them, given_.own);
     check_them->get_option("--rtl")->excludes(engine)->excludes(fault);
     add_scenarios(*add_action(app, "regenerate",
                               "Regenerate goldens, write those that differ and summarise the changes", regenerate));

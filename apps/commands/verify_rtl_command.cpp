@@ -38,6 +38,7 @@ class VerifyRtl : public Command {
     app.add_option("FILE", names_,
                    "Scenarios, folders of them, and stimuli (default of each: those of this program, of the chip)");
     add_own_rtl_options(app, own_, true);
+    add_coverage_flag(app, description_);
     add_chip_options(app, chip_, false);
     app.add_option("--only", only_, "Only these: scenarios, goldens, stimuli, random, separated by commas")
         ->delimiter(',')
@@ -63,7 +64,7 @@ class VerifyRtl : public Command {
     leave_nothing_on_signals();
     regression_.campaign.words = words;
     if (regression_.campaign.out.empty()) regression_.campaign.out = "rtl-verification";
-    tb::regress::Description description;
+    tb::regress::Description description = description_;
     description.rtl = rtl_of_regression(own_, chip_.kind().name());
     for (const std::string& word : only_)
       check_word("dsdpv1-sim verify-rtl: --only", word, {"scenarios", "goldens", "stimuli", "random"});
@@ -171,6 +172,7 @@ class VerifyRtl : public Command {
   std::vector<std::string> scenarios_, stimuli_;  ///< in `names_`
   OwnRtlArguments own_;
   RtlChip chip_;
+  tb::regress::Description description_;  ///< coverage; all else is of carry_out
   std::uint64_t cycles_ = 20'000'000, seed_ = 1;
   RegressionArguments regression_;
 };

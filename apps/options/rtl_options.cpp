@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/data_folder.hpp"
 #include "apps/options/words.hpp"
@@ -90,6 +91,20 @@ void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool require
   build->needs(rtl);
 }
 
+void add_coverage_option(CLI::App& app, OwnRtlArguments& arguments) {
+  app.add_option("--coverage", arguments.coverage,
+                 "Count which lines, branches and toggles of your RTL are reached; write lcov's tracefile")
+      ->needs("--rtl");
+}
+
+void CoverageFile::add(const std::function<std::string()>& counts) {
+  if (counts) tb::coverage::add(reached_, tb::coverage::of_verilator(counts(), "coverage"));
+}
+
+void CoverageFile::write() {
+  file_.write([this] { return tb::coverage::lcov(reached_); });
+}
+
 cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind) {
   if (arguments.pins.empty()) return cosim::default_pin_map(kind.pins());
   std::vector<std::string> parameters;
@@ -121,9 +136,12 @@ cosim::PlayOptions play_options(const RtlChip& chip, const OwnRtlArguments& own,
 
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, const tb::ChipKind& kind,
                      const tb::OwnSettings& chip, bool traced, unsigned fault) {
-  OwnRtl own{own_map(arguments, kind), {}};
-  own.make = cosim::build_user_rtl(
-      {command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced, fault}, own.map, kind, chip);
+  OwnRtl own{own_map(arguments, kind), {}, {}};
+  cosim::BuiltUserRtl built = cosim::build_user_rtl({command, arguments.rtl, arguments.top, arguments.build,
+                                                     data_folder(), traced, fault, !arguments.coverage.empty()},
+                                                    own.map, kind, chip);
+  own.make = std::move(built.make);
+  own.counts = std::move(built.counts);
   return own;
 }
 

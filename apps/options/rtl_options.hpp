@@ -2,12 +2,15 @@
 // Which RTL stands beside the model: the reference RTL of a chip, or RTL of the user's own.
 #include <CLI/CLI.hpp>
 
+#include <functional>
 #include <string>
 
+#include "apps/options/outputs.hpp"
 #include "cosim/pin_map.hpp"
 #include "cosim/random/play_options.hpp"
 #include "cosim/random/random_cases.hpp"
 #include "cosim/user_rtl.hpp"
+#include "lab/coverage/reached.hpp"
 
 namespace dsdpv1::app {
 
@@ -31,11 +34,32 @@ CLI::Option* add_fault_option(CLI::App& app, unsigned& fault);
 CLI::Option* add_no_dpram_option(CLI::App& app, bool& no_dpram);
 struct OwnRtlArguments {
   std::string rtl, top, pins, build = "build/cosim";
+  std::string coverage = {};  ///< lcov's tracefile of a run; empty: nothing is counted
 };
 
 struct OwnRtl {
   cosim::PinMap map;
   cosim::MakeUserRtl make;
+  std::function<std::string()> counts;  ///< see cosim::BuiltUserRtl
+};
+
+/// --coverage, which needs --rtl.
+void add_coverage_option(CLI::App& app, OwnRtlArguments& arguments);
+
+/// The file of --coverage, opened before the run, and what was reached. Does nothing without the option.
+class CoverageFile {
+ public:
+  explicit CoverageFile(const OwnRtlArguments& arguments) : file_(arguments.coverage) {}
+
+  /// Adds the counts since the last call.
+  void add(const OwnRtl& own) { add(own.counts); }
+  void add(const std::function<std::string()>& counts);
+  /// Throws tb::InputError when it cannot be written.
+  void write();
+
+ private:
+  WantedFile file_;
+  tb::coverage::Files reached_;
 };
 
 /// Of any pin.

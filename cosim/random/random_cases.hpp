@@ -97,6 +97,9 @@ class RandomCases {
   /// All situations that may occur, in the order of a table. Some are possible by the rulings, but no random case
   /// reaches them.
   virtual std::vector<Situation> known_situations(const tb::OwnSettings& chip) const = 0;
+  /// The rulings and clauses that decide what the chip does in a situation, or say that an event happens: "S13, S20".
+  /// Empty: there are none that decide more than its pins.
+  virtual std::string rulings_of(const Situation& situation, const tb::OwnSettings& chip) const = 0;
   /// Counts the situations of one run. Both arguments outlive the result.
   virtual std::unique_ptr<PlayListener> watch(const tb::OwnSettings& chip, Situations& counted) const = 0;
 };

@@ -1,5 +1,11 @@
 #include "cosim/random/stimulus_result.hpp"
 
+#include <cctype>
+#include <map>
+
+#include "cosim/random/play_options.hpp"
+#include "cosim/random/random_cases.hpp"
+#include "tb/bench/ruling_place.hpp"
 #include "tb/report/fields.hpp"
 #include "tb/report/result_fields.hpp"
 
@@ -49,9 +55,32 @@ Json situations_of(const StimulusResult& result) {
   return groups;
 }
 
+/// "S6", where a clause is "T19-4" or "4.1.1-7".
+bool is_ruling(const std::string& name) {
+  return std::isupper(static_cast<unsigned char>(name.front())) != 0 && name.find_first_of("-. ") == std::string::npos;
+}
+
+/// The rulings of the events and situations that occurred.
+Json rulings_of(const StimulusResult& result) {
+  std::map<std::string, std::uint64_t> counts;
+  const auto add = [&counts](const std::string& names, std::uint64_t times) {
+    for (const std::string& name : tb::names_of(names))
+      if (times != 0 && is_ruling(name)) counts[name] += times;
+  };
+  for (const profibus::Reason reason : result.kind->reasons()) add(reason.row().source, result.coverage.count(reason));
+  const auto chip = result.chip != nullptr ? result.chip : usual_options(*result.kind).chip;
+  for (const auto& [each, times] : result.situations.counts())
+    if (each.first != "events") add(result.kind->random()->rulings_of(each, *chip), times);
+  Json rulings = Json::object();
+  for (const auto& [name, times] : counts) rulings[name] = times;
+  return rulings;
+}
+
 void coverage_fields(Fields& out, const StimulusResult& result) {
   out.counts("telegrams", telegrams_of(result.coverage), "how many", "each kind, with its count");
   out.counts("codes", codes_of(result), "how often", "each code of docs/reasons.md, with its count");
+  out.counts("rulings", rulings_of(result), "how often",
+             "each ruling that an event names or that decides a situation, with their count");
   out.groups("situations", is_random(result) ? situations_of(result) : Json(), "how often",
              "each situation, with its count",
              "each group: states, services, events, situations at the host port; null: `--replay`");

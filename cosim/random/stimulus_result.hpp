@@ -1,6 +1,7 @@
 #pragma once
 // The result of random cases or of a played stimulus, for programs: one JSON object (docs/cosim.md).
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +14,9 @@ namespace dsdpv1::cosim {
 
 struct StimulusResult {
   const tb::ChipKind* kind = tb::chip_kinds().front();
-  std::string rtl;     ///< folder of the user's RTL; empty: the reference RTL
-  unsigned fault = 0;  ///< of the reference RTL
+  std::shared_ptr<const tb::OwnSettings> chip;  ///< its parameters, which tell the host port; null: the usual ones
+  std::string rtl;                              ///< folder of the user's RTL; empty: the reference RTL
+  unsigned fault = 0;                           ///< of the reference RTL
   std::uint64_t seed = 1;
   std::string replayed;         ///< the stimulus file that was played; empty: random cases
   std::uint64_t cases = 0;      ///< random ones, up to and including the one that differs

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <system_error>
 
 #include "io/input/input_error.hpp"
@@ -24,8 +25,13 @@ constexpr const char* kLog = "run.log";
 constexpr const char* kResult = "result.json";
 constexpr const char* kStimulus = "lockstep.stimulus";
 constexpr const char* kDifference = "difference.vcd";
+constexpr const char* kCounts = "coverage.info";
 
-bool is_result(const std::string& name) { return name == "index.html"; }
+bool is_result(const std::string& name) {
+  static const std::set<std::string> names = {"index.html", kCoverageInfo, kCoverageTable,
+                                              kNotReached,  kRulingsInfo,  kRulingsTable};
+  return names.count(name) != 0;
+}
 
 /// Each run has its own key, so results of another regression do not interfere.
 std::string difference(const Json& /*before*/, const Json& /*now*/) { return ""; }
@@ -130,6 +136,7 @@ Json json_of(const Description& description) {
                {"report", description.report},
                {"left_out", description.plan.left_out},
                {"rtl", rtl_json(description.rtl)},
+               {"coverage", description.coverage},
                {"runs", Json::array()}};
   if (!description.rtl.verilator.empty()) json["versions"]["verilator"] = description.rtl.verilator;
   for (const Run& run : description.plan.runs) json["runs"].push_back(json_of(run));
@@ -146,6 +153,7 @@ Description last_description(const std::string& folder) {
     description.report = json.value("report", false);  // not in folders of earlier versions
     description.plan.left_out = json.at("left_out");
     description.rtl = rtl_of(json.value("rtl", Json()));
+    description.coverage = json.value("coverage", false);
     for (const Json& each : json.at("runs")) description.plan.runs.push_back(run_of(each));
     return description;
   } catch (const nlohmann::json::exception&) {
@@ -173,6 +181,7 @@ std::vector<std::string> Folder::words(const Run& run) const {
   const fs::path files = place(run);
   in_folder(folder_, [&files] { return fs::create_directories(files); });
   std::vector<std::string> words = description_.words(run);
+  if (description_.coverage && run.has_own_rtl()) words.insert(words.end(), {"--coverage", files / kCounts});
   if (run.engine == "golden") {
     words.emplace_back("--no-progress");
     return words;
@@ -194,7 +203,10 @@ std::optional<Outcome> Folder::finished(const Run& run, const std::string& key) 
   try {
     if (kept.is_null() || kept.at("run") != campaign::as_kept(json_of(run))) return std::nullopt;
     if (!key.empty() && kept.at("key") != key) return std::nullopt;
-    return outcome_of(kept.at("outcome"));
+    Outcome outcome = outcome_of(kept.at("outcome"));
+    if (description_.coverage && run.has_own_rtl() && outcome.ran_through() && !fs::exists(counts(run)))
+      return std::nullopt;
+    return outcome;
   } catch (const nlohmann::json::exception&) {  // not of this form
     return std::nullopt;
   }
@@ -203,17 +215,20 @@ std::optional<Outcome> Folder::finished(const Run& run, const std::string& key) 
 Outcome Folder::finish(const Run& run, const std::string& key, const Ended& ended) const {
   const fs::path files = place(run);
   in_folder(folder_, [&files] { tidy_up(files); });
-  Outcome outcome = outcome_of(ended, campaign::read_json((files / kResult).string()));
+  const Json result = campaign::read_json((files / kResult).string());
+  Outcome outcome = outcome_of(ended, result);
   if (!outcome.passed()) outcome.log = end_of(files / kLog);
   in_folder(folder_, [&] {
     if (!outcome.passed()) write_again(run);
+    keep_counts(run);
     keep_files(run, outcome);
   });
   // Less than what is kept of it before, whose begin depends on the length of the folder's name.
   constexpr std::size_t kMostOutput = 3072;
   outcome.output =
       last_lines(replaced(outcome.output, files.string(), folder_.item_file(run.file_name())), kMostOutput);
-  const Json kept = folder_.keep(run.file_name(), {{"key", key}, {"run", json_of(run)}, {"outcome", json_of(outcome)}});
+  const Json kept = folder_.keep(
+      run.file_name(), {{"key", key}, {"run", json_of(run)}, {"outcome", json_of(outcome)}, {"seen", seen_of(result)}});
   return outcome_of(kept.at("outcome"));
 }
 
@@ -231,6 +246,19 @@ void Folder::write_again(const Run& run) const {
                                  shell_word(fs::read_symlink("/proc/self/exe").string()));
   for (const std::string& word : words) text += " " + shell_word(word);
   write_file((fs::path(place(run)) / kAgain).string(), text + " \"$@\"\n");
+}
+
+Json Folder::seen(const Run& run) const {
+  const Json kept = folder_.kept(run.file_name());
+  return kept.is_object() ? kept.value("seen", Json()) : Json();
+}
+
+void Folder::keep_counts(const Run& run) const {
+  const fs::path counted = fs::path(place(run)) / kCounts;
+  if (fs::exists(counted))
+    fs::rename(counted, counts(run));
+  else
+    fs::remove(counts(run));
 }
 
 void Folder::keep_files(const Run& run, Outcome& outcome) const {
@@ -256,6 +284,7 @@ void Folder::remove(const Run& run) const {
       [&] {
         fs::remove_all(folder_.item_file(run.file_name()));
         fs::remove(folder_.item_file(run.file_name() + ".json"));
+        fs::remove(counts(run));
       });
 }
 

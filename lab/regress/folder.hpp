@@ -1,6 +1,6 @@
 #pragma once
-// The folder of a regression: runs/NAME.json is the result of a run, runs/NAME/ has its kept files, index.html shows
-// all runs.
+// The folder of a regression: runs/NAME.json is the result of a run, runs/NAME.info what it has reached of the RTL,
+// runs/NAME/ has its kept files, index.html shows all runs.
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +18,13 @@ const campaign::Kind& kind();
 /// one.
 constexpr const char* kAgain = "again.sh";
 
+/// Coverage of RTL and rulings by all runs together: lcov's tracefiles, and tables.
+constexpr const char* kCoverageInfo = "coverage.info";
+constexpr const char* kCoverageTable = "coverage.tsv";
+constexpr const char* kNotReached = "not_reached.tsv";
+constexpr const char* kRulingsInfo = "rulings.info";
+constexpr const char* kRulingsTable = "rulings.tsv";
+
 /// The runs whose files are kept.
 enum class Keep : std::uint8_t { kNone, kFailed, kAll };
 /// "none", "failed", "all", and back.
@@ -32,6 +39,7 @@ struct Description {
   bool report = false;  ///< write each run's page (run --report)
   OwnRtl rtl;
   std::string program = {};  ///< version and fingerprint
+  bool coverage = false;     ///< runs of the RTL count which lines, branches and toggles of it they reach
 
   /// Arguments of this program that carry it out.
   std::vector<std::string> words(const Run& run) const;
@@ -54,6 +62,10 @@ class Folder {
   std::optional<Outcome> finished(const Run& run, const std::string& key) const;
   /// Stores the run's result, and its files when they are wanted. Throws InputError when it cannot be written.
   Outcome finish(const Run& run, const std::string& key, const campaign::Ended& ended) const;
+  /// seen_of a finished run; null: there is nothing.
+  campaign::Json seen(const Run& run) const;
+  /// The tracefile of coverage of a finished run; it need not be there.
+  std::string counts(const Run& run) const { return folder_.item_file(run.file_name() + ".info"); }
   /// Removes the files of a run in progress.
   void forget(const Run& run) const;
   /// Removes the run's result.
@@ -61,6 +73,7 @@ class Folder {
 
  private:
   void write_again(const Run& run) const;
+  void keep_counts(const Run& run) const;
   void keep_files(const Run& run, Outcome& outcome) const;
 
   Description description_;

@@ -73,6 +73,28 @@ std::string reason_of(Verdict verdict, const Ended& ended, const Json& result) {
   return "";
 }
 
+void count(Json& counts, const Json& code, std::uint64_t times) {
+  Json& sum = counts[code.get<std::string>()];
+  sum = (sum.is_null() ? 0 : sum.get<std::uint64_t>()) + times;
+}
+
+/// A scenario has a list of events, which may be cut, and sums of refusals and violations.
+Json codes_of_scenario(const Json& result) {
+  Json codes = Json::object();
+  for (const Json& event : result.at("events"))
+    if (event.at("severity") == "info") count(codes, event.at("code"), 1);
+  for (const char* list : {"refused", "violated"})
+    for (const Json& each : result.at(list)) count(codes, each.at("code"), each.at("count"));
+  return codes;
+}
+
+Json without_zeros(const Json& counts) {
+  Json some = Json::object();
+  for (const auto& [name, times] : counts.items())
+    if (times != 0) some[name] = times;
+  return some;
+}
+
 Verdict verdict_named(const std::string& text) {
   for (std::size_t i = 0; i < kNames.size(); ++i)
     if (text == kNames[i]) return static_cast<Verdict>(i);
@@ -98,6 +120,18 @@ Outcome outcome_of(const Ended& ended, const Json& result) {
   outcome.reason = reason_of(outcome.verdict, ended, result);
   if (!outcome.passed()) outcome.output = ended.output;
   return outcome;
+}
+
+Json seen_of(const Json& result) {
+  try {
+    if (!result.contains("coverage")) return {{"codes", codes_of_scenario(result)}, {"situations", Json::object()}};
+    const Json& coverage = result.at("coverage");
+    Json situations = Json::object();
+    for (const auto& [group, counts] : coverage.at("situations").items()) situations[group] = without_zeros(counts);
+    return {{"codes", without_zeros(coverage.at("codes"))}, {"situations", situations}};
+  } catch (const nlohmann::json::exception&) {  // there is none
+    return nullptr;
+  }
 }
 
 Json json_of(const Outcome& outcome) {

@@ -32,6 +32,8 @@ struct Outcome {
 
   bool passed() const { return verdict == Verdict::kPassed; }
   bool was_run() const { return verdict != Verdict::kNotRun; }
+  /// It was not ended by something else, and its input was right.
+  bool ran_through() const { return passed() || verdict == Verdict::kFailed || verdict == Verdict::kNothingJudged; }
 };
 
 /// Of a run that is only listed.
@@ -39,6 +41,10 @@ Outcome not_run(const std::string& reason);
 
 /// `result` is the result file of the run, null when there is none.
 Outcome outcome_of(const campaign::Ended& ended, const campaign::Json& result);
+
+/// Events and situations of the run's model, from its result: {"codes": {CODE: count}, "situations": {GROUP: {NAME:
+/// count}}}, without those that did not occur. Null when there is no result.
+campaign::Json seen_of(const campaign::Json& result);
 
 campaign::Json json_of(const Outcome& outcome);
 /// Throws nlohmann::json::exception for any other JSON.

@@ -18,6 +18,7 @@ constexpr const char* kHead = R"(<!DOCTYPE html>
 :root { color-scheme: light dark; --line: #8884; --bad: #c0392b; --good: #1e8449 }
 body { font: 15px/1.4 system-ui, sans-serif; margin: 1.5rem }
 h1 { font-size: 1.25rem }
+h2 { font-size: 1.1rem; margin-top: 2rem }
 table { border-collapse: collapse; width: 100% }
 th, td { text-align: left; vertical-align: top; padding: .3rem .7rem .3rem 0; border-bottom: 1px solid var(--line) }
 th { cursor: pointer; position: sticky; top: 0; background: Canvas; white-space: nowrap }
@@ -34,10 +35,8 @@ input { font: inherit; padding: .2rem .4rem; width: 20rem }
 <body>
 )";
 
-constexpr const char* kTail = R"(</tbody>
-</table>
-<script>
-const body = document.querySelector("tbody"), heads = [...document.querySelectorAll("th")];
+constexpr const char* kTail = R"(<script>
+const body = document.querySelector("tbody"), heads = [...body.parentNode.querySelectorAll("th")];
 const key = (row, column) => row.cells[column].dataset.key ?? row.cells[column].textContent;
 heads.forEach((head, column) => head.onclick = () => {
   const down = head.getAttribute("aria-sort") === "ascending";
@@ -119,7 +118,7 @@ std::string page(const Report& report) {
     text += fmt::format("<th scope=\"col\">{}</th>", head);
   text += "</tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < report.outcomes.size(); ++i) text += row(report, report.runs()[i], report.outcomes[i]);
-  return text + kTail;
+  return text + "</tbody>\n</table>\n" + report.more + kTail;
 }
 
 }  // namespace dsdpv1::tb::regress

@@ -13,6 +13,7 @@ struct Report {
   Description description;
   std::vector<Outcome> outcomes;  ///< of the runs, in their order
   std::string folder;             ///< as the user has named it
+  std::string more = {};          ///< HTML below the table of the runs
 
   /// All that were run; false when all were only listed.
   bool passed() const;

@@ -116,6 +116,16 @@ TEST_F(PlayedStimulus, ResultNamesVerdictCountsAndFirstDifference) {
   EXPECT_EQ(nlohmann::json::parse(cosim::result_json(result))["verdict"], "same");
 }
 
+TEST(StimulusResult, CountsTheRulingsOfEventsAndSituations) {
+  cosim::StimulusResult result;
+  result.coverage.add(profibus::Reason::kPrmIdent, 3);
+  result.situations.add({"Sync and Freeze", "Sync: Freeze"}, 2);
+  result.situations.add({"events", "PRM_IDENT"}, 3);  // the same ones
+  EXPECT_EQ(nlohmann::json::parse(cosim::result_json(result))["coverage"]["rulings"],
+            nlohmann::json({{"S27", 2}, {"S6", 3}}))
+      << "T19-4 is a clause";
+}
+
 TEST(StimulusResult, HasItsTableInTheDocument) {
   std::ifstream page(DSDPV1_SOURCE_DIR "/docs/cosim.md");
   const std::string text{std::istreambuf_iterator<char>(page), {}};

@@ -66,6 +66,9 @@ class Dsdpv1Cases : public RandomCases {
   std::vector<Situation> known_situations(const tb::OwnSettings& chip) const override {
     return cosim::known_situations(own(chip).part, own(chip).mode);
   }
+  std::string rulings_of(const Situation& situation, const tb::OwnSettings& chip) const override {
+    return cosim::rulings_of(situation, own(chip).mode);
+  }
   std::unique_ptr<PlayListener> watch(const tb::OwnSettings& chip, Situations& counted) const override {
     return std::make_unique<SituationWatch>(own(chip), counted);
   }

@@ -248,6 +248,93 @@ std::vector<Situation> known_situations(Part part, HostMode mode) {
   return all;
 }
 
+namespace {
+
+/// Rulings of a group's situations that begin, or end, with these words; all that fit count.
+struct RulingRow {
+  const char *group, *begin, *end, *rulings;
+};
+
+constexpr RulingRow kRulingRows[] = {
+    {"services", "", "", "S13, S20"},
+    {"services", "Set_Slave_Add", "", "S5, S25"},
+    {"services", "Set_Prm", ": SC", "S14"},
+    {"services", "Chk_Cfg", ": SC", "S14"},
+    {"services", "Slave_Diag", ": data", "S23"},
+    {"services", "Data_Exchange", "high priority", "D9"},
+    {"services", "SRD to SAP 58", "", "S29"},
+    {"services", "another function", "", "S29"},
+    {"services", "C1", "", "V1, V8"},
+    {"services", "Initiate", "", "V10"},
+    {"services", "C2", "", "V11"},
+    {"Sync and Freeze", "", "Sync", "S4"},
+    {"Sync and Freeze", "", "Unsync", "S4, S27"},
+    {"Sync and Freeze", "", ": Sync and Freeze", "S4"},
+    {"Sync and Freeze", "", ": Unsync and Unfreeze", "S4"},
+    {"Sync and Freeze", "", "Freeze", "S27"},
+    {"Sync and Freeze", "", "Unfreeze", "S27"},
+    {"Sync and Freeze", "", "Clear_Data", "S24"},
+    {"transfers", "", "", "H3, H4"},
+    {"transfers", "status B00B", "", "D16"},
+    {"transfers", "Set_Prm", "Set_Prm", "D15"},
+    {"transfers", "Chk_Cfg", "Chk_Cfg", "D6"},
+    {"transfers", "Set_Prm verdict", "", "D4"},
+    {"transfers", "Chk_Cfg verdict", "", "D4"},
+    {"written and read", "", "CRC", "D2, D3"},
+    {"written and read", "Chk_Cfg", "data", "D6"},
+    {"written and read", "C1 request", "header", "V5"},
+    {"written and read", "C2 request", "header", "V5"},
+    {"RESET falls in", "", "", "P10, H6"},
+    {"R_REQ rises in", "", "", "H1, H2"},
+    {"accesses of the user", "write, owned", "", "P5, P8"},
+    {"accesses of the user", "read, owned", "", "P5"},
+    {"accesses of the user", "", "R_REQ alone, the chip away", "P12"},
+    {"accesses of the user", "", "R_STA alone, the chip away", "P12"},
+    {"accesses of the user", "", "not owned, the chip away", "P12"},
+    {"accesses of the user", "", "the chip in an access", "P12"},
+    {"replies of exchanges", "", "", "UA8, UA10"},
+};
+/// The host's telegrams, and the begin of its accesses, have the same names at both serial ports.
+constexpr RulingRow kSpiRows[] = {{"XSS falls in", "", "", "SP1"},
+                                  {"telegrams of the host", "", "", "SP4, SP6, SP10"},
+                                  {"telegrams of the host", "read, code 00", "", "SP5, SP8"},
+                                  {"telegrams of the host", "write, code 00", "", "SP9"},
+                                  {"telegrams of the host", "read and write", "", "SP16"}};
+constexpr RulingRow kUartRows[] = {{"RXD falls in", "", "", "UA6"},
+                                   {"telegrams of the host", "", "", "UA4"},
+                                   {"telegrams of the host", "read", "", "UA5"},
+                                   {"telegrams of the host", "write", "", "UA5"},
+                                   {"telegrams of the host", "exchange", "", "UA7, UA8"},
+                                   {"telegrams of the host", "exchange, code 00", "", "UA9"}};
+
+bool ends(const std::string& text, const std::string& with) {
+  return text.size() >= with.size() && text.compare(text.size() - with.size(), with.size(), with) == 0;
+}
+
+template <class Rows>
+void add_rulings(std::string& all, const Rows& rows, const Situation& situation) {
+  for (const RulingRow& row : rows)
+    if (situation.first == row.group && begins(situation.second, row.begin) && ends(situation.second, row.end))
+      all += (all.empty() ? "" : ", ") + std::string(row.rulings);
+}
+
+}  // namespace
+
+std::string rulings_of(const Situation& situation, HostMode mode) {
+  if (situation.first == "DP states") return profibus::Reason::kDpState.row().source;
+  if (situation.first == "events") {
+    const std::string code = situation.second.substr(0, situation.second.find(' '));
+    for (const profibus::Reason reason : dsdpv1::reasons())
+      if (code == profibus::code(reason)) return reason.row().source;
+    return {};
+  }
+  std::string all;
+  add_rulings(all, kRulingRows, situation);
+  if (mode == HostMode::kSpi) add_rulings(all, kSpiRows, situation);
+  if (mode == HostMode::kUart) add_rulings(all, kUartRows, situation);
+  return all;
+}
+
 const char* dp_state_name(unsigned state) {
   static constexpr const char* kNames[] = {"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
   return kNames[state % std::size(kNames)];

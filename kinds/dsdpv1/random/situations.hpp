@@ -11,6 +11,8 @@ namespace dsdpv1::cosim {
 
 /// RandomCases::known_situations, for a part whose host is connected to this port.
 std::vector<Situation> known_situations(Part part, HostMode mode);
+/// RandomCases::rulings_of.
+std::string rulings_of(const Situation& situation, HostMode mode);
 /// The situation of an event, in addition to those of group "DP states": its code, and the case that the ruling
 /// distinguishes. `state`: the DP state in which it happened.
 std::string event_item(const profibus::Event& event, const std::string& state);

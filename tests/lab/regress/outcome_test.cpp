@@ -97,5 +97,27 @@ TEST(RegressOutcome, IsReadBackFromItsJson) {
   EXPECT_THROW(tb::regress::outcome_of(other), nlohmann::json::exception);
 }
 
+TEST(RegressOutcome, OfAScenarioItsEventsWereSeen) {
+  Json run = result(true);
+  run["events"] = {{{"code", "BAUD_FOUND"}, {"severity", "info"}},
+                   {{"code", "BAUD_FOUND"}, {"severity", "info"}},
+                   {{"code", "SAP_STATE"}, {"severity", "refusal"}}};
+  run["refused"] = {{{"code", "SAP_STATE"}, {"count", 20000}}};
+  run["violated"] = {{{"code", "HOST_TC"}, {"count", 2}}, {{"code", "HOST_TC"}, {"count", 3}}};
+  EXPECT_EQ(tb::regress::seen_of(run)["codes"], Json({{"BAUD_FOUND", 2}, {"SAP_STATE", 20000}, {"HOST_TC", 5}}));
+}
+
+TEST(RegressOutcome, OfRandomCasesAndStimuliTheCodesAndSituationsWereSeen) {
+  Json run = {{"coverage", {{"codes", {{"A", 0}, {"B", 4}}}, {"situations", {{"g", {{"x", 1}, {"y", 0}}}}}}}};
+  EXPECT_EQ(tb::regress::seen_of(run), Json({{"codes", {{"B", 4}}}, {"situations", {{"g", {{"x", 1}}}}}}));
+  run["coverage"]["situations"] = nullptr;
+  EXPECT_EQ(tb::regress::seen_of(run), Json({{"codes", {{"B", 4}}}, {"situations", Json::object()}}));
+}
+
+TEST(RegressOutcome, WithoutAResultNothingWasSeen) {
+  EXPECT_TRUE(tb::regress::seen_of(Json()).is_null());
+  EXPECT_TRUE(tb::regress::seen_of(Json::parse("{", nullptr, false)).is_null());
+}
+
 }  // namespace
 }  // namespace dsdpv1

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "tests/app/program.hpp"
 
@@ -76,6 +77,10 @@ TEST_F(RegressOwnRtl, IsVerifiedByEachWayAndOnlyWhatAChangeConcernsRunsAgain) {
   EXPECT_EQ(first.status, 0) << first.out << first.err;
   EXPECT_THAT(first.out, HasSubstr("power_on_12m.yaml\tcosim\tpins\t"));
   EXPECT_THAT(first.out, HasSubstr("\npassed\trandom\trandom\tpins\t1\t"));
+  const std::string rulings = app_test::read(folder_.file("rtl-verification/rulings.tsv"));
+  EXPECT_TRUE(std::regex_search(rulings, std::regex("\nS1\tchip.md#s1\texercised\t[0-9]+\t2\t"))) << "in both runs";
+  EXPECT_TRUE(std::regex_search(rulings, std::regex("\nP8\tchip.md#p8\texercised\t[0-9]+\t1\t")))
+      << "situations are those of random cases";
   const Called second = verify(some);
   EXPECT_EQ(second.out, first.out) << "with its times: nothing has run again";
   pulse(60);
