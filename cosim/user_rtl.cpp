@@ -305,7 +305,8 @@ constexpr const char* kCounting =
 
 std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::vector<RtlParameter>& parameters,
                               const std::string& build, const std::string& adapter) {
-  std::string command = "verilator --cc --exe -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS";
+  // No rules of its own for make, which take a path with a space apart.
+  std::string command = "verilator --cc --exe --no-MMD -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS";
   command += rtl.counted ? kCounting : " '-O2 -fPIC'";
   const auto add = [&command](const std::string& option) { command.append(" ").append(tb::shell_word(option)); };
   command += rtl.traced ? " --trace-fst --trace-structs -LDFLAGS '-shared -lz'" : " -LDFLAGS -shared";
@@ -331,14 +332,6 @@ void check_fault(const UserRtl& rtl, const PinMap& map) {
   if (rtl.fault != 0 && map.fault.text.empty())
     fail(rtl, map, 0,
          fmt::format("fault: is missing, expected fault: INPUT, the input of {} that selects a single fault", rtl.top));
-}
-
-void check_parameters(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip) {
-  for (const std::string& key : untold(map, kind, chip))
-    fail(rtl, map, 0,
-         fmt::format("chip.{0} is not the default and the RTL is not told, expected chip: {{{0}: PARAMETER}} or chip: "
-                     "{{{0}: {{port: INPUT}}}}",
-                     key));
 }
 
 /// What Verilator says of -G.
@@ -494,6 +487,8 @@ bool installed(const char* program) {
 }
 
 void create_folder(const std::string& folder) {
+  if (folder.find(' ') != std::string::npos)
+    throw tb::InputError(folder, 0, "has a space, in which make cannot build, expected --build FOLDER without one");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw tb::InputError(folder, 0, "cannot be created: " + error.message());
@@ -609,11 +604,10 @@ class Build {
     tb::Hash all;
     all.add(command);
     all.add(made);
-    std::istringstream files(read(file("V" + rtl_.top + "__ver.d")));
-    std::string word;
-    while (files >> word && word != ":") {
-    }
-    while (files >> word) all.add(read(word));
+    std::istringstream files(read(file("V" + rtl_.top + "__verFiles.dat")));  // S, numbers, "NAME"
+    for (std::string line; std::getline(files, line);)
+      if (line.rfind("S ", 0) == 0)
+        all.add(read(line.substr(line.find('"') + 1, line.rfind('"') - line.find('"') - 1)));
     return fmt::format("{:016x}\n", all.value());
   }
 
@@ -657,6 +651,14 @@ std::vector<std::string> untold(const PinMap& map, const tb::ChipKind& kind, con
   for (const RtlParameter& each : kind.rtl()->parameters(chip))
     if (!each.usual && map.chip.count(each.key) == 0) keys.emplace_back(each.key);
   return keys;
+}
+
+void check_parameters(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip) {
+  for (const std::string& key : untold(map, kind, chip))
+    fail(rtl, map, 0,
+         fmt::format("chip.{0} is not the default and the RTL is not told, expected chip: {{{0}: PARAMETER}} or chip: "
+                     "{{{0}: {{port: INPUT}}}}",
+                     key));
 }
 
 BuiltUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind,

@@ -34,6 +34,8 @@ std::string verilator_version();
 /// Keys of the chip's parameters, `chip:` of scenarios, that are not the default and that the map does not take to the
 /// RTL: it would differ for that reason alone.
 std::vector<std::string> untold(const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip);
+/// Throws tb::InputError when there is one.
+void check_parameters(const UserRtl& rtl, const PinMap& map, const tb::ChipKind& kind, const tb::OwnSettings& chip);
 
 struct BuiltUserRtl {
   MakeUserRtl make;

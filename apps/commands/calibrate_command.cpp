@@ -6,6 +6,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/rtl_options.hpp"
 #include "apps/options/words.hpp"
 #include "bus/capture/sample_clock.hpp"
 #include "cosim/pin_map.hpp"
@@ -46,8 +47,7 @@ void take_signal(const std::string& text, calibrate::Names& names) {
 /// A map of pins says of what differs from the names of the reference RTL how it is called.
 void take_map(const std::string& path, calibrate::Names& names) {
   if (path.empty()) return;
-  const tb::PinTable& pins = kind().pins();
-  const cosim::PinMap map = cosim::load_pin_map(path, pins), usual = cosim::default_pin_map(pins);
+  const cosim::PinMap map = load_map(path, kind()), usual = cosim::default_pin_map(kind().pins());
   for (const auto& [pin, port] : map.pins) {
     const cosim::Port& other = usual.pins.at(pin);
     if (pin == "D_OUT" || pin == "D_OE" || (port.name == other.name && port.inverted == other.inverted)) continue;

@@ -9,6 +9,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
+#include "apps/options/rtl_options.hpp"
 #include "apps/options/words.hpp"
 #include "cosim/wave_pins.hpp"
 #include "io/input/input_error.hpp"
@@ -138,7 +139,7 @@ class Compare : public Command {
     const tb::ChipKind& kind = chip(a, &b);
     const tb::PinTable& table = kind.pins();
     std::vector<NamedPair> pairs =
-        cosim::pairs_of(pins_ == kOwnRtl ? cosim::default_pin_map(table) : cosim::load_pin_map(pins_, table), table);
+        cosim::pairs_of(pins_ == kOwnRtl ? cosim::default_pin_map(table) : load_map(pins_, kind), table);
     for (const std::string& pin : without_) leave_out(pin, kind, pairs);
     return pairs;
   }

@@ -92,7 +92,7 @@ class Cosim : public Command {
 
   void check_files(const tb::scenario::Scenario& scenario) const {
     std::vector<NamedFile> inputs = scenario_inputs(run_.scenario, scenario.files);
-    inputs.push_back({"--pins", own_.pins});
+    for (NamedFile& own : own_inputs(own_)) inputs.push_back(std::move(own));
     std::vector<NamedFile> outputs = wave_files(kCosim, run_.wave.file, wave_save_);
     outputs.insert(outputs.end(), {{"--difference", run_.difference},
                                    {"--log", run_.log},

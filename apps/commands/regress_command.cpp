@@ -127,6 +127,8 @@ class Regress : public Command {
     const bool cosim = std::find(engines.begin(), engines.end(), "cosim") != engines.end();
     if (cosim == own_.rtl.empty())
       throw tb::InputError("dsdpv1-sim regress: --engine cosim and --rtl go together, expected both or neither");
+    if (cosim && description_.report)
+      throw tb::InputError("dsdpv1-sim regress: --report is of run, --engine cosim has none, expected one of them");
     if (cosim) description_.rtl = rtl_of_regression(own_, chip_of(description_.plan));
     return description_;
   }

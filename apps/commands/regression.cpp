@@ -197,8 +197,8 @@ void build(const std::string& command, tb::regress::OwnRtl& rtl, bool coverage) 
   if (!rtl.pins.empty()) rtl.files.push_back(rtl.pins);
 }
 
-void check_files(const RegressionArguments& arguments, const RegressInputs& inputs) {
-  std::vector<NamedFile> read;
+void check_files(const RegressionArguments& arguments, const RegressInputs& inputs, const tb::regress::OwnRtl& rtl) {
+  std::vector<NamedFile> read = own_inputs({rtl.folder, rtl.top, rtl.pins, rtl.build});
   for (const auto& file : inputs.contents().all().items()) read.push_back({"a file of a scenario", file.key()});
   std::vector<NamedFile> written = outputs_in(arguments.campaign.out, tb::regress::kind());
   written.push_back({"--junit", arguments.junit});
@@ -324,7 +324,7 @@ int run_regression(Description description, const RegressionArguments& arguments
   if (!description.rtl.folder.empty()) build(arguments.command, description.rtl, description.coverage);
   description.program = tb::campaign::program_identity(DSDPV1_VERSION);
   const RegressInputs inputs(description, description.program);
-  if (!campaign.is_task()) check_files(arguments, inputs);
+  if (!campaign.is_task()) check_files(arguments, inputs, description.rtl);
   WantedFile junit(campaign.is_task() ? "" : arguments.junit);
   catch_signals();
   const Folder folder(campaign.out, description, campaign.access());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <utility>
 
 #include "apps/commands/command.hpp"
 #include "apps/data_folder.hpp"
@@ -65,7 +66,9 @@ class RtlFaults : public Command {
     const std::string folder = given_or_own(directed_, "/" + files.stimuli);
     const std::vector<cosim::Fault> faults = cosim::read_faults(list);
     const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, kind);
-    check_outputs(kCommand, with_files_of(folder, {{"--list", list}, {"--pins", own_.pins}}), {{"--tsv", tsv_}});
+    std::vector<NamedFile> inputs = own_inputs(own_);
+    inputs.push_back({"--list", list});
+    check_outputs(kCommand, with_files_of(folder, std::move(inputs)), {{"--tsv", tsv_}});
     WantedFile tsv(tsv_);
     cosim::CampaignOptions options{seed_, cycles_ / 10, at_a_time(jobs_), play_options(chip_, own_, set_, no_dpram_)};
     check(faults, options.play);

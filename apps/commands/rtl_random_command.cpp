@@ -300,7 +300,9 @@ void check_files(const RtlRandomArguments& arguments) {
                                  {"--result", arguments.result},
                                  {"--tsv", arguments.tsv},
                                  {"--coverage", arguments.own.coverage}});
-  check_outputs(arguments.command, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
+  std::vector<NamedFile> inputs = own_inputs(arguments.own);
+  inputs.push_back({"--replay", arguments.replay});
+  check_outputs(arguments.command, inputs, outputs);
 }
 
 }  // namespace
@@ -358,7 +360,9 @@ class RtlRandom : public Command {
  private:
   void add_what_is_played(CLI::App& app) {
     add_chip_options(app, given_.chip);
-    app.add_option("--cycles", given_.cycles, "Number of cycles to compare")->capture_default_str();
+    app.add_option("--cycles", given_.cycles, "Number of cycles to compare")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     app.add_option("--seed", given_.seed, "Seed; equal seeds give equal cases")->capture_default_str();
     app.add_option("--jobs", given_.jobs, "Threads (default: one per processor)")->check(CLI::Range(1, 256));
     CLI::Option* replay = app.add_option("--replay", given_.replay, "This stimulus file instead of random cases");

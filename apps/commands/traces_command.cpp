@@ -111,10 +111,9 @@ OwnRtl own_rtl_for(const std::string& file, const TracesArguments& given, const 
   if (chip != scenario.kind)
     throw tb::InputError(file, 0,
                          fmt::format("is about a {}, expected a {} as before", scenario.kind->name(), chip->name()));
-  OwnRtl own = build_own_rtl(given.own, "dsdpv1-sim traces", *scenario.kind, *scenario.chip, false);
-  if (has_tolerance(own.map))
+  if (has_tolerance(own_map(given.own, *scenario.kind)))
     throw tb::InputError(given.own.pins, 0, "has a tolerance, goldens have none, expected cosim and scenarios");
-  return own;
+  return build_own_rtl(given.own, "dsdpv1-sim traces", *scenario.kind, *scenario.chip, false);
 }
 
 int check(const TracesArguments& given) {

@@ -44,6 +44,7 @@ class VerifyRtl : public Command {
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--cycles", cycles_, "Cycles of random cases, at all of the chip's host ports together")
+        ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_option("--seed", seed_, "Seed of the first random cases")->capture_default_str();
     app.add_option("--set", set_, "chip.KEY=VALUE of stimuli and random cases, once for each: a parameter of the model")
@@ -68,6 +69,7 @@ class VerifyRtl : public Command {
     description.rtl = rtl_of_regression(own_, chip_.kind().name());
     for (const std::string& word : only_)
       check_word("dsdpv1-sim verify-rtl: --only", word, {"scenarios", "goldens", "stimuli", "random"});
+    check_settings();
     take_names();
     std::vector<Run>& runs = description.plan.runs;
     if (wants("scenarios")) add_scenarios(runs);
@@ -81,6 +83,26 @@ class VerifyRtl : public Command {
  private:
   bool wants(const char* what) const {
     return only_.empty() || std::find(only_.begin(), only_.end(), what) != only_.end();
+  }
+
+  /// What no run could say in place of all.
+  void check_settings() const {
+    if (!set_.empty() && !wants("stimuli") && !wants("random"))
+      throw tb::InputError("dsdpv1-sim verify-rtl: --set is for stimuli and random, expected one of them in --only");
+    cosim::check_parameters({"dsdpv1-sim verify-rtl", own_.rtl, own_.top, own_.build, {}}, own_map(own_, chip_.kind()),
+                            chip_.kind(), *cosim::chip_settings(chip_.kind(), set_));
+  }
+
+  /// One that cannot be read passes: its run says why.
+  void check_chip(const std::string& scenario) const {
+    const tb::ChipKind* kind = &chip_.kind();
+    try {
+      kind = tb::scenario::load(scenario).kind;
+    } catch (const tb::InputError&) {
+    }
+    if (kind != &chip_.kind())
+      throw tb::InputError(scenario, 0,
+                           fmt::format("is about a {}, expected a {} as in --chip", kind->name(), chip_.chip));
   }
 
   /// Sorts the names on the command line.
@@ -114,6 +136,7 @@ class VerifyRtl : public Command {
 
   void add_scenarios(std::vector<Run>& runs) const {
     for (const std::string& file : scenarios_.empty() ? shipped() : scenarios_) {
+      if (!scenarios_.empty()) check_chip(file);
       Run run{file, "cosim", "pins", "", {}};
       if (scenarios_.empty()) run.not_run = why_not(file);
       runs.push_back(run);

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
+#include <system_error>
 #include <utility>
 
 #include "apps/data_folder.hpp"
@@ -105,12 +108,25 @@ void CoverageFile::write() {
   file_.write([this] { return tb::coverage::lcov(reached_); });
 }
 
-cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind) {
-  if (arguments.pins.empty()) return cosim::default_pin_map(kind.pins());
+cosim::PinMap load_map(const std::string& path, const tb::ChipKind& kind) {
   std::vector<std::string> parameters;
   for (const cosim::RtlParameter& each : kind.rtl()->parameters(*kind.make_chip_settings()))
     parameters.emplace_back(each.key);
-  return cosim::load_pin_map(arguments.pins, kind.pins(), parameters);
+  return cosim::load_pin_map(path, kind.pins(), parameters);
+}
+
+cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind) {
+  return arguments.pins.empty() ? cosim::default_pin_map(kind.pins()) : load_map(arguments.pins, kind);
+}
+
+std::vector<NamedFile> own_inputs(const OwnRtlArguments& arguments) {
+  static const std::set<std::string> kEndings = {".sv", ".v", ".svh", ".vh", ".f"};
+  std::vector<NamedFile> inputs = {{"--pins", arguments.pins}};
+  std::error_code not_there;  // the build says so
+  const auto all = std::filesystem::directory_options::skip_permission_denied;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(arguments.rtl, all, not_there))
+    if (kEndings.count(entry.path().extension()) != 0) inputs.push_back({"a file of --rtl", entry.path()});
+  return inputs;
 }
 
 bool takes(const cosim::PinMap& map, const std::vector<std::string>& set) {

@@ -68,8 +68,12 @@ bool has_tolerance(const cosim::PinMap& map);
 /// --rtl and what goes with it. `required`: the command is about nothing else.
 void add_own_rtl_options(CLI::App& app, OwnRtlArguments& arguments, bool required);
 
+/// A map of the pins and parameters of this kind. Throws tb::InputError.
+cosim::PinMap load_map(const std::string& path, const tb::ChipKind& kind);
 /// The map of its pins, the names of the reference RTL when there is none. Throws tb::InputError.
 cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind);
+/// The map and the sources in its folder, which no output may replace.
+std::vector<NamedFile> own_inputs(const OwnRtlArguments& arguments);
 /// Whether the map takes all these texts of --set, chip.KEY=VALUE, to the RTL.
 bool takes(const cosim::PinMap& map, const std::vector<std::string>& set);
 

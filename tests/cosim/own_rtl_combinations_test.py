@@ -1,30 +1,32 @@
 #!/usr/bin/env python3
-"""RTL of a user's own, of every kind, at every host port, with parameters of the chip and without, by every entrance; and maps that are wrong.
+"""RTL of a user's own, of every kind, at every host port, by every command, with parameters of the chip and without; and what surrounds it.
 
     own_rtl_combinations_test.py DSDPV1_SIM FOLDER
+    own_rtl_combinations_test.py --table              prints the table of docs/cosim.md
 
-The RTL is a copy of the reference with other names and polarities and an input of its own. It is built in FOLDER once for each top.
+The RTL is a copy of the reference (own_rtl_copy.py). It is built in FOLDER twice for each top, the second time with its inside.
 """
+import dataclasses
 import json
+import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import typing
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SIM, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
-PORT = re.compile(r"^  (input|output) +logic +(?:\[(\d+):0\] +)?(\w+?)_([io]),?(?: *//.*)?$", re.MULTILINE)
-INVERTED = ("reset", "csr", "intr0", "d_oe", "miso_oe", "xss", "pbtxd")
-PARTS = {"dsdpv1": ("dsdpv1", ["parallel"]), "dsdpv1_r": ("dsdpv1", ["parallel"]), "dsdpv1_rsu": ("dsdpv1_rsu", ["parallel", "spi", "uart"])}
-COMMON = {"access_interval": 64, "ready_cycles": 5000, "rts_lead": 3, "rts_trail": 7, "intr_low": 70, "intr_gap": 90, "search_window_ms": 1,
-          "search_window_bits": 150, "baud_control_ms": 3, "fcb_rule": "content"}
-SERIAL = {"spi_reply_gap": 2, "spi_write_gap": 100, "serial_block_crc": 1, "u_timer": 30000, "uart_gaps": [9, 3, 5, 11, 21, 41, 101, 201],
-          "uart_min_tsdr": 20, "uart_cfg_length": 1}
-SWAPPED_CRC = 166  # of faults.txt
+from own_rtl_copy import COMMON, ROOT, SWAPPED_CRC, Copy, tied
+
+KINDS = {"dsdpv1": ("dsdpv1", ["parallel"]), "dsdpv1_r": ("dsdpv1", ["parallel"]), "dsdpv1_rsu": ("dsdpv1_rsu", ["parallel", "spi", "uart"])}
 SLAVE = """slaves: [{name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: "31"}}]
 masters: [{name: plc, address: 2, slaves: [{slave: io, outputs: "01 02"}]}]
 """
+END_US = 1300  # data are exchanged from 1121 us on
+STIMULI = ROOT / "tests/cosim/stimuli"
+UNTOLD = "chip.intr_low is not the default and the RTL is not told"
+SHORT = {"search_window_ms": 1, "search_window_bits": 150}
 FAILURES = []
 cells = 0
 
@@ -33,154 +35,256 @@ def check(right, what, said=""):
     global cells
     cells += 1
     if not right:
-        FAILURES.append(f"{what}\n{said}")
+        FAILURES.append(f"{what}\n{said[-2000:]}")
 
 
-class Copy:
-    """The reference with this top: my_TOP has a port pad_NAME for each of NAME_i and NAME_o."""
-
-    def __init__(self, top):
-        self.top, self.folder = "my_" + top, FOLDER / top
-        shutil.rmtree(self.folder / "rtl", ignore_errors=True)
-        self.reference = ROOT / "rtl_ref"
-        source = (self.reference / top / f"{top}.sv").read_text(encoding="utf-8")
-        self.ports = PORT.findall(source) + [("input", "7", "fault", "i")]
-        self.parameters = {**COMMON, **(SERIAL if "spi_reply_gap" in source else {})}
-        self.copy_files(top)
-        self.write_top(top)
-
-    def copy_files(self, top):
-        """The list names the files relative to its own folder."""
-        library = self.folder / "rtl" / "library"
-        library.mkdir(parents=True)
-        files = (self.reference / top / "files.txt").read_text(encoding="utf-8").split()
-        for path in [self.reference / each for each in files] + [*self.reference.glob("*.svh"), ROOT / "registers/dsdpv1_regs.svh"]:
-            shutil.copy2(path, library)
-        names = "\n".join(pathlib.PurePath(each).name for each in files)
-        (library / "chip.f").write_text(f"// as other simulators read it\n+incdir+.\n{names}\n")
-
-    def write_top(self, top):
-        def level(name):
-            return f"{'~' if name in INVERTED else ''}pad_{name}"
-
-        def port(direction, msb, name, side):
-            return f"  {direction} logic {f'[{msb}:0] ' if msb else ''}pad_{'q' if (name, side) == ('d', 'o') else name}"
-
-        lines = [f"module {self.top} (", ",\n".join(port(*each) for each in self.ports), "  , input logic [2:0] pad_scan);"]
-        for direction, msb, name, side in self.ports:
-            if direction == "output":  # with its other polarity, and spoilt when scan is not 0
-                pad = "pad_q" if name == "d" else f"pad_{name}"
-                lines += [f"  logic {f'[{msb}:0] ' if msb else ''}out_{name};", f"  assign {pad} = {'~' if name in INVERTED else ''}out_{name}"
-                          f"{' ^ (pad_scan != 3`d5)'.replace('`', chr(39)) if name == 'pbrts' else ''};"]
-        connected = [f".{name}_{side}({level(name) if direction == 'input' else f'out_{name}'})" for direction, _, name, side in self.ports]
-        lines += [f"  {top} u_chip ({', '.join(connected)});", "endmodule\n"]
-        (self.folder / "rtl" / "top.sv").write_text("\n".join(lines))
-
-    def pins(self, name="pins.yaml", *, leave_out=(), **changes):
-        """The map; `changes` replace a line each. The lines by their first words."""
-        pins = []
-        for direction, _, port, side in self.ports:
-            if port in self.parameters or port in ("clk", "fault"):
-                continue
-            pin = {"d": "D_IN" if side == "i" else "D_OUT"}.get(port, port.upper())
-            pad = "pad_q" if (port, side) == ("d", "o") else f"pad_{port}"
-            pins.append(f"  {pin}: {{port: {pad}, inverted: true}}" if port in INVERTED else f"  {pin}: {pad}")
-        lines = {"clock": "clock: pad_clk", "tie": "tie: {pad_scan: 0x5, pad_fault: 0}",
-                 "chip": f"chip: {{{', '.join(f'{each}: {{port: pad_{each}}}' for each in self.parameters)}}}",
-                 "defines": "defines: {DSDPV1_RUN_TIME_LIMITS: , SINGLE_FAULTS: 1}", "files": "files: [top.sv]",
-                 "file_list": "file_list: library/chip.f", **changes}
-        text = [text for key, text in lines.items() if key not in leave_out]
-        (self.folder / name).write_text("\n".join([*text, "pins:", *pins, ""]))
-        return name
-
-    def call(self, command, *words, pins="pins.yaml"):
-        return subprocess.run([SIM, command, "--rtl", "rtl", "--top", self.top, "--pins", pins, *map(str, words)], cwd=self.folder, capture_output=True,
-                              text=True, check=False)
-
-    def result(self, *words, **more):
-        (self.folder / "r.json").unlink(missing_ok=True)
-        done = self.call(*words, "--result", "r.json", **more)
-        path = self.folder / "r.json"
-        return done, json.loads(path.read_text()) if path.exists() else None
+def said(done):
+    return done.stdout + done.stderr
 
 
-def of_kind(parameters, kind):
-    return {key: value for key, value in parameters.items() if kind == "dsdpv1_rsu" or key in COMMON}
-
-
-def by_scenario(copy, kind, mode, parameters):
-    chip = {"kind": kind, **({"mode": mode} if mode != "parallel" else {}), **parameters}
-    (copy.folder / "x.yaml").write_text(f"name: x\nbaud: 12M\nend: 3ms\nchip: {json.dumps(chip)}\n{SLAVE}")
-    done, result = copy.result("cosim", "x.yaml")
-    lockstep = (result or {}).get("lockstep") or {}
-    check(lockstep.get("cycles", 0) >= 3 * 48000 - 1 and lockstep["difference"] is None, f"cosim, {kind}, {mode}, {parameters}", done.stdout + done.stderr)
+def is_one_line(done):
+    return done.stderr.count("\n") == 1 and not done.stdout
 
 
 def settings(parameters):
     return [word for key, value in parameters.items() for word in ("--set", f"chip.{key}={value}")]
 
 
-def at_random(copy, kind, mode, parameters):
-    done, result = copy.result("rtl-random", "--chip", kind, "--mode", mode, "--cycles", 1000, *settings(parameters))
-    check(done.returncode == 0 and result["chip"] == kind and result["cycles"] >= 1000, f"rtl-random, {kind}, {mode}, {parameters}",
-          done.stdout + done.stderr)
-    if mode == "parallel":  # the search of the rate is short, also without --set, because the map takes its times: blocks arrive
+class Cell:
+    """A kind at one of its host ports."""
+
+    def __init__(self, copy, kind, mode):
+        self.copy, self.kind, self.mode = copy, kind, mode
+        self.parameters = {key: value for key, value in copy.parameters.items() if kind == "dsdpv1_rsu" or key in COMMON}
+        self.pin = {"parallel": "D_OUT", "spi": "MISO", "uart": "TXD"}[mode]
+        self.stimulus = STIMULI / {"parallel": "dsdpv1/user_blocks", "spi": "dsdpv1_rsu/spi_blocks", "uart": "dsdpv1_rsu/news"}[mode]
+        self.stimulus = self.stimulus.with_suffix(".stimulus")
+
+    def scenario(self, parameters):
+        """Without the SPI replies' gap: its driver reads at once."""
+        parameters = {key: value for key, value in parameters.items() if key != "spi_reply_gap"}
+        chip = {"kind": self.kind, **({"mode": self.mode} if self.mode != "parallel" else {}), **parameters}
+        (self.copy.folder / "x.yaml").write_text(f"name: x\nbaud: 12M\nend: {END_US}us\nchip: {json.dumps(chip)}\n{SLAVE}")
+        return "x.yaml"
+
+    def empty(self, name):
+        shutil.rmtree(self.copy.folder / name, ignore_errors=True)
+        return name
+
+
+# --- each runs a command on a cell with these parameters and this map, and returns its output and whether it has compared -------------------
+
+
+def by_scenario(cell, parameters, pins):
+    done, result = cell.copy.result("cosim", cell.scenario(parameters), pins=pins)
+    lockstep = (result or {}).get("lockstep") or {}
+    return done, lockstep.get("cycles", 0) >= END_US * 48 - 1 and lockstep["difference"] is None
+
+
+def at_random(cell, parameters, pins):
+    done, result = cell.copy.result("rtl-random", "--chip", cell.kind, "--mode", cell.mode, "--cycles", 1000, *settings(parameters), pins=pins)
+    if done.returncode != 0:
+        return done, False
+    right = result["chip"] == cell.kind and result["cycles"] >= 1000
+    if cell.mode == "parallel":  # the search of the rate is short, also without --set, because the map takes its times: blocks arrive
         read = result["coverage"]["situations"]["written and read"]
-        check(all(read[f"Set_Prm, {cells}"] > 0 for cells in ("header", "data", "CRC", "flag")), f"cells read back, {kind}, {mode}", str(read))
+        right &= all(read[f"Set_Prm, {each}"] > 0 for each in ("header", "data", "CRC", "flag"))
+    return done, right
 
 
-def replayed(copy, kind, mode, parameters):
-    stimulus = {"parallel": "dsdpv1/user_blocks", "spi": "dsdpv1_rsu/spi_blocks", "uart": "dsdpv1_rsu/news"}[mode]
-    path = ROOT / f"tests/cosim/stimuli/{stimulus}.stimulus"
-    counts = []
-    for command in ("rtl-random", "cosim"):
-        done, result = copy.result(command, "--chip", kind, "--replay", path, *settings(parameters))
-        check(done.returncode == 0 and result["chip"] == kind, f"{command} --replay, {kind}, {mode}, {parameters}", done.stdout + done.stderr)
-        counts.append((result or {}).get("pin_changes"))
-    check(counts[0] == counts[1], f"replay is the same by both commands, {kind}, {mode}", str(counts))
+def replayed(cell, parameters, pins):
+    """By both commands, which play it alike."""
+    (done, one), (other, two) = (cell.copy.result(command, "--chip", cell.kind, "--replay", cell.stimulus, *settings(parameters), pins=pins)
+                                 for command in ("cosim", "rtl-random"))
+    same = other.returncode == done.returncode and (one is None or {**one, "chip": cell.kind} == two)
+    return (done if same else other), same and one is not None and one["chip"] == cell.kind and one["cycles"] > 0
 
 
-def defect_is_found(copy, kind, mode):
-    """It is in the DPRAM alone, and only a user who reads sees it."""
-    pins = copy.pins("swapped.yaml", tie=f"tie: {{pad_scan: 5, pad_fault: {SWAPPED_CRC}}}")
-    stimulus = {"parallel": "dsdpv1/user_blocks", "spi": "dsdpv1_rsu/spi_blocks", "uart": "dsdpv1_rsu/news"}[mode]
-    short = settings({"search_window_ms": 1, "search_window_bits": 150})
-    done, result = copy.result("rtl-random", "--chip", kind, "--replay", ROOT / f"tests/cosim/stimuli/{stimulus}.stimulus", *short, pins=pins)
-    pin = {"parallel": "D_OUT", "spi": "MISO", "uart": "TXD"}[mode]
-    check(done.returncode == 1 and f"pin {pin}: " in result["difference"]["what"], f"swapped CRC, {kind}, {mode}", done.stdout + done.stderr)
+def regressed(cell, parameters, pins):
+    """Two runs at a time with one build: one with a parameter of --set."""
+    scenario, low = cell.scenario({each: parameters[each] for each in parameters if each != "intr_low"}), parameters.get("intr_low")
+    done = cell.copy.call("regress", scenario, "--engine", "cosim", "--out", cell.empty("regression"), "--jobs", 2, "--no-progress",
+                          *(["--set", f"chip.intr_low=100,{low}"] if low else []), pins=pins)
+    return done, done.stdout.count("\npassed") == (2 if low else 1)
 
 
-def faults_are_found(copy, kind, mode):
+def against_golden(cell, parameters, pins):
+    scenario, goldens = cell.scenario(parameters), cell.empty("goldens")
+    (cell.copy.folder / goldens).mkdir()
+    made = cell.copy.run("traces", "regenerate", scenario, "--folder", goldens, "--no-progress")
+    done = cell.copy.call("traces", "check", scenario, "--folder", goldens, "--no-progress", pins=pins)
+    return done, made.returncode == 0 and " changes are the same" in done.stdout
+
+
+def by_wave(cell, parameters, pins):
+    """A wave with the inside of both; inputs reach the RTL's at the next edge of CLK. A fault is a pin with the wrong polarity in the map."""
+    if pins == "pins.yaml":
+        cell.copy.call("cosim", cell.scenario(parameters), "--wave", "inside.fst", "--wave-from", "1100us", "--wave-to", "1250us")
+    done = cell.copy.run("compare", "inside.fst", "inside.fst", "--scope-a", "io", "--scope-b", "io.rtl", "--pins", pins, "--tolerance", "1cycles",
+                         "--z", "expected")
+    return done, f" {cell.pin.split('_')[0]} " in done.stdout and done.stdout.endswith("EQUAL\n")
+
+
+def verified(cell, parameters, pins):
+    """The scenario at this port and, once, random cases at all ports of the chip: they alone take --set."""
+    random = cell.mode == "parallel" or pins == "few.yaml"
+    done = cell.copy.call("verify-rtl", cell.scenario(parameters), "--chip", cell.kind, "--only", "scenarios,random" if random else "scenarios",
+                          "--cycles", 3, "--out", cell.empty("verification"), "--no-progress", *(settings(parameters) if random else []), pins=pins)
+    return done, done.stdout.count("\npassed") == (1 if not random else 4 if cell.kind == "dsdpv1_rsu" else 2)
+
+
+def faults_of_own(cell, parameters, pins, number=46):
+    """One fault; by its stimulus alone, which with other times of the ports does not reach it."""
+    parameters = {key: value for key, value in parameters.items() if key in ("intr_low", "intr_gap", "fcb_rule")}
+    folder = cell.copy.folder / cell.empty("directed")
+    folder.mkdir()
+    shutil.copy2(cell.stimulus, folder)
+    if pins == "alive.yaml":
+        number = 250  # no fault
+    (cell.copy.folder / "list.txt").write_text(f"{number} interrupt {cell.stimulus.stem} INTR0 is short\n")
+    done = cell.copy.call("rtl-faults", "--chip", cell.kind, "--mode", cell.mode, "--list", "list.txt", "--directed", "directed", "--cycles", 1,
+                          *settings(parameters), pins=f"faults_{pins}")
+    return done, "1 of 1 faults found" in done.stdout
+
+
+@dataclasses.dataclass
+class Row:
+    """A command, and what it says of a fault and of a parameter that the map lacks."""
+    command: str
+    run: typing.Callable
+    fault: typing.Callable = lambda cell: ("swapped.yaml", f"pin {cell.pin}")  # the map, and how it is named
+    few: str = "few.yaml"
+    untold: str = UNTOLD
+    refused: int = 2
+    few_in_words: str = ""
+    fault_in_words: str = "1"
+
+
+def spoilt(_):
+    return "spoilt.yaml", "pin PBRTS"
+
+
+def in_scenario(cell):
+    """At the serial ports the user reads no CRC that the chip has written."""
+    return ("swapped.yaml", f"pin {cell.pin}") if cell.mode == "parallel" else spoilt(cell)
+
+
+def polarity(cell):
+    return "polarity.yaml", f"  {cell.pin.split('_')[0]} "
+
+
+ROWS = [
+    Row("`cosim SCENARIO`", by_scenario, in_scenario),
+    Row("`rtl-random`", at_random, spoilt),
+    Row("`rtl-random --replay`, `cosim --replay`", replayed),
+    Row("`regress --engine cosim`", regressed, in_scenario, refused=1, few_in_words="1, that run is `refused`"),
+    Row("`traces check --rtl`", against_golden, in_scenario),
+    Row("`compare --pins`", by_wave, polarity, "unknown.yaml", "unknown name watchdog"),
+    Row("`verify-rtl`", verified, spoilt),
+    Row("`rtl-faults`", faults_of_own, lambda _: ("alive.yaml", "0 of 1 faults found"), fault_in_words="1, if not found"),
+]
+NOT_FOR_OWN_RTL = [["rtl-random", "--campaign"], ["sweep", "x.yaml"], ["serve", "x.yaml"], ["accept", "x.yaml"], ["calibrate", "x.csv"], ["run", "x.yaml"],
+                   ["replay", "x.csv", "--as", "5"], ["traces", "regenerate", "x.yaml"], ["demo"]]
+
+
+def table():
+    lines = ["| command | default parameters | others, taken by the map | one that the map lacks | a fault |", "|---|---|---|---|---|"]
+    lines += [f"| {row.command} | 0 | 0 | {row.few_in_words or row.refused} | {row.fault_in_words} |" for row in ROWS]
+    names = ", ".join(f"`{' '.join(word for word in words if '.' not in word and word not in ('--as', '5'))}`" for words in NOT_FOR_OWN_RTL)
+    return "\n".join([*lines, f"| {names} | 2: not for RTL of your own | | | |", ""])
+
+
+def serve(row, cell):
+    name = f"{row.command}, {cell.kind}, {cell.mode}"
+    for parameters in ({}, cell.parameters):
+        done, compared = row.run(cell, parameters, "pins.yaml")
+        check(done.returncode == 0 and compared, f"{name}, {parameters}", said(done))
+    pins, named = row.fault(cell)
+    done, _ = row.run(cell, SHORT, pins)
+    check(done.returncode == 1 and named in done.stdout, f"{name}, a fault", said(done))
+    done, _ = row.run(cell, {"intr_low": 70}, row.few)
+    check(done.returncode == row.refused and row.untold in said(done) and (row.refused != 2 or is_one_line(done)), f"{name}, a parameter that the map lacks", said(done))
+
+
+def faults_are_found(cell):
     """A list of faults in one's own RTL: one that pins show, one that only a user who reads sees, and none; and a stimulus with one of them."""
-    pins = copy.pins("faults.yaml", tie="tie: {pad_scan: 5}", fault="fault: pad_fault")
-    folder, name = {"parallel": ("dsdpv1", "user_blocks"), "spi": ("dsdpv1_rsu", "spi_blocks"), "uart": ("dsdpv1_rsu", "news")}[mode]
-    stimulus = ROOT / f"tests/cosim/stimuli/{folder}/{name}.stimulus"
-    played = copy.folder / "played"
-    shutil.rmtree(played, ignore_errors=True)
-    played.mkdir()
-    shutil.copy2(stimulus, played)
+    copy, name = cell.copy, cell.stimulus.stem
+    (copy.folder / cell.empty("played")).mkdir()
+    shutil.copy2(cell.stimulus, copy.folder / "played")
     (copy.folder / "faults.txt").write_text(f"46 interrupt {name} INTR0 is short\n{SWAPPED_CRC} dpram_move {name} CRC bytes are swapped\n255 nothing - none\n")
-    done = copy.call("rtl-faults", "--chip", kind, "--mode", mode, "--list", "faults.txt", "--directed", "played", "--cycles", 10000, "--tsv", "kills.tsv", pins=pins)
+    done = copy.call("rtl-faults", "--chip", cell.kind, "--mode", cell.mode, "--list", "faults.txt", "--directed", "played", "--cycles", 10000, "--tsv", "kills.tsv",
+                     pins="faults_pins.yaml")
     rows = [line.split("\t") for line in (copy.folder / "kills.tsv").read_text().splitlines()[1:]]
-    pin = {"parallel": "D_OUT", "spi": "MISO", "uart": "TXD"}[mode]
     check(done.returncode == 1 and [row[3] for row in rows] == ["yes", "yes", "no"] and rows[0][6:] == [name, "pin INTR0: model 0, RTL 1"] and
-          rows[1][6] == name and rows[1][7].startswith(f"pin {pin}: "), f"rtl-faults, {kind}, {mode}", done.stdout + done.stderr)
-    done, result = copy.result("rtl-random", "--chip", kind, "--mode", mode, "--fault", 46, "--replay", stimulus, pins=pins)
-    check(done.returncode == 1 and result["fault"] == 46 and "pin INTR0: " in result["difference"]["what"], f"--fault, {kind}, {mode}", done.stdout + done.stderr)
+          rows[1][6] == name and rows[1][7].startswith(f"pin {cell.pin}: "), f"rtl-faults, {cell.kind}, {cell.mode}", said(done))
+    done, result = copy.result("rtl-random", "--chip", cell.kind, "--mode", cell.mode, "--fault", 46, "--replay", cell.stimulus, pins="faults_pins.yaml")
+    check(done.returncode == 1 and result["fault"] == 46 and "pin INTR0: " in result["difference"]["what"], f"--fault, {cell.kind}, {cell.mode}", said(done))
 
 
 def fault_beyond_the_port(copy):
     (copy.folder / "wide.txt").write_text("46 interrupt - INTR0 is short\n256 nothing - its number has 9 bits\n")
-    done = copy.call("rtl-faults", "--list", "wide.txt", pins=copy.pins("faults.yaml", tie="tie: {pad_scan: 5}", fault="fault: pad_fault"))
-    check(done.returncode == 2 and not done.stdout and re.fullmatch(r"faults.yaml:\d+: fault of pad_fault is 256, expected a number of 8 bits\n", done.stderr),
-          "a fault beyond the port", done.stdout + done.stderr)
+    done = copy.call("rtl-faults", "--list", "wide.txt", pins="faults_pins.yaml")
+    check(done.returncode == 2 and is_one_line(done) and re.fullmatch(r"faults_pins.yaml:\d+: fault of pad_fault is 256, expected a number of 8 bits\n", done.stderr),
+          "a fault beyond the port", said(done))
+
+
+def maps(copy):
+    copy.pins()
+    copy.pins("swapped.yaml", tie=tied("swapped CRC"))
+    copy.pins("spoilt.yaml", tie=tied("spoilt PBRTS"))
+    ports = ", ".join(f"{each}: {{port: pad_{each}}}" for each in copy.parameters if each != "intr_low")
+    few = f"chip: {{{ports}}}"
+    copy.pins("few.yaml", chip=few, tie=tied(pad_intr_low=100))
+    for name in ("faults_pins.yaml", "faults_alive.yaml"):
+        copy.pins(name, tie="tie: {pad_scan: 5}", fault="fault: pad_fault")
+    copy.pins("faults_few.yaml", chip=few, tie="tie: {pad_scan: 5, pad_intr_low: 100}", fault="fault: pad_fault")
+    copy.pins("unknown.yaml", chip="chip: {watchdog: WATCHDOG}")
+    text = (copy.folder / "pins.yaml").read_text().replace("D_OUT: pad_q", "D_OUT: {port: pad_q, inverted: true}")
+    for pin in ("MISO", "TXD"):
+        text = text.replace(f"{pin}: pad_{pin.lower()}", f"{pin}: {{port: pad_{pin.lower()}, inverted: true}}")
+    (copy.folder / "polarity.yaml").write_text(text)
+
+
+def refused(copy, words, *more):
+    """One line, exit code 2."""
+    done = copy.run(*more)
+    check(done.returncode == 2 and words in done.stderr and is_one_line(done), " ".join(map(str, more)), said(done))
+
+
+def not_for_own_rtl(copy):
+    for words in NOT_FOR_OWN_RTL:
+        refused(copy, "--rtl", *words, *copy.own())
+    refused(copy, "--rtl excludes --no-dpram", "rtl-random", *copy.own(), "--no-dpram")
+
+
+def options_that_would_be_ignored(copy, other):
+    """`other`: of another kind."""
+    cell = Cell(copy, "dsdpv1", "parallel")
+    scenario, own = cell.scenario({}), copy.own()
+    copy.pins("tolerant.yaml", tolerance="tolerance: {INTR0: 1}")
+    refused(copy, "tolerant.yaml: has a tolerance, goldens have none", "traces", "check", scenario, *copy.own("tolerant.yaml"))
+    refused(copy, "--set is for stimuli and random", "verify-rtl", scenario, *own, "--only", "scenarios", "--set", "chip.intr_low=70")
+    refused(copy, "unknown key watchdog", "verify-rtl", *own, "--only", "random", "--set", "chip.watchdog=1")
+    refused(copy, "x.yaml: is about a dsdpv1, expected a dsdpv1_r as in --chip", "verify-rtl", scenario, *own, "--chip", "dsdpv1_r")
+    for command in ("verify-rtl", "rtl-random"):
+        refused(copy, "--cycles", command, *own, "--cycles", 0)
+    refused(copy, "--report is of run", "regress", scenario, "--engine", "cosim", "--report", *own)
+    refused(copy, "--engine cosim and --rtl go together", "regress", scenario, *own)
+    refused(copy, "--engine excludes --rtl", "traces", "check", scenario, "--engine", "rtl", *own)
+    refused(copy, "only the dsdpv1_rsu has that port", "rtl-random", *own, "--mode", "spi", "--cycles", 1)
+    refused(copy, "unknown name MODE", "rtl-random", "--rtl", "rtl", "--top", copy.top, "--pins", other.folder / "pins.yaml", "--cycles", 1)
+    (copy.folder / "dpram.yaml").write_text("dpram: ram\n")
+    refused(copy, "dpram.yaml:1: unknown name dpram", "rtl-random", *copy.own("dpram.yaml"))
+    before = (copy.folder / "rtl/top.sv").read_bytes()
+    refused(copy, "--result would replace a file of --rtl", "rtl-random", *own, "--replay", cell.stimulus, "--result", "rtl/top.sv")
+    check((copy.folder / "rtl/top.sv").read_bytes() == before, "the source is as it was")
 
 
 def wrong(copy, line, words, *more, **changes):
     """One line that names the file, the line of the map and `words`; exit 2."""
     pins = copy.pins("wrong.yaml", **changes)
     number = next((i for i, text in enumerate((copy.folder / pins).read_text().splitlines(), 1) if line and text.lstrip().startswith(line)), 0)
-    done = copy.call("rtl-random", "--cycles", "1", *more, pins=pins)
+    done = copy.call("rtl-random", "--cycles", 1, *more, pins=pins)
     begin = f"wrong.yaml:{number}: " if number else "wrong.yaml: "
     check(done.returncode == 2 and done.stderr.startswith(begin) and words in done.stderr and done.stderr.count("\n") == 1 and not done.stdout,
           f"{begin}... {words} ...", done.stdout + done.stderr)
@@ -211,14 +315,6 @@ def wrong_maps(copy):
     wrong(copy, "include:", "lib is not in rtl", include="include: [lib]")
 
 
-def scenario_without_mapping(copy):
-    """Not even a scenario's parameter is dropped in silence."""
-    copy.pins("few.yaml", chip="chip: {}", tie="tie: {pad_scan: 5, pad_fault: 0, " + ", ".join(f"pad_{key}: 1" for key in COMMON) + "}")
-    (copy.folder / "x.yaml").write_text(f"name: x\nbaud: 12M\nend: 5ms\nchip: {{search_window_ms: 5}}\n{SLAVE}")
-    done = copy.call("cosim", "x.yaml", pins="few.yaml")
-    check(done.returncode == 2 and "chip.search_window_ms is not the default" in done.stderr, "cosim without chip: in the map", done.stdout + done.stderr)
-
-
 def crossed(copy):
     """What the map says reaches the RTL: two parameters exchanged are a difference."""
     copy.pins("crossed.yaml", chip=(copy.folder / copy.pins()).read_text().split("\n")[2].replace("port: pad_rts_lead", "port: x").replace(
@@ -227,25 +323,99 @@ def crossed(copy):
     check(done.returncode == 1 and "pin PBRTS: " in done.stdout, "crossed parameters", done.stdout + done.stderr)
 
 
+class Stub:
+    """RTL without a chip, which builds in a moment: its PBRTS, or its BR, is high from the begin."""
+    PORTS = ("input logic clk_i, reset_i, pbrxd_i, r_req_i, r_sta_i, csr_i, rd_i, wr_i, input logic [10:0] a_i, input logic [7:0] d_i,\n"
+             "  output logic pbtxd_o, pbrts_o, l_req_o, l_sta_o, intr0_o, pbf_o, br_o, ready_o, d_oe_o, output logic [7:0] d_o")
+
+    def __init__(self, sim, folder):
+        self.sim, self.folder, self.source = sim, folder, folder / "my rtl" / "stub.sv"
+        shutil.rmtree(folder, ignore_errors=True)
+        self.source.parent.mkdir(parents=True)
+
+    def write(self, high="pbrts", ports=PORTS, more=""):
+        levels = "; ".join(f"assign {name}_o = {int(name in (high, 'pbtxd', 'intr0', 'pbf'))}" for name in
+                           ("pbtxd", "pbrts", "l_req", "l_sta", "intr0", "pbf", "br", "ready", "d_oe", "d") if f"{name}_o" in ports)
+        self.source.write_text(f"module stub ({ports});\n{more}  {levels};\nendmodule\n")
+
+    def words(self, *more, rtl="my rtl"):
+        return [self.sim, "rtl-random", "--rtl", rtl, "--top", "stub", "--replay", str(STIMULI / "dsdpv1/c1.stimulus"), *more]
+
+    def begin(self, *more):
+        return subprocess.Popen(self.words(*more), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+
+    def call(self, *more, **rtl):
+        return subprocess.run(self.words(*more, **rtl), cwd=self.folder, capture_output=True, text=True, check=False)
+
+
+def builds(stub):
+    """In a path with spaces: each command sees the RTL as it is now."""
+    def right(done, pin, when):
+        check(done.returncode == 1 and f"pin {pin}: model 0, RTL 1" in done.stdout, f"{when}: {pin}", said(done))
+
+    stub.write()
+    two = [stub.begin("--difference", name) for name in ("a.vcd", "b.vcd")]
+    for each in two:
+        out, err = each.communicate()
+        check(each.returncode == 1 and "pin PBRTS: model 0, RTL 1" in out, "two commands at a time", out + err)
+    stub.write("br")
+    right(stub.call(), "BR", "changed RTL is built again")
+    for how in (signal.SIGINT, signal.SIGKILL):
+        stub.write("pbrts" if how == signal.SIGINT else "br", more=f"  // before {how.name}\n")
+        log = stub.folder / "build/cosim/verilator.log"
+        log.unlink(missing_ok=True)
+        broken = stub.begin()
+        while not log.exists() and broken.poll() is None:
+            os.sched_yield()
+        if broken.poll() is None:
+            os.killpg(broken.pid, how)
+        broken.communicate()
+        check(broken.returncode in (-how, 130), f"interrupted by {how.name}", str(broken.returncode))
+        right(stub.call(), "PBRTS" if how == signal.SIGINT else "BR", f"after {how.name}")
+    check([each.name for each in stub.source.parent.iterdir()] == ["stub.sv"], "nothing is written into the folder of the RTL")
+
+
+def rtl_that_cannot_be_built(stub):
+    def says(words, what, *more, **rtl):
+        done = stub.call(*more, **rtl)
+        check(done.returncode == 2 and words in done.stderr and is_one_line(done), what, said(done))
+
+    stub.write()
+    says("a build: has a space, in which make cannot build", "a build folder with a space", "--build", "a build")
+    stub.write(ports=stub.PORTS.replace("clk_i, ", ""))
+    says("stub has no port clk_i that is an input, for CLK", "a top without a clock")
+    shutil.move(stub.folder / "my rtl", stub.folder / "rtl")
+    (stub.folder / "rtl/stub.sv").write_text("module stub (input logic clk_i);\n  assign ;\nendmodule\n")
+    says("rtl/stub.sv:2:", "a syntax error has its file and line", rtl="rtl")
+
+
 def main():
-    copies = {top: Copy(top) for top in ("dsdpv1", "dsdpv1_rsu")}
-    for kind, (top, modes) in PARTS.items():
-        copy = copies[top]
-        copy.pins()
+    check(table() in (ROOT / "docs/cosim.md").read_text(encoding="utf-8"), "docs/cosim.md has another table, expected that of --table")
+    sim, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    copies = {top: Copy(sim, folder, top) for top in ("dsdpv1", "dsdpv1_rsu")}
+    for copy in copies.values():
+        maps(copy)
+    for kind, (top, modes) in KINDS.items():
         for mode in modes:
-            for parameters in ({}, of_kind(copy.parameters, kind)):
-                for entrance in (by_scenario, at_random, replayed):
-                    entrance(copy, kind, mode, parameters)
-            defect_is_found(copy, kind, mode)
-            faults_are_found(copy, kind, mode)
+            cell = Cell(copies[top], kind, mode)
+            for row in ROWS:
+                serve(row, cell)
+            faults_are_found(cell)
     copy = copies["dsdpv1"]
     crossed(copy)
-    scenario_without_mapping(copy)
-    fault_beyond_the_port(copy)
     wrong_maps(copy)
+    fault_beyond_the_port(copy)
+    not_for_own_rtl(copy)
+    options_that_would_be_ignored(copy, copies["dsdpv1_rsu"])
+    stub = Stub(sim, folder / "stub")
+    builds(stub)
+    rtl_that_cannot_be_built(stub)
     print(f"{cells} cells")
     sys.exit("\n".join(FAILURES) or 0)
 
 
 if __name__ == "__main__":
-    main()
+    if sys.argv[1:] == ["--table"]:
+        print(table(), end="")
+    else:
+        main()
