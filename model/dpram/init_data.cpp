@@ -1,6 +1,7 @@
 #include "model/dpram/init_data.hpp"
 
 #include "model/dpram/reasons.hpp"
+#include "model/profibus/cfg_identifier.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace dsdpv1::dpram {

@@ -1,7 +1,7 @@
 #pragma once
 // The initialisation block B020.. (tables 2, 12 to 14; rulings D7, D11).
 #include "model/profibus/event_log.hpp"
-#include "model/profibus/user_side.hpp"
+#include "model/profibus/slave_store.hpp"
 
 namespace dsdpv1::dpram {
 

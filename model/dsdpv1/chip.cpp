@@ -35,7 +35,6 @@ profibus::StationConfig station_of(const Config& config) {
   station.search_window_bits = config.search_window_bits;
   station.baud_control = config.baud_control_ms * profibus::kCyclesPerMs;
   station.fcb_rule = config.fcb_rule == 0 ? profibus::FcbRule::kLetter : profibus::FcbRule::kContent;
-  station.capacities = dpram::kCapacities;
   return station;
 }
 
@@ -66,10 +65,11 @@ struct Chip::Impl {
 
   explicit Impl(const Config& given)
       : engine(given.engine),
-        station(log, station_of(given)),
+        user(log, dpram::kCapacities, station),
+        station(log, station_of(given), user, &user.msac()),
         host(log, ram),
         interrupt(given.intr_low, given.intr_gap),
-        sequencer(log, ram, station.user(), given.access_interval, given.ready_cycles),
+        sequencer(log, ram, user, given.access_interval, given.ready_cycles),
         serial(log, ram, given),
         config(given) {
     interrupt.reset();
@@ -154,6 +154,7 @@ struct Chip::Impl {
   const Engine engine;
   profibus::EventLog log;
   Ram ram;
+  profibus::UserSide user;
   profibus::Station station;
   HostPort host;
   Handshake handshake;
@@ -279,7 +280,7 @@ void Chip::Impl::enter_reset(Tick at) {
   station.leave_run(at);
   make_up(done());  // the RAM keeps what was written before RESET fell (H6)
   sequencer.reset();
-  station.reset();
+  user.reset();
   interrupt.reset();
   host.reset();
   serial.reset();
@@ -628,13 +629,15 @@ Level Chip::Impl::level(Pin pin) const {
 
 template <class Archive>
 void Chip::Impl::store(Archive& archive) {
-  auto& [its_engine, its_log, its_ram, its_station, its_host, its_handshake, its_interrupt, its_sequencer, its_sink,
-         its_watched, its_prompt, its_now, its_edge, its_plans, its_other_plans, its_reset, runs, its_req, its_sta,
-         its_rxd, its_outputs, is_live, its_d, its_miso, its_serial, its_config, its_host_acts] = *this;
+  auto& [its_engine, its_log, its_ram, its_user, its_station, its_host, its_handshake, its_interrupt, its_sequencer,
+         its_sink, its_watched, its_prompt, its_now, its_edge, its_plans, its_other_plans, its_reset, runs, its_req,
+         its_sta, its_rxd, its_outputs, is_live, its_d, its_miso, its_serial, its_config, its_host_acts] = *this;
   archive.given(its_engine, its_log, its_sink, its_watched, its_prompt, its_edge, its_other_plans, its_config,
                 its_host_acts);
   archive.within(Tick{0}, Tick{1} << 62, its_now);
-  archive(its_ram, its_station, its_host, its_handshake, its_interrupt, its_sequencer, its_serial, its_plans);
+  archive(its_ram);
+  its_station.store(archive, its_user);
+  archive(its_host, its_handshake, its_interrupt, its_sequencer, its_serial, its_plans);
   archive(its_reset, runs, its_req, its_sta, its_rxd, is_live);
   archive.within(0U, (1U << kRsuPinCount) - 1, its_outputs);
   archive.within(kLevelX, kHighestLevel, its_d, its_miso);
@@ -764,10 +767,10 @@ Status Chip::status() const {
   status.master = station.slave().master();
   status.telegrams_received = station.telegrams_received();
   status.telegrams_answered = station.telegrams_answered();
-  status.data_exchanges = station.slave().data_exchanges();
+  status.data_exchanges = impl_->user.data_exchanges();
   status.accesses = impl_->sequencer.accesses();
-  status.outputs_missed = station.slave().outputs_replaced() + impl_->sequencer.outputs_overwritten();
-  status.c2 = station.slave().rm_registry();
+  status.outputs_missed = impl_->user.outputs_replaced() + impl_->sequencer.outputs_overwritten();
+  status.c2 = impl_->user.msac().c2.registry();
   status.longest_wait = static_cast<std::uint64_t>(impl_->sequencer.longest_wait());
   return status;
 }

@@ -4,7 +4,7 @@
 #include "model/profibus/dpv1_pdu.hpp"
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/request.hpp"
-#include "model/profibus/user_side.hpp"
+#include "model/profibus/user_mail.hpp"
 
 namespace dsdpv1::profibus {
 

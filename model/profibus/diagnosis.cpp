@@ -1,6 +1,7 @@
 #include "model/profibus/diagnosis.hpp"
 
 #include "model/profibus/dp_slave.hpp"
+#include "model/profibus/user_side.hpp"
 
 namespace dsdpv1::profibus {
 namespace {
@@ -17,11 +18,11 @@ constexpr unsigned bit(bool set, int position) { return set ? 1U << position : 0
 
 }  // namespace
 
-bool Diagnosis::known_type(std::uint8_t type) {
+bool UserDiagnosis::known_type(std::uint8_t type) {
   return type == kExtended || type == kExtGone || type == kExtPresent || type == kStatGone || type == kStatPresent;
 }
 
-void Diagnosis::set_user(std::uint8_t type, const std::uint8_t* bytes, int size) {
+void UserDiagnosis::set_user(std::uint8_t type, const std::uint8_t* bytes, int size) {
   user_.assign(bytes, size);
   const bool is_static = type == kStatGone || type == kStatPresent;
   if (is_static)
@@ -31,18 +32,18 @@ void Diagnosis::set_user(std::uint8_t type, const std::uint8_t* bytes, int size)
   if (type != kExtended) unread_ = true;
 }
 
-const std::uint8_t* Diagnosis::bytes(const DiagnosisView& view) {
+View Diagnosis::bytes(const DiagnosisView& view, const StoredDiagnosis& stored) {
   constexpr unsigned kAlwaysOne = 1U << 2;
-  answer_[0] = static_cast<std::uint8_t>(bit(!view.ready, 1) | bit(cfg_fault_, 2) | bit(ext_diag_, 3) |
+  answer_[0] = static_cast<std::uint8_t>(bit(!view.ready, 1) | bit(cfg_fault_, 2) | bit(stored.ext_diag, 3) |
                                          bit(not_supported_, 4) | bit(prm_fault_, 6));
-  answer_[1] = static_cast<std::uint8_t>(bit(view.prm_req, 0) | bit(stat_diag_, 1) | kAlwaysOne |
-                                         bit(view.watchdog, 3) | bit(view.freeze, 4) | bit(view.sync, 5));
+  answer_[1] = static_cast<std::uint8_t>(bit(view.prm_req, 0) | bit(stored.stat_diag, 1) | kAlwaysOne |
+                                         bit(view.watchdog, 3) | bit(stored.freeze, 4) | bit(stored.sync, 5));
   answer_[2] = 0;  // Ext_Diag_Overflow cannot happen: 6 + 238 bytes fit
   answer_[3] = view.master;
   answer_[4] = static_cast<std::uint8_t>(view.ident >> 8);
   answer_[5] = static_cast<std::uint8_t>(view.ident & 0xFF);
-  std::memcpy(&answer_[kStandard], user_.bytes.data(), static_cast<std::size_t>(user_.size));
-  return answer_.data();
+  std::memcpy(&answer_[kStandard], stored.user.bytes, static_cast<std::size_t>(stored.user.size));
+  return {answer_.data(), kStandard + stored.user.size};
 }
 
 // --- Slave_Diag, and the user's block -------------------------------------------------------------------------------
@@ -52,22 +53,24 @@ Reply DpSlave::slave_diag(const Request& request) {
   view.ready = state_ == DpState::kDataExch;
   view.prm_req = state_ == DpState::kWaitPrm && !prm_awaited_;
   view.watchdog = watchdog_.state() == Watchdog::State::kDpControl;
-  view.freeze = inputs_.held();
-  view.sync = outputs_.held();
   view.master = master_;
   view.ident = config_.ident;
-  const Reply reply = Reply::with_data(fc::kDl, diagnosis_.bytes(view), diagnosis_.size());
-  if (master_ == request.sa) diagnosis_.read_by_holder();
-  return reply;
+  const View answer = diagnosis_.bytes(view, store_.diagnosis(master_ == request.sa));
+  return Reply::with_data(fc::kDl, answer.bytes, answer.size);
 }
 
-bool DpSlave::new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size) {
-  if (!Diagnosis::known_type(type)) {
+StoredDiagnosis UserSide::diagnosis(bool to_holder) {
+  if (to_holder) diagnosis_.read_by_holder();
+  return {diagnosis_.bytes(), diagnosis_.ext_diag(), diagnosis_.stat_diag(), inputs_.held(), outputs_.held()};
+}
+
+bool UserSide::new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size) {
+  if (!UserDiagnosis::known_type(type)) {
     log_.at_cycle(now, Reason::kDiagType, type);
     return false;
   }
-  if (size > config_.max_diag) {
-    log_.at_cycle(now, Reason::kDiagLength, static_cast<unsigned>(size), static_cast<unsigned>(config_.max_diag));
+  if (size > config().max_diag) {
+    log_.at_cycle(now, Reason::kDiagLength, static_cast<unsigned>(size), static_cast<unsigned>(config().max_diag));
     return false;
   }
   log_.at_cycle(now, Reason::kDiagAccepted, type, static_cast<unsigned>(size));

@@ -1,11 +1,6 @@
 #include "model/profibus/dp_slave.hpp"
 
 namespace dsdpv1::profibus {
-namespace {
-
-bool c2_channel(int dsap) { return dsap <= kC2FirstSap && dsap > kC2FirstSap - kC2Channels; }
-
-}  // namespace
 
 void DpSlave::reset() {
   config_ = SlaveConfig();
@@ -15,30 +10,13 @@ void DpSlave::reset() {
   master_ = kNoMaster;
   prm_awaited_ = cfg_awaited_ = false;
   min_tsdr_ = kMinTsdr;
-  outputs_.reset(0);
-  inputs_.reset(0);
   diagnosis_.reset();
-  mail_ = UserMail();
-  msac1_.reset();
-  msac2_.reset();
-  data_exchanges_ = outputs_replaced_ = 0;
 }
 
-void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
-  const bool left_exchange = state_ == DpState::kDataExch;
-  enter(now, DpState::kOffline);
-  const std::uint16_t exchanges_left = mail_.state.exchanges_left;
-  const std::uint64_t data_exchanges = data_exchanges_, outputs_replaced = outputs_replaced_;
+void DpSlave::start(Cycle now, const SlaveConfig& config) {
   reset();
-  mail_.state.exchanges_left = exchanges_left;
-  data_exchanges_ = data_exchanges;
-  outputs_replaced_ = outputs_replaced;
   config_ = config;
   address_ = config.address;
-  const CfgLengths lengths = cfg_lengths(config.cfg.bytes.data(), config.cfg.size);
-  inputs_.reset(lengths.input());
-  outputs_.reset(lengths.output());
-  if (left_exchange) hand_outputs(now);  // S18
   enter(now, DpState::kWaitPrm);
 }
 
@@ -47,15 +25,9 @@ void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
 void DpSlave::enter(Cycle now, DpState state) {
   if (state == state_) return;
   log_.at_cycle(now, Reason::kDpState, static_cast<unsigned>(state_), static_cast<unsigned>(state));
-  const bool left_exchange = state_ == DpState::kDataExch;
-  state_ = mail_.state.state = state;
-  mail_.state.due.set(now);
-  if (!left_exchange) return;
-  ++mail_.state.exchanges_left;  // S18
-  inputs_.release();
-  outputs_.release();
-  clear_outputs(now);
-  msac1_.close(now);
+  const DpState from = state_;
+  state_ = state;
+  store_.entered(now, from, state);
 }
 
 void DpSlave::leave_to_wait_prm(Cycle now) {
@@ -87,7 +59,7 @@ Reply DpSlave::handle(Cycle now, const Request& request) {
 
 void DpSlave::unanswered(Cycle now, const Request& request) {
   if (request.dsap == sap::kGlobalControl) return global_control(now, request);
-  if (c2_channel(request.dsap) && msac2_.abort_unanswered(now, request)) return;
+  if (c2_channel(request.dsap) && msac_->c2.abort_unanswered(now, request)) return;
   log_.at_cycle(now, Reason::kSdnIgnored, static_cast<unsigned>(request.dsap), request.sa);
 }
 
@@ -105,10 +77,14 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
     case sap::kC1: return c1(now, request);
     case Msac2::kManagerSap: return c2_initiate(now, request);
     default:
-      if (c2_channel(request.dsap)) return msac2_.handle(now, request);
+      if (c2_channel(request.dsap)) return msac_->c2.handle(now, request);
       log_.at_cycle(now, Reason::kSapUnknown, static_cast<unsigned>(request.dsap), request.sa);
       return Reply::status(fc::kRs);
   }
+}
+
+bool DpSlave::c2_channel(int dsap) const {
+  return msac_ != nullptr && dsap <= kC2FirstSap && dsap > kC2FirstSap - kC2Channels;
 }
 
 Reply DpSlave::refuse_state(Cycle now, const Request& request, int sap) {
@@ -128,7 +104,7 @@ Reply DpSlave::c1(Cycle now, const Request& request) {
     log_.at_cycle(now, Reason::kC1Disabled, request.sa);
     return Reply::status(fc::kRs);
   }
-  return msac1_.handle(now, request);
+  return msac_->c1.handle(now, request);
 }
 
 Reply DpSlave::c2_initiate(Cycle now, const Request& request) {
@@ -136,7 +112,7 @@ Reply DpSlave::c2_initiate(Cycle now, const Request& request) {
     log_.at_cycle(now, Reason::kC2Disabled, request.sa);
     return Reply::status(fc::kRs);
   }
-  return msac2_.initiate(now, request);
+  return msac_->c2.initiate(now, request);
 }
 
 }  // namespace dsdpv1::profibus

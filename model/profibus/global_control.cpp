@@ -1,5 +1,6 @@
 // Global_Control (6.2.6, table 23, rulings S4, S24, S27).
 #include "model/profibus/dp_slave.hpp"
+#include "model/profibus/user_side.hpp"
 
 namespace dsdpv1::profibus {
 namespace {
@@ -21,37 +22,55 @@ void DpSlave::global_control(Cycle now, const Request& request) {
     return;
   }
   log_.at_cycle(now, Reason::kGlobalControl, command, group, request.sa);
-  mail_.control = {{now}, static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(group), request.sa};
-  if ((command & kClearData) != 0) clear_outputs(now);
-  sync_command(now, static_cast<std::uint8_t>(command));
-  freeze_command(now, static_cast<std::uint8_t>(command));
+  store_.control(now, {static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(group), request.sa,
+                       (command & kClearData) != 0, sync_command(now, command), freeze_command(now, command)});
 }
 
-void DpSlave::sync_command(Cycle now, std::uint8_t command) {
-  if ((command & (kSync | kUnsync)) == 0) return;
-  if ((command & kUnsync) != 0) {
+Gate DpSlave::sync_command(Cycle now, unsigned command) {
+  if ((command & kUnsync) != 0) return Gate::kOpens;
+  if ((command & kSync) == 0) return Gate::kStays;
+  if (prm_.sync) return Gate::kCloses;
+  log_.at_cycle(now, Reason::kGcSync, config_.sync_supported);
+  if (!config_.sync_supported) diagnosis_.not_supported();  // S24
+  return Gate::kStays;
+}
+
+Gate DpSlave::freeze_command(Cycle now, unsigned command) {
+  if ((command & kUnfreeze) != 0) return Gate::kOpens;
+  if ((command & kFreeze) == 0) return Gate::kStays;
+  if (prm_.freeze) return Gate::kCloses;
+  log_.at_cycle(now, Reason::kGcFreeze, config_.freeze_supported);
+  if (!config_.freeze_supported) diagnosis_.not_supported();
+  return Gate::kStays;
+}
+
+// --- the user's side -------------------------------------------------------------------------------------------------
+
+void UserSide::control(Cycle now, const Control& control) {
+  mail_.control = {{now}, control.command, control.group, control.master};
+  if (control.clears) clear_outputs(now);
+  sync(now, control.outputs);
+  freeze(control.inputs);
+}
+
+void UserSide::sync(Cycle now, Gate gate) {
+  if (gate == Gate::kStays) return;
+  if (gate == Gate::kOpens) {
     if (!outputs_.held()) return;
     outputs_.release();
-  } else if (prm_.sync) {
+  } else {
     outputs_.hold();
     outputs_.pass();
-  } else {
-    log_.at_cycle(now, Reason::kGcSync, config_.sync_supported);
-    if (!config_.sync_supported) diagnosis_.not_supported();  // S24
-    return;
   }
   hand_outputs(now);
 }
 
-void DpSlave::freeze_command(Cycle now, std::uint8_t command) {
-  if ((command & kUnfreeze) != 0) {
+void UserSide::freeze(Gate gate) {
+  if (gate == Gate::kOpens) {
     inputs_.release();
-  } else if ((command & kFreeze) != 0 && prm_.freeze) {
+  } else if (gate == Gate::kCloses) {
     inputs_.hold();
     inputs_.pass();
-  } else if ((command & kFreeze) != 0) {
-    log_.at_cycle(now, Reason::kGcFreeze, config_.freeze_supported);
-    if (!config_.freeze_supported) diagnosis_.not_supported();
   }
 }
 

@@ -1,5 +1,6 @@
 // Services that only read (rulings S4, S13): Get_Cfg (6.2.9), RD_Inp, RD_Outp; Slave_Diag is in diagnosis.cpp.
 #include "model/profibus/dp_slave.hpp"
+#include "model/profibus/user_side.hpp"
 
 namespace dsdpv1::profibus {
 
@@ -13,20 +14,26 @@ Reply DpSlave::read_only(Cycle now, const Request& request) {
     return Reply::status(fc::kRr);
   }
   switch (request.dsap) {
-    case sap::kReadInputs: return reply_data(inputs_.shown().bytes.data(), inputs_.size());
-    case sap::kReadOutputs: return reply_data(outputs_.shown().bytes.data(), outputs_.size());
-    case sap::kGetCfg: return get_cfg();
+    case sap::kReadInputs: return reply_data(store_.read_inputs());
+    case sap::kReadOutputs: return reply_data(store_.read_outputs());
+    case sap::kGetCfg: return reply_data(store_.read_cfg(state_ == DpState::kDataExch));
     default: return slave_diag(request);
   }
 }
 
-Reply DpSlave::get_cfg() const {
-  const Block<kMaxCfg>& cfg = state_ == DpState::kDataExch ? cfg_ : config_.cfg;  // 6.2.9
-  return reply_data(cfg.bytes.data(), cfg.size);
+Reply DpSlave::reply_data(const View& view) {
+  return view.size == 0 ? Reply::sc() : Reply::with_data(fc::kDl, view.bytes, view.size);
 }
 
-Reply DpSlave::reply_data(const std::uint8_t* data, int size) const {
-  return size == 0 ? Reply::sc() : Reply::with_data(fc::kDl, data, size);
+// --- the user's side -------------------------------------------------------------------------------------------------
+
+View UserSide::read_inputs() { return {inputs_.shown().bytes.data(), inputs_.size()}; }
+
+View UserSide::read_outputs() { return {outputs_.shown().bytes.data(), outputs_.size()}; }
+
+View UserSide::read_cfg(bool exchanging) {
+  const Block<kMaxCfg>& cfg = exchanging ? cfg_ : config().cfg;  // 6.2.9
+  return {cfg.bytes.data(), cfg.size};
 }
 
 }  // namespace dsdpv1::profibus

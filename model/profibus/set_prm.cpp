@@ -1,7 +1,8 @@
 // Set_Prm (6.2.2, rulings S5 to S7, S12, S14, S15, S28, S33).
 #include <algorithm>
 
-#include "model/profibus/dp_slave.hpp"
+#include "model/profibus/station.hpp"
+#include "model/profibus/user_side.hpp"
 
 namespace dsdpv1::profibus {
 namespace {
@@ -39,19 +40,20 @@ Reply DpSlave::set_prm(Cycle now, const Request& request) {
   }
   PrmRequest prm;
   if (!check_prm(now, request, prm)) return Reply::sc();
-
-  mail_.prm.block.assign(data + kStandardSize, prm.user_size);
-  mail_.prm.due.set(now);
-  if (config_.prm_mode == Judging::kUser) {
-    log_.at_cycle(now, Reason::kPrmJudged, request.sa, static_cast<unsigned>(prm.user_size));
-    enter(now, DpState::kWaitPrm);  // the holding master still holds the slave, and the watchdog keeps running (S15)
-    judged_ = prm;
-    prm_awaited_ = true;
-    cfg_awaited_ = false;
-  } else {
-    accept_prm(now, prm);
+  switch (store_.parameters(now, request)) {
+    case Take::kAccepted: accept_prm(now, prm); break;
+    case Take::kAwaited: await_prm(now, prm); break;
+    case Take::kRefused: prm_fault(now, false); break;
+    case Take::kNoRoom: return Reply::status(fc::kRr);
   }
   return Reply::sc();
+}
+
+void DpSlave::await_prm(Cycle now, const PrmRequest& prm) {
+  enter(now, DpState::kWaitPrm);  // the holding master still holds the slave, and the watchdog keeps running (S15)
+  judged_ = prm;
+  prm_awaited_ = true;
+  cfg_awaited_ = false;
 }
 
 bool DpSlave::check_ident(Cycle now, const Request& request) {
@@ -71,7 +73,6 @@ bool DpSlave::check_prm(Cycle now, const Request& request, PrmRequest& prm) {
     refuse_prm(now, Reason::kPrmWatchdog, false, data[1], data[2]);
     return false;
   }
-  if (!check_user_length(now, user_size)) return false;
   prm.master = request.sa;
   prm.watchdog_base_ms = (spec & kWdBase1ms) != 0 ? 1 : 10;
   prm.watchdog_factor = static_cast<unsigned>(data[1]) * data[2];
@@ -100,17 +101,12 @@ bool DpSlave::check_options(Cycle now, std::uint8_t status, std::uint8_t spec, i
   return false;
 }
 
-bool DpSlave::check_user_length(Cycle now, int user_size) {
-  const int limit = config_.prm_mode == Judging::kUser ? capacities_.user_prm : config_.max_prm;
-  const bool good = config_.prm_mode == Judging::kExact ? user_size == limit : user_size <= limit;
-  if (good) return true;
-  refuse_prm(now, Reason::kPrmUserLength, false, static_cast<unsigned>(user_size), static_cast<unsigned>(limit),
-             static_cast<unsigned>(config_.prm_mode));
-  return false;
+void DpSlave::refuse_prm(Cycle now, Reason reason, bool not_supported, unsigned a, unsigned b) {
+  log_.at_cycle(now, reason, a, b);
+  prm_fault(now, not_supported);
 }
 
-void DpSlave::refuse_prm(Cycle now, Reason reason, bool not_supported, unsigned a, unsigned b, unsigned c) {
-  log_.at_cycle(now, reason, a, b, c);
+void DpSlave::prm_fault(Cycle now, bool not_supported) {
   diagnosis_.prm_fault(not_supported);
   leave_to_wait_prm(now);
 }
@@ -145,14 +141,41 @@ void DpSlave::set_min_tsdr(std::uint8_t bits) {
 }
 
 void DpSlave::prm_verdict(Cycle now, bool good) {
-  if (mail_.prm.due.waiting())
-    log_.at_cycle(now, Reason::kVerdictSuperseded, 0);
-  else if (!prm_awaited_)
+  if (!prm_awaited_)
     log_.at_cycle(now, Reason::kVerdictUnexpected, 0);
   else if (good)
     accept_prm(now, judged_);
   else
     refuse_prm(now, Reason::kPrmUserRefused, false);
+}
+
+// --- the user's side -------------------------------------------------------------------------------------------------
+
+Take UserSide::parameters(Cycle now, const Request& request) {
+  const int user_size = request.size - kStandardSize;
+  if (!check_user_length(now, user_size)) return Take::kRefused;
+  mail_.prm.block.assign(request.data + kStandardSize, user_size);
+  mail_.prm.due.set(now);
+  if (config().prm_mode != Judging::kUser) return Take::kAccepted;
+  log_.at_cycle(now, Reason::kPrmJudged, request.sa, static_cast<unsigned>(user_size));
+  return Take::kAwaited;
+}
+
+bool UserSide::check_user_length(Cycle now, int user_size) {
+  const Judging mode = config().prm_mode;
+  const int limit = mode == Judging::kUser ? capacities_.user_prm : config().max_prm;
+  const bool good = mode == Judging::kExact ? user_size == limit : user_size <= limit;
+  if (good) return true;
+  log_.at_cycle(now, Reason::kPrmUserLength, static_cast<unsigned>(user_size), static_cast<unsigned>(limit),
+                static_cast<unsigned>(mode));
+  return false;
+}
+
+void UserSide::prm_verdict(Cycle now, bool good) {
+  if (mail_.prm.due.waiting())
+    log_.at_cycle(now, Reason::kVerdictSuperseded, 0);
+  else
+    station_.prm_verdict(now, good);
 }
 
 }  // namespace dsdpv1::profibus

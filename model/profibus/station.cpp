@@ -12,14 +12,14 @@ constexpr Cycle kLoopDelay = 3;          // P9: an edge that the chip drives is 
 
 }  // namespace
 
-Station::Station(EventLog& log, const StationConfig& config)
+Station::Station(EventLog& log, const StationConfig& config, SlaveStore& store, Msac* msac)
     : log_(log),
       config_(config),
+      store_(store),
       telegrams_(log),
       search_(config.search_window, config.search_window_bits),
       watchdog_(config.baud_control),
-      user_(*this),
-      slave_(log, watchdog_, config.capacities, user_.mail()),
+      slave_(log, watchdog_, store, msac),
       fdl_(log, config.fcb_rule) {}
 
 void Station::reset() {
@@ -34,10 +34,25 @@ void Station::reset() {
   plan_timers();
 }
 
-void Station::initialise(Cycle now, const SlaveConfig& config) {
+void Station::stop(Cycle now) {
   tx_.abort();
-  slave_.initialise(now, config);
+  slave_.stop(now);
+}
+
+void Station::start(Cycle now, const SlaveConfig& config) {
+  slave_.start(now, config);
   start_search(now);
+  plan_timers();
+}
+
+void Station::prm_verdict(Cycle now, bool good) {
+  slave_.prm_verdict(now, good);
+  plan_timers();
+}
+
+void Station::cfg_verdict(Cycle now, bool good) {
+  slave_.cfg_verdict(now, good);
+  plan_timers();
 }
 
 Cycle Station::next() const {
@@ -89,8 +104,6 @@ void Station::leave_run(Tick at) {
   for_others_ = false;
 }
 
-void Station::plan_timers() { timers_ = std::min({search_.next(), watchdog_.next(), slave_.next_timer()}); }
-
 /// Drops edges without loss: those up to now belong to a character in progress, or the receiver is deaf.
 void Station::make_room(Tick at) {
   const Cycle now = at / kTicksPerCycle;
@@ -127,7 +140,7 @@ void Station::listen(Cycle now) {
 
 void Station::start_search(Cycle now) {
   log_.at_cycle(now, Reason::kBaudSearch);
-  user_.mail().baud = {{now}, kBaudUnknown};
+  store_.baud(now, kBaudUnknown);
   watchdog_.baud_search();
   search_.start(now);
   select_rate(now);
@@ -160,7 +173,7 @@ void Station::lock(Cycle now) {
   search_.lock();
   telegrams_.set_quiet(false);
   log_.at_cycle(now, Reason::kBaudFound, static_cast<unsigned>(search_.index().code()));
-  user_.mail().baud = {{now}, search_.index()};
+  store_.baud(now, search_.index());
   slave_.rate_found(now);
 }
 

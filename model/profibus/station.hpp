@@ -1,6 +1,7 @@
 #pragma once
 // A PROFIBUS DP slave station between PBRXD and PBTXD: receiver, baud search, watchdog, FDL and the DP services,
-// evaluated in the order that docs/microarchitecture.md defines. This file is independent of the user-side interface.
+// evaluated in the order that docs/microarchitecture.md defines. This file is independent of the user's side: the chip
+// has it as a SlaveStore.
 #include <algorithm>
 #include <utility>
 
@@ -10,23 +11,22 @@
 #include "model/profibus/telegram_rx.hpp"
 #include "model/profibus/uart_rx.hpp"
 #include "model/profibus/uart_tx.hpp"
-#include "model/profibus/user_side.hpp"
 
 namespace dsdpv1::profibus {
 
-/// Per-chip configuration of the station: ruling parameters in cycles (bits where noted), and capacities.
+/// Per-chip configuration of the station: ruling parameters in cycles (bits where noted).
 struct StationConfig {
   Cycle rts_lead = 4, rts_trail = 4;
   Cycle search_window = 50 * kCyclesPerMs;
   Cycle search_window_bits = 4000;
   Cycle baud_control = 600 * kCyclesPerMs;
   FcbRule fcb_rule = FcbRule::kLetter;
-  Capacities capacities;
 };
 
 class Station {
  public:
-  Station(EventLog& log, const StationConfig& config);
+  /// `msac`: see DpSlave.
+  Station(EventLog& log, const StationConfig& config, SlaveStore& store, Msac* msac);
   Station(const Station&) = delete;  // its parts refer to each other
   Station& operator=(const Station&) = delete;
 
@@ -49,8 +49,20 @@ class Station {
   /// `count` of them for stations.
   Unconcerned unconcerned() const;
   void pass(std::uint64_t count) { received_ += count; }
-  /// Reset: everything as at power-on.
+  /// Reset: everything as at power-on. The store, whose MSAC has timers, comes before.
   void reset();
+
+  // --- commands of the user's side ----------------------------------------------------------------------------------
+  /// To OFFLINE. An answer in progress is cut off.
+  void stop(Cycle now);
+  /// From OFFLINE to WAIT_PRM and baud search (D7, S1).
+  void start(Cycle now, const SlaveConfig& config);
+  /// The user accepts (`good`) or refuses what the store's kAwaited has announced; otherwise an event.
+  void prm_verdict(Cycle now, bool good);
+  void cfg_verdict(Cycle now, bool good);
+  /// Call it when a timer of MSAC may have changed.
+  void plan_timers() { timers_ = std::min({search_.next(), watchdog_.next(), slave_.next_timer()}); }
+
   /// The rising edge of `now`.
   void eval(Cycle now);
   /// The next cycle at which eval() has an effect, not counting unseen().
@@ -85,8 +97,6 @@ class Station {
   bool rts() const { return tx_.rts(); }
   bool baud_found() const { return running() && !search_.searching(); }
   BaudIndex baud_index() const { return baud_found() ? search_.index() : kBaudUnknown; }
-  /// The interface to the user's side.
-  UserSide& user() { return user_; }
   const DpSlave& slave() const { return slave_; }
   /// During the search: the rate being tried.
   BaudIndex tried() const { return search_.index(); }
@@ -94,25 +104,25 @@ class Station {
   std::uint64_t telegrams_received() const { return received_; }
   std::uint64_t telegrams_answered() const { return answered_; }
 
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [log, config, rx, telegrams, search, watchdog, user, slave, fdl, tx, timers, for_others, received, answered] =
-        *this;
-    archive.given(log, config, timers);
-    archive(rx, telegrams, search, watchdog, user, slave, fdl);
+  /// `bytes`: the store. Its `store(archive, slave)` stores both, and the slave's faults.
+  template <class Archive, class Store>
+  void store(Archive& archive, Store& bytes) {
+    auto& [log, config, its_bytes, rx, telegrams, search, watchdog, slave, fdl, tx, timers, for_others, received,
+           answered] = *this;
+    archive.given(log, config, its_bytes, timers);
+    archive(rx, telegrams, search, watchdog);
+    bytes.store(archive, slave);
+    archive(fdl);
     tx.store(archive, fdl.answer().bytes.data(), Frame::kMost);
     archive(for_others, received, answered);
     if constexpr (Archive::kReads) plan_timers();
   }
 
  private:
-  friend class UserSide;  // it executes commands
-  void initialise(Cycle now, const SlaveConfig& config);
   bool running() const { return slave_.state() != DpState::kOffline; }
   bool listening() const { return running() && !tx_.rts(); }
   Cycle next_of_line() const;
   void make_room(Tick at);
-  void plan_timers();
   void listen(Cycle now);
   void select_rate(Cycle now);
   void watch(Cycle now);
@@ -125,11 +135,11 @@ class Station {
 
   EventLog& log_;
   StationConfig config_;
+  SlaveStore& store_;
   UartRx rx_;
   TelegramRx telegrams_;
   BaudSearch search_;
   Watchdog watchdog_;
-  UserSide user_;
   DpSlave slave_;
   Fdl fdl_;
   UartTx tx_;

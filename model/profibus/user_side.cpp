@@ -4,36 +4,52 @@
 
 namespace dsdpv1::profibus {
 
-const IoBlock& UserSide::outputs() const { return station_.slave_.outputs(); }
-int UserSide::input_size() const { return station_.slave_.input_size(); }
+const SlaveConfig& UserSide::config() const { return station_.slave().config(); }
+
+void UserSide::reset() {
+  forget();
+  station_.reset();
+}
+
+void UserSide::forget() {
+  outputs_.reset(0);
+  inputs_.reset(0);
+  diagnosis_.reset();
+  mail_ = UserMail();
+  msac_.c1.reset();
+  msac_.c2.reset();
+  data_exchanges_ = outputs_replaced_ = 0;
+}
 
 void UserSide::initialise(Cycle now, const SlaveConfig& config) {
-  station_.initialise(now, config);
-  station_.plan_timers();
+  const bool left_exchange = station_.slave().state() == DpState::kDataExch;
+  station_.stop(now);
+  const std::uint16_t exchanges_left = mail_.state.exchanges_left;
+  const std::uint64_t data_exchanges = data_exchanges_, outputs_replaced = outputs_replaced_;
+  forget();
+  mail_.state.exchanges_left = exchanges_left;
+  data_exchanges_ = data_exchanges;
+  outputs_replaced_ = outputs_replaced;
+  const CfgLengths lengths = cfg_lengths(config.cfg.bytes.data(), config.cfg.size);
+  inputs_.reset(lengths.input());
+  outputs_.reset(lengths.output());
+  if (left_exchange) hand_outputs(now);  // S18
+  station_.start(now, config);
 }
 
-void UserSide::prm_verdict(Cycle now, bool good) {
-  station_.slave_.prm_verdict(now, good);
-  station_.plan_timers();
+void UserSide::entered(Cycle now, DpState from, DpState to) {
+  mail_.state.state = to;
+  mail_.state.due.set(now);
+  if (from != DpState::kDataExch) return;
+  ++mail_.state.exchanges_left;  // S18
+  inputs_.release();
+  outputs_.release();
+  clear_outputs(now);
+  msac_.c1.close(now);
 }
-
-void UserSide::cfg_verdict(Cycle now, bool good) {
-  station_.slave_.cfg_verdict(now, good);
-  station_.plan_timers();
-}
-
-bool UserSide::new_inputs(Cycle now, const std::uint8_t* bytes, int size) {
-  return station_.slave_.new_inputs(now, bytes, size);
-}
-
-bool UserSide::new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size) {
-  return station_.slave_.new_diagnosis(now, type, bytes, size);
-}
-
-void UserSide::c1_answer(Cycle now, const std::uint8_t* pdu, int size) { station_.slave_.c1_answer(now, pdu, size); }
 
 void UserSide::c2_answer(Cycle now, const std::uint8_t* pdu, int size) {
-  station_.slave_.c2_answer(now, pdu, size);
+  msac_.c2.answer(now, pdu, size);
   station_.plan_timers();
 }
 

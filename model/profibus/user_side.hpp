@@ -1,14 +1,13 @@
 #pragma once
-// The only interface between a DP slave and its user's side (a shared RAM, registers, a serial port). The slave
-// communicates by mail: items for the user, each with the cycle since which it waits. The user's side reads the mail
-// when it gets to it, takes a block by copying it and clearing its `due`, and replies by commands. Mail that is not
-// taken is replaced by newer mail.
-#include "model/profibus/baud.hpp"
+// The only interface between a DP slave and its user's side (a shared RAM, registers, a serial port): the store with
+// fixed buffers (figure 8), with DPV1. The slave communicates by mail: items for the user. The user's side reads the
+// mail when it gets to it, takes a block by copying it and clearing its `due`, and replies by commands.
 #include "model/profibus/cfg_identifier.hpp"
-#include "model/profibus/dp_state.hpp"
-#include "model/profibus/dpv1_pdu.hpp"
-#include "model/profibus/sap_buffers.hpp"
-#include "model/profibus/time.hpp"
+#include "model/profibus/diagnosis.hpp"
+#include "model/profibus/event_log.hpp"
+#include "model/profibus/msac.hpp"
+#include "model/profibus/slave_store.hpp"
+#include "model/profibus/user_mail.hpp"
 
 namespace dsdpv1::profibus {
 
@@ -22,169 +21,26 @@ struct Capacities {
   int acyclic = kMaxAcyclic;   ///< data of a C1 or C2 request or answer
 };
 
-/// Who judges parameters or a configuration: the slave by length (tables 13 and 14) or by comparison, or the user.
-enum class Judging : std::uint8_t { kMaximum = 0, kExact = 1, kUser = 2 };
-
-/// The initialisation of the slave, already checked: every number within the chip's capacities.
-struct SlaveConfig {
-  std::uint8_t address = 0;
-  std::uint16_t ident = 0;
-  bool fail_safe_supported = false, sync_supported = false, freeze_supported = false, address_change = false;
-  bool dpv1 = false;  ///< D17: the slave has DPV1
-  int max_input = 0, max_output = 0, max_diag = 0, max_prm = 0, max_cfg = 0;
-  Judging prm_mode{}, cfg_mode{};
-  Block<kMaxCfg> cfg;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [own, number, fail_safe, sync, freeze, change, has_dpv1, input, output, diag, prm, most_cfg, by_prm, by_cfg,
-           first] = *this;
-    archive(own, number, fail_safe, sync, freeze, change, has_dpv1, first);
-    archive.within(0, kMaxIo, input, output);
-    archive.within(0, kMaxDiag, diag);
-    archive.within(0, kMaxUserPrm, prm);
-    archive.within(0, kMaxCfg, most_cfg);
-    archive.within(Judging::kMaximum, Judging::kUser, by_prm, by_cfg);
-  }
-};
-
-/// The cycle since which an item waits for the user; kNever: none waits.
-struct Due {
-  Cycle since = kNever;
-
-  void set(Cycle now) { since = now; }
-  void clear() { since = kNever; }
-  bool waiting() const { return since != kNever; }
-  /// Set before the cycle `now`: an action at `now` uses the state before its edge.
-  bool before(Cycle now) const { return since < now; }
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [at] = *this;
-    archive.cycles(at);
-  }
-};
-
-/// The user parameters of a Set_Prm.
-struct PrmMail {
-  Due due;
-  Block<kMaxUserPrm> block;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [waits, prm] = *this;
-    archive(waits, prm);
-  }
-};
-/// The identifiers of a Check_Cfg, and the lengths that they describe.
-struct CfgMail {
-  Due due;
-  Block<kMaxCfg> block;
-  int output = 0, input = 0;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [waits, cfg, outputs, inputs] = *this;
-    archive(waits, cfg, outputs, inputs);
-  }
-};
-/// New outputs; UserSide::outputs() has their present value.
-struct OutputMail {
-  Due due;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [waits] = *this;
-    archive(waits);
-  }
-};
-/// A Global_Control that was executed.
-struct ControlMail {
-  Due due;
-  std::uint8_t command = 0, group = 0, master = 0;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [waits, control, groups, sender] = *this;
-    archive(waits, control, groups, sender);
-  }
-};
-/// A Set_Slave_Address that was executed.
-struct AddressMail {
-  Due due;
-  std::uint8_t address = 0;
-  bool locked = false;  ///< No_Add_Chg: no further change
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [waits, given, stays] = *this;
-    archive(waits, given, stays);
-  }
-};
-/// The state of the slave, due when it changes, and how often data exchange was left since reset.
-struct StateMail {
-  Due due;
-  DpState state = DpState::kOffline;
-  std::uint16_t exchanges_left = 0;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [waits, present, left] = *this;
-    archive(waits, left);
-    archive.within(DpState::kOffline, DpState::kDataExch, present);
-  }
-};
-/// The baud rate: found, or in search again.
-struct BaudMail {
-  Due due;
-  BaudIndex index;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [waits, found] = *this;
-    archive(waits, found);
-  }
-};
-/// A C1 or C2 request for the user. It stays in `pdu` after it was taken, until the next one.
-struct AcyclicMail {
-  Due due;
-  Pdu pdu;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [waits, request] = *this;
-    archive(waits, request);
-    archive.check(!due.waiting() || pdu.size > 0);
-  }
-};
-
-/// The mail to the user's side.
-struct UserMail {
-  PrmMail prm;
-  CfgMail cfg;
-  OutputMail output;
-  ControlMail control;
-  AddressMail address;
-  StateMail state;
-  BaudMail baud;
-  AcyclicMail c1, c2;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [to_prm, to_cfg, to_output, to_control, to_address, to_state, to_baud, to_c1, to_c2] = *this;
-    archive(to_prm, to_cfg, to_output, to_control, to_address, to_state, to_baud, to_c1, to_c2);
-  }
-};
-
-class UserSide {
+class UserSide final : public SlaveStore {
  public:
-  explicit UserSide(Station& station) : station_(station) {}
+  /// `station` has this store and msac().
+  UserSide(EventLog& log, const Capacities& capacities, Station& station)
+      : log_(log),
+        capacities_(capacities),
+        station_(station),
+        msac_{{log, capacities.acyclic, mail_.c1}, {log, capacities.acyclic, mail_.c2}} {}
+  UserSide(const UserSide&) = delete;  // its parts refer to each other
+  UserSide& operator=(const UserSide&) = delete;
+
+  /// Everything as at power-on, the station too.
+  void reset();
 
   // --- mail ---------------------------------------------------------------------------------------------------------
   UserMail& mail() { return mail_; }
   const UserMail& mail() const { return mail_; }
   /// The outputs that the user may see (buffer 2), at present.
-  const IoBlock& outputs() const;
-  int input_size() const;  ///< configured, from the initialisation or Check_Cfg
+  const IoBlock& outputs() const { return outputs_.shown(); }
+  int input_size() const { return inputs_.size(); }  ///< configured, from the initialisation or Check_Cfg
 
   // --- commands -----------------------------------------------------------------------------------------------------
   /// Through OFFLINE to WAIT_PRM and baud search (D7, S1).
@@ -197,19 +53,62 @@ class UserSide {
   bool new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size);
   /// The answer to a C1 (C2) request, at most 4 + Capacities::acyclic bytes; refused with an event if it does not fit
   /// the request (V14).
-  void c1_answer(Cycle now, const std::uint8_t* pdu, int size);
+  void c1_answer(Cycle now, const std::uint8_t* pdu, int size) { msac_.c1.answer(now, pdu, size); }
   void c2_answer(Cycle now, const std::uint8_t* pdu, int size);
 
-  template <class Archive>
-  void store(Archive& archive) {
-    auto& [station, mail] = *this;
-    archive.given(station);
-    archive(mail);
+  // --- for others ---------------------------------------------------------------------------------------------------
+  Msac& msac() { return msac_; }
+  const Msac& msac() const { return msac_; }
+  std::uint64_t data_exchanges() const { return data_exchanges_; }
+  std::uint64_t outputs_replaced() const { return outputs_replaced_; }  ///< before the user's side took them
+
+  /// With the slave's state in its place: see Station::store.
+  template <class Archive, class Slave>
+  void store(Archive& archive, Slave& slave) {
+    auto& [log, capacities, station, mail, cfg, outputs, inputs, diagnosis, msac, data_exchanges, outputs_replaced] =
+        *this;
+    archive.given(log, capacities, station);
+    archive(mail, slave, cfg, outputs, inputs);
+    slave.store_faults(archive);
+    archive(diagnosis, msac.c1, msac.c2, data_exchanges, outputs_replaced);
   }
 
  private:
+  // The store, each service in the file of its name.
+  Exchanged exchange(Cycle now, const Request& request, bool fail_safe) override;
+  Take parameters(Cycle now, const Request& request) override;
+  Take configuration(Cycle now, const Request& request, bool exchanging) override;
+  IoLengths configured() override;
+  Take address(Cycle now, const Request& request, bool right) override;
+  void control(Cycle now, const Control& control) override;
+  View read_inputs() override;
+  View read_outputs() override;
+  View read_cfg(bool exchanging) override;
+  StoredDiagnosis diagnosis(bool to_holder) override;
+  void entered(Cycle now, DpState from, DpState to) override;
+  void baud(Cycle now, BaudIndex index) override { mail_.baud = {{now}, index}; }
+
+  const SlaveConfig& config() const;
+  void forget();
+  bool fail_safe_clear(Cycle now, const Request& request, bool fail_safe);
+  void clear_outputs(Cycle now);
+  void hand_outputs(Cycle now);
+  void sync(Cycle now, Gate gate);
+  void freeze(Gate gate);
+  bool check_user_length(Cycle now, int user_size);
+  bool check_cfg_bytes(Cycle now, const Request& request, const CfgLengths& lengths);
+  bool check_cfg_equal(Cycle now, const Request& request, const Block<kMaxCfg>& expected);
+  void mail_cfg(Cycle now, const Request& request, const CfgLengths& lengths);
+
+  EventLog& log_;
+  const Capacities capacities_;
   Station& station_;
   UserMail mail_;
+  Block<kMaxCfg> cfg_;  // the configuration in use, or awaiting the verdict
+  DoubleBuffer outputs_, inputs_;
+  UserDiagnosis diagnosis_;
+  Msac msac_;
+  std::uint64_t data_exchanges_ = 0, outputs_replaced_ = 0;
 };
 
 }  // namespace dsdpv1::profibus

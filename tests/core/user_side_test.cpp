@@ -20,11 +20,6 @@ constexpr std::uint16_t kIdent = 0x1234;
 
 class UserSideTest : public testing::Test {
  protected:
-  static StationConfig small_chip() {
-    StationConfig config;
-    config.capacities = {6, 4, 8, 10};
-    return config;
-  }
   static SlaveConfig initialisation() {
     SlaveConfig config;
     config.address = kSlave;
@@ -40,7 +35,7 @@ class UserSideTest : public testing::Test {
   }
 
   void SetUp() override {
-    station.reset();
+    user.reset();
     user.initialise(1, initialisation());
   }
 
@@ -102,8 +97,8 @@ class UserSideTest : public testing::Test {
   }
 
   core_test::EventRecorder recorder;
-  Station station{recorder.log, small_chip()};
-  UserSide& user = station.user();
+  UserSide user{recorder.log, {6, 4, 8, 10}, station};
+  Station station{recorder.log, {}, user, &user.msac()};
   Cycle now = 1, sent = 0;
 };
 
@@ -176,6 +171,15 @@ TEST_F(UserSideTest, HearsAcyclicRequestsAndAnswers) {
   user.c1_answer(now, answer.data(), 4);
   service(51, {}, kSrd, 51);
   EXPECT_EQ(recorder.count(Reason::kC1Answer), 1);
+}
+
+TEST_F(UserSideTest, ResetEndsTheTimersOfC2) {
+  find_baud();
+  service(49, {dpv1::kInitiate, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0}, kSrd, 50);
+  ASSERT_EQ(recorder.count(Reason::kC2Initiate), 1);
+  EXPECT_TRUE(station.may_act(now + 20 * kCyclesPerMs)) << "F ends after 10 ms";
+  user.reset();
+  EXPECT_FALSE(station.may_act(now + 20 * kCyclesPerMs));
 }
 
 TEST_F(UserSideTest, MoreParametersThanItHoldsAreAPrmFault) {

@@ -18,20 +18,13 @@ constexpr Cycle kResetSynchroniser = 2;  // the third rising edge after RESET's 
 constexpr std::uint32_t kEdgeOutputs = kOutputPins & ~mask(Pin::kMiso);
 constexpr std::uint32_t kResetLevels = mask(Pin::kInt) | mask(Pin::kPbtxd);
 
-// The times are the station's defaults.
-profibus::StationConfig station_config() {
-  profibus::StationConfig config;
-  config.capacities = kCapacities;
-  return config;
-}
-
 constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0; }
 
 }  // namespace
 
 struct Chip::Impl {
   explicit Impl(const Config& config)
-      : engine(config.engine), station(log, station_config()), port(log, station.user()) {}
+      : engine(config.engine), user(log, kCapacities, station), station(log, {}, user, &user.msac()), port(log, user) {}
 
   void set(Tick at, Pin pin, Level value);
   void set_reset(Tick at, bool high);
@@ -48,7 +41,8 @@ struct Chip::Impl {
 
   const Engine engine;
   profibus::EventLog log;
-  profibus::Station station;
+  profibus::UserSide user;
+  profibus::Station station;  // the times are its defaults
   SpiPort port;
 
   PinSink sink;
@@ -96,7 +90,7 @@ void Chip::Impl::set_reset(Tick at, bool high) {
 void Chip::Impl::enter_reset(Tick at) {
   running = false;
   release_at = kNever;
-  station.reset();
+  user.reset();
   port.reset();
   publish_edge_outputs(at, kResetLevels);
   publish_miso(at);
@@ -193,8 +187,8 @@ Status Chip::status() const {
   status.master = station.slave().master();
   status.telegrams_received = station.telegrams_received();
   status.telegrams_answered = station.telegrams_answered();
-  status.data_exchanges = station.slave().data_exchanges();
-  status.outputs_missed = station.slave().outputs_replaced();
+  status.data_exchanges = impl_->user.data_exchanges();
+  status.outputs_missed = impl_->user.outputs_replaced();
   return status;
 }
 

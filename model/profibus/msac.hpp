@@ -1,0 +1,13 @@
+#pragma once
+#include "model/profibus/msac1.hpp"
+#include "model/profibus/msac2.hpp"
+
+namespace dsdpv1::profibus {
+
+/// DPV1, of a slave that has it (chapter 7).
+struct Msac {
+  Msac1 c1;
+  Msac2 c2;
+};
+
+}  // namespace dsdpv1::profibus
