@@ -15,8 +15,8 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::uint8_t kSlave = 5, kMaster = 1, kOther = 2;
-constexpr std::uint16_t kIdent = 0x1234;
+constexpr std::uint8_t kStation = 5, kHolder = 1, kOther = 2;
+constexpr std::uint16_t kIdentNumber = 0x1234;
 
 /// Answers as the test has set it, and keeps the arguments of its calls.
 class MadeUp final : public SlaveStore {
@@ -94,16 +94,16 @@ class SlaveStoreTest : public testing::Test {
  protected:
   void SetUp() override {
     SlaveConfig config;
-    config.address = kSlave;
-    config.ident = kIdent;
+    config.address = kStation;
+    config.ident = kIdentNumber;
     config.address_change = config.sync_supported = config.freeze_supported = config.fail_safe_supported = true;
     watchdog.rate_found(1);
     slave.start(1, config);
   }
 
-  Reply send(int dsap, const Bytes& data, std::uint8_t sa = kMaster, std::uint8_t code = fc::kSrdHigh) {
+  Reply send(int dsap, const Bytes& data, std::uint8_t sa = kHolder, std::uint8_t code = fc::kSrdHigh) {
     Request request;
-    request.da = kSlave;
+    request.da = kStation;
     request.sa = sa;
     request.code = code;
     request.dsap = dsap;
@@ -113,7 +113,7 @@ class SlaveStoreTest : public testing::Test {
   }
   /// Lock_Req, Sync_Req and Freeze_Req; `user` begins with the Spec_User_Prm_Byte.
   Reply set_prm(const Bytes& user = {0}, std::uint8_t min_tsdr = 0) {
-    Bytes data = {0xB0, 0, 0, min_tsdr, kIdent >> 8, kIdent & 0xFF, 0x01};
+    Bytes data = {0xB0, 0, 0, min_tsdr, kIdentNumber >> 8, kIdentNumber & 0xFF, 0x01};
     data.insert(data.end(), user.begin(), user.end());
     return send(sap::kSetPrm, data);
   }
@@ -152,11 +152,11 @@ TEST_F(SlaveStoreTest, ATelegramIsOneCall) {
     telegram();
     return store.calls;
   };
-  EXPECT_EQ(calls([&] { send(sap::kSetSlaveAddress, {kSlave, kIdent >> 8, kIdent & 0xFF, 0}); }), 1);
+  EXPECT_EQ(calls([&] { send(sap::kSetSlaveAddress, {kStation, kIdentNumber >> 8, kIdentNumber & 0xFF, 0}); }), 1);
   EXPECT_EQ(calls([&] { set_prm(); }), 1);
   EXPECT_EQ(calls([&] { check_cfg(); }), 1);
   EXPECT_EQ(calls([&] { send(kNoSap, {1, 2, 3}); }), 1);
-  EXPECT_EQ(calls([&] { send(sap::kGlobalControl, {0x2A, 0}, kMaster, fc::kSdnHigh); }), 1);
+  EXPECT_EQ(calls([&] { send(sap::kGlobalControl, {0x2A, 0}, kHolder, fc::kSdnHigh); }), 1);
   for (const int dsap : {sap::kReadInputs, sap::kReadOutputs, sap::kGetCfg, sap::kSlaveDiag})
     EXPECT_EQ(calls([&] { send(dsap, {}); }), 1) << dsap;
   EXPECT_EQ(calls([&] { send(kNoSap, {1, 2, 3}, kOther); }), 0) << "refused without the store";
@@ -174,8 +174,8 @@ TEST_F(SlaveStoreTest, RefusedParametersArePrmFault) {
 
 TEST_F(SlaveStoreTest, BlocksWithoutRoomAreRrAndChangeNothing) {
   store.ssa = store.prm = Take::kNoRoom;
-  expect_rr(send(sap::kSetSlaveAddress, {77, kIdent >> 8, kIdent & 0xFF, 0}));
-  EXPECT_EQ(slave.address(), kSlave);
+  expect_rr(send(sap::kSetSlaveAddress, {77, kIdentNumber >> 8, kIdentNumber & 0xFF, 0}));
+  EXPECT_EQ(slave.address(), kStation);
   expect_rr(set_prm());
   EXPECT_EQ(slave.state(), DpState::kWaitPrm);
   store.prm = Take::kAccepted;
@@ -184,12 +184,12 @@ TEST_F(SlaveStoreTest, BlocksWithoutRoomAreRrAndChangeNothing) {
   expect_rr(set_prm());
   expect_rr(check_cfg());
   EXPECT_EQ(slave.state(), DpState::kDataExch);
-  EXPECT_EQ(slave.master(), kMaster);
+  EXPECT_EQ(slave.master(), kHolder);
   EXPECT_EQ(status(1), 0U);
 }
 
 TEST_F(SlaveStoreTest, AnAddressMayCarryMoreBytesThanFour) {
-  Bytes data = {77, kIdent >> 8, kIdent & 0xFF, 0};
+  Bytes data = {77, kIdentNumber >> 8, kIdentNumber & 0xFF, 0};
   data.resize(244, 0xCC);
   expect_sc(send(sap::kSetSlaveAddress, data));
   EXPECT_EQ(store.got, data);
@@ -311,7 +311,7 @@ TEST_F(SlaveStoreTest, GlobalControlReachesTheStoreAsItIsCarriedOut) {
   to_exchange();
   const auto control = [this](unsigned command, unsigned group = 0) {
     store.controlled = Control();
-    send(sap::kGlobalControl, {static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(group)}, kMaster,
+    send(sap::kGlobalControl, {static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(group)}, kHolder,
          fc::kSdnHigh);
     return store.controlled;
   };
@@ -327,7 +327,7 @@ TEST_F(SlaveStoreTest, GlobalControlReachesTheStoreAsItIsCarriedOut) {
   EXPECT_TRUE(clear.clears);
   EXPECT_EQ(clear.outputs, Gate::kStays);
   EXPECT_EQ(clear.inputs, Gate::kStays);
-  EXPECT_EQ(clear.master, kMaster);
+  EXPECT_EQ(clear.master, kHolder);
   EXPECT_EQ(control(0x02, 0x02).command, 0) << "another group";
 }
 
@@ -354,7 +354,7 @@ TEST_F(SlaveStoreTest, DiagnosisIsTheSlavesSixBytesAndTheStores) {
   const Reply reply = send(sap::kSlaveDiag, {});
   ASSERT_EQ(reply.size, 8);
   EXPECT_EQ(Bytes(reply.data, reply.data + 8),
-            (Bytes{0x08, kAlwaysOne | kSync, 0, kMaster, kIdent >> 8, kIdent & 0xFF, 2, 0xEE}));
+            (Bytes{0x08, kAlwaysOne | kSync, 0, kHolder, kIdentNumber >> 8, kIdentNumber & 0xFF, 2, 0xEE}));
   EXPECT_TRUE(store.to_holder);
   store.shown = {};
   store.shown.stat_diag = store.shown.freeze = true;
@@ -367,7 +367,7 @@ TEST_F(SlaveStoreTest, WithoutDpv1ItsSapsAreRsAndNoTimerRuns) {
     if (exchanging) to_exchange();
     for (const int dsap : {51, 49, 48, 47}) expect_rs(send(dsap, {}));
   }
-  expect(send(48, {dpv1::kAbort, 0, 0}, kMaster, fc::kSdnHigh), Reply::Kind::kNothing);
+  expect(send(48, {dpv1::kAbort, 0, 0}, kHolder, fc::kSdnHigh), Reply::Kind::kNothing);
   EXPECT_EQ(slave.next_timer(), kNever);
   slave.eval_timers(++now);
   EXPECT_EQ(slave.state(), DpState::kDataExch);

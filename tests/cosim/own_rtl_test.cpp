@@ -52,7 +52,8 @@ TEST_F(PinMapFile, NamesPolaritiesAndTolerancesAreRead) {
   const cosim::PinMap map = load(
       "clock: clk48\npins:\n  CSR: {port: cs, inverted: true}\n  RD: rd_n\ntolerance: {PBTXD: 3}\n"
       "parameters: {WIDTH: 8}\nfiles: [a.sv]\ninclude: [lib]\nreference: true\nfile_list: chip.f\n"
-      "tie: {scan: 0x1F, test: 3}\nfault: fault_i\ndefines: {FPGA: 1, SIM: }\nchip: {search_window_ms: SW, rts_lead: {port: lead}}\n");
+      "tie: {scan: 0x1F, test: 3}\nfault: fault_i\ndefines: {FPGA: 1, SIM: }\nchip: {search_window_ms: SW, rts_lead: "
+      "{port: lead}}\n");
   EXPECT_EQ(map.clock.name, "clk48");
   EXPECT_EQ(map.pins.at("CSR").name, "cs");
   EXPECT_TRUE(map.pins.at("CSR").inverted);
