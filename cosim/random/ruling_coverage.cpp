@@ -117,8 +117,11 @@ void RulingCoverage::count(const std::string& names, const std::string& item, st
 }
 
 void RulingCoverage::add(std::size_t run, const Seen& seen) {
+  const bool has_states = !seen.situations.counts().empty();  // which say from where to where
+  const std::string state = profibus::code(profibus::Reason::kDpState);
   for (const auto& [code, times] : seen.codes)
-    if (const auto source = sources_.find(code); source != sources_.end() && times != 0)
+    if (const auto source = sources_.find(code);
+        source != sources_.end() && times != 0 && !(has_states && code == state))
       count(source->second, event_name(code), times, &run);
   for (const auto& [situation, times] : seen.situations.counts())
     if (situation.first != "events" && times != 0)

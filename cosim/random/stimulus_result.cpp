@@ -67,7 +67,9 @@ Json rulings_of(const StimulusResult& result) {
     for (const std::string& name : tb::names_of(names))
       if (times != 0 && is_ruling(name)) counts[name] += times;
   };
-  for (const profibus::Reason reason : result.kind->reasons()) add(reason.row().source, result.coverage.count(reason));
+  const bool has_states = !result.situations.counts().empty();  // which say from where to where
+  for (const profibus::Reason reason : result.kind->reasons())
+    if (!has_states || reason != profibus::Reason::kDpState) add(reason.row().source, result.coverage.count(reason));
   const auto chip = result.chip != nullptr ? result.chip : usual_options(*result.kind).chip;
   for (const auto& [each, times] : result.situations.counts())
     if (each.first != "events") add(result.kind->random()->rulings_of(each, *chip), times);

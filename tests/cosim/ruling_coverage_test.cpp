@@ -77,7 +77,37 @@ TEST(RulingCoverage, EventsAndSituationsCountForTheirRulings) {
   EXPECT_EQ(ident.runs, (std::set<std::size_t>{0, 3}));
   EXPECT_EQ(ruling(coverage, "S27").items.at("Sync and Freeze: Sync: Freeze"), 4U);
   EXPECT_EQ(ruling(coverage, "S27").runs, (std::set<std::size_t>{3}));
-  EXPECT_EQ(ruling(coverage, "S4").count(), 0U);
+  EXPECT_EQ(ruling(coverage, "S4").count(), 4U);
+  EXPECT_EQ(ruling(coverage, "S24").count(), 0U);
+}
+
+TEST(RulingCoverage, AChangeOfStateCountsForItsStatesWhereTheyAreKnown) {
+  RulingCoverage coverage = coverage_of("dsdpv1");
+  Seen seen;
+  seen.codes = {{"DP_STATE", 2}};
+  seen.situations.add({"DP states", "OFFLINE to WAIT_PRM"}, 2);
+  coverage.add(0, seen);
+  EXPECT_EQ(ruling(coverage, "D7").count(), 2U);
+  EXPECT_EQ(ruling(coverage, "S18").count(), 0U);
+  seen.situations.add({"DP states", "DATA_EXCH to WAIT_PRM"}, 1);
+  coverage.add(1, seen);
+  EXPECT_EQ(ruling(coverage, "S18").runs, (std::set<std::size_t>{1}));
+  Seen scenario;
+  scenario.codes = {{"DP_STATE", 1}};
+  coverage.add(2, scenario);
+  EXPECT_EQ(ruling(coverage, "S18").items.at("event DP_STATE"), 1U);
+}
+
+/// Every access reads the commands, and a reset is followed by a start-up.
+TEST(RulingCoverage, AnAccessWithoutATransferDoesNotExerciseTheOrderOfTransfers) {
+  RulingCoverage coverage = coverage_of("dsdpv1");
+  Seen seen;
+  seen.situations.add({"transfers", "commands"}, 5);
+  seen.situations.add({"transfers", "start-up"}, 1);
+  coverage.add(0, seen);
+  EXPECT_EQ(ruling(coverage, "H3").count(), 5U);
+  EXPECT_EQ(ruling(coverage, "H4").count(), 0U);
+  EXPECT_EQ(ruling(coverage, "H6").count(), 1U);
 }
 
 TEST(RulingCoverage, APortHasItsOwnRulings) {

@@ -250,62 +250,121 @@ std::vector<Situation> known_situations(Part part, HostMode mode) {
 
 namespace {
 
-/// Rulings of a group's situations that begin, or end, with these words; all that fit count.
+/// Rulings of a group's situations that begin, and end, with these words; all that fit count. Where several rulings may
+/// have decided, the events tell which.
 struct RulingRow {
   const char *group, *begin, *end, *rulings;
 };
 
 constexpr RulingRow kRulingRows[] = {
-    {"services", "", "", "S13, S20"},
-    {"services", "Set_Slave_Add", "", "S5, S25"},
-    {"services", "Set_Prm", ": SC", "S14"},
-    {"services", "Chk_Cfg", ": SC", "S14"},
-    {"services", "Slave_Diag", ": data", "S23"},
+    {"DP states", "OFFLINE", "", "D7"},
+    {"DP states", "", "OFFLINE", "D7"},
+    {"DP states", "WAIT_PRM", "WAIT_CFG", "S6"},
+    {"DP states", "WAIT_CFG", "WAIT_PRM", "S15"},
+    {"DP states", "WAIT_CFG", "DATA_EXCH", "D8, P3"},
+    {"DP states", "DATA_EXCH", "", "D1, P3, S18"},
+    {"DP states", "DATA_EXCH to WAIT", "", "S15"},
+    {"services", "", "", "S2, S3, S20"},
+    {"services", "", ": data", "S21"},
+    {"services", "", ": data of high priority", "S21"},
+    {"services", "Data_Exchange", "", "S13"},
     {"services", "Data_Exchange", "high priority", "D9"},
+    {"services", "Data_Exchange", ": high priority", "S19"},
+    {"services", "Data_Exchange", ": SC", "S19"},
+    {"services", "Data_Exchange", ": RR", "S19"},
+    {"services", "Set_Slave_Add", "", "S5, S13"},
+    {"services", "Set_Slave_Add", ": SC", "S25"},
+    {"services", "Set_Slave_Add", ": RR", "S14"},
+    {"services", "Set_Slave_Add in WAIT_PRM: RS", "", "S25"},
+    {"services", "RD_", "", "S13"},
+    {"services", "Get_Cfg", "", "S13"},
+    {"services", "Slave_Diag", "", "S13"},
+    {"services", "Slave_Diag in DATA_EXCH: data", "", "S23"},
+    {"services", "Set_Prm", "", "S13"},
+    {"services", "Set_Prm", ": SC", "S14"},
+    {"services", "Chk_Cfg", "", "S13"},
+    {"services", "Chk_Cfg", ": SC", "S14"},
+    {"services", "Chk_Cfg", ": RR", "S14"},
+    {"services", "Chk_Cfg in DATA_EXCH: SC", "", "S16"},
     {"services", "SRD to SAP 58", "", "S29"},
     {"services", "another function", "", "S29"},
-    {"services", "C1", "", "V1, V8"},
-    {"services", "Initiate", "", "V10"},
-    {"services", "C2", "", "V11"},
+    {"services", "C1", "", "V1"},
+    {"services", "C1 in DATA_EXCH: SC", "", "V8"},
+    {"services", "C1 in DATA_EXCH: RR", "", "V8"},
+    {"services", "Initiate", ": data", "V2, V7, V10"},
+    {"services", "Initiate", ": SC", "V8"},
+    {"services", "C2", ": data", "V11"},
+    {"services", "C2", ": SC", "V11"},
+    {"services", "C2", ": RR", "V8"},
+    {"services", "C2 in WAIT", ": data", "V7"},
     {"Sync and Freeze", "", "Sync", "S4"},
     {"Sync and Freeze", "", "Unsync", "S4, S27"},
-    {"Sync and Freeze", "", ": Sync and Freeze", "S4"},
-    {"Sync and Freeze", "", ": Unsync and Unfreeze", "S4"},
-    {"Sync and Freeze", "", "Freeze", "S27"},
-    {"Sync and Freeze", "", "Unfreeze", "S27"},
-    {"Sync and Freeze", "", "Clear_Data", "S24"},
-    {"transfers", "", "", "H3, H4"},
-    {"transfers", "status B00B", "", "D16"},
-    {"transfers", "Set_Prm", "Set_Prm", "D15"},
-    {"transfers", "Chk_Cfg", "Chk_Cfg", "D6"},
-    {"transfers", "Set_Prm verdict", "", "D4"},
-    {"transfers", "Chk_Cfg verdict", "", "D4"},
+    {"Sync and Freeze", "", "Freeze", "S4, S27"},
+    {"Sync and Freeze", "", "Unfreeze", "S4, S27"},
+    {"Sync and Freeze", "", "Clear_Data", "S18"},
+    {"transfers", "start-up", "", "H6, D1"},
+    {"transfers", "commands", "", "H3"},
+    {"transfers", "initialisation", "", "H3, H4, H5"},
+    {"transfers", "", "verdict", "H3, H4, H5, D4"},
+    {"transfers", "inputs", "", "H3, H4, H5"},
+    {"transfers", "diagnosis", "", "H3, H4, H5"},
+    {"transfers", "", "answer", "H3, H4, H5"},
+    {"transfers", "Set_Prm", "Set_Prm", "H3, H4, P7, D6, D15"},
+    {"transfers", "Chk_Cfg", "Chk_Cfg", "H3, H4, P7, D6, D15"},
+    {"transfers", "outputs", "", "H3, H4"},
+    {"transfers", "", "request", "H3, H4"},
+    {"transfers", "status", "", "H3"},
+    {"transfers", "status B00B", "", "D5, D13"},
     {"written and read", "", "CRC", "D2, D3"},
+    {"written and read", "Set_Prm", "data", "D6"},
+    {"written and read", "Chk_Cfg", "header", "D6"},
     {"written and read", "Chk_Cfg", "data", "D6"},
     {"written and read", "C1 request", "header", "V5"},
     {"written and read", "C2 request", "header", "V5"},
-    {"RESET falls in", "", "", "P10, H6"},
-    {"R_REQ rises in", "", "", "H1, H2"},
-    {"accesses of the user", "write, owned", "", "P5, P8"},
-    {"accesses of the user", "read, owned", "", "P5"},
-    {"accesses of the user", "", "R_REQ alone, the chip away", "P12"},
-    {"accesses of the user", "", "R_STA alone, the chip away", "P12"},
-    {"accesses of the user", "", "not owned, the chip away", "P12"},
-    {"accesses of the user", "", "the chip in an access", "P12"},
-    {"replies of exchanges", "", "", "UA8, UA10"},
+    {"RESET falls in", "", "", "P1, P10"},
+    {"R_REQ rises in", "", "", "H1, P9"},
+    {"accesses of the user", "", "", "P5"},
+    {"accesses of the user", "write", "", "P8"},
+    {"accesses of the user", "read, R_", "", "P12"},
+    {"accesses of the user", "read, not owned", "", "P12"},
+    {"accesses of the user", "read, owned", "the chip in an access", "H2, P12"},
+    {"accesses of the user", "write, R_", "", "P12"},
+    {"accesses of the user", "write, not owned", "", "P12"},
+    {"accesses of the user", "write, owned", "the chip in an access", "H2"},
 };
-/// The host's telegrams, and the begin of its accesses, have the same names at both serial ports.
-constexpr RulingRow kSpiRows[] = {{"XSS falls in", "", "", "SP1"},
-                                  {"telegrams of the host", "", "", "SP4, SP6, SP10"},
-                                  {"telegrams of the host", "read, code 00", "", "SP5, SP8"},
+/// Both serial ports.
+constexpr RulingRow kSerialRows[] = {
+    {"DP states", "DATA_EXCH", "", "R4, R12"},  {"DP states", "", "DATA_EXCH", "R12"},
+    {"transfers", "start-up", "", "R14"},       {"transfers", "initialisation", "", "SP15"},
+    {"transfers", "inputs", "", "SP15"},        {"transfers", "diagnosis", "", "SP15"},
+    {"transfers", "", "answer", "SP15"},        {"transfers", "Set_Prm", "Set_Prm", "R12"},
+    {"transfers", "Chk_Cfg", "Chk_Cfg", "R12"}, {"written and read", "", "CRC", "SP15"},
+    {"RESET falls in", "", "", "R14"},          {"telegrams of the host", "", "", "R15"}};
+/// The host's telegrams, and the begin of its accesses, have the same names at both.
+constexpr RulingRow kSpiRows[] = {{"XSS falls in", "", "", "SP1, R14"},
+                                  {"transfers", "initialisation", "", "SP18"},
+                                  {"transfers", "", "verdict", "SP18"},
+                                  {"transfers", "", "answer", "SP18"},
+                                  {"telegrams of the host", "", "", "SP4, SP5, SP6, SP10, SP11"},
+                                  {"telegrams of the host", "read, code 00", "", "SP8"},
                                   {"telegrams of the host", "write, code 00", "", "SP9"},
-                                  {"telegrams of the host", "read and write", "", "SP16"}};
-constexpr RulingRow kUartRows[] = {{"RXD falls in", "", "", "UA6"},
-                                   {"telegrams of the host", "", "", "UA4"},
+                                  {"telegrams of the host", "read and write", "", "SP16"},
+                                  {"telegrams of the host", "", "refused", "SP13"}};
+constexpr RulingRow kUartRows[] = {{"RXD falls in", "", "", "UA2"},
+                                   {"transfers", "", "verdict", "UA15"},
+                                   {"telegrams of the host", "", "", "UA1, UA4"},
+                                   {"telegrams of the host", "", "code 00", "UA6"},
                                    {"telegrams of the host", "read", "", "UA5"},
                                    {"telegrams of the host", "write", "", "UA5"},
                                    {"telegrams of the host", "exchange", "", "UA7, UA8"},
-                                   {"telegrams of the host", "exchange, code 00", "", "UA9"}};
+                                   {"telegrams of the host", "exchange, code 00", "", "UA9"},
+                                   {"telegrams of the host", "exchange, code 01", "", "UA13"},
+                                   {"telegrams of the host", "exchange, code 02", "", "UA9, UA13"},
+                                   {"telegrams of the host", "exchange, code 04", "", "UA9, UA13"},
+                                   {"telegrams of the host", "exchange, code 06", "", "UA9, UA13"},
+                                   {"telegrams of the host", "exchange, code 0C", "", "UA9, UA13"},
+                                   {"telegrams of the host", "exchange, code 0E", "", "UA9, UA13"},
+                                   {"replies of exchanges", "", "", "UA8, UA10, UA11, UA12"}};
 
 bool ends(const std::string& text, const std::string& with) {
   return text.size() >= with.size() && text.compare(text.size() - with.size(), with.size(), with) == 0;
@@ -321,7 +380,6 @@ void add_rulings(std::string& all, const Rows& rows, const Situation& situation)
 }  // namespace
 
 std::string rulings_of(const Situation& situation, HostMode mode) {
-  if (situation.first == "DP states") return profibus::Reason::kDpState.row().source;
   if (situation.first == "events") {
     const std::string code = situation.second.substr(0, situation.second.find(' '));
     for (const profibus::Reason reason : dsdpv1::reasons())
@@ -330,6 +388,7 @@ std::string rulings_of(const Situation& situation, HostMode mode) {
   }
   std::string all;
   add_rulings(all, kRulingRows, situation);
+  if (mode != HostMode::kParallel) add_rulings(all, kSerialRows, situation);
   if (mode == HostMode::kSpi) add_rulings(all, kSpiRows, situation);
   if (mode == HostMode::kUart) add_rulings(all, kUartRows, situation);
   return all;
