@@ -85,12 +85,18 @@ void add_lines(Reached& reached, const std::string& lines, Count count, const Nu
   }
 }
 
+/// Later versions than 5.006 count the directions of a bit apart: "q[0]:0->1" and "q[0]:1->0". Here they are one.
+std::string bit_of_toggle(const std::string& name) {
+  const std::string ending = name.substr(std::min(name.rfind(':'), name.size()));
+  return ending == ":0->1" || ending == ":1->0" ? name.substr(0, name.size() - ending.size()) : name;
+}
+
 void add_record(Files& files, Fields& fields, Count count, const Numbers& numbers) {
   const int line = numbers.small(fields["l"]);
   if (fields["f"].empty() || fields["page"].empty()) numbers.fail();
   Reached& reached = files[std::filesystem::absolute(fields["f"]).lexically_normal().string()];
   if (fields["page"].rfind("v_toggle", 0) == 0) {
-    reached.points[{line, fields["o"]}] += count;
+    reached.points[{line, bit_of_toggle(fields["o"])}] += count;
     return;
   }
   if (const std::optional<Way> way = way_of(fields["o"]))

@@ -1,6 +1,6 @@
 #pragma once
-// Lines, branches and named points of some files that runs have reached. The points are bits of RTL that changed. As
-// text it is a tracefile of lcov.
+// Lines, branches and named points of some files that runs have reached. The points are bits of RTL that changed, or
+// what exercises a ruling in its document. As text it is a tracefile of lcov.
 #include <cstdint>
 #include <map>
 #include <string>

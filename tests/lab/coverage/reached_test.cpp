@@ -52,6 +52,15 @@ TEST(Reached, InstancesOfAModuleAreOne) {
   EXPECT_EQ(files.at("/rtl/a.sv").points.at({1, "q"}), 2U);
 }
 
+/// Verilator from 5.038 on.
+TEST(Reached, DirectionsOfABitAreOne) {
+  const Files files = tb::coverage::of_verilator(
+      record("toggle", 1, 9, "q[0]:0->1", 2) + record("toggle", 1, 9, "q[0]:1->0", 1) + record("toggle", 1, 9, "r", 0),
+      "r");
+  EXPECT_EQ(files.at("/rtl/a.sv").points,
+            (std::map<std::pair<int, std::string>, std::uint64_t>{{{1, "q[0]"}, 3}, {{1, "r"}, 0}}));
+}
+
 TEST(Reached, SumHasThePointsOfBoth) {
   Files sum = made_up();
   add(sum, made_up());
