@@ -361,7 +361,7 @@ class RtlRandom : public Command {
   void add_what_is_played(CLI::App& app) {
     add_chip_options(app, given_.chip);
     app.add_option("--cycles", given_.cycles, "Number of cycles to compare")
-        ->check(CLI::PositiveNumber)
+        ->check(CLI::Range(std::uint64_t{1}, kMostCycles))
         ->capture_default_str();
     app.add_option("--seed", given_.seed, "Seed; equal seeds give equal cases")->capture_default_str();
     app.add_option("--jobs", given_.jobs, "Threads (default: one per processor)")->check(CLI::Range(1, 256));

@@ -44,7 +44,7 @@ class VerifyRtl : public Command {
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--cycles", cycles_, "Cycles of random cases, at all of the chip's host ports together")
-        ->check(CLI::PositiveNumber)
+        ->check(CLI::Range(std::uint64_t{1}, kMostCycles))
         ->capture_default_str();
     app.add_option("--seed", seed_, "Seed of the first random cases")->capture_default_str();
     app.add_option("--set", set_, "chip.KEY=VALUE of stimuli and random cases, once for each: a parameter of the model")

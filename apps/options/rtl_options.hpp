@@ -2,6 +2,7 @@
 // Which RTL stands beside the model: the reference RTL of a chip, or RTL of the user's own.
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -42,6 +43,9 @@ struct OwnRtl {
   cosim::MakeUserRtl make;
   std::function<std::string()> counts;  ///< see cosim::BuiltUserRtl
 };
+
+/// Of --cycles, more than any campaign.
+constexpr std::uint64_t kMostCycles = 1'000'000'000'000;
 
 /// --coverage, which needs --rtl.
 void add_coverage_option(CLI::App& app, OwnRtlArguments& arguments);

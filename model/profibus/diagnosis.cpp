@@ -1,5 +1,7 @@
 #include "model/profibus/diagnosis.hpp"
 
+#include <algorithm>
+
 #include "model/profibus/dp_slave.hpp"
 #include "model/profibus/user_side.hpp"
 
@@ -42,7 +44,7 @@ View Diagnosis::bytes(const DiagnosisView& view, const StoredDiagnosis& stored) 
   answer_[3] = view.master;
   answer_[4] = static_cast<std::uint8_t>(view.ident >> 8);
   answer_[5] = static_cast<std::uint8_t>(view.ident & 0xFF);
-  std::memcpy(&answer_[kStandard], stored.user.bytes, static_cast<std::size_t>(stored.user.size));
+  std::copy_n(stored.user.bytes, stored.user.size, &answer_[kStandard]);
   return {answer_.data(), kStandard + stored.user.size};
 }
 

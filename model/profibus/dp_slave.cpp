@@ -16,6 +16,7 @@ void DpSlave::reset() {
 void DpSlave::start(Cycle now, const SlaveConfig& config) {
   reset();
   config_ = config;
+  config_.dpv1 = config.dpv1 && msac_ != nullptr;
   address_ = config.address;
   enter(now, DpState::kWaitPrm);
 }

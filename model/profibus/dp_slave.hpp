@@ -21,7 +21,7 @@ constexpr std::uint8_t kNoMaster = 255;
 
 class DpSlave {
  public:
-  /// `msac`: null without DPV1; then no configuration may have it.
+  /// `msac`: null without DPV1, whatever the configuration says.
   DpSlave(EventLog& log, Watchdog& watchdog, SlaveStore& store, Msac* msac)
       : log_(log), watchdog_(watchdog), store_(store), msac_(msac) {}
 

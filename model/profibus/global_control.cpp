@@ -22,8 +22,9 @@ void DpSlave::global_control(Cycle now, const Request& request) {
     return;
   }
   log_.at_cycle(now, Reason::kGlobalControl, command, group, request.sa);
+  const Gate outputs = sync_command(now, command), inputs = freeze_command(now, command);
   store_.control(now, {static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(group), request.sa,
-                       (command & kClearData) != 0, sync_command(now, command), freeze_command(now, command)});
+                       (command & kClearData) != 0, outputs, inputs});
 }
 
 Gate DpSlave::sync_command(Cycle now, unsigned command) {

@@ -70,7 +70,7 @@ struct Control {
 
 /// The store's part of Slave_Diag.
 struct StoredDiagnosis {
-  View user;
+  View user;  ///< at most kMaxDiag bytes
   bool ext_diag = false, stat_diag = false;
   bool freeze = false, sync = false;  ///< the gates are closed
 };

@@ -19,6 +19,7 @@ std::string read(const fs::path& path) {
 Folder::Folder() {
   static int count = 0;
   path_ = fs::temp_directory_path() / ("dsdpv1_app_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
+  fs::remove_all(path_);  // of a killed process that had this id
   fs::create_directories(path_);
 }
 

@@ -74,7 +74,7 @@ TEST(RandomAims, AimAtEachPartOfAnAccess) {
   for (const char* mode : kModes) {
     std::set<const char*> reset, host;
     for (std::uint64_t seed = 0; seed < 150; ++seed)
-      for (const cosim::Action& each : random_rsu_case(seed, mode))
+      for (const cosim::Action& each : random_rsu_case(seed * cosim::kLedCases, mode))
         (each.verb == cosim::Verb::kReset ? reset : host).insert(each.during);
     EXPECT_EQ(reset.size(), parts + 1) << mode;
     EXPECT_EQ(host.size(), parts + 1) << mode;
