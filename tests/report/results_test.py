@@ -16,7 +16,7 @@ from validate import faults, validator
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 VIOLATIONS = "scenarios/violations.yaml"  # has checks with violations, refusals, events
 FAULT = "12"  # of rtl_ref/dsdpv1/faults.txt, one that is quickly found and shrunk
-ANY_NAMES = ("telegrams", "codes", "situations")  # objects whose members may have any name
+ANY_NAMES = ("telegrams", "codes", "rulings", "situations")  # objects whose members may have any name
 
 
 def check(condition, what):
