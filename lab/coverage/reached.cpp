@@ -38,7 +38,7 @@ class Numbers {
     return static_cast<Count>(*number);
   }
   int small(const std::string& text) const {
-    constexpr Count kMost = 100'000'000;
+    constexpr Count kMost = 1'000'000;  // lines of a file, columns
     const Count number = count(text);
     if (number > kMost) fail();
     return static_cast<int>(number);

@@ -22,8 +22,9 @@ struct Share {
     all += more.all;
   }
   std::string percent() const {
-    constexpr double kHundred = 100;
-    return all == 0 ? "" : fmt::format("{:.1f} %", kHundred * static_cast<double>(reached) / static_cast<double>(all));
+    constexpr std::size_t kAll = 1000, kWhole = 10;
+    const std::size_t share = all == 0 ? 0 : kAll * reached / all;  // rounded down: 100.0 is all
+    return all == 0 ? "" : fmt::format("{}.{} %", share / kWhole, share % kWhole);
   }
 };
 

@@ -118,5 +118,13 @@ TEST(Reached, FilesBelowThisFolderAreNamedFromHere) {
   EXPECT_THAT(tb::coverage::tsv({{here, {{{1, 1}}, {}, {}}}}), HasSubstr("\nrtl/b.sv\t1\t1\t"));
 }
 
+TEST(Reached, IsAHundredPerCentOnlyWhereNothingIsMissing) {
+  Files files;
+  for (int line = 1; line <= 10000; ++line) files["a.sv"].lines[line] = line == 1 ? 0 : 1;
+  EXPECT_THAT(html(files), HasSubstr("<td>9999 of 10000</td><td>99.9 %</td>"));
+  files["a.sv"].lines[1] = 1;
+  EXPECT_THAT(html(files), HasSubstr("<td>10000 of 10000</td><td>100.0 %</td>"));
+}
+
 }  // namespace
 }  // namespace dsdpv1
