@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 using tb::regress::Run;
 
 constexpr const char* kStimulus = ".stimulus";
-constexpr std::uint64_t kPiece = 2'500'000;  // cycles of a run of random cases: less than a minute or two
+constexpr std::uint64_t kPiece =
+    10'000'000;  // cycles of a run of random cases: a minute or two; its first cases are the led ones
 
 class VerifyRtl : public Command {
  public:
