@@ -23,7 +23,7 @@ runs() {
       end=$(sed -n 's/^end: *\([0-9]*\)ms$/\1/p' "$scenario")
       if [ "${end:-$end_before_ms}" -lt "$end_before_ms" ]; then echo "run $scenario --engine lockstep"; fi
     done
-    for seed in 1 2; do echo "rtl-random --cycles 4000000 --seed $seed --jobs 1"; done
+    for seed in 1 2 3; do echo "rtl-random --cycles 4000000 --seed $seed --jobs 1"; done
   fi
   for stimulus in tests/cosim/stimuli/"$1"/*.stimulus; do echo "rtl-random --chip $1 --replay $stimulus"; done
 }
