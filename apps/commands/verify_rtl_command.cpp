@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 using tb::regress::Run;
 
 constexpr const char* kStimulus = ".stimulus";
-constexpr std::uint64_t kPiece =
-    10'000'000;  // cycles of a run of random cases: a minute or two; its first cases are the led ones
+// Cycles of a run of random cases, a minute or two. It begins with the led ones, so a short run has hardly any others.
+constexpr std::uint64_t kPiece = 10'000'000;
 
 class VerifyRtl : public Command {
  public:
