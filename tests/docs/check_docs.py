@@ -10,7 +10,7 @@
     check_docs.py bare             the times in README.md are those of docs/trust/bare.tsv, and its commands those that were measured
     check_docs.py update_bare      writes these times again
     check_docs.py packages         the tables of docs/install.md are those of packages.txt and ./run deps --commands
-    check_docs.py marks            each ruling of docs/chip.md and chip_rsu.md has its anchor and one mark, which says how far the documents support it
+    check_docs.py marks            each ruling of docs/chip.md, chip_rsu.md and spc3.md has its anchor and one mark, which says how far the documents support it
     check_docs.py house            docs/img/house.svg is drawn from the table of arrows in docs/architecture.md
     check_docs.py picture SIM      docs/img/power_on_12m.svg and handshake.svg are drawn from what dsdpv1-sim writes
     check_docs.py update SIM       writes the figures of README.md, the pictures and the tables again
@@ -372,7 +372,7 @@ MARKS = ("documented", "documented in part", "firmware", "departed", "silent")
 
 
 def check_marks(root):
-    for path in sorted((root / "docs").glob("chip*.md")):
+    for path in sorted([*(root / "docs").glob("chip*.md"), *(root / "docs").glob("spc3.md")]):
         text = path.read_text(encoding="utf-8")
         for ruling in RULING.finditer(text):
             name, anchor, mark = ruling.groups()
