@@ -8,7 +8,7 @@ trap 'rm -rf "$folder"' EXIT
 
 fail() {
   echo "$1" >&2
-  cat "$folder"/* >&2
+  cat "$folder"/{out,err,gdb} >&2 || true  # dp is a terminal, without an end
   exit 1
 }
 
@@ -24,7 +24,7 @@ start() {
 
 start run scenarios/arm_board_12m.yaml --no-progress
 
-gdb-multiarch -nx -batch -ex "target remote localhost:$port" -ex 'break dsdpv1_initialise' -ex continue \
+gdb-multiarch -nx -batch -ex 'set remotetimeout 60' -ex "target remote localhost:$port" -ex 'break dsdpv1_initialise' -ex continue \
   -ex 'print config->address' -ex stepi -ex 'monitor time' \
   -ex 'x/1bx 0x60000004' -ex 'x/4bx 0x60000000' -ex 'x/1wx 0x40021004' -ex 'x/1wx 0x40012008' -ex 'x/1wx 0xA0000004' -ex 'monitor time' -ex kill "$firmware" >"$folder/gdb" 2>&1 || fail "gdb failed"
 status=0
@@ -42,7 +42,7 @@ grep -q '^0xa0000004:.*0x00000501' "$folder/gdb" || fail "gdb did not read FSMC_
 grep -q 'INTERRUPTED' "$folder/out" || fail "the run does not say that it was interrupted"
 
 start serve scenarios/arm_board_12m.yaml --pty "$folder/dp" --for 100ms
-gdb-multiarch -nx -batch -ex "target extended-remote localhost:$port" -ex load -ex start -ex detach "$firmware" >"$folder/gdb" 2>&1 || fail "gdb failed"
+gdb-multiarch -nx -batch -ex 'set remotetimeout 60' -ex "target extended-remote localhost:$port" -ex load -ex start -ex detach "$firmware" >"$folder/gdb" 2>&1 || fail "gdb failed"
 status=0
 wait "$run" || status=$?
 grep -q 'Transfer rate' "$folder/gdb" || fail "gdb did not load"
