@@ -225,7 +225,7 @@ function(dsdpv1_install_docs)
   # Sources used by firmware, for the example and for products.
   install(DIRECTORY driver DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs
           FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "systemc" EXCLUDE)
-  install(FILES registers/dsdpv1_regs.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/registers COMPONENT docs)
+  install(FILES registers/dsdpv1_regs.h registers/spc3_regs.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/registers COMPONENT docs)
   install(FILES board/firmware/mailbox.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/board/firmware COMPONENT docs)
   dsdpv1_install_former_header(docs ${DSDPV1_INSTALL_DATADIR} tb/dsdpv1/user_cpu/arm/mailbox.h board/firmware/mailbox.h)
 endfunction()

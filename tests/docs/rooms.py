@@ -30,7 +30,7 @@ FORBIDDEN = [
 CHIP_ROOMS = ["kinds", "capi", "driver", "examples", "bindings", "include", "model", "registers"]
 GENERAL_ROOMS = ["board", "bus", "cosim", "io", "lab", "tb", "apps"]
 NO_ROOMS = ["build", "out", "rtl_ref", "tests"]
-A_CHIP = r"\bdsdpv1::(?=k?[A-Z])|\bdpram::|\bmailbox::|model/(dsdpv1|dpram)|\bPin::k|\bAccessTiming|\bregs::|registers/dsdpv1"
+A_CHIP = r"\bdsdpv1::(?=k?[A-Z])|\bdpram::|\bmailbox::|model/(dsdpv1|dpram)|\bPin::k|\bAccessTiming|\bregs::|registers/(dsdpv1|spc3)"
 ITS_CELLS = r"\bB[0-7][0-9A-F]{2}\b|\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0)\b"
 # Files of these rooms that name the DSDPV1 for now, by the step that ends it (docs/architecture.md); and those that may for good.
 NAME_A_CHIP = {

@@ -25,7 +25,7 @@ FITS_STRICT = {STRICT, "GPL-2.0-or-later", "LGPL-2.1-or-later", "GPL-2.0-only WI
                "Artistic-2.0", "MIT", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Zlib", "BSL-1.0", "bzip2-1.0.6", "LicenseRef-Public-Domain"}
 ALONE = ("bindings", "driver", "examples", "include", "registers", "rtl_ref", "share")
 ALONE_SUFFIXES = (".c", ".h", ".ld", ".cpp", ".sv", ".svh", ".rdl", ".lua", ".py", ".sh", ".cmake")
-NEVER_ALONE = ("dsdpv1_regs.hpp",)
+NEVER_ALONE = ("dsdpv1_regs.hpp", "spc3_regs.hpp")
 # REUSE-IgnoreStart
 HEAD_LINE = r"(?:/\*|//|#|--) SPDX-"
 # REUSE-IgnoreEnd

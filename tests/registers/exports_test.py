@@ -22,7 +22,7 @@ from systemrdl import RDLCompiler
 
 HERE, ROOT = Path(__file__).resolve().parent, Path(sys.argv.pop())
 PYTHON = sys.argv.pop()
-CHIPS = ("dsdpv1", "dsdpv1_r", "dsdpv1_rsu")
+CHIPS = {"dsdpv1": (), "dsdpv1_r": (), "dsdpv1_rsu": ("rsu",), "apc3": (), "spc3": ("spc3",), "vpc3": ("spc3", "vpc3")}  # what each has beside all
 BASE = 0x6000_0000
 
 
@@ -37,7 +37,8 @@ class Register(NamedTuple):
     address: int
     width: int
     count: int  # of an array, else 0
-    written: bool  # by the user; it reads all
+    rights: str  # the user's: R, W, RW
+    command: bool  # a read is one
     bits: dict  # by name
 
 
@@ -54,21 +55,35 @@ def export(kind, chip, *words):
 def source(chip):
     """The registers by path."""
     compiler = RDLCompiler()
-    compiler.compile_file(str(ROOT / "registers" / "dsdpv1.rdl"))
-    found, has = {}, lambda node: node.get_property("only") in (None, chip.removeprefix("dsdpv1_"))
+    compiler.compile_file(str(ROOT / "registers" / ("dsdpv1.rdl" if chip.startswith("dsdpv1") else "spc3.rdl")))
+    found, has = {}, lambda node: node.get_property("only") in (None, *CHIPS[chip])
     for register in compiler.elaborate().top.descendants(unroll=False):
         if type(register).__name__ != "RegNode" or not has(register) or not any(f.is_hw_readable or f.is_hw_writable for f in register.fields()):
             continue
         bits = {f.inst_name: Bits(f.low, f.width, f.get_property("reset"), f.get_property("set_by") or "") for f in register.fields() if has(f)}
         path = register.get_path(array_suffix="", empty_array_suffix="").split(".", 1)[1]
         found[path] = Register(register.raw_absolute_address, register.get_property("regwidth"), register.array_dimensions[0] if register.is_array else 0,
-                               any(f.is_sw_writable for f in register.fields()), bits)
+                               rights_in(register), any(f.get_property("onread") for f in register.fields()), bits)
     return found
+
+
+def rights_in(register):
+    fields = list(register.fields())
+    return "R" * any(f.is_sw_readable for f in fields) + "W" * any(f.is_sw_writable for f in fields)
 
 
 def flag_of(description):
     found = re.search(r"Flag: the (\w+) sets it", description or "")
     return found[1] if found else ""
+
+
+RIGHTS = {"read-only": "R", "write-only": "W", "read-write": "RW", "RO": "R", "WO": "W", "RW": "RW"}
+
+
+def of_all(values):
+    """The only value."""
+    value, = set(values)
+    return value
 
 
 # ------------------------------------------------------------------------------------------------------------- IP-XACT
@@ -87,8 +102,9 @@ def from_ipxact(text):
     for block in component.memoryMaps.memoryMap[0].addressBlock:
         for register in block.register:
             bits = {f.name: Bits(f.bitOffset, f.bitWidth, f.resets.reset.value, flag_of(f.description)) for f in register.field}
-            path = ("" if block.name == "status" else block.name + ".") + register.name
-            found[path] = Register(block.baseAddress + register.addressOffset, register.size, int(register.dim or 0), {f.access for f in register.field} == {"read-write"}, bits)
+            path = ("" if block.name in ("status", "buffers") else block.name + ".") + register.name
+            found[path] = Register(block.baseAddress + register.addressOffset, register.size, int(register.dim or 0),
+                                   of_all((RIGHTS[f.access] for f in register.field)), of_all((f.readAction == "modify" for f in register.field)), bits)
             assert register.addressOffset + max(1, found[path].count) * register.size // 8 <= block.range, path
     return found
 
@@ -105,14 +121,15 @@ def svd_register(item, path, base):
     first = elements[0]
     assert [each.address_offset - first.address_offset for each in elements] == [index * first.size // 8 for index in range(len(elements))], path
     bits = {f.name: Bits(f.bit_offset, f.bit_width, first.reset_value >> f.bit_offset & (1 << f.bit_width) - 1, flag_of(f.description)) for f in first.fields}
-    return Register(base + first.address_offset, first.size, len(elements) if elements != [item] else 0, {f.access.value for f in first.fields} == {"read-write"}, bits)
+    return Register(base + first.address_offset, first.size, len(elements) if elements != [item] else 0,
+                    of_all(RIGHTS[f.access.value] for f in first.fields), of_all(f.read_action is not None for f in first.fields), bits)
 
 
 def from_svd(text):
     peripheral = from_file(text, SVDParser.for_xml_file).get_device().peripherals[0]
     found = {}
     for each in peripheral.registers:
-        inside = getattr(each, "registers", None)  # of a cluster, whose name the reader puts in front of theirs
+        inside = None if hasattr(each, "meta_register") else getattr(each, "registers", None)  # of a cluster, whose name the reader puts in front of theirs
         for item in inside or [each]:
             name = getattr(item, "meta_register", item).name.removeprefix(each.name + "_" if inside else "").removesuffix("[%s]")
             path = f"{each.name}.{name}" if inside else name
@@ -215,10 +232,11 @@ def from_ral(text, chip):
             inside = Build(classes[kind])
             assert {inside.places[each] for each in inside.fields} == {rights}, name
             assert all((inside.names[each][1] == f"{chip}_flag") == bool(bits.set_by) for each, bits in inside.fields.items()), name
-            found[prefix + name.removesuffix("[%0d]")] = Register(base + offset, width_of(classes[kind]), build.sizes.get(variable, 0), rights == "RW",
-                                                                  {inside.names[each][0]: bits for each, bits in inside.fields.items()})
+            found[prefix + name.removesuffix("[%0d]")] = Register(base + offset, width_of(classes[kind]), build.sizes.get(variable, 0), RIGHTS[rights],
+                                                                  kind in commands, {inside.names[each][0]: bits for each, bits in inside.fields.items()})
 
-    add(f"{chip}_dpram", "", 0)
+    commands = re.findall(r"^  class (\w+) extends uvm_reg;\n.*\n    // .* A read is a command\.$", text, re.M)
+    add(f"{chip}_dpram" if chip.startswith("dsdpv1") else f"{chip}_map", "", 0)
     return found
 
 
@@ -233,6 +251,11 @@ class Exports(unittest.TestCase):
         self.assertEqual(source("dsdpv1")["chip_command_1"].bits["prm"], Bits(1, 1, 0, "chip"))
         self.assertEqual(source("dsdpv1")["version_year"].bits["value"].reset, 0x0D)
         self.assertNotIn("v1_init_crc", source("dsdpv1")["chip_status_2"].bits)
+        self.assertEqual([path for path, each in source("apc3").items() if each.command],
+                         ["new_din", "next_dout", "new_diag", "prm_ok", "prm_not_ok", "cfg_ok", "cfg_not_ok", "ssa_free"])
+        self.assertNotIn("user_timer", source("apc3")["irr"].bits)
+        self.assertIn("user_timer", source("spc3")["irr"].bits)
+        self.assertEqual(set(source("vpc3")) - set(source("spc3")), {"mode_0_read", "mode_1_read", "mode_2", "mode_3", "buffers_vpc3"})
 
     def test_ipxact_is_the_source(self):
         for chip in CHIPS:
@@ -277,7 +300,7 @@ class Exports(unittest.TestCase):
             self.assertEqual(os.listdir(folder), ["dsdpv1.svd"])
 
     def test_wrong_arguments_are_exit_code_2(self):
-        for words, said in ((("--format", "vhdl"), "invalid choice"), ((), "--format"), (("--format", "svd", "--base", "0xFFFFFFFF"), "--base"),
+        for words, said in ((("--format", "vhdl"), "invalid choice"), ((), "--format"), (("--format", "svd", "--chip", "spc4"), "invalid choice"), (("--format", "svd", "--base", "0xFFFFFFFF"), "--base"),
                             (("--format", "svd", "--out", "/no/such/folder/x"), "registers: /no/such/folder/x.new: No such file or directory")):
             done = run(*words)
             self.assertEqual(done.returncode, 2)

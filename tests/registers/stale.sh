@@ -5,8 +5,8 @@ python=$1 root=$2
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 mkdir -p "$copy/registers" "$copy/docs"
-cp "$root"/registers/{generate.py,dsdpv1.rdl,dsdpv1_regs.*} "$copy/registers"
-cp "$root/docs/registers.md" "$copy/docs"
+cp "$root"/registers/{generate.py,*.rdl,*_regs.*} "$copy/registers"
+cp "$root"/docs/registers*.md "$copy/docs"
 
 check() { "$python" "$copy/registers/generate.py" --check; }
 
@@ -21,7 +21,7 @@ finds_stale() {
 }
 
 check
-for file in registers/dsdpv1_regs.hpp registers/dsdpv1_regs.h registers/dsdpv1_regs.svh docs/registers.md; do
+for file in registers/{dsdpv1_regs.{hpp,h,svh},spc3_regs.{hpp,h}} docs/registers{,_spc3}.md; do
   sed -i 's/Generated from/Made from/' "$copy/$file"
   finds_stale "$file"
   "$python" "$copy/registers/generate.py" >/dev/null
