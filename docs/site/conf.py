@@ -35,7 +35,7 @@ nitpick_ignore_regex = [("c:identifier", r"u?int\d+_t|size_t|bool|dsdpv1_link"),
 
 
 CODE = re.compile(r"\b[A-Z]{1,2}\d+\b")
-RULINGS = {code: page for page in ("docs/chip", "docs/chip_rsu")
+RULINGS = {code: page for page in ("docs/chip", "docs/chip_rsu", "docs/spc3")
            for code in re.findall(r"^- \*\*([A-Z]{1,2}\d+)\*\*", (ROOT / f"{page}.md").read_text(encoding="utf-8"), re.M)}
 
 
