@@ -1,4 +1,4 @@
-"""The C driver under the required and mandatory rules of MISRA C:2012 that cppcheck's addon knows: misra_deviations.txt explains each report.
+"""The C drivers under the required and mandatory rules of MISRA C:2012 that cppcheck's addon knows: misra_deviations.txt explains each report.
 
 The numbers of the rules and their categories are facts of the standard; its texts may not be copied, so none is here.
 """
@@ -84,13 +84,13 @@ def told(folder, *words):
 
 
 def cppcheck():
-    """The addon's reports on the driver, for an int of 32 bits: on each file, and on all together. Only a call by cppcheck itself checks all
+    """The addon's reports on the drivers, for an int of 32 bits: on each file, and on all together. Only a call by cppcheck itself checks all
     together, but passes on only one of several reports about a line."""
     options = ("cppcheck", "--std=c99", "--platform=unix32", "--quiet", "-I.")
     with tempfile.TemporaryDirectory() as folder:
         for part in ("driver", "registers"):
             shutil.copytree(ROOT / part, pathlib.Path(folder, part), ignore=shutil.ignore_patterns("*.py", "systemc"))
-        sources = [f"driver/{source.name}" for source in sorted((ROOT / "driver").glob("*.c"))]
+        sources = [source.relative_to(ROOT).as_posix() for folder in ("driver", "driver/spc3") for source in sorted((ROOT / folder).glob("*.c"))]
         told(folder, *options, "--dump", *sources)
         alone = told(folder, sys.executable, str(addon()), "--no-summary", *(f"{source}.dump" for source in sources))
         return alone + told(folder, *options, "--addon=misra", "--enable=style", "--template=[{file}:{line}] [{id}]", *sources)

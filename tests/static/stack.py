@@ -1,4 +1,4 @@
-"""How deep the C driver's stack is on a Cortex-M3, for each public function and port: from GCC's own figures for each function, and its graph of calls.
+"""How deep the C drivers' stack is on a Cortex-M3, for each public function and port: from GCC's own figures for each function, and its graph of calls.
 
 The target of a call by pointer is found in the source: `link` and `wire` point to functions of the port's file, all other pointers to functions of
 the application.
@@ -17,9 +17,10 @@ COMPILER = ("arm-none-eabi-gcc", "-mcpu=cortex-m3", "-mthumb", "-std=c99", "-ffr
             "-fcallgraph-info=su", "-c")
 LEVELS = ("-Os", "-O2")
 PORTS = ("parallel", "spi", "uart")
+PARALLEL = PORTS[:1]
 LIBRARY = ("memcpy", "memset", "memmove", "strlen")
 OF_PORT = ("link", "wire")  # what points to functions of the port's file
-JUDGES = {"prm", "cfg", "handler"}  # functions of the application that are not its port's
+JUDGES = {"prm", "cfg", "handler", "address", "control"}  # functions of the application that are not its port's
 INDIRECT = "__indirect_call"
 
 
@@ -116,19 +117,19 @@ class Depths:
 def public_functions():
     """The functions that the headers declare for applications, each with its ports."""
     found = {}
-    for header in ("dsdpv1.h", "dsdpv1_acyclic.h", "dsdpv1_spi.h", "dsdpv1_uart.h"):
+    for header in ("dsdpv1.h", "dsdpv1_acyclic.h", "dsdpv1_spi.h", "dsdpv1_uart.h", "spc3/spc3.h"):
         text = re.sub(r"/\*.*?\*/", "", (DRIVER / header).read_text(encoding="utf-8"), flags=re.S)
-        ports = tuple(port for port in PORTS if header.endswith(f"_{port}.h")) or PORTS
-        found |= {name: ports for name in re.findall(r"^[\w* ]+?\b(dsdpv1_\w+)\([^()]*\);", text, re.M)}
+        ports = PARALLEL if header == "spc3/spc3.h" else tuple(port for port in PORTS if header.endswith(f"_{port}.h")) or PORTS
+        found |= {name: ports for name in re.findall(r"^[\w* ]+?\b((?:dsdpv1|spc3)_\w+)\([^()]*\);", text, re.M)}
     return found
 
 
 def build(level):
     graph = Graph()
     with tempfile.TemporaryDirectory() as folder:
-        for source in sorted(DRIVER.glob("*.c")):
+        for source in [*sorted(DRIVER.glob("*.c")), *sorted((DRIVER / "spc3").glob("*.c"))]:
             target = pathlib.Path(folder, source.stem + ".o")
-            subprocess.run([*COMPILER, level, f"driver/{source.name}", "-o", target], cwd=ROOT, check=True)
+            subprocess.run([*COMPILER, level, source.relative_to(ROOT), "-o", target], cwd=ROOT, check=True)
             graph.read(target.with_suffix(".ci").read_text(encoding="utf-8"))
     return graph
 
