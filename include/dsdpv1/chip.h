@@ -81,9 +81,9 @@ enum {
 
 /** A parameter of the chip that the rulings mark (p). The DSDPV1 has access_interval (H1), ready_cycles (D1),
  * rts_lead and rts_trail (P2), intr_low and intr_gap (P7), search_window_ms, search_window_bits and baud_control_ms
- * (S1), fcb_rule (S26: 0 letter, 1 content). The DSDPV1-RSU adds those of docs/chip_rsu.md; each number of a list is one parameter: "uart_gaps[0]" to
- * "uart_gaps[7]". Its straps are not parameters but the pins MODE, ADR, UBR and UIV, although scenarios have keys
- * for them (mode, address, uart_rate, interval). */
+ * (S1), fcb_rule (S26: 0 letter, 1 content). The DSDPV1-RSU adds those of docs/chip_rsu.md; each number of a list is
+ * one parameter: "uart_gaps[0]" to "uart_gaps[7]". Its straps are not parameters but the pins MODE, ADR, UBR and UIV,
+ * although scenarios have keys for them (mode, address, uart_rate, interval). */
 typedef struct dpsim_parameter_info {
   uint32_t size;
   const char* name;        /**< the key in a scenario's `chip` */
