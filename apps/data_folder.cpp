@@ -25,4 +25,10 @@ std::string data_folder() {
 
 std::string golden_folder() { return fs::path(data_folder()) / "traces"; }
 
+std::vector<std::string> ruling_documents(const std::string& chip) {
+  const fs::path docs = fs::path(data_folder()) / "docs";
+  if (chip == "dsdpv1") return {docs / "chip.md"};
+  return {docs / "chip.md", docs / "chip_rsu.md"};
+}
+
 }  // namespace dsdpv1::app

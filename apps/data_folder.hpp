@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 namespace dsdpv1::app {
 
@@ -10,5 +11,8 @@ std::string data_folder();
 
 /// The folder in it with the golden traces.
 std::string golden_folder();
+
+/// The documents in it with the rulings of a kind of chip.
+std::vector<std::string> ruling_documents(const std::string& chip);
 
 }  // namespace dsdpv1::app

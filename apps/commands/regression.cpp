@@ -256,10 +256,8 @@ cosim::Seen seen_of(const Run& run, const Json& json) {
 
 /// The same of the rulings, by the runs with the RTL.
 std::string write_rulings(const Description& description, const Folder& folder) {
-  const fs::path docs = fs::path(data_folder()) / "docs";
-  std::vector<std::string> documents = {docs / "chip.md"};
-  if (description.rtl.chip != RtlChip().chip) documents.push_back(docs / "chip_rsu.md");
-  cosim::RulingCoverage rulings(*tb::find_chip_kind(description.rtl.chip), documents);
+  const std::string& chip = description.rtl.chip;
+  cosim::RulingCoverage rulings(*tb::find_chip_kind(chip), ruling_documents(chip));
   std::vector<std::string> names;
   for (const Run& run : description.plan.runs) {
     const Json seen = run.has_own_rtl() ? folder.seen(run) : Json();

@@ -11,6 +11,7 @@
 
 #include "apps/commands/command.hpp"
 #include "apps/commands/rtl_random.hpp"
+#include "apps/data_folder.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/options/common.hpp"
 #include "apps/options/outputs.hpp"
@@ -321,7 +322,8 @@ int rtl_random(const RtlRandomArguments& arguments) {
   StimulusOutputs outputs(arguments);
   cosim::StimulusResult result;
   result.kind = &arguments.chip.kind();
-  result.chip = bench.options.chip;
+  result.mode = arguments.chip.mode;
+  result.documents = ruling_documents(result.kind->name());
   result.rtl = arguments.own.rtl;
   result.fault = arguments.fault;
   result.seed = arguments.seed;

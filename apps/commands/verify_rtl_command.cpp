@@ -70,8 +70,10 @@ class VerifyRtl : public Command {
     description.rtl = rtl_of_regression(own_, chip_.kind().name());
     for (const std::string& word : only_)
       check_word("dsdpv1-sim verify-rtl: --only", word, {"scenarios", "goldens", "stimuli", "random"});
+    map_ = own_map(own_, chip_.kind());
     check_settings();
     take_names();
+    if (wants("goldens") || (wants("scenarios") && scenarios_.empty())) shipped_ = shipped();
     std::vector<Run>& runs = description.plan.runs;
     if (wants("scenarios")) add_scenarios(runs);
     if (wants("goldens")) add_goldens(runs);
@@ -82,6 +84,11 @@ class VerifyRtl : public Command {
   }
 
  private:
+  struct Shipped {
+    std::string file;
+    std::string not_run;  ///< why not; empty: it is
+  };
+
   bool wants(const char* what) const {
     return only_.empty() || std::find(only_.begin(), only_.end(), what) != only_.end();
   }
@@ -90,8 +97,8 @@ class VerifyRtl : public Command {
   void check_settings() const {
     if (!set_.empty() && !wants("stimuli") && !wants("random"))
       throw tb::InputError("dsdpv1-sim verify-rtl: --set is for stimuli and random, expected one of them in --only");
-    cosim::check_parameters({"dsdpv1-sim verify-rtl", own_.rtl, own_.top, own_.build, {}}, own_map(own_, chip_.kind()),
-                            chip_.kind(), *cosim::chip_settings(chip_.kind(), set_));
+    cosim::check_parameters({"dsdpv1-sim verify-rtl", own_.rtl, own_.top, own_.build, {}}, map_, chip_.kind(),
+                            *cosim::chip_settings(chip_.kind(), set_));
   }
 
   /// One that cannot be read passes: its run says why.
@@ -122,49 +129,48 @@ class VerifyRtl : public Command {
   }
 
   /// Those of this program and of the chip. One that cannot be read is listed, with the reason.
-  std::vector<std::string> shipped() const {
-    std::vector<std::string> files = shipped_scenarios();
-    const auto is_other = [this](const std::string& file) {
+  std::vector<Shipped> shipped() const {
+    std::vector<Shipped> all;
+    for (const std::string& file : shipped_scenarios()) {
       try {
-        return tb::scenario::load(file).kind != &chip_.kind();
-      } catch (const tb::InputError&) {
-        return false;
+        const tb::scenario::Scenario scenario = tb::scenario::load(file);
+        if (scenario.kind == &chip_.kind()) all.push_back({file, why_not(*scenario.chip)});
+      } catch (const tb::InputError& error) {
+        all.push_back({file, error.what()});
       }
-    };
-    files.erase(std::remove_if(files.begin(), files.end(), is_other), files.end());
-    return files;
+    }
+    return all;
   }
 
   void add_scenarios(std::vector<Run>& runs) const {
-    for (const std::string& file : scenarios_.empty() ? shipped() : scenarios_) {
-      if (!scenarios_.empty()) check_chip(file);
-      Run run{file, "cosim", "pins", "", {}};
-      if (scenarios_.empty()) run.not_run = why_not(file);
-      runs.push_back(run);
+    for (const std::string& file : scenarios_) {
+      check_chip(file);
+      runs.push_back({file, "cosim", "pins", "", {}});
+    }
+    if (!scenarios_.empty()) return;
+    for (const Shipped& each : shipped_) {
+      runs.push_back({each.file, "cosim", "pins", "", {}});
+      runs.back().not_run = each.not_run;
     }
   }
 
   void add_goldens(std::vector<Run>& runs) const {
-    const bool tolerant = has_tolerance(own_map(own_, chip_.kind()));
-    for (const std::string& file : shipped()) {
-      if (!names(file) || !fs::exists(tb::traces::manifest_path(golden_folder(), tb::traces::golden_name(file))))
+    const bool tolerant = has_tolerance(map_);
+    for (const Shipped& each : shipped_) {
+      if (!names(each.file) ||
+          !fs::exists(tb::traces::manifest_path(golden_folder(), tb::traces::golden_name(each.file))))
         continue;
-      Run run{file, "golden", "pins", "", {}};
-      run.not_run = tolerant ? "the map has a tolerance, goldens have none" : why_not(file);
-      runs.push_back(run);
+      runs.push_back({each.file, "golden", "pins", "", {}});
+      runs.back().not_run = tolerant ? "the map has a tolerance, goldens have none" : each.not_run;
     }
   }
 
-  /// Why a scenario of the program is not run; empty: it is.
-  std::string why_not(const std::string& scenario) const {
-    try {
-      const auto keys = cosim::untold(own_map(own_, chip_.kind()), chip_.kind(), *tb::scenario::load(scenario).chip);
-      if (keys.empty()) return "";
-      return fmt::format("chip.{} {} not the default here, and the map's chip: does not take {}",
-                         fmt::join(keys, ", chip."), keys.size() == 1 ? "is" : "are", keys.size() == 1 ? "it" : "them");
-    } catch (const tb::InputError& error) {
-      return error.what();
-    }
+  /// Why a scenario whose chip has these settings is not run; empty: it is.
+  std::string why_not(const tb::OwnSettings& chip) const {
+    const auto keys = cosim::untold(map_, chip_.kind(), chip);
+    if (keys.empty()) return "";
+    return fmt::format("chip.{} {} not the default here, and the map's chip: does not take {}",
+                       fmt::join(keys, ", chip."), keys.size() == 1 ? "is" : "are", keys.size() == 1 ? "it" : "them");
   }
 
   void add_stimuli(std::vector<Run>& runs) const {
@@ -194,6 +200,8 @@ class VerifyRtl : public Command {
 
   std::vector<std::string> names_, only_, set_;
   std::vector<std::string> scenarios_, stimuli_;  ///< in `names_`
+  std::vector<Shipped> shipped_;                  ///< as far as they are wanted
+  cosim::PinMap map_;
   OwnRtlArguments own_;
   RtlChip chip_;
   tb::regress::Description description_;  ///< coverage; all else is of carry_out

@@ -29,11 +29,6 @@ std::string title_of(const std::string& text) {
   return text.substr(0, text.rfind(' ', kMost)) + " ...";
 }
 
-std::size_t seen_of(const RulingCoverage::Ruling& ruling) {
-  return static_cast<std::size_t>(std::count_if(
-      ruling.items.begin(), ruling.items.end(), [](const auto& item) { return item.second != 0; }));
-}
-
 std::string not_seen(const RulingCoverage::Ruling& ruling, const char* separator) {
   std::string text;
   for (const auto& [item, count] : ruling.items)
@@ -157,8 +152,8 @@ std::string tsv(const RulingCoverage& coverage) {
   std::string text = "ruling\tplace\texercised\tcount\truns\titems seen\titems\toutput pins\ttitle\tnot seen\n";
   for (const RulingCoverage::Ruling& each : coverage.rulings())
     text += fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", each.name, tb::ruling_place(each.name),
-                        word_of(each), each.count(), each.runs.size(), seen_of(each), each.items.size(), each.pins,
-                        bus::printable(each.title), not_seen(each, "; "));
+                        word_of(each), each.count(), each.runs.size(), tb::coverage::reached_of(each.items),
+                        each.items.size(), each.pins, bus::printable(each.title), not_seen(each, "; "));
   return text;
 }
 
@@ -172,8 +167,8 @@ std::string html(const RulingCoverage& coverage, const std::vector<std::string>&
     for (const std::size_t run : each.runs) names += runs.at(run) + "\n";
     text += fmt::format("<tr><td>{} {}</td><td>{}{}</td><td>{}</td><td>{}{}</td><td>{} of {}{}</td></tr>\n", each.name,
                         escaped(each.title), word_of(each), each.items.empty() ? " " + each.pins : "", each.count(),
-                        each.runs.size(), details("which", names), seen_of(each), each.items.size(),
-                        details("not seen", not_seen(each, "\n")));
+                        each.runs.size(), details("which", names), tb::coverage::reached_of(each.items),
+                        each.items.size(), details("not seen", not_seen(each, "\n")));
   }
   return text + "</tbody>\n</table>\n";
 }

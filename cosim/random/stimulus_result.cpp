@@ -1,11 +1,8 @@
 #include "cosim/random/stimulus_result.hpp"
 
-#include <cctype>
 #include <map>
 
-#include "cosim/random/play_options.hpp"
-#include "cosim/random/random_cases.hpp"
-#include "tb/bench/ruling_place.hpp"
+#include "cosim/random/ruling_coverage.hpp"
 #include "tb/report/fields.hpp"
 #include "tb/report/result_fields.hpp"
 
@@ -55,24 +52,16 @@ Json situations_of(const StimulusResult& result) {
   return groups;
 }
 
-/// "S6", where a clause is "T19-4" or "4.1.1-7".
-bool is_ruling(const std::string& name) {
-  return std::isupper(static_cast<unsigned char>(name.front())) != 0 && name.find_first_of("-. ") == std::string::npos;
-}
-
 /// The rulings of the events and situations that occurred.
 Json rulings_of(const StimulusResult& result) {
-  std::map<std::string, std::uint64_t> counts;
-  const auto add = [&counts](const std::string& names, std::uint64_t times) {
-    for (const std::string& name : tb::names_of(names))
-      if (times != 0 && is_ruling(name)) counts[name] += times;
-  };
-  const bool has_states = !result.situations.counts().empty();  // which say from where to where
+  Seen seen{{}, result.situations, result.mode};
   for (const profibus::Reason reason : result.kind->reasons())
-    if (!has_states || reason != profibus::Reason::kDpState) add(reason.row().source, result.coverage.count(reason));
-  const auto chip = result.chip != nullptr ? result.chip : usual_options(*result.kind).chip;
-  for (const auto& [each, times] : result.situations.counts())
-    if (each.first != "events") add(result.kind->random()->rulings_of(each, *chip), times);
+    seen.codes[profibus::code(reason)] = result.coverage.count(reason);
+  RulingCoverage coverage(*result.kind, result.documents);
+  coverage.add(0, seen);
+  std::map<std::string, std::uint64_t> counts;
+  for (const RulingCoverage::Ruling& each : coverage.rulings())
+    if (each.count() != 0) counts[each.name] = each.count();
   Json rulings = Json::object();
   for (const auto& [name, times] : counts) rulings[name] = times;
   return rulings;

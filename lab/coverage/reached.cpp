@@ -106,13 +106,6 @@ void add_record(Files& files, Fields& fields, Count count, const Numbers& number
 
 // --- lcov ------------------------------------------------------------------------------------------------------------
 
-template <class Map>
-std::size_t hit(const Map& counts) {
-  std::size_t sum = 0;
-  for (const auto& each : counts) sum += each.second != 0 ? 1 : 0;
-  return sum;
-}
-
 /// Names of points for lcov, to which one of a file is as good as another of this name.
 std::vector<std::string> names_of(const Reached& reached) {
   std::vector<std::string> names;
@@ -133,7 +126,7 @@ std::string lcov(const std::string& path, const Reached& reached) {
   std::string text = "SF:" + path + "\n";
   const std::vector<std::string> names = names_of(reached);
   const auto total = [&text](const char* kind, const auto& counts) {
-    if (!counts.empty()) text += fmt::format("{0}F:{1}\n{0}H:{2}\n", kind, counts.size(), hit(counts));
+    if (!counts.empty()) text += fmt::format("{0}F:{1}\n{0}H:{2}\n", kind, counts.size(), reached_of(counts));
   };
   auto name = names.begin();
   for (const auto& [point, count] : reached.points) text += fmt::format("FN:{},{}\n", point.first, *name++);
@@ -145,7 +138,7 @@ std::string lcov(const std::string& path, const Reached& reached) {
                         static_cast<int>(std::get<2>(branch)), count);
   total("BR", reached.branches);
   for (const auto& [line, count] : reached.lines) text += fmt::format("DA:{},{}\n", line, count);
-  return text + fmt::format("LF:{}\nLH:{}\nend_of_record\n", reached.lines.size(), hit(reached.lines));
+  return text + fmt::format("LF:{}\nLH:{}\nend_of_record\n", reached.lines.size(), reached_of(reached.lines));
 }
 
 /// A tracefile is read line by line; the counts of a file's points come after all their lines.
@@ -157,6 +150,7 @@ class Reader {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string word = text.substr(0, colon), rest = text.substr(std::min(colon + 1, text.size()));
     if (word == "SF") begin(rest);
+    if (word == "end_of_record") reached_ = nullptr;
     if (word != "FN" && word != "FNDA" && word != "DA" && word != "BRDA") return;  // TN, sums, the end
     const std::size_t comma = rest.find(',');
     if (reached_ == nullptr || comma == std::string::npos) numbers.fail();

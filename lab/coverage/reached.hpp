@@ -1,6 +1,8 @@
 #pragma once
 // Lines, branches and named points of some files that runs have reached. The points are bits of RTL that changed, or
 // what exercises a ruling in its document. As text it is a tracefile of lcov.
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -27,6 +29,13 @@ struct Reached {
 };
 /// By path.
 using Files = std::map<std::string, Reached>;
+
+/// How many of these counts are not 0.
+template <class Counts>
+std::size_t reached_of(const Counts& counts) {
+  return static_cast<std::size_t>(std::count_if(
+      counts.begin(), counts.end(), [](const auto& each) { return each.second != 0; }));
+}
 
 void add(Files& sum, const Files& more);
 

@@ -38,10 +38,9 @@ struct Shares {
   }
 };
 
-template <class Map>
-Share share_of(const Map& counts) {
-  const auto is_reached = [](const auto& each) { return each.second != 0; };
-  return {static_cast<std::size_t>(std::count_if(counts.begin(), counts.end(), is_reached)), counts.size()};
+template <class Counts>
+Share share_of(const Counts& counts) {
+  return {reached_of(counts), counts.size()};
 }
 
 Shares shares_of(const Reached& file) { return {share_of(file.lines), share_of(file.branches), share_of(file.points)}; }

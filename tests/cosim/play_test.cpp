@@ -121,6 +121,7 @@ TEST(StimulusResult, CountsTheRulingsOfEventsAndSituations) {
   result.coverage.add(profibus::Reason::kPrmIdent, 3);
   result.situations.add({"Sync and Freeze", "Sync: Freeze"}, 2);
   result.situations.add({"events", "PRM_IDENT"}, 3);  // the same ones
+  result.documents = {DSDPV1_SOURCE_DIR "/docs/chip.md"};
   EXPECT_EQ(nlohmann::json::parse(cosim::result_json(result))["coverage"]["rulings"],
             nlohmann::json({{"S27", 2}, {"S4", 2}, {"S6", 3}}))
       << "T19-4 is a clause";

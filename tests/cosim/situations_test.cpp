@@ -71,6 +71,13 @@ TEST(Situations, OfATelegramAreTheErrorsThatItCanHave) {
   EXPECT_FALSE(is_known({"telegrams of the host", "read and write, code 02"}, kSides[2]));
 }
 
+/// A configuration longer than 200 bytes, in the states in which Chk_Cfg is served (S14).
+TEST(Situations, OfChkCfgIncludeThatItIsTooLong) {
+  EXPECT_FALSE(is_known({"services", "Chk_Cfg in WAIT_PRM: RR"}));
+  EXPECT_TRUE(is_known({"services", "Chk_Cfg in WAIT_CFG: RR"}));
+  EXPECT_TRUE(is_known({"services", "Chk_Cfg in DATA_EXCH: RR"}));
+}
+
 TEST(Situations, OfAnEventAreWhatTheRulingTellsApart) {
   const auto item = [](Reason reason, std::uint16_t a, std::uint16_t b = 0, std::uint16_t c = 0) {
     return event_item({0, reason, a, b, c}, "WAIT_CFG");

@@ -132,7 +132,7 @@ Words services() {
       {"Get_Cfg", {"data,SC,RR", "data,SC,RR", "data,RR"}},
       {"Slave_Diag", {"data,RR", "data,RR", "data,RR"}},
       {"Set_Prm", {"SC,RS", "SC,RS", "SC,RS"}},
-      {"Chk_Cfg", {"RS", "SC,RS", "SC,RS"}},
+      {"Chk_Cfg", {"RS", "SC,RR,RS", "SC,RR,RS"}},
       {"SRD to SAP 58", {"RS", "RS", "RS"}},
       {"C1", {"RS", "RS", "data,SC,RR,RS"}},
       {"Initiate", {"data,RS,SC", "data,RS,SC", "data,RS,SC"}},

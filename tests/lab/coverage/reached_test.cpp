@@ -98,6 +98,7 @@ TEST(Reached, OtherTextIsRefusedWithItsLine) {
   for (const char* text : {"TN:\nDA:1,1\n", "SF:a\nDA:1\n", "SF:a\nDA:b,1\n", "SF:a\nFNDA:1,q\n",
                            "SF:a\nBRDA:1,1,9,1\n", "SF:a\nBRDA:1,1\n"})
     EXPECT_THAT(error_of(of_lcov, text), HasSubstr("x:2: expected a tracefile")) << text;
+  EXPECT_THAT(error_of(of_lcov, "SF:a\nend_of_record\nDA:1,1\n"), HasSubstr("x:3: expected a tracefile"));
 }
 
 TEST(Reached, TableSumsFilesAndListsWhatIsMissing) {
