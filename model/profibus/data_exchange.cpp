@@ -15,7 +15,9 @@ Reply DpSlave::data_exchange(Cycle now, const Request& request) {
     cfg_fault(now);
     return Reply::status(fc::kRr);  // S19
   }
+  if (exchanged.leaves) leave_to_wait_prm(now);
   const View& inputs = exchanged.inputs;
+  if (inputs.size == View::kNoBuffer) return Reply::status(fc::kRr);
   if (inputs.size > 0) return Reply::with_data(exchanged.high ? fc::kDh : fc::kDl, inputs.bytes, inputs.size);
   return exchanged.high ? Reply::status(fc::kDh) : Reply::sc();
 }

@@ -40,10 +40,11 @@ View Diagnosis::bytes(const DiagnosisView& view, const StoredDiagnosis& stored) 
                                          bit(not_supported_, 4) | bit(prm_fault_, 6));
   answer_[1] = static_cast<std::uint8_t>(bit(view.prm_req, 0) | bit(stored.stat_diag, 1) | kAlwaysOne |
                                          bit(view.watchdog, 3) | bit(stored.freeze, 4) | bit(stored.sync, 5));
-  answer_[2] = 0;  // Ext_Diag_Overflow cannot happen: 6 + 238 bytes fit
+  answer_[2] = static_cast<std::uint8_t>(bit(stored.overflow, 7));
   answer_[3] = view.master;
   answer_[4] = static_cast<std::uint8_t>(view.ident >> 8);
   answer_[5] = static_cast<std::uint8_t>(view.ident & 0xFF);
+  if (stored.standard != nullptr) std::copy_n(answer_.data(), kStandard, stored.standard);
   std::copy_n(stored.user.bytes, stored.user.size, &answer_[kStandard]);
   return {answer_.data(), kStandard + stored.user.size};
 }
@@ -57,7 +58,9 @@ Reply DpSlave::slave_diag(const Request& request) {
   view.watchdog = watchdog_.state() == Watchdog::State::kDpControl;
   view.master = master_;
   view.ident = config_.ident;
-  const View answer = diagnosis_.bytes(view, store_.diagnosis(master_ == request.sa));
+  const StoredDiagnosis stored = store_.diagnosis(master_ == request.sa);
+  if (stored.user.size == View::kNoBuffer) return Reply::status(fc::kRr);
+  const View answer = diagnosis_.bytes(view, stored);
   return Reply::with_data(fc::kDl, answer.bytes, answer.size);
 }
 

@@ -31,7 +31,8 @@ void DpSlave::enter(Cycle now, DpState state) {
   store_.entered(now, from, state);
 }
 
-void DpSlave::leave_to_wait_prm(Cycle now) {
+void DpSlave::leave_to_wait_prm(Cycle now, bool by_watchdog) {
+  store_.left(now, by_watchdog);
   enter(now, DpState::kWaitPrm);
   master_ = kNoMaster;
   prm_awaited_ = cfg_awaited_ = false;
@@ -40,13 +41,14 @@ void DpSlave::leave_to_wait_prm(Cycle now) {
 
 void DpSlave::watchdog_expired(Cycle now) {
   log_.at_cycle(now, Reason::kWatchdogExpired, master_, prm_.watchdog_factor, prm_.watchdog_base_ms);
-  leave_to_wait_prm(now);
+  leave_to_wait_prm(now, true);
 }
 
 // --- services --------------------------------------------------------------------------------------------------------
 
 Reply DpSlave::handle(Cycle now, const Request& request) {
   if (request.code == fc::kFdlStatus) return Reply::status(fc::kOk);
+  if (!rules_.has_saps) return Reply::nothing();
   if (request.sdn()) {
     unanswered(now, request);
     return Reply::nothing();
@@ -82,6 +84,12 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
       log_.at_cycle(now, Reason::kSapUnknown, static_cast<unsigned>(request.dsap), request.sa);
       return Reply::status(fc::kRs);
   }
+}
+
+bool DpSlave::answers_afresh(const Request& request) const {
+  if (!request.srd()) return false;
+  return (rules_.fresh_inputs && request.dsap == sap::kReadInputs) ||
+         (rules_.fresh_outputs && request.dsap == sap::kReadOutputs);
 }
 
 bool DpSlave::c2_channel(int dsap) const {

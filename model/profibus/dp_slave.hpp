@@ -1,12 +1,15 @@
 #pragma once
 // The DP slave state machine (chapter 6, rulings S4 to S33): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. It decides; a
 // SlaveStore has the bytes. Each service is in the file of its name; dp_slave.cpp has the states and the dispatch.
+#include <algorithm>
+
 #include "model/profibus/diagnosis.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/fdl_times.hpp"
 #include "model/profibus/msac.hpp"
 #include "model/profibus/request.hpp"
+#include "model/profibus/slave_rules.hpp"
 #include "model/profibus/slave_store.hpp"
 #include "model/profibus/watchdog.hpp"
 
@@ -22,8 +25,8 @@ constexpr std::uint8_t kNoMaster = 255;
 class DpSlave {
  public:
   /// `msac`: null without DPV1, whatever the configuration says.
-  DpSlave(EventLog& log, Watchdog& watchdog, SlaveStore& store, Msac* msac)
-      : log_(log), watchdog_(watchdog), store_(store), msac_(msac) {}
+  DpSlave(EventLog& log, Watchdog& watchdog, SlaveStore& store, Msac* msac, const SlaveRules& rules)
+      : log_(log), watchdog_(watchdog), store_(store), msac_(msac), rules_(rules) {}
 
   // --- from the bus -------------------------------------------------------------------------------------------------
   /// Executes a request at `now`. The reply's data are valid until the next call.
@@ -42,22 +45,31 @@ class DpSlave {
   void reset();
   void stop(Cycle now) { enter(now, DpState::kOffline); }
   void start(Cycle now, const SlaveConfig& config);
+  void configure(const SlaveConfig& config) { config_ = config; }
+  void set_address(std::uint8_t address) { address_ = address; }
+  void set_min_tsdr(int bits) { min_tsdr_ = std::max(bits, kMinTsdr); }
+  void leave_master(Cycle now) { leave_to_wait_prm(now); }
   void prm_verdict(Cycle now, bool good);
+  void refuse_prm(Cycle now);
   void cfg_verdict(Cycle now, bool good);
 
   // --- for others ----------------------------------------------------------------------------------------------------
   DpState state() const { return state_; }
   std::uint8_t address() const { return address_; }
   std::uint8_t master() const { return master_; }
+  bool prm_awaited() const { return prm_awaited_; }  ///< a verdict of the user
+  bool cfg_awaited() const { return cfg_awaited_; }
+  /// Whether the answer to a repetition is composed again, not repeated (SlaveRules).
+  bool answers_afresh(const Request& request) const;
   int min_tsdr() const { return min_tsdr_; }
   const SlaveConfig& config() const { return config_; }
 
   /// All but the faults, which stand beside the user's diagnosis.
   template <class Archive>
   void store(Archive& archive) {
-    auto& [log, watchdog, bytes, msac, config, state, address, address_locked, master, prm, judged, prm_awaited,
+    auto& [log, watchdog, bytes, msac, rules, config, state, address, address_locked, master, prm, judged, prm_awaited,
            cfg_awaited, min_tsdr, faults] = *this;
-    archive.given(log, watchdog, bytes, msac, faults);
+    archive.given(log, watchdog, bytes, msac, rules, faults);
     archive.within(DpState::kOffline, DpState::kDataExch, state);
     archive.within(0, 0xFF, min_tsdr);
     archive(config, address, address_locked, master, prm, judged, prm_awaited, cfg_awaited);
@@ -94,7 +106,7 @@ class DpSlave {
   Reply refuse_master(Cycle now, const Request& request, int sap);
   bool held_by_other(const Request& request) const { return master_ != kNoMaster && master_ != request.sa; }
   void enter(Cycle now, DpState state);
-  void leave_to_wait_prm(Cycle now);
+  void leave_to_wait_prm(Cycle now, bool by_watchdog = false);
   // data_exchange.cpp, diagnosis.cpp, read_services.cpp, set_slave_address.cpp
   Reply data_exchange(Cycle now, const Request& request);
   Reply slave_diag(const Request& request);
@@ -110,7 +122,7 @@ class DpSlave {
   void prm_fault(Cycle now, bool not_supported);
   void await_prm(Cycle now, const PrmRequest& prm);
   void accept_prm(Cycle now, const PrmRequest& prm);
-  void set_min_tsdr(std::uint8_t bits);
+  void take_min_tsdr(std::uint8_t bits);
   void tell_watchdog(Cycle now);
   // check_cfg.cpp
   Reply check_cfg(Cycle now, const Request& request);
@@ -125,6 +137,7 @@ class DpSlave {
   Watchdog& watchdog_;
   SlaveStore& store_;
   Msac* const msac_;
+  const SlaveRules& rules_;
   SlaveConfig config_;
 
   DpState state_ = DpState::kOffline;

@@ -67,7 +67,7 @@ void Fdl::log_repetition(Cycle now, const Telegram& telegram, const Request& req
 const Frame* Fdl::execute(Cycle now, const Telegram& telegram, const Request& request, DpSlave& slave) {
   if (repetition(telegram, request)) {
     log_repetition(now, telegram, request);
-    return &answer_;
+    if (!slave.answers_afresh(request)) return &answer_;
   }
   const std::uint8_t address = slave.address();  // Set_Slave_Address is answered from the old one (S25)
   const Reply reply = slave.handle(now, request);

@@ -5,15 +5,15 @@
 namespace dsdpv1::profibus {
 namespace {
 
-constexpr std::uint8_t kSync = 0x20, kUnsync = 0x10, kFreeze = 0x08, kUnfreeze = 0x04, kClearData = 0x02,
-                       kReserved = 0xC1;
+constexpr std::uint8_t kSync = 0x20, kUnsync = 0x10, kFreeze = 0x08, kUnfreeze = 0x04, kClearData = 0x02;
 constexpr int kSize = 2;
 
 }  // namespace
 
 void DpSlave::global_control(Cycle now, const Request& request) {
   const unsigned command = request.size > 0 ? request.data[0] : 0U, group = request.size > 1 ? request.data[1] : 0U;
-  if (request.size != kSize || (command & kReserved) != 0 || state_ != DpState::kDataExch || master_ != request.sa) {
+  if (request.size != kSize || (command & rules_.control_reserved) != 0 || state_ != DpState::kDataExch ||
+      master_ != request.sa) {
     log_.at_cycle(now, Reason::kGcIgnored, command, group, request.sa);
     return;
   }

@@ -22,6 +22,7 @@ Reply DpSlave::read_only(Cycle now, const Request& request) {
 }
 
 Reply DpSlave::reply_data(const View& view) {
+  if (view.size == View::kNoBuffer) return Reply::status(fc::kRr);
   return view.size == 0 ? Reply::sc() : Reply::with_data(fc::kDl, view.bytes, view.size);
 }
 

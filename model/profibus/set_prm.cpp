@@ -1,6 +1,4 @@
 // Set_Prm (6.2.2, rulings S5 to S7, S12, S14, S15, S28, S33).
-#include <algorithm>
-
 #include "model/profibus/station.hpp"
 #include "model/profibus/user_side.hpp"
 
@@ -22,13 +20,14 @@ Reply DpSlave::set_prm(Cycle now, const Request& request) {
     return Reply::status(fc::kRs);
   }
   if (held_by_other(request)) return refuse_master(now, request, sap::kSetPrm);
+  if (!store_.has_room(now, request)) return Reply::status(fc::kRr);
   const std::uint8_t* data = request.data;
   if (request.size < kStandardSize) {
     refuse_prm(now, Reason::kPrmShort, false, static_cast<unsigned>(request.size), kStandardSize);
     return Reply::sc();
   }
   if ((data[0] & (kLock | kUnlock)) == 0) {  // S28
-    set_min_tsdr(data[3]);
+    take_min_tsdr(data[3]);
     log_.at_cycle(now, Reason::kPrmMinTsdr, request.sa, static_cast<unsigned>(min_tsdr_));
     return Reply::sc();
   }
@@ -81,7 +80,7 @@ bool DpSlave::check_prm(Cycle now, const Request& request, PrmRequest& prm) {
   prm.sync = (data[0] & kSyncReq) != 0;
   prm.freeze = (data[0] & kFreezeReq) != 0;
   prm.fail_safe = (spec & kFailSafe) != 0;
-  prm.dpv1 = (spec & kDpv1Enable) != 0;
+  prm.dpv1 = rules_.dpv1_status && (spec & kDpv1Enable) != 0;
   prm.user_size = user_size;
   return true;
 }
@@ -93,6 +92,7 @@ bool DpSlave::check_options(Cycle now, std::uint8_t status, std::uint8_t spec, i
   };
   if ((status & kSyncReq) != 0 && !config_.sync_supported) return refuse(Reason::kPrmSync);
   if ((status & kFreezeReq) != 0 && !config_.freeze_supported) return refuse(Reason::kPrmFreeze);
+  if (!rules_.dpv1_status) return true;
   if ((spec & kFailSafe) != 0 && !config_.fail_safe_supported) return refuse(Reason::kPrmFailSafe);
   if ((spec & kDpv1Enable) == 0) return true;
   if (!config_.dpv1) return refuse(Reason::kPrmDpv1);  // D17
@@ -117,7 +117,7 @@ void DpSlave::accept_prm(Cycle now, const PrmRequest& prm) {
   prm_awaited_ = cfg_awaited_ = false;
   prm_ = prm;
   master_ = prm.master;
-  set_min_tsdr(prm.min_tsdr);
+  take_min_tsdr(prm.min_tsdr);
   if (prm.watchdog)
     watchdog_.dp_control(now, Watchdog::time_of(prm.watchdog_factor, prm.watchdog_base_ms));
   else
@@ -136,8 +136,8 @@ void DpSlave::tell_watchdog(Cycle now) {
     log_.at_cycle(now, Reason::kWatchdogOn, prm_.watchdog_factor, prm_.watchdog_base_ms);
 }
 
-void DpSlave::set_min_tsdr(std::uint8_t bits) {
-  if (bits != 0) min_tsdr_ = std::max<int>(bits, kMinTsdr);  // S6, S11
+void DpSlave::take_min_tsdr(std::uint8_t bits) {
+  if (bits != 0) set_min_tsdr(bits);  // S6, S11
 }
 
 void DpSlave::prm_verdict(Cycle now, bool good) {
@@ -146,8 +146,10 @@ void DpSlave::prm_verdict(Cycle now, bool good) {
   else if (good)
     accept_prm(now, judged_);
   else
-    refuse_prm(now, Reason::kPrmUserRefused, false);
+    refuse_prm(now);
 }
+
+void DpSlave::refuse_prm(Cycle now) { refuse_prm(now, Reason::kPrmUserRefused, false); }
 
 // --- the user's side -------------------------------------------------------------------------------------------------
 

@@ -39,7 +39,9 @@ struct SlaveConfig {
 /// Bytes of a store, valid until its next call.
 struct View {
   const std::uint8_t* bytes = nullptr;
-  int size = 0;
+  int size = 0;  ///< kNoBuffer: the store has no buffer for them, as it has reported: RR, and nothing changes
+
+  static constexpr int kNoBuffer = -1;
 };
 
 /// The store's decision on a block of the master.
@@ -56,6 +58,7 @@ struct Exchanged {
   int expected = 0;
   bool high = false;  ///< a diagnosis waits: the answer has high priority
   View inputs;
+  bool leaves = false;  ///< the user gives up the master after this telegram
 };
 
 /// The gate that Sync (outputs) or Freeze (inputs) closes between the two sides of a buffer.
@@ -73,6 +76,8 @@ struct StoredDiagnosis {
   View user;  ///< at most kMaxDiag bytes
   bool ext_diag = false, stat_diag = false;
   bool freeze = false, sync = false;  ///< the gates are closed
+  bool overflow = false;              ///< the user has more than fits
+  std::uint8_t* standard = nullptr;   ///< gets the six standard bytes, unless null
 };
 
 /// Lengths of the data in bytes.
@@ -84,6 +89,8 @@ class SlaveStore {
  public:
   /// Data_Exchange of the master that holds the slave. `fail_safe`: a request without data clears the outputs (S19).
   virtual Exchanged exchange(Cycle now, const Request& request, bool fail_safe) = 0;
+  /// Before a Set_Prm is judged. False: it does not fit, as the store has reported: RR, and nothing changes.
+  virtual bool has_room(Cycle /*now*/, const Request& /*request*/) { return true; }
   /// A Set_Prm whose standard bytes are right. kRefused is Prm_Fault.
   virtual Take parameters(Cycle now, const Request& request) = 0;
   /// A Check_Cfg in WAIT_CFG or, `exchanging`, in DATA_EXCH. kRefused is Cfg_Fault.
@@ -101,6 +108,8 @@ class SlaveStore {
   /// `to_holder`: the master that holds the slave reads it.
   virtual StoredDiagnosis diagnosis(bool to_holder) = 0;
 
+  /// The slave gives up its master: WAIT_PRM follows, or goes on. `by_watchdog`: the master was silent.
+  virtual void left(Cycle /*now*/, bool /*by_watchdog*/) {}
   /// The slave's state has changed. Leaving DATA_EXCH clears the outputs and opens the gates (S18).
   virtual void entered(Cycle now, DpState from, DpState to) = 0;
   /// The baud rate was found, or is in search: kBaudUnknown.

@@ -19,7 +19,7 @@ Station::Station(EventLog& log, const StationConfig& config, SlaveStore& store, 
       telegrams_(log),
       search_(config.search_window, config.search_window_bits),
       watchdog_(config.baud_control),
-      slave_(log, watchdog_, store, msac),
+      slave_(log, watchdog_, store, msac, config_.rules),
       fdl_(log, config.fcb_rule) {}
 
 void Station::reset() {
@@ -37,6 +37,7 @@ void Station::reset() {
 void Station::stop(Cycle now) {
   tx_.abort();
   slave_.stop(now);
+  plan_timers();
 }
 
 void Station::start(Cycle now, const SlaveConfig& config) {
@@ -52,6 +53,16 @@ void Station::prm_verdict(Cycle now, bool good) {
 
 void Station::cfg_verdict(Cycle now, bool good) {
   slave_.cfg_verdict(now, good);
+  plan_timers();
+}
+
+void Station::refuse_parameters(Cycle now) {
+  slave_.refuse_prm(now);
+  plan_timers();
+}
+
+void Station::leave_master(Cycle now) {
+  slave_.leave_master(now);
   plan_timers();
 }
 
@@ -164,7 +175,7 @@ void Station::watchdog_expired(Cycle now) {
   if (watchdog_.state() == Watchdog::State::kDpControl) {
     slave_.watchdog_expired(now);
   } else {
-    log_.at_cycle(now, Reason::kBaudLost, static_cast<unsigned>(config_.baud_control / kCyclesPerMs));
+    log_.at_cycle(now, Reason::kBaudLost, static_cast<unsigned>(watchdog_.baud_control_time() / kCyclesPerMs));
     start_search(now);
   }
 }

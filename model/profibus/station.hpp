@@ -21,6 +21,7 @@ struct StationConfig {
   Cycle search_window_bits = 4000;
   Cycle baud_control = 600 * kCyclesPerMs;
   FcbRule fcb_rule = FcbRule::kLetter;
+  SlaveRules rules;
 };
 
 class Station {
@@ -60,8 +61,21 @@ class Station {
   /// The user accepts (`good`) or refuses what the store's kAwaited has announced; otherwise an event.
   void prm_verdict(Cycle now, bool good);
   void cfg_verdict(Cycle now, bool good);
+  /// The user refuses parameters that are in force already.
+  void refuse_parameters(Cycle now);
+  /// The user gives up the master.
+  void leave_master(Cycle now);
+  /// The cells of the configuration, changed while the station runs.
+  void configure(const SlaveConfig& config) { slave_.configure(config); }
+  void set_address(std::uint8_t address) { slave_.set_address(address); }
+  /// In bit times: until the next Set_Prm with one.
+  void set_min_tsdr(int bits) { slave_.set_min_tsdr(bits); }
+  void set_baud_control(Cycle time) { watchdog_.set_baud_control(time); }  ///< see Watchdog
+  void set_rules(const SlaveRules& rules) { config_.rules = rules; }
   /// Call it when a timer of MSAC may have changed.
-  void plan_timers() { timers_ = std::min({search_.next(), watchdog_.next(), slave_.next_timer()}); }
+  void plan_timers() {
+    timers_ = running() ? std::min({search_.next(), watchdog_.next(), slave_.next_timer()}) : kNever;
+  }
 
   /// The rising edge of `now`.
   void eval(Cycle now);
@@ -92,6 +106,11 @@ class Station {
   bool begins_to_send(Cycle now) const { return tx_.begins(now); }
   CharacterRun hide_txd() { return tx_.hide(); }
   void show_txd(Cycle now) { tx_.show(now); }
+
+  /// From the decision on a request until PBRTS has fallen after its answer.
+  bool answers() const { return tx_.planned(); }
+  /// Neither an answer nor, after eval(now), a telegram is in progress.
+  bool quiet(Cycle now) const { return !answers() && telegrams_.deadline() == kNever && !rx_.receiving(now); }
 
   bool txd() const { return tx_.txd(); }
   bool rts() const { return tx_.rts(); }

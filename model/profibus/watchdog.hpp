@@ -12,6 +12,9 @@ class Watchdog {
 
   explicit Watchdog(Cycle baud_control) : baud_control_(baud_control) {}
 
+  /// The time of BAUD_CONTROL from its next begin or trigger on; kNever: it does not end.
+  void set_baud_control(Cycle time) { baud_control_ = time; }
+  Cycle baud_control_time() const { return baud_control_; }
   void baud_search() {
     state_ = State::kBaudSearch;
     deadline_ = kNever;
@@ -37,7 +40,7 @@ class Watchdog {
   }
   /// An error-free telegram to this station; `from_holder`: sent by the master that holds the slave (ruling S22).
   void trigger(Cycle now, bool from_holder) {
-    if (state_ == State::kBaudControl) deadline_ = now + baud_control_;
+    if (state_ == State::kBaudControl) deadline_ = after(now, baud_control_);
     if (state_ == State::kDpControl && from_holder) deadline_ = now + time_;
   }
   bool expired(Cycle now) const { return now >= deadline_; }
@@ -57,8 +60,9 @@ class Watchdog {
  private:
   void begin(State state, Cycle now, Cycle time) {
     state_ = state;
-    deadline_ = now + time;
+    deadline_ = after(now, time);
   }
+  static Cycle after(Cycle now, Cycle time) { return time == kNever ? kNever : now + time; }
 
   Cycle baud_control_;
   Cycle time_ = 0;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,7 @@ class MadeUp final : public SlaveStore {
  public:
   Take prm = Take::kAccepted, cfg = Take::kAccepted, ssa = Take::kAccepted;
   IoLengths lengths = {2, 3};
-  bool high = false;
+  bool high = false, leaves = false, room = true, buffers = true;
   Bytes inputs = {0xA1, 0xA2}, outputs = {1, 2, 3}, stored_cfg = {0x11, 0x22}, user_diag;
   StoredDiagnosis shown;
 
@@ -32,9 +34,13 @@ class MadeUp final : public SlaveStore {
   Bytes got;
   Control controlled;
   std::vector<DpState> states;
+  std::vector<bool> left_by_watchdog;
+  std::array<std::uint8_t, 6> standard{};
 
  private:
-  static View view(const Bytes& bytes) { return {bytes.data(), static_cast<int>(bytes.size())}; }
+  View view(const Bytes& bytes) const {
+    return {bytes.data(), buffers ? static_cast<int>(bytes.size()) : View::kNoBuffer};
+  }
   void take(const Request& request) {
     ++calls;
     got.assign(request.data, request.data + request.size);
@@ -42,8 +48,10 @@ class MadeUp final : public SlaveStore {
   Exchanged exchange(Cycle /*now*/, const Request& request, bool may_clear) override {
     take(request);
     fail_safe = may_clear;
-    return {request.size == lengths.output, lengths.output, high, view(inputs)};
+    return {request.size == lengths.output, lengths.output, high, view(inputs), leaves};
   }
+  bool has_room(Cycle /*now*/, const Request& /*request*/) override { return room; }
+  void left(Cycle /*now*/, bool by_watchdog) override { left_by_watchdog.push_back(by_watchdog); }
   Take parameters(Cycle /*now*/, const Request& request) override {
     take(request);
     return prm;
@@ -80,6 +88,7 @@ class MadeUp final : public SlaveStore {
     ++calls;
     to_holder = by_holder;
     shown.user = view(user_diag);
+    shown.standard = standard.data();
     return shown;
   }
   void entered(Cycle /*now*/, DpState from, DpState to) override {
@@ -142,7 +151,8 @@ class SlaveStoreTest : public testing::Test {
   core_test::EventRecorder recorder;
   Watchdog watchdog{600 * kCyclesPerMs};
   MadeUp store;
-  DpSlave slave{recorder.log, watchdog, store, nullptr};
+  SlaveRules rules;
+  DpSlave slave{recorder.log, watchdog, store, nullptr, rules};
   Cycle now = 1;
 };
 
@@ -186,6 +196,77 @@ TEST_F(SlaveStoreTest, BlocksWithoutRoomAreRrAndChangeNothing) {
   EXPECT_EQ(slave.state(), DpState::kDataExch);
   EXPECT_EQ(slave.master(), kHolder);
   EXPECT_EQ(status(1), 0U);
+}
+
+TEST_F(SlaveStoreTest, RoomForParametersIsAskedBeforeTheyAreJudged) {
+  to_exchange();
+  store.room = false;
+  expect_rr(send(sap::kSetPrm, {0xB0}));
+  EXPECT_EQ(slave.state(), DpState::kDataExch);
+  EXPECT_EQ(status(1), 0U);
+}
+
+TEST_F(SlaveStoreTest, WithoutABufferTheAnswerIsRr) {
+  to_exchange();
+  store.buffers = false;
+  for (const int dsap : {kNoSap, sap::kReadInputs, sap::kReadOutputs, sap::kGetCfg, sap::kSlaveDiag})
+    expect_rr(send(dsap, dsap == kNoSap ? Bytes{1, 2, 3} : Bytes{}));
+  EXPECT_EQ(slave.state(), DpState::kDataExch);
+}
+
+TEST_F(SlaveStoreTest, TheStoreIsToldOfEachMasterThatIsGivenUp) {
+  send(sap::kSetPrm, {0x40, 0, 0, 0, kIdentNumber >> 8, kIdentNumber & 0xFF, 0});
+  EXPECT_EQ(store.left_by_watchdog, std::vector<bool>{false}) << "also in WAIT_PRM";
+  to_exchange();
+  slave.watchdog_expired(++now);
+  EXPECT_EQ(store.left_by_watchdog, (std::vector<bool>{false, true}));
+  to_exchange();
+  slave.leave_master(++now);
+  EXPECT_EQ(slave.state(), DpState::kWaitPrm);
+  EXPECT_EQ(slave.master(), kNoMaster);
+  EXPECT_EQ(store.left_by_watchdog, (std::vector<bool>{false, true, false}));
+}
+
+TEST_F(SlaveStoreTest, AStoreMayGiveUpTheMasterAfterItsAnswer) {
+  to_exchange();
+  store.leaves = true;
+  expect(send(kNoSap, {7, 8, 9}), Reply::Kind::kData, fc::kDl);
+  EXPECT_EQ(slave.state(), DpState::kWaitPrm);
+}
+
+TEST_F(SlaveStoreTest, WithoutDpv1StatusByte7IsNotChecked) {
+  rules.dpv1_status = false;
+  expect_sc(set_prm({0xFF, 0, 0}));
+  EXPECT_EQ(slave.state(), DpState::kWaitCfg);
+  EXPECT_EQ(status(1), kNotReady);
+  check_cfg();
+  send(kNoSap, {});
+  EXPECT_TRUE(store.fail_safe) << "the store may use it";
+}
+
+TEST_F(SlaveStoreTest, ParametersInForceMayBeRefused) {
+  set_prm();
+  slave.refuse_prm(++now);
+  EXPECT_EQ(slave.state(), DpState::kWaitPrm);
+  EXPECT_EQ(status(1), kPrmFault | kNotReady);
+}
+
+TEST_F(SlaveStoreTest, WithoutSapsOnlyTheFdlStatusIsAnswered) {
+  rules.has_saps = false;
+  expect(send(kNoSap, {}, kHolder, fc::kFdlStatus), Reply::Kind::kSd1, fc::kOk);
+  expect(send(sap::kSlaveDiag, {}), Reply::Kind::kNothing);
+  expect(set_prm(), Reply::Kind::kNothing);
+  EXPECT_EQ(slave.state(), DpState::kWaitPrm);
+}
+
+TEST_F(SlaveStoreTest, ReservedBitsOfAControlAreARule) {
+  to_exchange();
+  const Bytes control = {0xC3, 0};
+  send(sap::kGlobalControl, control, kHolder, fc::kSdnHigh);
+  EXPECT_EQ(store.controlled.command, 0);
+  rules.control_reserved = 0;
+  send(sap::kGlobalControl, control, kHolder, fc::kSdnHigh);
+  EXPECT_EQ(store.controlled.command, 0xC3);
 }
 
 TEST_F(SlaveStoreTest, AnAddressMayCarryMoreBytesThanFour) {
@@ -356,6 +437,10 @@ TEST_F(SlaveStoreTest, DiagnosisIsTheSlavesSixBytesAndTheStores) {
   EXPECT_EQ(Bytes(reply.data, reply.data + 8),
             (Bytes{0x08, kAlwaysOne | kSync, 0, kHolder, kIdentNumber >> 8, kIdentNumber & 0xFF, 2, 0xEE}));
   EXPECT_TRUE(store.to_holder);
+  EXPECT_TRUE(std::equal(store.standard.begin(), store.standard.end(), reply.data));
+  store.shown = {};
+  store.shown.overflow = true;
+  EXPECT_EQ(send(sap::kSlaveDiag, {}).data[2], 0x80);
   store.shown = {};
   store.shown.stat_diag = store.shown.freeze = true;
   EXPECT_EQ(status(2), kAlwaysOne | kFreeze | 0x02);
