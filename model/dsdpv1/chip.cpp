@@ -779,14 +779,14 @@ std::vector<std::uint8_t> Chip::save() const {
   profibus::StateWriter writer;
   begin_state(writer, impl_->config);
   impl_->store(writer);
-  return end_state(writer.take());
+  return profibus::end_frame(writer.take());
 }
 
 void Chip::restore(const std::uint8_t* bytes, std::size_t size) {
   profibus::StateReader reader = open_state(bytes, size, impl_->config);
   auto restored = std::make_unique<Impl>(impl_->config);
   restored->store(reader);
-  check_state(reader);
+  profibus::check_frame(reader);
   restored->take_over(*impl_);
   impl_ = std::move(restored);
 }

@@ -13,7 +13,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 #include "model/dpram/inside.hpp"
@@ -25,6 +24,7 @@
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event.hpp"
 #include "model/profibus/rm_registry.hpp"
+#include "model/profibus/state_frame.hpp"
 #include "model/profibus/uart_rx.hpp"
 #include "model/profibus/watchdog.hpp"
 
@@ -55,11 +55,7 @@ struct Inside {
   profibus::Watchdog::State watchdog = profibus::Watchdog::State::kBaudSearch;
 };
 
-/// Why bytes are not a valid state for restore(): one line.
-class StateError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using profibus::StateError;  ///< why bytes are not a valid state for restore()
 
 class Chip {
  public:

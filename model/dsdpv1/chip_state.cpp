@@ -2,42 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #include "model/dsdpv1/chip_state.hpp"
 
-#include <array>
-#include <string>
-
-#include "model/dsdpv1/chip.hpp"
-
 namespace dsdpv1 {
 namespace {
 
 using profibus::StateReader;
 using profibus::StateWriter;
 
-constexpr std::uint64_t kMagic = 0x5453'3156'5044'5344;  // "DSDPV1ST"
-constexpr std::size_t kSizeAt = 12, kChecksumAt = 16,
-                      kChecked = 20;  // after magic and version; start of the checked bytes
-
-// CRC-32 of IEEE 802.3.
-constexpr std::array<std::uint32_t, 256> make_crc32_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < 256; ++byte) {
-    std::uint32_t crc = byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1 ^ 0xEDB88320U : crc >> 1;
-    table[byte] = crc;
-  }
-  return table;
-}
-constexpr std::array<std::uint32_t, 256> kCrc32Table = make_crc32_table();
-
-std::uint32_t checksum(const std::uint8_t* bytes, std::size_t size) {
-  std::uint32_t crc = 0xFFFFFFFF;
-  for (std::size_t i = 0; i < size; ++i) crc = crc >> 8 ^ kCrc32Table[(crc ^ bytes[i]) & 0xFF];
-  return ~crc;
-}
-
-void put(std::uint32_t value, std::uint8_t* to) {
-  for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
-}
+constexpr profibus::StateFrame kFrame = {0x5453'3156'5044'5344, kStateVersion};  // "DSDPV1ST"
 
 /// Calls `tell(name, value)` for each parameter, with its name in scenarios.
 template <class Tell>
@@ -48,76 +19,27 @@ void each_parameter(Config& config, const Tell& tell) {
 #include "model/dsdpv1/parameters.inc"
 }
 
-[[noreturn]] void fail(const std::string& text) { throw StateError(text); }
-
-struct Head {
-  std::uint64_t magic = kMagic;
-  std::uint32_t version = kStateVersion, size = 0, checksum = 0;
-
-  template <class Archive>
-  void store(Archive& archive) {
-    archive(magic, version, size, checksum);
-  }
-};
-
-void check_whole(StateReader& reader, const std::uint8_t* bytes, std::size_t size) {
-  Head head;
-  reader(head);
-  if (head.magic != kMagic || size < kChecked) fail("this is no saved state of a chip");
-  if (head.version != kStateVersion)
-    fail("the state has format version " + std::to_string(head.version) + ", allowed here is " +
-         std::to_string(kStateVersion));
-  if (head.size != size)
-    fail("the state has " + std::to_string(size) + " bytes, it was saved with " + std::to_string(head.size));
-  if (head.checksum != checksum(bytes + kChecked, size - kChecked)) fail("the state is damaged: its checksum is wrong");
-}
-
 void check_part(StateReader& reader, Part part) {
   Part saved = part;
   reader.within(Part::kDsdpv1, Part::kRsu, saved);
-  if (saved != part) fail(std::string("the state is of a ") + row(saved).title + ", this chip is a " + row(part).title);
-}
-
-void check_parameters(StateReader& reader, Config config) {
-  each_parameter(
-      config,
-      [&](const char* name, std::uint32_t own) {
-        std::uint32_t saved = own;
-        reader(saved);
-        if (saved != own)
-          fail("the state is of a chip whose " + std::string(name) + " is " + std::to_string(saved) + ", here it is " +
-               std::to_string(own));
-      });
+  profibus::check_title(row(saved).title, row(part).title);
 }
 
 }  // namespace
 
 void begin_state(StateWriter& writer, const Config& config) {
-  Head head;
-  writer(head);
+  profibus::begin_frame(writer, kFrame);
   Config parameters = config;
   writer.within(Part::kDsdpv1, Part::kRsu, parameters.part);
   each_parameter(parameters, [&](const char* /*name*/, std::uint32_t& value) { writer(value); });
 }
 
-std::vector<std::uint8_t> end_state(std::vector<std::uint8_t> bytes) {
-  put(static_cast<std::uint32_t>(bytes.size()), &bytes[kSizeAt]);
-  put(checksum(&bytes[kChecked], bytes.size() - kChecked), &bytes[kChecksumAt]);
-  return bytes;
-}
-
 StateReader open_state(const std::uint8_t* bytes, std::size_t size, const Config& config) {
-  StateReader reader(bytes, size);
-  check_whole(reader, bytes, size);
+  StateReader reader = profibus::open_frame(bytes, size, kFrame);
   check_part(reader, config.part);
-  check_parameters(reader, config);
+  Config own = config;
+  each_parameter(own, [&](const char* name, std::uint32_t value) { profibus::check_parameter(reader, name, value); });
   return reader;
-}
-
-void check_state(const StateReader& reader) {
-  if (!reader.right())
-    fail("byte " + std::to_string(reader.wrong_at()) + " of the state ends a value that no chip has");
-  if (!reader.at_end()) fail("the state is longer than this chip's");
 }
 
 }  // namespace dsdpv1

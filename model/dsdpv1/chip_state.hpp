@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
-// The frame of a chip's state: magic, version, part, parameters, and a checksum.
+// The head of a chip's state: frame, part, parameters.
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "model/dsdpv1/config.hpp"
-#include "model/profibus/state.hpp"
+#include "model/profibus/state_frame.hpp"
 
 namespace dsdpv1 {
 
@@ -16,12 +15,7 @@ constexpr std::uint32_t kStateVersion = 2;
 
 /// Writes the head of a state; the blocks store after it.
 void begin_state(profibus::StateWriter& writer, const Config& config);
-/// Adds size and checksum.
-std::vector<std::uint8_t> end_state(std::vector<std::uint8_t> bytes);
-
 /// Returns the blocks' part of a complete state of this part and these parameters; throws otherwise.
 profibus::StateReader open_state(const std::uint8_t* bytes, std::size_t size, const Config& config);
-/// Throws if any value was wrong.
-void check_state(const profibus::StateReader& reader);
 
 }  // namespace dsdpv1

@@ -82,25 +82,26 @@ TEST(ChipState, OfAnotherPartItIsRefused) {
   Config rsu;
   rsu.part = Part::kRsu;
   EXPECT_EQ(refusal(some_state(), rsu), "the state is of a DSDPV1, this chip is a DSDPV1-RSU");
-  EXPECT_NE(refusal(end_state(with(some_state(), kPartAt, 3))), "");
+  EXPECT_NE(refusal(profibus::end_frame(with(some_state(), kPartAt, 3))), "");
 }
 
 TEST(ChipState, WithOtherParametersItIsRefused) {
   Config config;
   config.intr_gap = 65;
   EXPECT_EQ(refusal(some_state(), config), "the state is of a chip whose intr_gap is 64, here it is 65");
-  EXPECT_EQ(refusal(end_state(with(some_state(), kIntervalAt, 49))),
+  EXPECT_EQ(refusal(profibus::end_frame(with(some_state(), kIntervalAt, 49))),
             "the state is of a chip whose access_interval is 49, here it is 48");
 }
 
 TEST(ChipState, AValueThatNoChipHasIsRefusedThoughItsChecksumIsRight) {
   const State whole = some_state();
   const std::size_t last = whole.size() - 2;  // MISO
-  EXPECT_THAT(refusal(end_state(with(whole, last, 0x55))), HasSubstr("of the state ends a value that no chip has"));
+  EXPECT_THAT(refusal(profibus::end_frame(with(whole, last, 0x55))),
+              HasSubstr("of the state ends a value that no chip has"));
   State longer = whole;
   longer.push_back(0);
-  EXPECT_EQ(refusal(end_state(longer)), "the state is longer than this chip's");
-  EXPECT_NE(refusal(end_state(State(whole.begin(), whole.end() - 1))), "");
+  EXPECT_EQ(refusal(profibus::end_frame(longer)), "the state is longer than this chip's");
+  EXPECT_NE(refusal(profibus::end_frame(State(whole.begin(), whole.end() - 1))), "");
 }
 
 /// Guards the format: a changed state requires a new kStateVersion. Then these numbers become those of the new version.

@@ -138,7 +138,7 @@ class Search {
       State without = state;
       std::copy(fresh.begin() + begin, fresh.begin() + end, without.begin() + begin);
       if (!right) right = goes_on(state, config, way, rest);
-      found_[i] = !(goes_on(end_state(without), config, way, rest) == right);
+      found_[i] = !(goes_on(profibus::end_frame(without), config, way, rest) == right);
     }
   }
 

@@ -140,7 +140,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::promise(restored(moment, Engine::kSkip, state, heard) == nullptr, "a cut or damaged state is refused");
     return 0;
   }
-  go_on(moment, end_state(std::move(state)), damaged);
+  go_on(moment, profibus::end_frame(std::move(state)), damaged);
   return 0;
 }
 
