@@ -1,0 +1,289 @@
+#include "model/spc3/chip.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/spc3/address_map.hpp"
+#include "model/spc3/chip_state.hpp"
+#include "model/spc3/reasons.hpp"
+
+namespace dsdpv1::spc3 {
+namespace {
+
+using profibus::first_edge_after;
+using profibus::kNever;
+using profibus::kTicksPerCycle;
+
+constexpr Cycle kResetSynchroniser = 2;  // A9
+
+constexpr std::uint32_t kResetLevels = mask(Pin::kTxd) | mask(Pin::kXInt) | mask(Pin::kXDataExch);
+
+constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0; }
+
+profibus::StationConfig station_of(const Config& config) {
+  profibus::StationConfig station;
+  station.rts_lead = config.rts_lead;
+  station.rts_trail = config.rts_trail;
+  station.search_window = config.search_window_ms * profibus::kCyclesPerMs;
+  station.search_window_bits = config.search_window_bits;
+  station.fcb_rule = config.fcb_rule == 0 ? profibus::FcbRule::kLetter : profibus::FcbRule::kContent;
+  return station;
+}
+
+}  // namespace
+
+struct Chip::Impl {
+  explicit Impl(const Config& given)
+      : config(given),
+        interrupt(delay_of(given, given.int_delay)),
+        user(log, config, interrupt, station),
+        station(log, station_of(given), user, nullptr),
+        map(log, config, user, interrupt, station) {
+    reset_blocks();
+  }
+
+  void set(Tick at, Pin pin, Level value);
+  void set_reset(Tick at, bool high);
+  void enter_reset(Tick at);
+  void reset_blocks();
+  void advance(Tick to);
+  void rising_edge(Cycle cycle);
+  Tick next_edge() const { return config.engine == Engine::kStep ? (done + 1) * kTicksPerCycle : planned_edge; }
+  void plan();
+  std::uint8_t load(Cycle cycle, Address address);
+  void store(Cycle cycle, Address address, std::uint8_t value);
+  Cycle begin_access(Cycle cycle, Address address);
+  Address in_map(Address address) const;
+  std::uint32_t outputs_now() const;
+  void publish(Tick at, std::uint32_t levels);
+  Level level(Pin pin) const;
+
+  template <class Archive>
+  void store(Archive& archive);
+  bool is_possible() const;
+  void take_over(const Impl& observed);
+
+  const Config config;
+  profibus::EventLog log;
+  Interrupt interrupt;
+  RamStore user;
+  profibus::Station station;
+  AddressMap map;
+
+  PinSink sink;
+  std::uint32_t watched = 0;
+  Tick now = 0;
+  Cycle done = 0;  // the last evaluated rising edge
+  Tick planned_edge = kNever;
+  Cycle touched = kNever;  // the edge that takes the last access
+  Cycle release_at = kNever;
+  bool reset_pin = true, running = false;
+  std::uint32_t outputs = kResetLevels;
+};
+
+// --- inputs ----------------------------------------------------------------------------------------------------------
+
+void Chip::Impl::set(Tick at, Pin pin, Level value) {
+  advance(at);
+  if (pin == Pin::kReset) set_reset(at, value != 0);
+  if (pin == Pin::kRxd) station.set_rxd(at, value != 0);
+  plan();
+}
+
+void Chip::Impl::set_reset(Tick at, bool high) {
+  if (high == reset_pin) return;
+  reset_pin = high;
+  if (high)
+    enter_reset(at);
+  else
+    release_at = first_edge_after(at) + kResetSynchroniser;
+}
+
+void Chip::Impl::enter_reset(Tick at) {
+  running = false;
+  release_at = touched = kNever;
+  reset_blocks();
+  publish(at, kResetLevels);
+}
+
+void Chip::Impl::reset_blocks() {
+  interrupt.reset();
+  map.reset();
+  user.reset();
+}
+
+// --- time ------------------------------------------------------------------------------------------------------------
+
+// Kept because it is read far more often than changed: every caller of a block updates it.
+void Chip::Impl::plan() {
+  const Cycle cycle = std::min({release_at, touched, station.next(), user.next(), map.next(), interrupt.next()});
+  planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
+}
+
+void Chip::Impl::advance(Tick to) {
+  for (Tick edge = next_edge(); edge <= to; edge = next_edge()) {
+    now = edge;
+    rising_edge(edge / kTicksPerCycle);
+    plan();
+  }
+  now = std::max(now, to);
+  done = std::max(done, now / kTicksPerCycle);
+}
+
+// The user's accesses came before; the station decides, the store carries out, the interrupt tells.
+void Chip::Impl::rising_edge(Cycle cycle) {
+  done = cycle;
+  if (cycle == release_at) {
+    release_at = kNever;
+    running = true;
+  }
+  if (cycle == touched) touched = kNever;
+  station.eval(cycle);
+  user.eval(cycle);
+  map.eval(cycle);
+  interrupt.eval(cycle);
+  if (running) publish(cycle * kTicksPerCycle, outputs_now());
+}
+
+// --- accesses --------------------------------------------------------------------------------------------------------
+
+Address Chip::Impl::in_map(Address address) const {
+  constexpr Address kMask = 0x7FF, kMaskOfVpc3 = 0xFFF;
+  return address & (row(config.variant).has_more_modes ? kMaskOfVpc3 : kMask);
+}
+
+// The edge that takes the access; kNever in reset.
+Cycle Chip::Impl::begin_access(Cycle cycle, Address address) {
+  advance(cycle * kTicksPerCycle);
+  if (running) return touched = done + 1;
+  log.at_cycle(done, Reason::kInReset, address);
+  return kNever;
+}
+
+std::uint8_t Chip::Impl::load(Cycle cycle, Address address) {
+  const Cycle edge = begin_access(cycle, address);
+  if (edge == kNever) return 0;
+  const std::uint8_t value = map.read(edge, in_map(address));
+  plan();
+  return value;
+}
+
+void Chip::Impl::store(Cycle cycle, Address address, std::uint8_t value) {
+  const Cycle edge = begin_access(cycle, address);
+  if (edge == kNever) return;
+  map.write(edge, in_map(address), value);
+  plan();
+}
+
+// --- outputs ---------------------------------------------------------------------------------------------------------
+
+std::uint32_t Chip::Impl::outputs_now() const {
+  const bool high_active = user.modes().has0(mode0::kIntPol);
+  return bit(Pin::kTxd, station.txd()) | bit(Pin::kRts, station.rts()) |
+         bit(Pin::kXInt, interrupt.latch() == high_active) |
+         bit(Pin::kXDataExch, station.slave().state() != profibus::DpState::kDataExch);  // A35
+}
+
+void Chip::Impl::publish(Tick at, std::uint32_t levels) {
+  std::uint32_t changed = (levels ^ outputs) & watched;
+  outputs = levels;
+  for (; changed != 0; changed &= changed - 1) {
+    const auto pin = static_cast<Pin>(__builtin_ctz(changed));
+    sink.call(sink.self, at, pin, (levels & mask(pin)) != 0 ? Level{1} : Level{0});
+  }
+}
+
+Level Chip::Impl::level(Pin pin) const {
+  if (pin == Pin::kReset) return reset_pin;
+  if (pin == Pin::kRxd) return station.rxd();
+  return (outputs & mask(pin)) != 0 ? Level{1} : Level{0};
+}
+
+// --- saved and restored ----------------------------------------------------------------------------------------------
+
+template <class Archive>
+void Chip::Impl::store(Archive& archive) {
+  auto& [its_config, its_log, its_interrupt, its_user, its_station, its_map, its_sink, its_watched, its_now, its_done,
+         its_edge, its_touched, its_release, its_reset, runs, its_outputs] = *this;
+  archive.given(its_config, its_log, its_sink, its_watched, its_edge);
+  archive.within(Tick{0}, Tick{1} << 62, its_now);
+  archive.cycles(its_done, its_touched, its_release);
+  archive(its_interrupt);
+  its_station.store(archive, its_user);
+  archive(its_map, its_reset, runs);
+  archive.within(0U, (1U << kPinCount) - 1, its_outputs);
+  if constexpr (Archive::kReads) its_user.derive();
+  archive.check(is_possible());
+}
+
+// All plans lie in the future.
+bool Chip::Impl::is_possible() const {
+  const Cycle first = std::min({touched, release_at, user.next(), map.next()});
+  return done == now / kTicksPerCycle && first > done;
+}
+
+void Chip::Impl::take_over(const Impl& observed) {
+  log = observed.log;
+  sink = observed.sink;
+  watched = observed.watched;
+  plan();
+}
+
+// --- the chip --------------------------------------------------------------------------------------------------------
+
+Chip::Chip(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
+Chip::~Chip() = default;
+
+void Chip::set(Tick at, Pin pin, Level level) { impl_->set(at, pin, level); }
+void Chip::advance(Tick to) { impl_->advance(to); }
+Tick Chip::next_event() const { return impl_->next_edge(); }
+Tick Chip::now() const { return impl_->now; }
+profibus::Unheard Chip::unheard() const { return impl_->station.unheard(); }
+void Chip::hear(Tick at, bool level) {
+  if (impl_->station.set_rxd(at, level)) impl_->plan();
+}
+std::uint8_t Chip::load(Cycle cycle, Address address) { return impl_->load(cycle, address); }
+void Chip::store(Cycle cycle, Address address, std::uint8_t value) { impl_->store(cycle, address, value); }
+std::uint8_t Chip::peek(Address address) const { return impl_->map.peek(impl_->in_map(address)); }
+void Chip::poke(Address address, std::uint8_t value) { impl_->map.poke(impl_->in_map(address), value); }
+Level Chip::level(Pin pin) const { return impl_->level(pin); }
+
+void Chip::watch(const PinSink& sink, std::uint32_t pins) {
+  impl_->sink = sink;
+  impl_->watched = sink.call != nullptr ? pins & kOutputPins : 0;
+}
+void Chip::on_event(const profibus::EventSink& sink) { impl_->log.attach(sink); }
+
+std::uint8_t Chip::address() const { return impl_->station.slave().address(); }
+
+Status Chip::status() const {
+  const profibus::Station& station = impl_->station;
+  Status status;
+  status.dp_state = station.slave().state();
+  status.baud_index = station.baud_index();
+  status.address = station.slave().address();
+  status.master = station.slave().master();
+  status.telegrams_received = station.telegrams_received();
+  status.telegrams_answered = station.telegrams_answered();
+  status.data_exchanges = impl_->user.data_exchanges();
+  status.outputs_missed = impl_->user.outputs_missed();
+  return status;
+}
+
+std::vector<std::uint8_t> Chip::save() const {
+  profibus::StateWriter writer;
+  begin_state(writer, impl_->config);
+  impl_->store(writer);
+  return profibus::end_frame(writer.take());
+}
+
+void Chip::restore(const std::uint8_t* bytes, std::size_t size) {
+  profibus::StateReader reader = open_state(bytes, size, impl_->config);
+  auto restored = std::make_unique<Impl>(impl_->config);
+  restored->store(reader);
+  profibus::check_frame(reader);
+  restored->take_over(*impl_);
+  impl_ = std::move(restored);
+}
+
+}  // namespace dsdpv1::spc3

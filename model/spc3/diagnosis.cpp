@@ -1,0 +1,50 @@
+// Slave_Diag (M 5.2.4; A19, A39, A51) and New_Diag.
+#include <algorithm>
+
+#include "model/spc3/ram_store.hpp"
+#include "model/spc3/reasons.hpp"
+
+namespace dsdpv1::spc3 {
+namespace {
+
+constexpr int kStandard = 6;
+constexpr Address cell_of(Address first, int buffer) { return static_cast<Address>(first + buffer - 1); }
+
+}  // namespace
+
+profibus::StoredDiagnosis RamStore::diagnosis(bool to_holder) {
+  const Address pointer = cell_of(regs::kDiagPtr, diag_.chips());
+  profibus::StoredDiagnosis stored;
+  if (ram_.cell(pointer) == 0) {
+    stored.user.size = View::kNoBuffer;
+    return stored;
+  }
+  const int size = std::max(length(cell_of(regs::kLenDiag, diag_.chips())), kStandard);
+  stored.user = bytes(pointer, size - kStandard, kStandard);
+  stored.ext_diag = diag_.ext_diag();
+  stored.stat_diag = diag_.stat_diag();
+  stored.overflow = diag_.overflow();
+  stored.freeze = freeze_;
+  stored.sync = sync_;
+  if (config_.diag_bytes == 0) stored.standard = ram_.segment(ram_.buffer(pointer));
+  diag_.send(to_holder || config_.diag_flag_by != 0);
+  return stored;
+}
+
+std::uint8_t RamStore::new_diag(Cycle now) {
+  const DiagBuffers::Answer answer = diag_.request();
+  if (answer != DiagBuffers::Answer::kExchanged) {
+    log_.at_cycle(now, Reason::kDiagBusy, answer == DiagBuffers::Answer::kRefused);
+    return 0;
+  }
+  exchange_diag();
+  return diag_.user();
+}
+
+void RamStore::exchange_diag() {
+  const Address pointer = cell_of(regs::kDiagPtr, diag_.user());
+  diag_.exchange(ram_.cell(pointer) != 0 ? ram_.read(ram_.buffer(pointer)) : std::uint8_t{0});
+  interrupt_.raise(event::kDiagChanged);
+}
+
+}  // namespace dsdpv1::spc3

@@ -1,0 +1,158 @@
+#pragma once
+// A chip of the SPC3 family on a segment: twice, in step and in skip, with the same accesses. Every difference of pins,
+// events, read values or saved states fails the test, and from time to time one of the two goes on from its saved
+// state. A master sends telegrams; the user is the register call. Times are ticks unless their name says otherwise.
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "bus/master/requester.hpp"
+#include "model/profibus/station.hpp"
+#include "model/spc3/chip.hpp"
+#include "model/spc3/reasons.hpp"
+
+namespace dsdpv1::spc3_test {
+
+using bus::Bytes;
+using bus::Tick;
+using profibus::Cycle;
+using profibus::DpState;
+using spc3::Address;
+using spc3::Pin;
+using spc3::Variant;
+namespace event = spc3::event;
+namespace mode0 = spc3::mode0;
+namespace mode1 = spc3::mode1;
+namespace regs = spc3::regs;
+
+constexpr Cycle kMs = profibus::kCyclesPerMs;
+constexpr int kDefaultSap = -1;
+
+struct PinChange {
+  Tick at;
+  Pin pin;
+  spc3::Level level;
+};
+
+/// Both chips, as one station.
+class Twins : public bus::Agent, public bus::Listener {
+ public:
+  Twins(bus::Segment& segment, const spc3::Config& config);
+
+  std::uint8_t load(Cycle cycle, Address address);
+  void store(Cycle cycle, Address address, std::uint8_t value);
+  void set(Tick at, Pin pin, spc3::Level level);
+  const spc3::Chip& chip() const { return skip_; }
+  spc3::Chip& chip() { return skip_; }
+  void poke(Address address, std::uint8_t value);
+
+  Tick next() const override { return skip_.next_event(); }
+  void run(Tick now) override;
+  void line_changed(Tick at, bool level) override;
+
+  /// Both have come to `at`: their traces are equal. Each `restored`-th time one of them goes on from its state.
+  void compare(Tick at);
+
+  std::vector<PinChange> trace;
+  std::vector<profibus::Event> events;
+  unsigned restored = 25;
+
+ private:
+  static void on_skip_pin(void* self, Tick at, Pin pin, spc3::Level level);
+  static void on_step_pin(void* self, Tick at, Pin pin, spc3::Level level);
+  static void on_skip_event(void* self, const profibus::Event& event);
+  static void on_step_event(void* self, const profibus::Event& event);
+  void compare_traces();
+
+  bus::Segment& segment_;
+  bus::StationId station_;
+  spc3::Chip skip_, step_;
+  std::vector<PinChange> step_trace_;
+  std::vector<profibus::Event> step_events_;
+  std::size_t compared_pins_ = 0, compared_events_ = 0;
+  unsigned comparisons_ = 0;
+};
+
+/// The organisation that initialise() writes: every buffer has 64 bytes, but Len_Dout and Len_Din are short.
+struct Organisation {
+  std::uint8_t address = 5;
+  std::uint16_t ident = 0x0CC9;
+  std::uint8_t outputs = 2, inputs = 3;
+  std::uint8_t aux_select = 0;
+  std::uint16_t user_watchdog = 0;
+  std::uint16_t modes = mode0::kDpMode | mode0::kSync | mode0::kFreeze;
+  bool no_add_change = false;
+  bool ssa = true;
+  Bytes read_cfg = {0x12, 0x21};
+};
+// Segments of the buffers.
+constexpr std::uint8_t kDout = 0x08, kDin = 0x20, kDiag = 0x38, kAux = 0x48, kSsa = 0x58, kPrm = 0x60, kCfg = 0x68,
+                       kReadCfg = 0x70;
+constexpr int kBufferSize = 64;
+
+class Bench {
+ public:
+  explicit Bench(Variant variant = Variant::kApc3, spc3::Config config = {});
+
+  // --- time
+  Tick now() const { return timeline.now(); }
+  Cycle cycle() const { return now() / profibus::kTicksPerCycle; }
+  void run_until(Tick until);
+  void run_cycles(Cycle cycles) { run_until((cycle() + cycles) * profibus::kTicksPerCycle); }
+  void run_ms(Cycle ms) { run_cycles(ms * kMs); }
+
+  // --- the user
+  std::uint8_t load(Address address) { return twins.load(cycle(), address); }
+  void store(Address address, std::uint8_t value) { twins.store(cycle(), address, value); }
+  std::uint16_t irr() { return static_cast<std::uint16_t>(load(regs::kIrr) | load(regs::kIrr + 1) << 8); }
+  bool raised(std::uint16_t events) { return (irr() & events) == events; }
+  void acknowledge(std::uint16_t events);
+  void set_mode1(std::uint8_t bits) { store(regs::kMode1Set, bits); }
+  /// The bytes of the buffer to which a cell points.
+  Bytes buffer(Address pointer, int size);
+  void fill(Address pointer, const Bytes& bytes);
+  /// Din's U, and New_Din.
+  int give_inputs(const Bytes& bytes);
+  /// Next_Dout, and the bytes of U.
+  Bytes fetch_outputs(int* answer = nullptr);
+
+  void power_on();
+  void initialise(const Organisation& given = {});
+  void start();  ///< mode register 1, bit 0
+  void find_baud(int index = 0);
+
+  // --- the master: single requests, each the begin of a series
+  bus::Exchange ask(int dsap, const Bytes& data = {}, std::uint8_t master = 2);
+  bus::Exchange repeat(int dsap, const Bytes& data = {}, std::uint8_t master = 2, bool fcb = true);
+  void control(std::uint8_t command, std::uint8_t group = 0, std::uint8_t master = 2);
+  bus::Exchange exchange(const Bytes& outputs) { return ask(kDefaultSap, outputs); }
+  bus::Exchange set_prm(const Bytes& user = {}, std::uint8_t status = 0x80, std::uint8_t wd1 = 0, std::uint8_t wd2 = 0,
+                        std::uint8_t tsdr = 0, std::uint8_t group = 0, std::uint8_t master = 2);
+  bus::Exchange check_cfg(const Bytes& cfg = {0x12, 0x21}) { return ask(62, cfg); }
+  Bytes diag(std::uint8_t master = 2);
+  /// Until the effects of the last telegram are there (A40).
+  void settle() { run_cycles(64); }
+
+  // --- short cuts
+  void to_wait_prm(const Organisation& given = {});
+  void to_wait_cfg(const Organisation& given = {}, const Bytes& user_prm = {});
+  void to_data_ex(const Organisation& given = {}, const Bytes& user_prm = {});
+
+  DpState state() const { return twins.chip().status().dp_state; }
+  int count(profibus::Reason reason) const;
+  int count(const profibus::ReasonRow& row) const { return count(profibus::Reason(row)); }
+  std::vector<PinChange> changes(Pin pin) const;
+
+  bus::Timeline timeline;
+  bus::Segment segment;
+  Twins twins;
+  bus::Requester requester;
+  Organisation organisation;
+  std::uint8_t address = 5;
+};
+
+/// "SC", "RS", "RR", "DL", "DH", "silent" or the bytes.
+std::string kind_of(const bus::Exchange& exchange);
+
+}  // namespace dsdpv1::spc3_test

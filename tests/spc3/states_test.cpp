@@ -1,0 +1,269 @@
+// From power-on to DATA_EX and out of it: MAC and DP states, START, Go_Offline, Leave_Master (docs/spc3.md, "State
+// machines").
+#include "tests/spc3/bench.hpp"
+
+namespace dsdpv1::spc3_test {
+namespace {
+
+using spc3::Reason;
+
+class EachName : public testing::TestWithParam<Variant> {};
+INSTANTIATE_TEST_SUITE_P(Names, EachName, testing::Values(Variant::kApc3, Variant::kSpc3, Variant::kVpc3),
+                         [](const auto& tested) { return std::string(spc3::row(tested.param).name); });
+
+TEST_P(EachName, FromPowerOnToDataExchange) {
+  Bench bench(GetParam());
+  bench.power_on();
+  EXPECT_EQ(bench.load(regs::kStatus), 0x00);
+  EXPECT_EQ(bench.load(regs::kStatus + 1) & 0x0F, 0x0F) << "no rate";
+  bench.initialise();
+  bench.start();
+  EXPECT_EQ(bench.load(regs::kStatus), 0x01) << "PASSIVE_IDLE, WAIT_PRM, search";
+  EXPECT_EQ(bench.load(regs::kStatus + 1) & 0x0F, 0x00) << "12 Mbit/s is tried";
+  EXPECT_EQ(bench.load(regs::kDoutSm), 0x27) << "cleared outputs in N (A17)";
+  EXPECT_TRUE(bench.raised(event::kDxOut));
+  bench.find_baud();
+  EXPECT_TRUE(bench.raised(event::kBaudDetect));
+  EXPECT_EQ(bench.load(regs::kStatus), 0x41) << "BAUD_CONTROL";
+
+  EXPECT_EQ(kind_of(bench.set_prm({0x00, 0x77})), "SC");
+  EXPECT_TRUE(bench.raised(event::kNewPrm));
+  EXPECT_EQ(bench.load(regs::kLenPrm), 9);
+  EXPECT_EQ(bench.load(regs::kPrmPtr), kAux) << "exchanged with Aux 1 (A22)";
+  EXPECT_EQ(bench.load(regs::kAuxPtr), kPrm);
+  EXPECT_EQ(bench.buffer(regs::kPrmPtr, 9), (Bytes{0x80, 0, 0, 0, 0x0C, 0xC9, 0, 0x00, 0x77}));
+  EXPECT_EQ(bench.load(regs::kStatus), 0x51) << "WAIT_CFG when it is received (A49)";
+  EXPECT_EQ(bench.load(regs::kPrmOk), spc3::verdict::kFinished);
+  EXPECT_FALSE(bench.raised(event::kNewPrm)) << "the answer takes the event back (A14)";
+
+  EXPECT_EQ(kind_of(bench.check_cfg()), "SC");
+  EXPECT_TRUE(bench.raised(event::kNewCfg));
+  EXPECT_EQ(bench.buffer(regs::kCfgPtr, bench.load(regs::kLenCfg)), (Bytes{0x12, 0x21}));
+  bench.acknowledge(0xFFFF);
+  EXPECT_EQ(bench.irr(), event::kNewCfg) << "IAR does not clear it (A15)";
+  EXPECT_EQ(bench.load(regs::kCfgOk), spc3::verdict::kFinished);
+  bench.run_cycles(2);
+  if (GetParam() != Variant::kVpc3) {
+    EXPECT_EQ(bench.state(), DpState::kWaitCfg) << "no inputs yet (A24)";
+    EXPECT_EQ(bench.count(Reason::kExchangeWaits), 1);
+  }
+  bench.give_inputs({1, 2, 3});
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.load(regs::kStatus), 0x61);
+  EXPECT_TRUE(bench.raised(event::kGoLeaveDataEx));
+  EXPECT_EQ(bench.twins.chip().level(Pin::kXDataExch), 0);
+  const bus::Exchange answer = bench.exchange({0x55, 0xAA});
+  EXPECT_EQ(kind_of(answer), "DL");
+  EXPECT_EQ(answer.answer().data, (Bytes{1, 2, 3}));
+  EXPECT_EQ(bench.fetch_outputs(), (Bytes{0x55, 0xAA}));
+}
+
+TEST_P(EachName, TheEventComesAfterItsDelay) {
+  Bench bench(GetParam());
+  bench.to_data_ex();
+  bench.acknowledge(event::kDxOut);
+  const auto telegram = bus::make_telegram(5, 2, 0x6D, {1, 2});
+  const bus::Exchange sent = bench.requester.send(bench.timeline, telegram, {.wants_answer = false});
+  // S10: decided one bit time after the last stop bit, whose end the logic sees three edges later
+  const Cycle decided = sent.request_end / profibus::kTicksPerCycle + 3 + 4 + 1;
+  bench.run_until((decided + 31) * profibus::kTicksPerCycle);
+  EXPECT_FALSE(bench.raised(event::kDxOut));
+  bench.run_cycles(1);
+  EXPECT_TRUE(bench.raised(event::kDxOut)) << "A40";
+  bench.run_ms(1);
+}
+
+TEST(States, NoInputsNeedNoNewDin) {
+  Bench bench;
+  Organisation given;
+  given.inputs = 0;
+  bench.to_data_ex(given);
+  EXPECT_EQ(kind_of(bench.exchange({1, 2})), "SC");
+}
+
+TEST(States, InputsMayBeGivenBeforeStart) {
+  Bench bench;
+  bench.power_on();
+  bench.initialise();
+  EXPECT_EQ(bench.give_inputs({7, 8, 9}), 3);
+  bench.start();
+  bench.find_baud();
+  bench.set_prm();
+  bench.check_cfg();
+  bench.load(regs::kCfgOk);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+  EXPECT_EQ(bench.exchange({1, 2}).answer().data, (Bytes{7, 8, 9}));
+}
+
+TEST(States, DataExchangeWaitsForTheAnswerToTheParametersToo) {
+  Bench bench;
+  bench.to_wait_prm();
+  bench.give_inputs({1, 2, 3});
+  bench.set_prm({0});
+  EXPECT_EQ(kind_of(bench.check_cfg()), "SC") << "WAIT_CFG already (A49)";
+  EXPECT_EQ(bench.load(regs::kCfgOk), 0);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kWaitCfg);
+  EXPECT_EQ(bench.load(regs::kPrmOk), 0);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+}
+
+TEST(States, ParametersMayWaitForTheirVerdict) {
+  spc3::Config config;
+  config.prm_taken = 1;
+  Bench bench(Variant::kApc3, config);
+  bench.to_wait_prm();
+  bench.set_prm({0});
+  EXPECT_EQ(bench.state(), DpState::kWaitPrm);
+  EXPECT_EQ(kind_of(bench.check_cfg()), "RS");
+  EXPECT_EQ(bench.load(regs::kPrmOk), 0);
+  EXPECT_EQ(bench.state(), DpState::kWaitCfg);
+}
+
+TEST(States, DpModeOffAnswersOnlyFdlStatus) {
+  Bench bench;
+  Organisation given;
+  given.modes = 0;
+  bench.to_wait_prm(given);
+  EXPECT_EQ(bench.count(Reason::kNoDpMode), 1);
+  EXPECT_EQ(kind_of(bench.ask(60)), "silent");
+  const bus::Exchange status = bench.requester.send(bench.timeline, bus::make_telegram(5, 2, 0x49));
+  EXPECT_TRUE(status.answered());
+}
+
+TEST(States, GoOfflineOnASilentLineIsAtOnce) {
+  Bench bench;
+  bench.to_data_ex();
+  bench.acknowledge(0xFFFF);
+  bench.set_mode1(mode1::kGoOffline);
+  bench.run_cycles(1);
+  EXPECT_EQ(bench.load(regs::kStatus), 0x00);
+  EXPECT_EQ(bench.load(regs::kDoutSm), 0xE1) << "A17";
+  EXPECT_EQ(bench.load(regs::kDinSm), 0xE1);
+  EXPECT_TRUE(bench.raised(event::kMacReset | event::kGoLeaveDataEx));
+  EXPECT_EQ(kind_of(bench.exchange({1, 2})), "silent");
+  bench.run_ms(3);
+  bench.start();
+  EXPECT_EQ(bench.state(), DpState::kWaitPrm);
+  bench.find_baud();
+  EXPECT_EQ(kind_of(bench.ask(60)), "DL");
+}
+
+TEST(States, GoOfflineWaitsForTheTelegramAndItsAnswer) {
+  Bench bench;
+  bench.to_data_ex();
+  const auto telegram = bus::make_telegram(5, 2, 0x6D, {0x31, 0x32});
+  const Tick begin = bench.now() + 40 * bench.requester.bit();
+  bool asked = false;
+  // the user asks in the middle of the request
+  struct User : bus::Agent {
+    Bench& bench;
+    Tick at;
+    bool& asked;
+    User(Bench& of, Tick when, bool& done) : bench(of), at(when), asked(done) {}
+    Tick next() const override { return asked ? bus::kNever : at; }
+    void run(Tick) override {
+      asked = true;
+      bench.set_mode1(mode1::kGoOffline);
+    }
+  } user(bench, begin + 30 * bench.requester.bit(), asked);
+  bench.timeline.add(user);
+  const bus::Exchange answer = bench.requester.send(bench.timeline, telegram, {.at = begin});
+  EXPECT_TRUE(asked);
+  EXPECT_EQ(kind_of(answer), "DL");
+  bench.run_cycles(100);
+  EXPECT_EQ(bench.state(), DpState::kOffline);
+  EXPECT_TRUE(bench.raised(event::kMacReset));
+}
+
+TEST(States, StartAndGoOfflineInOneWrite) {
+  Bench bench;
+  bench.power_on();
+  bench.initialise();
+  bench.set_mode1(mode1::kStart | mode1::kGoOffline);
+  bench.run_cycles(3);
+  EXPECT_EQ(bench.state(), DpState::kWaitPrm) << "START when OFFLINE (A55)";
+  bench.set_mode1(mode1::kStart);
+  EXPECT_EQ(bench.count(Reason::kStartOnline), 1);
+  bench.set_mode1(mode1::kStart | mode1::kGoOffline);
+  bench.run_cycles(3);
+  EXPECT_EQ(bench.state(), DpState::kOffline);
+}
+
+TEST(States, UserLeaveMasterClearsTheOutputs) {
+  Bench bench;
+  bench.to_data_ex();
+  bench.exchange({0x11, 0x22});
+  bench.fetch_outputs();
+  bench.acknowledge(0xFFFF);
+  bench.set_mode1(mode1::kUserLeaveMaster);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kWaitPrm);
+  EXPECT_TRUE(bench.raised(event::kGoLeaveDataEx | event::kDxOut));
+  int answer = 0;
+  EXPECT_EQ(bench.fetch_outputs(&answer), (Bytes{0, 0}));
+  EXPECT_EQ(answer & 0x0C, 0x0C) << "new, and cleared";
+  EXPECT_EQ(bench.diag()[3], 255);
+  EXPECT_EQ(kind_of(bench.exchange({1, 2})), "RS");
+}
+
+TEST(States, UnlockInWaitPrmClearsTheOutputsToo) {
+  Bench bench;
+  bench.to_wait_prm();
+  bench.fetch_outputs();
+  bench.acknowledge(0xFFFF);
+  EXPECT_EQ(kind_of(bench.set_prm({}, 0x40)), "SC");
+  EXPECT_TRUE(bench.raised(event::kDxOut));
+  EXPECT_FALSE(bench.raised(event::kGoLeaveDataEx));
+}
+
+TEST(States, AWrongOutputLengthIsCfgFault) {
+  Bench bench;
+  bench.to_data_ex();
+  EXPECT_EQ(kind_of(bench.exchange({1, 2, 3})), "RR");
+  EXPECT_EQ(bench.state(), DpState::kWaitPrm);
+  EXPECT_EQ(bench.diag()[0], 0x06) << "Cfg_Fault, not ready";
+}
+
+TEST(States, ParametersInDataExchangeLeadBackToWaitCfg) {
+  Bench bench;
+  bench.to_data_ex();
+  bench.exchange({1, 2});
+  bench.acknowledge(0xFFFF);
+  bench.set_prm({0, 1});
+  EXPECT_EQ(bench.state(), DpState::kWaitCfg);
+  EXPECT_TRUE(bench.raised(event::kGoLeaveDataEx | event::kDxOut | event::kNewPrm));
+  bench.load(regs::kPrmOk);
+  bench.check_cfg();
+  bench.load(regs::kCfgOk);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kWaitCfg) << "nothing new in N of Din";
+  bench.load(regs::kNewDin);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+}
+
+TEST(States, ResetActsAtOnceAndKeepsTheRam) {
+  Bench bench;
+  bench.to_data_ex();
+  bench.twins.set(bench.now() + 7, Pin::kReset, 1);
+  EXPECT_EQ(bench.twins.chip().level(Pin::kXDataExch), 1);
+  bench.run_cycles(5);
+  EXPECT_EQ(bench.load(regs::kLenDout), 0) << "no access in reset";
+  EXPECT_EQ(bench.count(Reason::kInReset), 1);
+  bench.twins.set(bench.now(), Pin::kReset, 0);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.load(regs::kLenDout), 0) << "two flip-flops (A9)";
+  bench.run_cycles(1);
+  EXPECT_EQ(bench.load(regs::kLenDout), 2);
+  EXPECT_EQ(bench.irr(), 0);
+  EXPECT_EQ(bench.load(regs::kStatus), 0);
+  bench.initialise();
+  bench.start();
+  bench.find_baud();
+}
+
+}  // namespace
+}  // namespace dsdpv1::spc3_test

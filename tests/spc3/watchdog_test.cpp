@@ -1,0 +1,164 @@
+// Watchdogs, the search and min_TSDR (docs/spc3.md, "MAC, DP and watchdog"; A30 to A34).
+#include "tests/spc3/bench.hpp"
+
+namespace dsdpv1::spc3_test {
+namespace {
+
+using profibus::Reason;
+
+constexpr std::uint8_t kWdOn = 0x88;
+
+unsigned wd_state(Bench& bench) { return bench.load(regs::kStatus) >> 6U; }
+
+TEST(Watchdog, DpControlEndsTheExchangeOfASilentMaster) {
+  Bench bench;
+  bench.to_data_ex();
+  bench.set_prm({0x04}, kWdOn, 2, 3);  // 6 x 1 ms (A32)
+  EXPECT_EQ(wd_state(bench), 2U) << "from its receipt (A49)";
+  bench.load(regs::kPrmOk);
+  bench.check_cfg();
+  bench.give_inputs({1, 2, 3});
+  bench.load(regs::kCfgOk);
+  bench.exchange({7, 7});
+  bench.acknowledge(0xFFFF);
+  bench.run_ms(5);
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+  bench.run_ms(2);
+  EXPECT_EQ(bench.state(), DpState::kWaitPrm);
+  EXPECT_EQ(wd_state(bench), 1U);
+  EXPECT_TRUE(bench.raised(event::kWdTimeout | event::kGoLeaveDataEx | event::kDxOut));
+  EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0}));
+}
+
+TEST(Watchdog, AVerdictThatNeverComesDoesNotStopIt) {
+  Bench bench;
+  bench.to_wait_prm();
+  bench.set_prm({0x04}, kWdOn, 1, 3);
+  bench.run_ms(4);
+  EXPECT_EQ(bench.state(), DpState::kWaitPrm);
+  EXPECT_TRUE(bench.raised(event::kWdTimeout));
+  EXPECT_EQ(bench.load(regs::kPrmOk), spc3::verdict::kNotAllowed);
+}
+
+TEST(Watchdog, BaudControlSearchesAgainAndLeavesTheState) {
+  Bench bench;
+  bench.power_on();
+  bench.initialise();
+  bench.store(regs::kWdBaudControl, 2);  // 2 x 2 x 10 ms (A31)
+  bench.start();
+  bench.find_baud();
+  bench.set_prm();
+  bench.check_cfg();
+  bench.give_inputs({1, 2, 3});
+  bench.load(regs::kCfgOk);
+  bench.exchange({1, 2});
+  bench.acknowledge(0xFFFF);
+  bench.run_ms(39);
+  EXPECT_EQ(wd_state(bench), 1U);
+  bench.run_ms(2);
+  EXPECT_EQ(wd_state(bench), 0U);
+  EXPECT_EQ(bench.state(), DpState::kDataExch) << "M 4.4.2";
+  EXPECT_EQ(bench.irr(), 0);
+  bench.find_baud(1);
+  EXPECT_TRUE(bench.raised(event::kBaudDetect));
+  EXPECT_EQ(bench.load(regs::kStatus + 1) & 0x0F, 1);
+  EXPECT_EQ(kind_of(bench.exchange({1, 2})), "DL");
+}
+
+TEST(Watchdog, BaudControlMayBeLinearOrOff) {
+  for (const std::uint8_t value : {std::uint8_t{5}, std::uint8_t{0}}) {
+    spc3::Config config;
+    config.baud_control = 1;
+    Bench bench(Variant::kApc3, config);
+    bench.to_wait_prm();
+    bench.store(regs::kWdBaudControl, value);
+    bench.ask(60);
+    bench.run_ms(49);
+    EXPECT_EQ(wd_state(bench), 1U);
+    bench.run_ms(2);
+    EXPECT_EQ(wd_state(bench), value == 0 ? 1U : 0U);
+  }
+}
+
+// --- min_TSDR --------------------------------------------------------------------------------------------------------
+
+double tsdr(Bench& bench) { return bench.ask(60).tsdr_bits(); }
+
+TEST(MinTsdr, IsTheDefaultTheRegistersOrTheMasters) {
+  Bench bench;
+  bench.to_wait_prm();
+  EXPECT_NEAR(tsdr(bench), 11, 1);
+  bench.store(regs::kMinTsdr, 40);
+  EXPECT_NEAR(tsdr(bench), 40, 1);
+  bench.set_prm({}, 0x80, 0, 0, 70);
+  EXPECT_NEAR(tsdr(bench), 70, 1);
+  bench.set_prm({}, 0x80, 0, 0, 0);
+  EXPECT_NEAR(tsdr(bench), 70, 1) << "0 leaves it";
+}
+
+TEST(MinTsdr, IsTheCombiDefault) {
+  Bench bench;
+  Organisation given;
+  given.modes |= mode0::kCombi;
+  bench.to_wait_prm(given);
+  EXPECT_NEAR(tsdr(bench), 60, 1);
+}
+
+TEST(MinTsdr, ReturnsToTheDefaultWhenTheRateIsLost) {
+  for (const bool keeps : {false, true}) {
+    spc3::Config config;
+    config.tsdr_at_search = keeps;
+    Bench bench(Variant::kApc3, config);
+    bench.power_on();
+    bench.initialise();
+    bench.store(regs::kMinTsdr, 50);
+    bench.store(regs::kWdBaudControl, 1);
+    bench.start();
+    bench.find_baud();
+    EXPECT_NEAR(tsdr(bench), keeps ? 50 : 11, 1) << "START begins a search";
+    bench.store(regs::kMinTsdr, 40);
+    bench.run_ms(11);
+    EXPECT_EQ(bench.count(Reason::kBaudLost), 1);
+    bench.find_baud();
+    EXPECT_NEAR(tsdr(bench), keeps ? 40 : 11, 1) << "A33";
+  }
+}
+
+// --- the user's watchdog ---------------------------------------------------------------------------------------------
+
+TEST(UserWatchdog, CountsDataTelegramsWithoutItsBit) {
+  Bench bench;
+  Organisation given;
+  given.user_watchdog = 3;
+  bench.to_data_ex(given);  // START with Res_User_Wd
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(kind_of(bench.exchange({1, 2})), "DL");
+  EXPECT_EQ(bench.state(), DpState::kDataExch) << "the first loaded it, 2 are counted";
+  bench.set_mode1(mode1::kResUserWd);
+  for (int i = 0; i < 3; ++i) bench.exchange({1, 2});
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+  bench.ask(56);
+  bench.acknowledge(0xFFFF);
+  EXPECT_EQ(kind_of(bench.exchange({8, 8})), "DL") << "still answered";
+  EXPECT_EQ(bench.state(), DpState::kWaitPrm);
+  EXPECT_EQ(bench.count(spc3::Reason::kUserWatchdog), 1);
+  EXPECT_TRUE(bench.raised(event::kGoLeaveDataEx | event::kDxOut));
+  EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0}));
+}
+
+TEST(UserWatchdog, ZeroCounts65536AndTheFirstWithoutTheBitWraps) {
+  Bench bench;
+  bench.power_on();
+  bench.initialise();
+  bench.set_mode1(mode1::kStart);  // A34: the count is 0
+  bench.run_cycles(2);
+  bench.find_baud();
+  bench.set_prm();
+  bench.check_cfg();
+  bench.give_inputs({1, 2, 3});
+  bench.load(regs::kCfgOk);
+  for (int i = 0; i < 10; ++i) bench.exchange({1, 2});
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+}
+
+}  // namespace
+}  // namespace dsdpv1::spc3_test
