@@ -7,6 +7,9 @@ namespace {
 
 using profibus::kNever;
 
+// Bits of mode register 1 that the user sets and clears; bit 7 of the VPC3+ has no effect.
+constexpr std::uint8_t kStays = regs::kMode1EnChangeCfg | regs::kMode1ResUserWd | 0x80;
+
 constexpr std::uint8_t byte_of(std::uint16_t word, bool high) {
   return static_cast<std::uint8_t>(high ? word >> 8 : word & 0xFF);
 }
@@ -22,7 +25,7 @@ void AddressMap::reset() {
 // --- the read side ---------------------------------------------------------------------------------------------------
 
 std::uint8_t AddressMap::read(Cycle now, Address address) {
-  if (address < regs::kOrganisation) {
+  if (address < regs::kOrg) {
     store_.set_by_user(true);
     const std::uint8_t answer = command(now, address);
     store_.set_by_user(false);
@@ -64,8 +67,8 @@ std::uint8_t AddressMap::peek(Address address) const {
     case regs::kDinSm: return store_.din().states().code();
     case regs::kDoutSm: return store_.dout().states().code();
     case regs::kDiagSm: return store_.diag().code();
-    case regs::kMode1: return more ? mode1() : std::uint8_t{0};
-    default: return address < regs::kOrganisation ? std::uint8_t{0} : store_.ram().peek(address);
+    case regs::kMode1Read: return more ? mode1() : std::uint8_t{0};
+    default: return address < regs::kOrg ? std::uint8_t{0} : store_.ram().peek(address);
   }
 }
 
@@ -84,13 +87,13 @@ std::uint8_t AddressMap::status(bool high) const {
 }
 
 std::uint8_t AddressMap::mode1() const {
-  return static_cast<std::uint8_t>(store_.modes().mode1 | (store_.online() ? mode1::kStart : 0U));
+  return static_cast<std::uint8_t>(store_.modes().mode1 | (store_.online() ? regs::kMode1Start : 0U));
 }
 
 // --- the write side --------------------------------------------------------------------------------------------------
 
 void AddressMap::write(Cycle now, Address address, std::uint8_t value) {
-  if (address >= regs::kOrganisation) return write_cell(now, address, value);
+  if (address >= regs::kOrg) return write_cell(now, address, value);
   store_.set_by_user(true);
   write_register(now, address, value);
   store_.set_by_user(false);
@@ -108,8 +111,8 @@ void AddressMap::write_register(Cycle now, Address address, std::uint8_t value) 
     case regs::kImr + 1: return interrupt_.set_imr(high, value);
     case regs::kMode0:
     case regs::kMode0 + 1: return write_mode0(now, address, value);
-    case regs::kMode1Set: return set_mode1(now, value);
-    case regs::kMode1Clear: return modes.clear1(value & (mode1::kEnChangeCfg | mode1::kResUserWd | mode1::kStored));
+    case regs::kMode1S: return set_mode1(now, value);
+    case regs::kMode1R: return modes.clear1(value & kStays);
     case regs::kWdBaudControl: modes.wd_baud_control = value; return store_.refresh();
     case regs::kMinTsdr: modes.min_tsdr = value; return station_.set_min_tsdr(value);
     case regs::kMode2:
@@ -122,9 +125,8 @@ void AddressMap::write_register(Cycle now, Address address, std::uint8_t value) 
 }
 
 void AddressMap::write_mode0(Cycle now, Address address, std::uint8_t value) {
-  constexpr std::uint8_t kWdTest = 0x08;  // of the high byte
   if (store_.online()) return log_.at_cycle(now, Reason::kMode0Online, address, value);
-  if (is_high(address) && (value & kWdTest) != 0) log_.at_cycle(now, Reason::kWdTest);
+  if (is_high(address) && (value & regs::kMode0WdTest >> 8) != 0) log_.at_cycle(now, Reason::kWdTest);
   store_.modes().set_mode0(is_high(address), value);
   store_.refresh();
 }
@@ -132,17 +134,17 @@ void AddressMap::write_mode0(Cycle now, Address address, std::uint8_t value) {
 // A55: START when OFFLINE, else Go_Offline.
 void AddressMap::set_mode1(Cycle now, std::uint8_t bits) {
   const bool online = store_.online();
-  store_.modes().set1(bits & (mode1::kEnChangeCfg | mode1::kResUserWd | mode1::kStored));
-  if ((bits & mode1::kEoi) != 0) interrupt_.end(now, store_.modes().eoi_gap(config_));
+  store_.modes().set1(bits & kStays);
+  if ((bits & regs::kMode1Eoi) != 0) interrupt_.end(now, store_.modes().eoi_gap(config_));
   if (!online) {
-    if ((bits & mode1::kStart) != 0) start(now);
+    if ((bits & regs::kMode1Start) != 0) start(now);
     return;
   }
-  if ((bits & mode1::kUserLeaveMaster) != 0) station_.leave_master(now);
-  if ((bits & mode1::kGoOffline) != 0) {
+  if ((bits & regs::kMode1UserLeaveMaster) != 0) station_.leave_master(now);
+  if ((bits & regs::kMode1GoOffline) != 0) {
     stops_ = true;
-    store_.modes().set1(mode1::kGoOffline);
-  } else if ((bits & mode1::kStart) != 0) {
+    store_.modes().set1(regs::kMode1GoOffline);
+  } else if ((bits & regs::kMode1Start) != 0) {
     log_.at_cycle(now, Reason::kStartOnline);
   }
 }
@@ -158,14 +160,14 @@ void AddressMap::write_cell(Cycle now, Address address, std::uint8_t value) {
 // A5.
 bool AddressMap::may_write(Address address) const {
   constexpr Address kSpare = 0x3E;
-  if (address == regs::kLenReadCfg || address >= kSpare) return true;
-  if (address == regs::kLenDiag + store_.diag().user() - 1) return true;
-  const bool is_io = address >= regs::kLenDout && address < regs::kDinPtr + 3;
+  if (address == regs::kOrgReadCfgLength || address >= kSpare) return true;
+  if (address == regs::kOrgDiagLength + store_.diag().user() - 1) return true;
+  const bool is_io = address >= regs::kOrgDoutLength && address < regs::kOrgDinPointer + 3;
   return is_io && station_.slave().state() == DpState::kWaitCfg;
 }
 
 void AddressMap::poke(Address address, std::uint8_t value) {
-  if (address < regs::kOrganisation) return;
+  if (address < regs::kOrg) return;
   store_.ram().poke(address, value);
   if (address < regs::kBuffers) store_.refresh();
 }
@@ -174,7 +176,7 @@ void AddressMap::poke(Address address, std::uint8_t value) {
 
 void AddressMap::start(Cycle now) {
   violated_ = stops_ = false;
-  log_.at_cycle(now, Reason::kStart, store_.ram().cell(regs::kTsAdr), store_.ram().word(regs::kIdentLow));
+  log_.at_cycle(now, Reason::kStart, store_.ram().cell(regs::kOrgAddress), store_.ram().word(regs::kOrgIdentLow));
   store_.start(now);
   begin_timer(now);
 }
@@ -185,7 +187,7 @@ void AddressMap::stop(Cycle now) {
   store_.set_by_user(true);
   store_.stop(now);
   store_.set_by_user(false);
-  interrupt_.raise(event::kMacReset);
+  interrupt_.raise(regs::kEventMacReset);
   log_.at_cycle(now, Reason::kOffline);
 }
 
@@ -199,19 +201,19 @@ void AddressMap::take_violation(Cycle now) {
   if (store_.online())
     stops_ = true;
   else
-    interrupt_.raise(event::kMacReset);
+    interrupt_.raise(regs::kEventMacReset);
 }
 
 void AddressMap::eval(Cycle now) {
   take_violation(now);
   if (stops_ && station_.quiet(now) && store_.next() == kNever) stop(now);
   if (now < user_timer_) return;
-  interrupt_.raise(event::kUserTimer);
+  interrupt_.raise(regs::kEventUserTimer);
   begin_timer(now);
 }
 
 void AddressMap::begin_timer(Cycle now) {
-  const int ms = store_.modes().has0(mode0::kUserTimeBase) ? 10 : 1;
+  const int ms = store_.modes().has0(regs::kMode0UserTimeBase) ? 10 : 1;
   user_timer_ = variant_.has_user_timer ? now + ms * profibus::kCyclesPerMs : kNever;
 }
 

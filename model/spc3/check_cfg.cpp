@@ -12,24 +12,24 @@ profibus::Take RamStore::configuration(Cycle now, const Request& request, bool /
   return profibus::Take::kAwaited;
 }
 
-profibus::IoLengths RamStore::configured() { return {length(regs::kLenDin), length(regs::kLenDout)}; }
+profibus::IoLengths RamStore::configured() { return {length(regs::kOrgDinLength), length(regs::kOrgDoutLength)}; }
 
 View RamStore::read_cfg(bool /*exchanging*/) {
-  const int size = length(regs::kLenReadCfg);
-  if (size > 0 && ram_.cell(regs::kReadCfgPtr) == 0) return {nullptr, View::kNoBuffer};
-  return bytes(regs::kReadCfgPtr, size);
+  const int size = length(regs::kOrgReadCfgLength);
+  if (size > 0 && ram_.cell(regs::kOrgReadCfgPointer) == 0) return {nullptr, View::kNoBuffer};
+  return bytes(regs::kOrgReadCfgPointer, size);
 }
 
 // --- the user's verdict ----------------------------------------------------------------------------------------------
 
 std::uint8_t RamStore::cfg_verdict(Cycle now, bool good) {
-  const std::uint8_t answer = take_back(now, Block::kCfg, event::kNewCfg);
-  if (answer != verdict::kFinished) return answer;
+  const std::uint8_t answer = take_back(now, Block::kCfg, regs::kEventNewCfg);
+  if (answer != regs::kVerdictFinished) return answer;
   if (!good) {
     station_.cfg_verdict(now, false);
     return answer;
   }
-  if (modes_.has1(mode1::kEnChangeCfg)) ram_.swap_cells(regs::kCfgPtr, regs::kReadCfgPtr);  // A26
+  if (modes_.has1(regs::kMode1EnChangeCfg)) ram_.swap_cells(regs::kOrgCfgPointer, regs::kOrgReadCfgPointer);  // A26
   cfg_held_ = true;
   begin_exchange(now);
   if (cfg_held_) log_.at_cycle(now, Reason::kExchangeWaits, blocks_.pending(Block::kPrm), !has_inputs());
@@ -38,7 +38,7 @@ std::uint8_t RamStore::cfg_verdict(Cycle now, bool good) {
 
 bool RamStore::has_inputs() const {
   const bool at_once = config_.data_ex == 0 ? variant_.exchanges_at_cfg_ok : config_.data_ex == 2;
-  return at_once || ram_.cell(regs::kLenDin) == 0 || din_.has_new();
+  return at_once || ram_.cell(regs::kOrgDinLength) == 0 || din_.has_new();
 }
 
 // A24, after each command that may make it so.

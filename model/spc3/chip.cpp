@@ -178,7 +178,7 @@ void Chip::Impl::store(Cycle cycle, Address address, std::uint8_t value) {
 // --- outputs ---------------------------------------------------------------------------------------------------------
 
 std::uint32_t Chip::Impl::outputs_now() const {
-  const bool high_active = user.modes().has0(mode0::kIntPol);
+  const bool high_active = user.modes().has0(regs::kMode0IntPol);
   return bit(Pin::kTxd, station.txd()) | bit(Pin::kRts, station.rts()) |
          bit(Pin::kXInt, interrupt.latch() == high_active) |
          bit(Pin::kXDataExch, station.slave().state() != profibus::DpState::kDataExch);  // A35

@@ -19,7 +19,6 @@
 #include "model/profibus/event.hpp"
 #include "model/profibus/state_frame.hpp"
 #include "model/profibus/uart_rx.hpp"
-#include "model/spc3/cells.hpp"
 #include "model/spc3/config.hpp"
 #include "model/spc3/pins.hpp"
 

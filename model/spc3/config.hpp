@@ -3,8 +3,11 @@
 #include <cstdint>
 
 #include "model/spc3/variant.hpp"
+#include "registers/spc3_regs.hpp"
 
 namespace dsdpv1::spc3 {
+
+using regs::Address;
 
 enum class Engine : std::uint8_t {
   kStep,  ///< every cycle of every block is evaluated

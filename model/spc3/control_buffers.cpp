@@ -12,9 +12,9 @@ struct BlockRow {
   std::uint16_t event;
 };
 // In the order of Block.
-constexpr BlockRow kRows[] = {{regs::kLenPrm, regs::kPrmPtr, event::kNewPrm},
-                              {regs::kLenCfg, regs::kCfgPtr, event::kNewCfg},
-                              {regs::kLenSsa, regs::kSsaPtr, event::kNewSsa}};
+constexpr BlockRow kRows[] = {{regs::kOrgPrmLength, regs::kOrgPrmPointer, regs::kEventNewPrm},
+                              {regs::kOrgCfgLength, regs::kOrgCfgPointer, regs::kEventNewCfg},
+                              {regs::kOrgSsaLength, regs::kOrgSsaPointer, regs::kEventNewSsa}};
 
 constexpr unsigned number(Block block) { return static_cast<unsigned>(block); }
 constexpr const BlockRow& row_of(Block block) { return kRows[number(block)]; }
@@ -22,7 +22,7 @@ constexpr const BlockRow& row_of(Block block) { return kRows[number(block)]; }
 }  // namespace
 
 // 0 or 1: R_Aux_Puf_Sel has a bit for each kind.
-int ControlBuffers::aux_of(Block block) const { return ram_.cell(regs::kAuxSel) >> number(block) & 1; }
+int ControlBuffers::aux_of(Block block) const { return ram_.cell(regs::kOrgAuxSelect) >> number(block) & 1; }
 
 // A37, A23: no second one. A57: no other kind's Aux, but a Check_Cfg gives way to a Set_Prm, which drops it (A53).
 bool ControlBuffers::is_held(Block block, bool spec) const {
@@ -41,8 +41,8 @@ bool ControlBuffers::has_room(Cycle now, Block block, int size, bool spec) {
     log_.at_cycle(now, reason, a, b, number(block));
     return false;
   };
-  const auto pointer = static_cast<Address>(regs::kAuxPtr + aux);
-  const int length = ram_.cell(spec ? regs::kLenSpecPrm : static_cast<Address>(regs::kLenAux + aux));
+  const auto pointer = static_cast<Address>(regs::kOrgAuxPointer + aux);
+  const int length = ram_.cell(spec ? regs::kOrgSpecPrmLength : static_cast<Address>(regs::kOrgAuxLength + aux));
   if (size > length) return refuse(Reason::kNoRoom, static_cast<unsigned>(size), static_cast<unsigned>(length));
   for (const Address needed : {spec ? row_of(block).pointer : pointer, row_of(block).pointer})
     if (ram_.cell(needed) == 0) return refuse(Reason::kNoPointer, needed, 0);
@@ -51,7 +51,7 @@ bool ControlBuffers::has_room(Cycle now, Block block, int size, bool spec) {
 
 void ControlBuffers::receive(Cycle now, Block block, const profibus::Request& request, bool spec) {
   Entry& entry = of(block);
-  const auto pointer = spec ? row_of(block).pointer : static_cast<Address>(regs::kAuxPtr + aux_of(block));
+  const auto pointer = spec ? row_of(block).pointer : static_cast<Address>(regs::kOrgAuxPointer + aux_of(block));
   const int begin = ram_.buffer(pointer);
   for (int i = 0; i < request.size; ++i) ram_.write(begin + i, request.data[i]);
   entry.size = static_cast<std::uint8_t>(request.size);
@@ -67,7 +67,8 @@ void ControlBuffers::receive(Cycle now, Block block, const profibus::Request& re
 
 void ControlBuffers::exchange(Block block) {
   const Entry& entry = of(block);
-  if (!entry.is_there) ram_.swap_cells(row_of(block).pointer, static_cast<Address>(regs::kAuxPtr + aux_of(block)));
+  if (!entry.is_there)
+    ram_.swap_cells(row_of(block).pointer, static_cast<Address>(regs::kOrgAuxPointer + aux_of(block)));
   ram_.set_cell(row_of(block).length, entry.size);
 }
 

@@ -10,8 +10,8 @@ constexpr Address pointer_of(Address first, int buffer) { return static_cast<Add
 }  // namespace
 
 profibus::Exchanged RamStore::exchange(Cycle now, const Request& request, bool fail_safe) {
-  const int outputs = length(regs::kLenDout);
-  const bool clears = request.size == 0 && modes_.has0(mode0::kSpecClear);
+  const int outputs = length(regs::kOrgDoutLength);
+  const bool clears = request.size == 0 && modes_.has0(regs::kMode0SpecClear);
   if (request.size != outputs && !clears) return {false, outputs, false, {}};
   if (!has_io_buffers(now)) return {true, outputs, false, {nullptr, View::kNoBuffer}};
   ++data_exchanges_;
@@ -27,9 +27,10 @@ profibus::Exchanged RamStore::exchange(Cycle now, const Request& request, bool f
 // A4: the pointers of the buffers that this telegram needs.
 bool RamStore::has_io_buffers(Cycle now) const {
   const BufferStates& in = din_.states();
-  const Address out_pointer = pointer_of(regs::kDoutPtr, dout_.states().d);
-  const Address in_pointer = pointer_of(regs::kDinPtr, in.n != 0 && !freeze_ ? in.n : in.d);
-  for (const auto& [size, pointer] : {std::pair(regs::kLenDout, out_pointer), {regs::kLenDin, in_pointer}}) {
+  const Address out_pointer = pointer_of(regs::kOrgDoutPointer, dout_.states().d);
+  const Address in_pointer = pointer_of(regs::kOrgDinPointer, in.n != 0 && !freeze_ ? in.n : in.d);
+  for (const auto& [size, pointer] :
+       {std::pair(regs::kOrgDoutLength, out_pointer), {regs::kOrgDinLength, in_pointer}}) {
     if (ram_.cell(size) == 0 || ram_.cell(pointer) != 0) continue;
     log_.at_cycle(now, Reason::kNoPointer, pointer);
     return false;
@@ -41,7 +42,7 @@ bool RamStore::has_io_buffers(Cycle now) const {
 
 void RamStore::put_outputs(Cycle now, const Request& request) {
   if (request.size == 0) return tell_no_outputs(now);
-  const int begin = ram_.buffer(pointer_of(regs::kDoutPtr, dout_.states().d));
+  const int begin = ram_.buffer(pointer_of(regs::kOrgDoutPointer, dout_.states().d));
   for (int i = 0; i < request.size; ++i) ram_.write(begin + i, request.data[i]);
   filled_ = true;
   if (!sync_) pass_outputs(now);
@@ -49,34 +50,34 @@ void RamStore::put_outputs(Cycle now, const Request& request) {
 
 // A48.
 void RamStore::tell_no_outputs(Cycle now) {
-  if (variant_.has_more_modes && modes_.has2(mode2::kDxOutAlways)) effect(now, event::kDxOut);
+  if (variant_.has_more_modes && modes_.has2(regs::kMode2DxOutAlways)) effect(now, regs::kEventDxOut);
 }
 
 // D becomes N, if it has outputs (A56).
 void RamStore::pass_outputs(Cycle now) {
   if (!std::exchange(filled_, false)) return;
   delivers_ = true;
-  effect(now, event::kDxOut);
+  effect(now, regs::kEventDxOut);
 }
 
 void RamStore::clear_outputs(Cycle now) {
   filled_ = false;
-  if (length(regs::kLenDout) == 0) return tell_no_outputs(now);
+  if (length(regs::kOrgDoutLength) == 0) return tell_no_outputs(now);
   clears_ = true;
-  effect(now, event::kDxOut);
+  effect(now, regs::kEventDxOut);
 }
 
 void RamStore::deliver_outputs(bool cleared) {
-  const Address pointer = pointer_of(regs::kDoutPtr, dout_.states().d);
-  const int begin = ram_.buffer(pointer), size = cleared && ram_.cell(pointer) != 0 ? length(regs::kLenDout) : 0;
+  const Address pointer = pointer_of(regs::kOrgDoutPointer, dout_.states().d);
+  const int begin = ram_.buffer(pointer), size = cleared && ram_.cell(pointer) != 0 ? length(regs::kOrgDoutLength) : 0;
   for (int i = 0; i < size; ++i) ram_.write(begin + i, 0);
   if (dout_.states().n != 0) ++outputs_missed_;
   dout_.deliver(cleared);
 }
 
 View RamStore::read_outputs() {
-  const Address pointer = pointer_of(regs::kDoutPtr, dout_.states().u);
-  const int size = length(regs::kLenDout);
+  const Address pointer = pointer_of(regs::kOrgDoutPointer, dout_.states().u);
+  const int size = length(regs::kOrgDoutLength);
   if (size > 0 && ram_.cell(pointer) == 0) return {nullptr, View::kNoBuffer};
   return bytes(pointer, size);
 }
@@ -85,8 +86,8 @@ View RamStore::read_outputs() {
 
 View RamStore::read_inputs() {
   if (!freeze_) din_.take();
-  const Address pointer = pointer_of(regs::kDinPtr, din_.states().d);
-  const int size = length(regs::kLenDin);
+  const Address pointer = pointer_of(regs::kOrgDinPointer, din_.states().d);
+  const int size = length(regs::kOrgDinLength);
   if (size > 0 && ram_.cell(pointer) == 0) return {nullptr, View::kNoBuffer};
   return bytes(pointer, size);
 }
@@ -100,13 +101,13 @@ std::uint8_t RamStore::new_din(Cycle now) {
 // --- the user's watchdog ---------------------------------------------------------------------------------------------
 
 bool RamStore::user_is_gone(Cycle now) {
-  if (modes_.has1(mode1::kResUserWd)) {
-    modes_.clear1(mode1::kResUserWd);
-    user_watchdog_.restart(ram_.word(regs::kUserWd));
+  if (modes_.has1(regs::kMode1ResUserWd)) {
+    modes_.clear1(regs::kMode1ResUserWd);
+    user_watchdog_.restart(ram_.word(regs::kOrgUserWd));
     return false;
   }
   if (!user_watchdog_.count()) return false;
-  log_.at_cycle(now, Reason::kUserWatchdog, ram_.word(regs::kUserWd));
+  log_.at_cycle(now, Reason::kUserWatchdog, ram_.word(regs::kOrgUserWd));
   return true;
 }
 

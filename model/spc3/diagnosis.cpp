@@ -13,13 +13,13 @@ constexpr Address cell_of(Address first, int buffer) { return static_cast<Addres
 }  // namespace
 
 profibus::StoredDiagnosis RamStore::diagnosis(bool to_holder) {
-  const Address pointer = cell_of(regs::kDiagPtr, diag_.chips());
+  const Address pointer = cell_of(regs::kOrgDiagPointer, diag_.chips());
   profibus::StoredDiagnosis stored;
   if (ram_.cell(pointer) == 0) {
     stored.user.size = View::kNoBuffer;
     return stored;
   }
-  const int size = std::max(length(cell_of(regs::kLenDiag, diag_.chips())), kStandard);
+  const int size = std::max(length(cell_of(regs::kOrgDiagLength, diag_.chips())), kStandard);
   stored.user = bytes(pointer, size - kStandard, kStandard);
   stored.ext_diag = diag_.ext_diag();
   stored.stat_diag = diag_.stat_diag();
@@ -42,9 +42,9 @@ std::uint8_t RamStore::new_diag(Cycle now) {
 }
 
 void RamStore::exchange_diag() {
-  const Address pointer = cell_of(regs::kDiagPtr, diag_.user());
+  const Address pointer = cell_of(regs::kOrgDiagPointer, diag_.user());
   diag_.exchange(ram_.cell(pointer) != 0 ? ram_.read(ram_.buffer(pointer)) : std::uint8_t{0});
-  interrupt_.raise(event::kDiagChanged);
+  interrupt_.raise(regs::kEventDiagChanged);
 }
 
 }  // namespace dsdpv1::spc3

@@ -6,8 +6,8 @@ namespace dsdpv1::spc3 {
 using profibus::Gate;
 
 void RamStore::control(Cycle now, const profibus::Control& control) {
-  const bool each = variant_.reports_each_control && modes_.has2(mode2::kEachControl);
-  const bool tells = each || control.command != ram_.cell(regs::kControl);
+  const bool each = variant_.reports_each_control && modes_.has2(regs::kMode2GcEach);
+  const bool tells = each || control.command != ram_.cell(regs::kOrgGcCommand);
   has_control_ = true;
   control_ = control.command;
   if (control.clears) clear_outputs(now);
@@ -17,7 +17,7 @@ void RamStore::control(Cycle now, const profibus::Control& control) {
   }
   if (control.inputs == Gate::kCloses) din_.take();
   if (control.inputs != Gate::kStays) freeze_ = control.inputs == Gate::kCloses;
-  effect(now, tells ? event::kNewControl : std::uint16_t{0});
+  effect(now, tells ? regs::kEventNewGc : std::uint16_t{0});
 }
 
 }  // namespace dsdpv1::spc3

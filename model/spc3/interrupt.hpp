@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/profibus/time.hpp"
-#include "model/spc3/cells.hpp"
+#include "registers/spc3_regs.hpp"
 
 namespace dsdpv1::spc3 {
 
@@ -28,7 +28,7 @@ class Interrupt {
   void clear(std::uint16_t events) { irr_ = static_cast<std::uint16_t>(irr_ & ~events); }
   /// The user's IAR: the two that only a verdict clears stay (A15).
   void acknowledge(std::uint16_t events) {
-    clear(static_cast<std::uint16_t>(events & ~(event::kNewCfg | event::kNewPrm)));
+    clear(static_cast<std::uint16_t>(events & ~(regs::kEventNewCfg | regs::kEventNewPrm)));
   }
   /// Bytes of IRR and IMR, as the user writes them (A10, A11).
   void set_irr(bool high, std::uint8_t value) { irr_ = with_byte(irr_, high, value); }

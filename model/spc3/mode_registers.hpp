@@ -1,7 +1,6 @@
 #pragma once
 // The mode registers (M 4.1) and the two numbers beside them, as the user has written them.
 #include "model/profibus/time.hpp"
-#include "model/spc3/cells.hpp"
 #include "model/spc3/config.hpp"
 
 namespace dsdpv1::spc3 {
@@ -9,7 +8,7 @@ namespace dsdpv1::spc3 {
 struct ModeRegisters {
   std::uint16_t mode0 = 0;
   std::uint8_t mode1 = 0;  ///< the bits that stay: En_Change_Cfg, Res_User_Wd, Go_Offline until it is carried out
-  std::uint8_t mode2 = mode2::kEachControl, mode3 = 0;
+  std::uint8_t mode2 = regs::kMode2GcEach, mode3 = 0;
   std::uint8_t wd_baud_control = 0x1E, min_tsdr = 0;  ///< 0: MinTSDR is not written yet
 
   bool has0(std::uint16_t bits) const { return (mode0 & bits) != 0; }
@@ -29,12 +28,12 @@ struct ModeRegisters {
   }
   /// A33: at RESET and at each begin of the search, in bit times.
   int default_min_tsdr(const Config& config) const {
-    return has0(mode0::kCombi) ? static_cast<int>(config.tsdr_combi) : 11;
+    return has0(regs::kMode0Combi) ? static_cast<int>(config.tsdr_combi) : 11;
   }
   /// A13.
   profibus::Cycle eoi_gap(const Config& config) const {
     constexpr profibus::Cycle kMicrosecond = 48;
-    return has0(mode0::kEoiTimeBase) ? profibus::Cycle{config.eoi_1ms} : kMicrosecond;
+    return has0(regs::kMode0EoiTimeBase) ? profibus::Cycle{config.eoi_1ms} : kMicrosecond;
   }
 
   template <class Archive>

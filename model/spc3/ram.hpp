@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "model/spc3/cells.hpp"
 #include "model/spc3/config.hpp"
 
 namespace dsdpv1::spc3 {

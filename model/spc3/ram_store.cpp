@@ -9,12 +9,6 @@ namespace dsdpv1::spc3 {
 
 using profibus::kNever;
 
-namespace {
-
-constexpr std::uint8_t kLocked = 0xFF;  // of 39H
-
-}  // namespace
-
 RamStore::RamStore(profibus::EventLog& log, const Config& config, Interrupt& interrupt, profibus::Station& station)
     : log_(log),
       config_(config),
@@ -48,9 +42,9 @@ void RamStore::forget() {
 
 void RamStore::start(Cycle now) {
   blocks_.reset();
-  if (variant_.start_clears_control) ram_.set_cell(regs::kControl, 0);
-  locked_ = ram_.cell(regs::kNoAddChange) == kLocked;
-  if (!modes_.has0(mode0::kDpMode)) log_.at_cycle(now, Reason::kNoDpMode);
+  if (variant_.start_clears_control) ram_.set_cell(regs::kOrgGcCommand, 0);
+  locked_ = ram_.cell(regs::kOrgNoAddressChange) == regs::kAddressChangeLocked;
+  if (!modes_.has0(regs::kMode0DpMode)) log_.at_cycle(now, Reason::kNoDpMode);
   refresh();
   station_.start(now, slave_config());
   if (config_.tsdr_at_search != 0 && modes_.min_tsdr != 0) station_.set_min_tsdr(modes_.min_tsdr);
@@ -60,11 +54,11 @@ void RamStore::stop(Cycle now) {
   station_.stop(now);
   eval(now);
   forget();
-  modes_.clear1(mode1::kGoOffline);
+  modes_.clear1(regs::kMode1GoOffline);
 }
 
 void RamStore::derive() {
-  ram_.set_large(variant_.has_more_modes && modes_.has2(mode2::k4KB), variant_.ram_size);
+  ram_.set_large(variant_.has_more_modes && modes_.has2(regs::kMode2Ram4k), variant_.ram_size);
   station_.set_rules(rules());
   station_.set_baud_control(modes_.baud_control(config_));
 }
@@ -73,7 +67,7 @@ void RamStore::refresh() {
   derive();
   if (!online()) return;
   if (config_.address_cells != 0) {
-    locked_ = ram_.cell(regs::kNoAddChange) == kLocked;
+    locked_ = ram_.cell(regs::kOrgNoAddressChange) == regs::kAddressChangeLocked;
     station_.set_address(slave_config().address);
   }
   station_.configure(slave_config());
@@ -81,19 +75,19 @@ void RamStore::refresh() {
 
 profibus::SlaveConfig RamStore::slave_config() const {
   profibus::SlaveConfig config;
-  config.address = ram_.cell(regs::kTsAdr) & profibus::kAddressMask;
-  config.ident = static_cast<std::uint16_t>(ram_.word(regs::kIdentLow));
-  config.sync_supported = modes_.has0(mode0::kSync);
-  config.freeze_supported = modes_.has0(mode0::kFreeze);
-  config.address_change = ram_.cell(regs::kSsaPtr) != 0 && !locked_;
+  config.address = ram_.cell(regs::kOrgAddress) & profibus::kAddressMask;
+  config.ident = static_cast<std::uint16_t>(ram_.word(regs::kOrgIdentLow));
+  config.sync_supported = modes_.has0(regs::kMode0SyncSupported);
+  config.freeze_supported = modes_.has0(regs::kMode0FreezeSupported);
+  config.address_change = ram_.cell(regs::kOrgSsaPointer) != 0 && !locked_;
   return config;
 }
 
 profibus::SlaveRules RamStore::rules() const {
   profibus::SlaveRules rules;
   rules.dpv1_status = false;
-  rules.has_saps = modes_.has0(mode0::kDpMode);
-  if (variant_.has_more_modes && modes_.has2(mode2::kAnyControl)) rules.control_reserved = 0;
+  rules.has_saps = modes_.has0(regs::kMode0DpMode);
+  if (variant_.has_more_modes && modes_.has2(regs::kMode2NoGcCheck)) rules.control_reserved = 0;
   rules.fresh_outputs = true;
   rules.fresh_inputs = config_.fresh_56 != 0;
   return rules;
@@ -105,7 +99,7 @@ void RamStore::entered(Cycle now, DpState from, DpState to) {
   const bool leaves = from == DpState::kDataExch;
   if (leaves) open_gates();
   if (to != DpState::kOffline && (leaves || from == DpState::kOffline)) clear_outputs(now);
-  effect(now, leaves || to == DpState::kDataExch ? event::kGoLeaveDataEx : std::uint16_t{0});
+  effect(now, leaves || to == DpState::kDataExch ? regs::kEventDataEx : std::uint16_t{0});
 }
 
 void RamStore::left(Cycle now, bool by_watchdog) {
@@ -115,14 +109,14 @@ void RamStore::left(Cycle now, bool by_watchdog) {
   cfg_held_ = false;
   open_gates();
   clear_outputs(now);
-  effect(now, by_watchdog ? event::kWdTimeout : std::uint16_t{0});
+  effect(now, by_watchdog ? regs::kEventWdTimeout : std::uint16_t{0});
 }
 
 void RamStore::open_gates() { sync_ = freeze_ = false; }
 
 void RamStore::baud(Cycle now, profibus::BaudIndex index) {
   if (index.known())
-    effect(now, event::kBaudDetect);
+    effect(now, regs::kEventBaudDetect);
   else if (config_.tsdr_at_search == 0)
     station_.set_min_tsdr(modes_.default_min_tsdr(config_));  // A33
 }
@@ -142,7 +136,7 @@ void RamStore::eval(Cycle now) {
   due_ = kNever;
   if (std::exchange(delivers_, false)) deliver_outputs(false);
   if (std::exchange(clears_, false)) deliver_outputs(true);
-  if (std::exchange(has_control_, false)) ram_.set_cell(regs::kControl, control_);
+  if (std::exchange(has_control_, false)) ram_.set_cell(regs::kOrgGcCommand, control_);
   const std::uint16_t of_blocks = blocks_.deliver();
   interrupt_.raise(static_cast<std::uint16_t>(std::exchange(events_, std::uint16_t{0}) | of_blocks));
 }

@@ -10,7 +10,7 @@ constexpr int kStandardSize = 7;
 }  // namespace
 
 bool RamStore::is_spec_prm(const Request& request) const {
-  return modes_.has0(mode0::kSpecPrmBuf) && (request.size > kStandardSize || config_.prm7 != 0);
+  return modes_.has0(regs::kMode0SpecPrmBuf) && (request.size > kStandardSize || config_.prm7 != 0);
 }
 
 bool RamStore::has_room(Cycle now, const Request& request) {
@@ -35,7 +35,7 @@ bool RamStore::reserved_right(Cycle now, const Request& request) {
   constexpr unsigned kDisStop = 0x02, kSpecReserved = 0x38, kStatusReserved = 0x07;
   const unsigned spec = request.size > kStandardSize ? request.data[kStandardSize] : 0U, status = request.data[0];
   if ((spec & kDisStop) != 0) log_.at_cycle(now, Reason::kDisStop, request.sa);
-  const bool looks = variant_.has_more_modes && config_.prm_reserved == 0 && !modes_.has2(mode2::kAnyPrm);
+  const bool looks = variant_.has_more_modes && config_.prm_reserved == 0 && !modes_.has2(regs::kMode2NoPrmCheck);
   if (!looks || ((spec & kSpecReserved) == 0 && (status & kStatusReserved) == 0)) return true;
   log_.at_cycle(now, Reason::kPrmReserved, status, spec);
   return false;
@@ -44,8 +44,8 @@ bool RamStore::reserved_right(Cycle now, const Request& request) {
 // --- the user's verdict ----------------------------------------------------------------------------------------------
 
 std::uint8_t RamStore::prm_verdict(Cycle now, bool good) {
-  const std::uint8_t answer = take_back(now, Block::kPrm, event::kNewPrm);
-  if (answer != verdict::kFinished) return answer;
+  const std::uint8_t answer = take_back(now, Block::kPrm, regs::kEventNewPrm);
+  if (answer != regs::kVerdictFinished) return answer;
   if (config_.prm_taken != 0)
     station_.prm_verdict(now, good);
   else if (good)
@@ -61,15 +61,15 @@ std::uint8_t RamStore::take_back(Cycle now, Block block, std::uint16_t event) {
   if (!blocks_.with_user(block)) {
     interrupt_.clear(event);
     log_.at_cycle(now, Reason::kNotAllowed, number, static_cast<unsigned>(station_.slave().state()));
-    return verdict::kNotAllowed;
+    return regs::kVerdictNotAllowed;
   }
   if (blocks_.next(block)) {
     interrupt_.raise(event);
     log_.at_cycle(now, Reason::kConflict, number);
-    return verdict::kConflict;
+    return regs::kVerdictConflict;
   }
   interrupt_.clear(event);
-  return verdict::kFinished;
+  return regs::kVerdictFinished;
 }
 
 }  // namespace dsdpv1::spc3

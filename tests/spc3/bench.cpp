@@ -152,14 +152,14 @@ void Bench::fill(Address pointer, const Bytes& bytes) {
 
 int Bench::give_inputs(const Bytes& bytes) {
   const unsigned user = load(regs::kDinSm) >> 4 & 3U;
-  fill(static_cast<Address>(regs::kDinPtr + user - 1), bytes);
+  fill(static_cast<Address>(regs::kOrgDinPointer + user - 1), bytes);
   return load(regs::kNewDin);
 }
 
 Bytes Bench::fetch_outputs(int* answer) {
   const std::uint8_t given = load(regs::kNextDout);
   if (answer != nullptr) *answer = given;
-  return buffer(static_cast<Address>(regs::kDoutPtr + (given & 3U) - 1), load(regs::kLenDout));
+  return buffer(static_cast<Address>(regs::kOrgDoutPointer + (given & 3U) - 1), load(regs::kOrgDoutLength));
 }
 
 void Bench::power_on() {
@@ -175,16 +175,16 @@ void Bench::initialise(const Organisation& given) {
     for (std::size_t i = 0; i < bytes.size(); ++i) store(static_cast<Address>(first + i), bytes[i]);
   };
   const auto low = [](unsigned word) { return static_cast<std::uint8_t>(word & 0xFF); };
-  for (Address cell = regs::kOrganisation; cell < 0x400; ++cell) store(cell, 0);
-  cells(regs::kTsAdr, {given.address, 0xFF, low(given.user_watchdog), low(given.user_watchdog >> 8U)});
-  cells(regs::kLenDout, {given.outputs, kDout, kDout + 8, kDout + 16});
-  cells(regs::kLenDin, {given.inputs, kDin, kDin + 8, kDin + 16});
-  cells(regs::kLenDiag, {6, 6, kDiag, kDiag + 8});
-  cells(regs::kLenAux, {kBufferSize, kBufferSize, given.aux_select, kAux, kAux + 8});
-  cells(regs::kSsaPtr, {given.ssa ? kSsa : std::uint8_t{0}});
-  cells(regs::kPrmPtr, {kPrm});
-  cells(regs::kCfgPtr, {kCfg, low(static_cast<unsigned>(given.read_cfg.size())), kReadCfg});
-  cells(regs::kNoAddChange,
+  for (Address cell = regs::kOrg; cell < 0x400; ++cell) store(cell, 0);
+  cells(regs::kOrgAddress, {given.address, 0xFF, low(given.user_watchdog), low(given.user_watchdog >> 8U)});
+  cells(regs::kOrgDoutLength, {given.outputs, kDout, kDout + 8, kDout + 16});
+  cells(regs::kOrgDinLength, {given.inputs, kDin, kDin + 8, kDin + 16});
+  cells(regs::kOrgDiagLength, {6, 6, kDiag, kDiag + 8});
+  cells(regs::kOrgAuxLength, {kBufferSize, kBufferSize, given.aux_select, kAux, kAux + 8});
+  cells(regs::kOrgSsaPointer, {given.ssa ? kSsa : std::uint8_t{0}});
+  cells(regs::kOrgPrmPointer, {kPrm});
+  cells(regs::kOrgCfgPointer, {kCfg, low(static_cast<unsigned>(given.read_cfg.size())), kReadCfg});
+  cells(regs::kOrgNoAddressChange,
         {given.no_add_change ? std::uint8_t{0xFF} : std::uint8_t{0}, low(given.ident), low(given.ident >> 8U)});
   cells(kReadCfg * 8, given.read_cfg);
   cells(regs::kMode0, {low(given.modes), low(given.modes >> 8U)});
@@ -192,7 +192,7 @@ void Bench::initialise(const Organisation& given) {
 }
 
 void Bench::start() {
-  set_mode1(mode1::kStart | mode1::kResUserWd);
+  set_mode1(regs::kMode1Start | regs::kMode1ResUserWd);
   run_cycles(2);
 }
 

@@ -21,9 +21,6 @@ using profibus::DpState;
 using spc3::Address;
 using spc3::Pin;
 using spc3::Variant;
-namespace event = spc3::event;
-namespace mode0 = spc3::mode0;
-namespace mode1 = spc3::mode1;
 namespace regs = spc3::regs;
 
 constexpr Cycle kMs = profibus::kCyclesPerMs;
@@ -81,7 +78,7 @@ struct Organisation {
   std::uint8_t outputs = 2, inputs = 3;
   std::uint8_t aux_select = 0;
   std::uint16_t user_watchdog = 0;
-  std::uint16_t modes = mode0::kDpMode | mode0::kSync | mode0::kFreeze;
+  std::uint16_t modes = regs::kMode0DpMode | regs::kMode0SyncSupported | regs::kMode0FreezeSupported;
   bool no_add_change = false;
   bool ssa = true;
   Bytes read_cfg = {0x12, 0x21};
@@ -108,7 +105,7 @@ class Bench {
   std::uint16_t irr() { return static_cast<std::uint16_t>(load(regs::kIrr) | load(regs::kIrr + 1) << 8); }
   bool raised(std::uint16_t events) { return (irr() & events) == events; }
   void acknowledge(std::uint16_t events);
-  void set_mode1(std::uint8_t bits) { store(regs::kMode1Set, bits); }
+  void set_mode1(std::uint8_t bits) { store(regs::kMode1S, bits); }
   /// The bytes of the buffer to which a cell points.
   Bytes buffer(Address pointer, int size);
   void fill(Address pointer, const Bytes& bytes);

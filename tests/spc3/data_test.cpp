@@ -43,7 +43,7 @@ TEST(Data, TheUserGetsTheNewestOutputs) {
   const std::uint64_t missed = bench.twins.chip().status().outputs_missed;
   bench.exchange({1, 2});
   bench.exchange({3, 4});
-  EXPECT_TRUE(bench.raised(event::kDxOut));
+  EXPECT_TRUE(bench.raised(regs::kEventDxOut));
   int answer = 0;
   EXPECT_EQ(bench.fetch_outputs(&answer), (Bytes{3, 4}));
   EXPECT_EQ(answer & 0x0C, 0x04) << "new, not cleared";
@@ -89,22 +89,22 @@ TEST(Data, SyncHoldsTheOutputsBack) {
   Bench bench;
   to_data_ex(bench);
   bench.control(kSync);
-  EXPECT_FALSE(bench.raised(event::kDxOut)) << "nothing was filled (A56)";
-  EXPECT_TRUE(bench.raised(event::kNewControl));
-  EXPECT_EQ(bench.load(regs::kControl), kSync);
+  EXPECT_FALSE(bench.raised(regs::kEventDxOut)) << "nothing was filled (A56)";
+  EXPECT_TRUE(bench.raised(regs::kEventNewGc));
+  EXPECT_EQ(bench.load(regs::kOrgGcCommand), kSync);
   const std::uint8_t states = bench.load(regs::kDoutSm);
   bench.exchange({1, 2});
   bench.exchange({3, 4});
   EXPECT_EQ(bench.load(regs::kDoutSm), states);
-  EXPECT_FALSE(bench.raised(event::kDxOut));
+  EXPECT_FALSE(bench.raised(regs::kEventDxOut));
   EXPECT_EQ(bench.diag()[1] & 0x20, 0x20) << "Sync_Mode";
   bench.control(kSync);
-  EXPECT_TRUE(bench.raised(event::kDxOut));
+  EXPECT_TRUE(bench.raised(regs::kEventDxOut));
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{3, 4}));
   bench.exchange({5, 6});
   bench.acknowledge(0xFFFF);
   bench.control(kUnsync);
-  EXPECT_TRUE(bench.raised(event::kDxOut));
+  EXPECT_TRUE(bench.raised(regs::kEventDxOut));
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{5, 6}));
   bench.exchange({7, 8});
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{7, 8}));
@@ -140,7 +140,7 @@ TEST(Data, ClearDataClearsAlsoUnderSync) {
   EXPECT_EQ(answer & 0x0C, 0x0C);
   bench.acknowledge(0xFFFF);
   bench.control(kSync);
-  EXPECT_FALSE(bench.raised(event::kDxOut)) << "no older outputs come back";
+  EXPECT_FALSE(bench.raised(regs::kEventDxOut)) << "no older outputs come back";
 }
 
 TEST(Data, AControlOfAnotherGroupOrMasterLeavesItsCell) {
@@ -148,10 +148,10 @@ TEST(Data, AControlOfAnotherGroupOrMasterLeavesItsCell) {
   to_data_ex(bench);
   bench.control(kFreeze, 0x02);
   bench.control(kFreeze, 0x00, 7);
-  EXPECT_EQ(bench.load(regs::kControl), 0);
-  EXPECT_FALSE(bench.raised(event::kNewControl));
+  EXPECT_EQ(bench.load(regs::kOrgGcCommand), 0);
+  EXPECT_FALSE(bench.raised(regs::kEventNewGc));
   bench.control(kFreeze, 0x03);
-  EXPECT_EQ(bench.load(regs::kControl), kFreeze);
+  EXPECT_EQ(bench.load(regs::kOrgGcCommand), kFreeze);
 }
 
 TEST(Data, TheEventOfAControlComesAtAChangeOrEachTime) {
@@ -159,20 +159,20 @@ TEST(Data, TheEventOfAControlComesAtAChangeOrEachTime) {
     Bench bench(variant);
     to_data_ex(bench);
     bench.control(kUnfreeze);
-    EXPECT_TRUE(bench.raised(event::kNewControl));
+    EXPECT_TRUE(bench.raised(regs::kEventNewGc));
     bench.acknowledge(0xFFFF);
     bench.control(kUnfreeze);
-    EXPECT_EQ(bench.raised(event::kNewControl), variant == Variant::kVpc3) << "A47";
+    EXPECT_EQ(bench.raised(regs::kEventNewGc), variant == Variant::kVpc3) << "A47";
     if (variant != Variant::kVpc3) continue;
     bench.store(regs::kMode2, 0);
     bench.acknowledge(0xFFFF);
     bench.control(kUnfreeze);
-    EXPECT_FALSE(bench.raised(event::kNewControl));
+    EXPECT_FALSE(bench.raised(regs::kEventNewGc));
     bench.control(0xC0);
-    EXPECT_FALSE(bench.raised(event::kNewControl)) << "reserved bits";
-    bench.store(regs::kMode2, spc3::mode2::kAnyControl);
+    EXPECT_FALSE(bench.raised(regs::kEventNewGc)) << "reserved bits";
+    bench.store(regs::kMode2, regs::kMode2NoGcCheck);
     bench.control(0xC0);
-    EXPECT_TRUE(bench.raised(event::kNewControl));
+    EXPECT_TRUE(bench.raised(regs::kEventNewGc));
   }
 }
 
@@ -181,9 +181,9 @@ TEST(Data, StartZeroesTheControlCellButNotOfVpc3) {
     Bench bench(variant);
     bench.power_on();
     bench.initialise();
-    bench.store(regs::kControl, 0x20);
+    bench.store(regs::kOrgGcCommand, 0x20);
     bench.start();
-    EXPECT_EQ(bench.load(regs::kControl), variant == Variant::kVpc3 ? 0x20 : 0x00) << "A7";
+    EXPECT_EQ(bench.load(regs::kOrgGcCommand), variant == Variant::kVpc3 ? 0x20 : 0x00) << "A7";
   }
 }
 
@@ -191,7 +191,7 @@ TEST(Data, EmptyDataAreClearWithSpecClear) {
   for (const bool clears : {false, true}) {
     Bench bench;
     Organisation given;
-    if (clears) given.modes |= mode0::kSpecClear;
+    if (clears) given.modes |= regs::kMode0SpecClear;
     bench.to_data_ex(given);
     bench.exchange({1, 2});
     EXPECT_EQ(kind_of(bench.exchange({})), clears ? "DL" : "RR");
@@ -207,7 +207,7 @@ TEST(Data, EmptyDataMayNeedFailSafeInTheParameters) {
   for (const bool fail_safe : {false, true}) {
     Bench bench(Variant::kApc3, config);
     Organisation given;
-    given.modes |= mode0::kSpecClear;
+    given.modes |= regs::kMode0SpecClear;
     bench.to_data_ex(given, {fail_safe ? std::uint8_t{0x40} : std::uint8_t{0}});
     bench.exchange({1, 2});
     EXPECT_EQ(kind_of(bench.exchange({})), "DL");
@@ -222,13 +222,13 @@ TEST(Data, WithoutOutputsNothingIsExchanged) {
     given.outputs = 0;
     bench.to_data_ex(given);
     EXPECT_EQ(bench.load(regs::kDoutSm), 0xE1) << "A48";
-    EXPECT_FALSE(bench.raised(event::kDxOut));
+    EXPECT_FALSE(bench.raised(regs::kEventDxOut));
     EXPECT_EQ(kind_of(bench.exchange({})), "DL");
-    EXPECT_FALSE(bench.raised(event::kDxOut));
+    EXPECT_FALSE(bench.raised(regs::kEventDxOut));
     if (variant != Variant::kVpc3) continue;
-    bench.store(regs::kMode2, spc3::mode2::kDxOutAlways);
+    bench.store(regs::kMode2, regs::kMode2DxOutAlways);
     bench.exchange({});
-    EXPECT_TRUE(bench.raised(event::kDxOut));
+    EXPECT_TRUE(bench.raised(regs::kEventDxOut));
   }
 }
 
@@ -236,14 +236,15 @@ TEST(Data, APointerOfZeroIsRrAndChangesNothing) {
   Bench bench;
   to_data_ex(bench);
   const std::uint8_t states = bench.load(regs::kDoutSm);
-  const auto of_d = static_cast<Address>(regs::kDoutPtr + (states & 3U) - 1);
+  const auto of_d = static_cast<Address>(regs::kOrgDoutPointer + (states & 3U) - 1);
   const std::uint8_t segment = bench.load(of_d);
   bench.store(of_d, 0);
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "RR");
   EXPECT_EQ(bench.state(), DpState::kDataExch);
   EXPECT_EQ(bench.load(regs::kDoutSm), states);
   bench.store(of_d, segment);
-  for (const Address pointer : {Address{regs::kDinPtr}, Address{regs::kDinPtr + 1}, Address{regs::kDinPtr + 2}})
+  for (const Address pointer :
+       {Address{regs::kOrgDinPointer}, Address{regs::kOrgDinPointer + 1}, Address{regs::kOrgDinPointer + 2}})
     bench.store(pointer, 0);
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "RR");
   EXPECT_EQ(kind_of(bench.ask(56)), "RR");
@@ -253,15 +254,15 @@ TEST(Data, LengthsMayChangeInWaitCfg) {
   Bench bench;
   bench.to_wait_cfg();
   bench.check_cfg();
-  bench.store(regs::kLenDout, 5);
-  bench.store(regs::kLenDin, 0);
+  bench.store(regs::kOrgDoutLength, 5);
+  bench.store(regs::kOrgDinLength, 0);
   EXPECT_EQ(bench.count(Reason::kOrganisationOnline), 0);
   bench.load(regs::kCfgOk);
   bench.run_cycles(2);
   EXPECT_EQ(kind_of(bench.exchange(Bytes(5, 9))), "SC");
   EXPECT_EQ(bench.fetch_outputs(), Bytes(5, 9));
-  bench.store(regs::kLenDin, 200);
-  bench.store(regs::kLenDout, 255);
+  bench.store(regs::kOrgDinLength, 200);
+  bench.store(regs::kOrgDoutLength, 255);
   EXPECT_EQ(bench.count(Reason::kOrganisationOnline), 2) << "in DATA_EX it is reported (A5)";
 }
 

@@ -11,8 +11,8 @@ int give(Bench& bench, std::uint8_t flags, const Bytes& user) {
   const unsigned number = (bench.load(regs::kDiagSm) & 3U) == 1 ? 1 : 2;
   Bytes bytes = {flags, 0x11, 0x22, 0x33, 0x44, 0x55};
   bytes.insert(bytes.end(), user.begin(), user.end());
-  bench.store(static_cast<Address>(regs::kLenDiag + number - 1), static_cast<std::uint8_t>(bytes.size()));
-  bench.fill(static_cast<Address>(regs::kDiagPtr + number - 1), bytes);
+  bench.store(static_cast<Address>(regs::kOrgDiagLength + number - 1), static_cast<std::uint8_t>(bytes.size()));
+  bench.fill(static_cast<Address>(regs::kOrgDiagPointer + number - 1), bytes);
   return bench.load(regs::kNewDiag);
 }
 
@@ -21,7 +21,8 @@ TEST(Diagnosis, BeforeTheFirstItHasTheSixBytes) {
   bench.to_wait_prm();
   EXPECT_EQ(bench.load(regs::kDiagSm), 0x09) << "A18";
   EXPECT_EQ(bench.diag(), (Bytes{0x02, 0x05, 0x00, 0xFF, 0x0C, 0xC9}));
-  EXPECT_EQ(bench.buffer(regs::kDiagPtr + 1, 6), (Bytes{0x02, 0x05, 0x00, 0xFF, 0x0C, 0xC9})) << "in RAM, too (A39)";
+  EXPECT_EQ(bench.buffer(regs::kOrgDiagPointer + 1, 6), (Bytes{0x02, 0x05, 0x00, 0xFF, 0x0C, 0xC9}))
+      << "in RAM, too (A39)";
 }
 
 TEST(Diagnosis, ANewOneMakesDataAnswersHighUntilTheHolderHasReadIt) {
@@ -29,7 +30,7 @@ TEST(Diagnosis, ANewOneMakesDataAnswersHighUntilTheHolderHasReadIt) {
   bench.to_data_ex();
   EXPECT_EQ(give(bench, kExtDiag, {0x42, 0x43}), 2);
   EXPECT_EQ(bench.load(regs::kDiagSm), 0x06);
-  EXPECT_TRUE(bench.raised(event::kDiagChanged));
+  EXPECT_TRUE(bench.raised(regs::kEventDiagChanged));
   EXPECT_EQ(bench.load(regs::kStatus) & 4, 4) << "Diag_Flag";
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "DH");
   EXPECT_EQ(bench.diag(9), (Bytes{0x08, 0x04, 0x00, 0x02, 0x0C, 0xC9, 0x42, 0x43}));
@@ -70,7 +71,7 @@ TEST(Diagnosis, TheRamMayStayAsTheUserWroteIt) {
   bench.to_data_ex();
   give(bench, kExtDiag, {0x42});
   EXPECT_EQ(bench.diag()[0], 0x08);
-  EXPECT_EQ(bench.buffer(regs::kDiagPtr, 7), (Bytes{kExtDiag, 0x11, 0x22, 0x33, 0x44, 0x55, 0x42}));
+  EXPECT_EQ(bench.buffer(regs::kOrgDiagPointer, 7), (Bytes{kExtDiag, 0x11, 0x22, 0x33, 0x44, 0x55, 0x42}));
 }
 
 TEST(Diagnosis, NewDiagWhileItIsSentIsRemembered) {
@@ -87,7 +88,7 @@ TEST(Diagnosis, NewDiagWhileItIsSentIsRemembered) {
       EXPECT_EQ(bench.load(regs::kDiagSm), turn == 0 ? 0x07 : 0x0B) << "the chip sends buffer 1";
       EXPECT_EQ(bench.load(regs::kNewDiag), 0);
       EXPECT_EQ(bench.load(regs::kDiagSm), 0x0B) << "no buffer is the user's";
-      EXPECT_EQ(bench.irr() & event::kDiagChanged, 0);
+      EXPECT_EQ(bench.irr() & regs::kEventDiagChanged, 0);
       ++turn;
     }
     Tick at[2] = {};
@@ -102,16 +103,16 @@ TEST(Diagnosis, NewDiagWhileItIsSentIsRemembered) {
   EXPECT_EQ(user.turn, 2);
   bench.run_cycles(8);
   EXPECT_EQ(bench.load(regs::kDiagSm), 0x09) << "exchanged when RTS has fallen";
-  EXPECT_TRUE(bench.raised(event::kDiagChanged));
+  EXPECT_TRUE(bench.raised(regs::kEventDiagChanged));
   EXPECT_EQ(bench.load(regs::kStatus) & 4, 4) << "the remembered one is new";
 }
 
 TEST(Diagnosis, LengthsBelowSixCountAsSix) {
   Bench bench;
   bench.to_wait_prm();
-  bench.store(regs::kLenDiag + 1, 0);
+  bench.store(regs::kOrgDiagLength + 1, 0);
   EXPECT_EQ(bench.diag().size(), 6U) << "A4";
-  bench.store(regs::kDiagPtr + 1, 0);
+  bench.store(regs::kOrgDiagPointer + 1, 0);
   EXPECT_EQ(kind_of(bench.ask(60)), "RR");
 }
 

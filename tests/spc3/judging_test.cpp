@@ -6,9 +6,6 @@ namespace dsdpv1::spc3_test {
 namespace {
 
 using spc3::Reason;
-using spc3::verdict::kConflict;
-using spc3::verdict::kFinished;
-using spc3::verdict::kNotAllowed;
 
 constexpr unsigned kNotReady = 0x02, kCfgFault = 0x04, kPrmFault = 0x40;
 
@@ -16,10 +13,10 @@ TEST(Judging, ParametersNotOkAreAFault) {
   Bench bench;
   bench.to_wait_prm();
   bench.set_prm({0});
-  EXPECT_EQ(bench.load(regs::kPrmNotOk), kFinished);
+  EXPECT_EQ(bench.load(regs::kPrmNotOk), regs::kVerdictFinished);
   bench.run_cycles(2);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
-  EXPECT_FALSE(bench.raised(event::kNewPrm));
+  EXPECT_FALSE(bench.raised(regs::kEventNewPrm));
   EXPECT_EQ(bench.diag()[0], kPrmFault | kNotReady);
 }
 
@@ -27,7 +24,7 @@ TEST(Judging, ConfigurationNotOkIsAFault) {
   Bench bench;
   bench.to_wait_cfg();
   bench.check_cfg();
-  EXPECT_EQ(bench.load(regs::kCfgNotOk), kFinished);
+  EXPECT_EQ(bench.load(regs::kCfgNotOk), regs::kVerdictFinished);
   bench.run_cycles(2);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
   EXPECT_EQ(bench.diag()[0], kCfgFault | kNotReady);
@@ -37,25 +34,26 @@ TEST(Judging, ANewerTelegramIsAConflict) {
   Bench bench;
   bench.to_wait_prm();
   bench.set_prm({0, 1});
-  const std::uint8_t first = bench.load(regs::kPrmPtr);
+  const std::uint8_t first = bench.load(regs::kOrgPrmPointer);
   bench.set_prm({0, 2, 2});
-  EXPECT_EQ(bench.load(regs::kPrmPtr), first) << "it waits in Aux";
-  EXPECT_EQ(bench.load(regs::kLenPrm), 9);
+  EXPECT_EQ(bench.load(regs::kOrgPrmPointer), first) << "it waits in Aux";
+  EXPECT_EQ(bench.load(regs::kOrgPrmLength), 9);
   bench.set_prm({0, 3, 3, 3});
   for (const Address answer : {regs::kPrmNotOk, regs::kPrmOk}) {
     const bool again = answer == regs::kPrmOk;
-    EXPECT_EQ(bench.load(answer), again ? kFinished : kConflict) << "the verdict on the old one counts for nothing";
-    EXPECT_EQ(bench.load(regs::kLenPrm), 11) << "the third has replaced the second";
-    EXPECT_EQ(bench.raised(event::kNewPrm), !again);
+    EXPECT_EQ(bench.load(answer), again ? regs::kVerdictFinished : regs::kVerdictConflict)
+        << "the verdict on the old one counts for nothing";
+    EXPECT_EQ(bench.load(regs::kOrgPrmLength), 11) << "the third has replaced the second";
+    EXPECT_EQ(bench.raised(regs::kEventNewPrm), !again);
   }
-  EXPECT_EQ(bench.buffer(regs::kPrmPtr, 11).back(), 3);
+  EXPECT_EQ(bench.buffer(regs::kOrgPrmPointer, 11).back(), 3);
   EXPECT_EQ(bench.state(), DpState::kWaitCfg);
 
   bench.check_cfg({0x10});
   bench.check_cfg({0x10, 0x20});
-  EXPECT_EQ(bench.load(regs::kCfgOk), kConflict);
-  EXPECT_EQ(bench.load(regs::kLenCfg), 2);
-  EXPECT_EQ(bench.load(regs::kCfgOk), kFinished);
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictConflict);
+  EXPECT_EQ(bench.load(regs::kOrgCfgLength), 2);
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictFinished);
 }
 
 TEST(Judging, AnAnswerToNothingIsNotAllowed) {
@@ -63,13 +61,13 @@ TEST(Judging, AnAnswerToNothingIsNotAllowed) {
   bench.power_on();
   bench.initialise();
   for (const Address answer : {regs::kPrmOk, regs::kPrmNotOk, regs::kCfgOk, regs::kCfgNotOk})
-    EXPECT_EQ(bench.load(answer), kNotAllowed) << "OFFLINE (A7)";
+    EXPECT_EQ(bench.load(answer), regs::kVerdictNotAllowed) << "OFFLINE (A7)";
   bench.start();
   bench.find_baud();
-  EXPECT_EQ(bench.load(regs::kPrmOk), kNotAllowed);
+  EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictNotAllowed);
   bench.store(regs::kIrr + 1, 0x0C);  // both events by hand (A10)
-  EXPECT_EQ(bench.load(regs::kPrmOk), kNotAllowed);
-  EXPECT_EQ(bench.load(regs::kCfgOk), kNotAllowed);
+  EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictNotAllowed);
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictNotAllowed);
   EXPECT_EQ(bench.irr() & 0x0C00, 0) << "A14";
   EXPECT_EQ(bench.count(Reason::kNotAllowed), 7);
 }
@@ -80,9 +78,9 @@ TEST(Judging, LeaveMasterDropsWhatIsPendingAndKeepsTheEvent) {
   bench.set_prm({0});
   bench.set_prm({0, 1});
   bench.set_prm({}, 0x40);
-  EXPECT_TRUE(bench.raised(event::kNewPrm));
-  EXPECT_EQ(bench.load(regs::kPrmOk), kNotAllowed);
-  EXPECT_FALSE(bench.raised(event::kNewPrm));
+  EXPECT_TRUE(bench.raised(regs::kEventNewPrm));
+  EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictNotAllowed);
+  EXPECT_FALSE(bench.raised(regs::kEventNewPrm));
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
 }
 
@@ -91,8 +89,8 @@ TEST(Judging, SevenBytesAreTheChipsOwnMatter) {
   bench.to_wait_prm();
   bench.set_prm({0});
   bench.set_prm();
-  EXPECT_EQ(bench.load(regs::kLenPrm), 8) << "no buffer";
-  EXPECT_EQ(bench.load(regs::kPrmOk), kNotAllowed) << "the pending one is dropped (A20)";
+  EXPECT_EQ(bench.load(regs::kOrgPrmLength), 8) << "no buffer";
+  EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictNotAllowed) << "the pending one is dropped (A20)";
   EXPECT_EQ(bench.state(), DpState::kWaitCfg);
 }
 
@@ -102,8 +100,8 @@ TEST(Judging, SevenBytesMayGoToTheUser) {
   Bench bench(Variant::kApc3, config);
   bench.to_wait_prm();
   bench.set_prm();
-  EXPECT_TRUE(bench.raised(event::kNewPrm));
-  EXPECT_EQ(bench.load(regs::kLenPrm), 7);
+  EXPECT_TRUE(bench.raised(regs::kEventNewPrm));
+  EXPECT_EQ(bench.load(regs::kOrgPrmLength), 7);
 }
 
 TEST(Judging, NewParametersDropAnAcceptedConfiguration) {
@@ -113,8 +111,8 @@ TEST(Judging, NewParametersDropAnAcceptedConfiguration) {
   bench.load(regs::kCfgOk);
   bench.check_cfg();
   bench.set_prm();
-  EXPECT_TRUE(bench.raised(event::kNewCfg));
-  EXPECT_EQ(bench.load(regs::kCfgOk), kNotAllowed) << "A53";
+  EXPECT_TRUE(bench.raised(regs::kEventNewCfg));
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictNotAllowed) << "A53";
   bench.give_inputs({1, 2, 3});
   bench.run_cycles(2);
   EXPECT_EQ(bench.state(), DpState::kWaitCfg) << "a new Check_Cfg is needed";
@@ -123,12 +121,12 @@ TEST(Judging, NewParametersDropAnAcceptedConfiguration) {
 TEST(Judging, TooLongForTheAuxIsRr) {
   Bench bench;
   bench.to_wait_cfg();
-  bench.store(regs::kLenAux, 8);
+  bench.store(regs::kOrgAuxLength, 8);
   EXPECT_EQ(kind_of(bench.check_cfg(Bytes(9, 0))), "RR");
   EXPECT_EQ(kind_of(bench.set_prm({0, 0})), "RR");
   EXPECT_EQ(kind_of(bench.check_cfg(Bytes(8, 0))), "SC");
   EXPECT_EQ(kind_of(bench.set_prm({0})), "SC");
-  bench.store(regs::kLenAux, 6);
+  bench.store(regs::kOrgAuxLength, 6);
   EXPECT_EQ(kind_of(bench.set_prm()), "RR") << "before it is judged";
   EXPECT_EQ(bench.state(), DpState::kWaitCfg);
   EXPECT_EQ(bench.count(Reason::kNoRoom), 3);
@@ -137,15 +135,15 @@ TEST(Judging, TooLongForTheAuxIsRr) {
 TEST(Judging, APointerOfZeroIsRr) {
   Bench bench;
   bench.to_wait_prm();
-  for (const Address pointer : {regs::kAuxPtr, regs::kPrmPtr}) {
+  for (const Address pointer : {regs::kOrgAuxPointer, regs::kOrgPrmPointer}) {
     const std::uint8_t segment = bench.load(pointer);
     bench.store(pointer, 0);
     EXPECT_EQ(kind_of(bench.set_prm({0})), "RR");
     bench.store(pointer, segment);
   }
-  bench.store(regs::kReadCfgPtr, 0);
+  bench.store(regs::kOrgReadCfgPointer, 0);
   EXPECT_EQ(kind_of(bench.ask(59)), "RR");
-  bench.store(regs::kLenReadCfg, 0);
+  bench.store(regs::kOrgReadCfgLength, 0);
   EXPECT_EQ(kind_of(bench.ask(59)), "SC") << "nothing is needed";
   EXPECT_EQ(bench.count(Reason::kNoPointer), 2);
 }
@@ -156,7 +154,7 @@ TEST(Judging, AnAuxThatHoldsAWaitingOneTakesNoOtherKind) {
   bench.set_prm({0});
   bench.set_prm({0, 1});
   EXPECT_EQ(kind_of(bench.check_cfg()), "RR") << "A57";
-  EXPECT_EQ(bench.load(regs::kPrmOk), kConflict);
+  EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictConflict);
   EXPECT_EQ(kind_of(bench.check_cfg()), "SC");
 }
 
@@ -168,23 +166,23 @@ TEST(Judging, EachKindHasTheAuxThatItSelects) {
   bench.set_prm({0});
   bench.set_prm({0, 1});
   EXPECT_EQ(kind_of(bench.check_cfg()), "SC");
-  EXPECT_EQ(bench.load(regs::kCfgPtr), kAux + 8);
-  EXPECT_EQ(bench.load(regs::kAuxPtr + 1), kCfg);
+  EXPECT_EQ(bench.load(regs::kOrgCfgPointer), kAux + 8);
+  EXPECT_EQ(bench.load(regs::kOrgAuxPointer + 1), kCfg);
 }
 
 TEST(Judging, SpecPrmBufTakesLongParametersDirectly) {
   Bench bench;
   Organisation given;
-  given.modes |= mode0::kSpecPrmBuf;
+  given.modes |= regs::kMode0SpecPrmBuf;
   bench.to_wait_prm(given);
-  bench.store(regs::kLenAux, 7);
-  bench.store(regs::kLenSpecPrm, 20);
+  bench.store(regs::kOrgAuxLength, 7);
+  bench.store(regs::kOrgSpecPrmLength, 20);
   EXPECT_EQ(kind_of(bench.set_prm(Bytes(13, 0x5A))), "SC");
-  EXPECT_EQ(bench.load(regs::kPrmPtr), kPrm) << "nothing is exchanged (A37)";
-  EXPECT_EQ(bench.load(regs::kLenPrm), 20);
-  EXPECT_EQ(bench.buffer(regs::kPrmPtr, 20).back(), 0x5A);
+  EXPECT_EQ(bench.load(regs::kOrgPrmPointer), kPrm) << "nothing is exchanged (A37)";
+  EXPECT_EQ(bench.load(regs::kOrgPrmLength), 20);
+  EXPECT_EQ(bench.buffer(regs::kOrgPrmPointer, 20).back(), 0x5A);
   EXPECT_EQ(kind_of(bench.set_prm({0})), "RR") << "while one is pending";
-  EXPECT_EQ(bench.load(regs::kPrmOk), kFinished);
+  EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictFinished);
   EXPECT_EQ(kind_of(bench.set_prm(Bytes(14, 0))), "RR") << "longer than 3DH";
   EXPECT_EQ(kind_of(bench.set_prm()), "SC");
 }
@@ -194,18 +192,18 @@ TEST(Judging, EnChangeCfgExchangesTheTwoBuffers) {
   bench.to_wait_cfg();
   EXPECT_EQ(bench.ask(59).answer().data, (Bytes{0x12, 0x21}));
   bench.check_cfg({0x31, 0x32, 0x33});
-  const std::uint8_t cfg = bench.load(regs::kCfgPtr);
-  bench.store(regs::kLenReadCfg, bench.load(regs::kLenCfg));
-  bench.set_mode1(mode1::kEnChangeCfg);
-  EXPECT_EQ(bench.load(regs::kCfgOk), kFinished);
-  EXPECT_EQ(bench.load(regs::kReadCfgPtr), cfg) << "A26";
-  EXPECT_EQ(bench.load(regs::kCfgPtr), kReadCfg);
+  const std::uint8_t cfg = bench.load(regs::kOrgCfgPointer);
+  bench.store(regs::kOrgReadCfgLength, bench.load(regs::kOrgCfgLength));
+  bench.set_mode1(regs::kMode1EnChangeCfg);
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictFinished);
+  EXPECT_EQ(bench.load(regs::kOrgReadCfgPointer), cfg) << "A26";
+  EXPECT_EQ(bench.load(regs::kOrgCfgPointer), kReadCfg);
   EXPECT_EQ(bench.ask(59).answer().data, (Bytes{0x31, 0x32, 0x33}));
-  bench.store(regs::kMode1Clear, mode1::kEnChangeCfg);
+  bench.store(regs::kMode1R, regs::kMode1EnChangeCfg);
   bench.check_cfg({0x31, 0x32, 0x33});
-  const std::uint8_t now = bench.load(regs::kCfgPtr);
+  const std::uint8_t now = bench.load(regs::kOrgCfgPointer);
   bench.load(regs::kCfgOk);
-  EXPECT_EQ(bench.load(regs::kCfgPtr), now);
+  EXPECT_EQ(bench.load(regs::kOrgCfgPointer), now);
 }
 
 TEST(Judging, AConfigurationInDataExchangeGoesToTheUser) {
@@ -214,7 +212,7 @@ TEST(Judging, AConfigurationInDataExchangeGoesToTheUser) {
   EXPECT_EQ(kind_of(bench.check_cfg({0x99})), "SC");
   EXPECT_EQ(bench.state(), DpState::kDataExch);
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "DL");
-  EXPECT_EQ(bench.load(regs::kCfgOk), kFinished);
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictFinished);
   bench.run_cycles(2);
   EXPECT_EQ(bench.state(), DpState::kDataExch);
   bench.check_cfg({0x99});
@@ -235,7 +233,7 @@ TEST(Judging, Vpc3RefusesReservedBitsOfParameters) {
     }
     EXPECT_EQ(bench.count(Reason::kPrmReserved), looks ? 2 : 0);
     if (!looks) continue;
-    bench.store(regs::kMode2, spc3::mode2::kAnyPrm);
+    bench.store(regs::kMode2, regs::kMode2NoPrmCheck);
     bench.set_prm({0x08});
     EXPECT_EQ(bench.state(), DpState::kWaitCfg);
   }
@@ -247,10 +245,10 @@ TEST(Judging, AnAddressIsTakenInsideAndGoesToTheUser) {
   Bench bench;
   bench.to_wait_prm();
   EXPECT_EQ(kind_of(bench.ask(55, {77, 0x0C, 0xC9, 0, 0xAA})), "SC");
-  EXPECT_TRUE(bench.raised(event::kNewSsa));
-  EXPECT_EQ(bench.load(regs::kLenSsa), 5);
-  EXPECT_EQ(bench.buffer(regs::kSsaPtr, 5), (Bytes{77, 0x0C, 0xC9, 0, 0xAA}));
-  EXPECT_EQ(bench.load(regs::kTsAdr), 5) << "the cell stays (A23)";
+  EXPECT_TRUE(bench.raised(regs::kEventNewSsa));
+  EXPECT_EQ(bench.load(regs::kOrgSsaLength), 5);
+  EXPECT_EQ(bench.buffer(regs::kOrgSsaPointer, 5), (Bytes{77, 0x0C, 0xC9, 0, 0xAA}));
+  EXPECT_EQ(bench.load(regs::kOrgAddress), 5) << "the cell stays (A23)";
   EXPECT_EQ(kind_of(bench.ask(60)), "silent");
   bench.address = 77;
   EXPECT_EQ(kind_of(bench.ask(60)), "DL");
@@ -267,7 +265,7 @@ TEST(Judging, AWrongAddressIsIgnored) {
   bench.to_wait_prm();
   for (const Bytes& wrong : {Bytes{77, 0x0C, 0xC8, 0}, Bytes{126, 0x0C, 0xC9, 0}, Bytes{77, 0x0C, 0xC9}})
     EXPECT_EQ(kind_of(bench.ask(55, wrong)), "SC");
-  EXPECT_FALSE(bench.raised(event::kNewSsa));
+  EXPECT_FALSE(bench.raised(regs::kEventNewSsa));
   EXPECT_EQ(kind_of(bench.ask(60)), "DL") << "still at its address";
 }
 
@@ -291,8 +289,8 @@ TEST(Judging, AddressCellsMayBeWrittenByTheChip) {
   Bench bench(Variant::kSpc3, config);
   bench.to_wait_prm();
   bench.ask(55, {77, 0x0C, 0xC9, 1});
-  EXPECT_EQ(bench.load(regs::kTsAdr), 77);
-  EXPECT_EQ(bench.load(regs::kNoAddChange), 0xFF);
+  EXPECT_EQ(bench.load(regs::kOrgAddress), 77);
+  EXPECT_EQ(bench.load(regs::kOrgNoAddressChange), 0xFF);
 }
 
 TEST(Judging, AddressCellsMayBeLive) {
@@ -300,17 +298,17 @@ TEST(Judging, AddressCellsMayBeLive) {
   config.address_cells = 1;
   Bench bench(Variant::kApc3, config);
   bench.to_wait_prm();
-  bench.store(regs::kTsAdr, 9);
+  bench.store(regs::kOrgAddress, 9);
   bench.address = 9;
   EXPECT_EQ(kind_of(bench.ask(60)), "DL");
-  bench.store(regs::kNoAddChange, 0xFF);
+  bench.store(regs::kOrgNoAddressChange, 0xFF);
   EXPECT_EQ(kind_of(bench.ask(55, {77, 0x0C, 0xC9, 0})), "RS");
 }
 
 TEST(Judging, TheIdentIsLive) {
   Bench bench;
   bench.to_wait_prm();
-  bench.store(regs::kIdentLow, 0xCA);
+  bench.store(regs::kOrgIdentLow, 0xCA);
   EXPECT_EQ(bench.count(Reason::kOrganisationOnline), 1) << "A5";
   bench.set_prm();
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);

@@ -19,11 +19,11 @@ TEST(Registers, AfterResetTheyAreAsThePageSays) {
     for (const int reserved : {0x12, 0x13, 0x15}) EXPECT_EQ(bench.load(static_cast<Address>(reserved)), 0);
     bench.store(regs::kMode0, 0x40);
     bench.store(regs::kMode0 + 1, 0x01);
-    bench.set_mode1(mode1::kEnChangeCfg);
+    bench.set_mode1(regs::kMode1EnChangeCfg);
     const bool readable = variant == Variant::kVpc3;
     EXPECT_EQ(bench.load(regs::kMode0), readable ? 0x40 : 0);
     EXPECT_EQ(bench.load(regs::kMode0 + 1), readable ? 0x01 : 0);
-    EXPECT_EQ(bench.load(regs::kMode1), readable ? mode1::kEnChangeCfg : 0);
+    EXPECT_EQ(bench.load(regs::kMode1Read), readable ? regs::kMode1EnChangeCfg : 0);
     EXPECT_EQ(bench.twins.chip().level(Pin::kXInt), 1) << "A12";
   }
 }
@@ -46,7 +46,7 @@ TEST(Registers, PeekAndPokeHaveNoEffect) {
   EXPECT_EQ(chip.peek(regs::kNextDout), 0);
   EXPECT_EQ(chip.peek(regs::kDoutSm), states);
   EXPECT_EQ(chip.peek(0x600 + regs::kBuffers), chip.peek(0x200 + regs::kBuffers));
-  bench.twins.poke(regs::kMode1Set, mode1::kGoOffline);
+  bench.twins.poke(regs::kMode1S, regs::kMode1GoOffline);
   bench.twins.poke(0x300, 0x77);
   bench.run_cycles(5);
   EXPECT_EQ(bench.state(), DpState::kDataExch);
@@ -78,7 +78,7 @@ TEST_F(Interrupts, TheLatchFollowsIrAndOnlyEoiEndsIt) {
   bench.run_cycles(100);
   EXPECT_EQ(level(), 0);
   EXPECT_EQ(bench.irr(), 0);
-  bench.set_mode1(mode1::kEoi);
+  bench.set_mode1(regs::kMode1Eoi);
   bench.run_cycles(1);
   EXPECT_EQ(level(), 1);
   bench.run_cycles(200);
@@ -91,7 +91,7 @@ TEST_F(Interrupts, EoiWithAnEventLeftIsInactiveForItsTime) {
     bench.store(regs::kIrr, 0x02);
     bench.run_cycles(2);
     EXPECT_EQ(level(), 0);
-    bench.set_mode1(mode1::kEoi);
+    bench.set_mode1(regs::kMode1Eoi);
     bench.run_cycles(1);
     EXPECT_EQ(level(), 1);
     bench.run_cycles(gap - 1);
@@ -99,13 +99,13 @@ TEST_F(Interrupts, EoiWithAnEventLeftIsInactiveForItsTime) {
     bench.run_cycles(1);
     EXPECT_EQ(level(), 0) << gap << " clocks later (A13)";
     bench.store(regs::kIrr, 0);
-    bench.set_mode1(mode1::kEoi);
+    bench.set_mode1(regs::kMode1Eoi);
     bench.run_cycles(2 * gap);
   }
 }
 
 TEST_F(Interrupts, AnEoiWithoutInterruptDoesNothing) {
-  bench.set_mode1(mode1::kEoi);
+  bench.set_mode1(regs::kMode1Eoi);
   bench.store(regs::kIrr, 0x02);
   bench.run_cycles(2);
   EXPECT_EQ(level(), 0) << "no inactive time";
@@ -133,7 +133,7 @@ TEST_F(Interrupts, AnEventThatGoesBeforeTheLatchLeavesNoInterrupt) {
 }
 
 TEST_F(Interrupts, IntPolTurnsTheLevel) {
-  bench.store(regs::kMode0, mode0::kIntPol);
+  bench.store(regs::kMode0, regs::kMode0IntPol);
   bench.run_cycles(1);
   EXPECT_EQ(level(), 0);
   bench.store(regs::kIrr, 0x02);
@@ -146,7 +146,7 @@ TEST_F(Interrupts, IrrIsReplacedByteByByte) {
   bench.store(regs::kIrr + 1, 0x30);
   bench.store(regs::kIrr, 0x01);
   EXPECT_EQ(bench.irr(), 0x3001) << "A10, A11";
-  bench.acknowledge(event::kDxOut);
+  bench.acknowledge(regs::kEventDxOut);
   EXPECT_EQ(bench.irr(), 0x1001);
 }
 
@@ -157,16 +157,16 @@ TEST_F(Interrupts, AnEventAndItsAcknowledgementInOneClockLeaveTheEvent) {
   bench.acknowledge(0xFFFF);
   bench.run_cycles(10);
   const auto timer_at = [this] {
-    for (Cycle i = 0; i < 2 * kMs && !bench.raised(event::kUserTimer); ++i) bench.run_cycles(1);
+    for (Cycle i = 0; i < 2 * kMs && !bench.raised(regs::kEventUserTimer); ++i) bench.run_cycles(1);
     return bench.cycle();
   };
   const Cycle first = timer_at();
-  bench.acknowledge(event::kUserTimer);
+  bench.acknowledge(regs::kEventUserTimer);
   bench.run_until((first + kMs - 1) * profibus::kTicksPerCycle);
-  EXPECT_FALSE(bench.raised(event::kUserTimer));
-  bench.acknowledge(event::kUserTimer);  // taken by the edge of the event
+  EXPECT_FALSE(bench.raised(regs::kEventUserTimer));
+  bench.acknowledge(regs::kEventUserTimer);  // taken by the edge of the event
   bench.run_cycles(1);
-  EXPECT_TRUE(bench.raised(event::kUserTimer)) << "M 4.3";
+  EXPECT_TRUE(bench.raised(regs::kEventUserTimer)) << "M 4.3";
 }
 
 TEST(UserTimer, ComesEachMillisecondOrTenOfSpc3AndVpc3) {
@@ -175,13 +175,13 @@ TEST(UserTimer, ComesEachMillisecondOrTenOfSpc3AndVpc3) {
       Bench bench(variant);
       bench.power_on();
       Organisation given;
-      if (ms == 10) given.modes |= mode0::kUserTimeBase;
+      if (ms == 10) given.modes |= regs::kMode0UserTimeBase;
       bench.initialise(given);
       bench.start();
       bench.run_cycles(ms * kMs - 2);
-      EXPECT_FALSE(bench.raised(event::kUserTimer));
+      EXPECT_FALSE(bench.raised(regs::kEventUserTimer));
       bench.run_cycles(1);
-      EXPECT_EQ(bench.raised(event::kUserTimer), variant != Variant::kApc3) << "A36";
+      EXPECT_EQ(bench.raised(regs::kEventUserTimer), variant != Variant::kApc3) << "A36";
     }
   }
 }
@@ -196,7 +196,7 @@ TEST(Violation, TheUsersAccessGoes400Lower) {
   EXPECT_EQ(bench.load(0x610), 0x77);
   bench.run_cycles(1);
   EXPECT_EQ(bench.load(regs::kStatus), 0x08);
-  EXPECT_TRUE(bench.raised(event::kMacReset)) << "also when OFFLINE (A3)";
+  EXPECT_TRUE(bench.raised(regs::kEventMacReset)) << "also when OFFLINE (A3)";
   EXPECT_EQ(bench.count(Reason::kRamViolation), 1);
   bench.store(0x611, 0x66);
   EXPECT_EQ(bench.load(0x211), 0x66);
@@ -211,12 +211,12 @@ TEST(Violation, TheUsersAccessGoes400Lower) {
 TEST(Violation, AWrongPointerOfTheChipIsOne) {
   Bench bench;
   bench.to_wait_prm();
-  bench.store(regs::kAuxPtr, 0xBF);  // 5F8H
+  bench.store(regs::kOrgAuxPointer, 0xBF);  // 5F8H
   bench.acknowledge(0xFFFF);
   EXPECT_EQ(kind_of(bench.set_prm({0, 0xEE})), "SC") << "answered first (A55)";
   EXPECT_EQ(bench.load(0x200), 0xEE);
   EXPECT_EQ(bench.load(regs::kStatus), 0x08);
-  EXPECT_TRUE(bench.raised(event::kMacReset));
+  EXPECT_TRUE(bench.raised(regs::kEventMacReset));
 }
 
 TEST(Violation, MayOnlySetItsBit) {
@@ -236,7 +236,7 @@ TEST(Violation, Vpc3Has2KbAndMayHave4) {
   EXPECT_EQ(bench.load(0x7F0), 0x55);
   bench.load(0x7FC);
   EXPECT_EQ(bench.count(Reason::kErrorCounter), 1);
-  bench.store(regs::kMode2, spc3::mode2::k4KB);
+  bench.store(regs::kMode2, regs::kMode2Ram4k);
   bench.store(0xFF0, 0x66);
   EXPECT_EQ(bench.load(0xFF0), 0x66);
   EXPECT_EQ(bench.load(0x7F0), 0x55);

@@ -21,27 +21,27 @@ TEST_P(EachName, FromPowerOnToDataExchange) {
   EXPECT_EQ(bench.load(regs::kStatus), 0x01) << "PASSIVE_IDLE, WAIT_PRM, search";
   EXPECT_EQ(bench.load(regs::kStatus + 1) & 0x0F, 0x00) << "12 Mbit/s is tried";
   EXPECT_EQ(bench.load(regs::kDoutSm), 0x27) << "cleared outputs in N (A17)";
-  EXPECT_TRUE(bench.raised(event::kDxOut));
+  EXPECT_TRUE(bench.raised(regs::kEventDxOut));
   bench.find_baud();
-  EXPECT_TRUE(bench.raised(event::kBaudDetect));
+  EXPECT_TRUE(bench.raised(regs::kEventBaudDetect));
   EXPECT_EQ(bench.load(regs::kStatus), 0x41) << "BAUD_CONTROL";
 
   EXPECT_EQ(kind_of(bench.set_prm({0x00, 0x77})), "SC");
-  EXPECT_TRUE(bench.raised(event::kNewPrm));
-  EXPECT_EQ(bench.load(regs::kLenPrm), 9);
-  EXPECT_EQ(bench.load(regs::kPrmPtr), kAux) << "exchanged with Aux 1 (A22)";
-  EXPECT_EQ(bench.load(regs::kAuxPtr), kPrm);
-  EXPECT_EQ(bench.buffer(regs::kPrmPtr, 9), (Bytes{0x80, 0, 0, 0, 0x0C, 0xC9, 0, 0x00, 0x77}));
+  EXPECT_TRUE(bench.raised(regs::kEventNewPrm));
+  EXPECT_EQ(bench.load(regs::kOrgPrmLength), 9);
+  EXPECT_EQ(bench.load(regs::kOrgPrmPointer), kAux) << "exchanged with Aux 1 (A22)";
+  EXPECT_EQ(bench.load(regs::kOrgAuxPointer), kPrm);
+  EXPECT_EQ(bench.buffer(regs::kOrgPrmPointer, 9), (Bytes{0x80, 0, 0, 0, 0x0C, 0xC9, 0, 0x00, 0x77}));
   EXPECT_EQ(bench.load(regs::kStatus), 0x51) << "WAIT_CFG when it is received (A49)";
-  EXPECT_EQ(bench.load(regs::kPrmOk), spc3::verdict::kFinished);
-  EXPECT_FALSE(bench.raised(event::kNewPrm)) << "the answer takes the event back (A14)";
+  EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictFinished);
+  EXPECT_FALSE(bench.raised(regs::kEventNewPrm)) << "the answer takes the event back (A14)";
 
   EXPECT_EQ(kind_of(bench.check_cfg()), "SC");
-  EXPECT_TRUE(bench.raised(event::kNewCfg));
-  EXPECT_EQ(bench.buffer(regs::kCfgPtr, bench.load(regs::kLenCfg)), (Bytes{0x12, 0x21}));
+  EXPECT_TRUE(bench.raised(regs::kEventNewCfg));
+  EXPECT_EQ(bench.buffer(regs::kOrgCfgPointer, bench.load(regs::kOrgCfgLength)), (Bytes{0x12, 0x21}));
   bench.acknowledge(0xFFFF);
-  EXPECT_EQ(bench.irr(), event::kNewCfg) << "IAR does not clear it (A15)";
-  EXPECT_EQ(bench.load(regs::kCfgOk), spc3::verdict::kFinished);
+  EXPECT_EQ(bench.irr(), regs::kEventNewCfg) << "IAR does not clear it (A15)";
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictFinished);
   bench.run_cycles(2);
   if (GetParam() != Variant::kVpc3) {
     EXPECT_EQ(bench.state(), DpState::kWaitCfg) << "no inputs yet (A24)";
@@ -50,7 +50,7 @@ TEST_P(EachName, FromPowerOnToDataExchange) {
   bench.give_inputs({1, 2, 3});
   bench.run_cycles(2);
   EXPECT_EQ(bench.load(regs::kStatus), 0x61);
-  EXPECT_TRUE(bench.raised(event::kGoLeaveDataEx));
+  EXPECT_TRUE(bench.raised(regs::kEventDataEx));
   EXPECT_EQ(bench.twins.chip().level(Pin::kXDataExch), 0);
   const bus::Exchange answer = bench.exchange({0x55, 0xAA});
   EXPECT_EQ(kind_of(answer), "DL");
@@ -61,15 +61,15 @@ TEST_P(EachName, FromPowerOnToDataExchange) {
 TEST_P(EachName, TheEventComesAfterItsDelay) {
   Bench bench(GetParam());
   bench.to_data_ex();
-  bench.acknowledge(event::kDxOut);
+  bench.acknowledge(regs::kEventDxOut);
   const auto telegram = bus::make_telegram(5, 2, 0x6D, {1, 2});
   const bus::Exchange sent = bench.requester.send(bench.timeline, telegram, {.wants_answer = false});
   // S10: decided one bit time after the last stop bit, whose end the logic sees three edges later
   const Cycle decided = sent.request_end / profibus::kTicksPerCycle + 3 + 4 + 1;
   bench.run_until((decided + 31) * profibus::kTicksPerCycle);
-  EXPECT_FALSE(bench.raised(event::kDxOut));
+  EXPECT_FALSE(bench.raised(regs::kEventDxOut));
   bench.run_cycles(1);
-  EXPECT_TRUE(bench.raised(event::kDxOut)) << "A40";
+  EXPECT_TRUE(bench.raised(regs::kEventDxOut)) << "A40";
   bench.run_ms(1);
 }
 
@@ -137,12 +137,12 @@ TEST(States, GoOfflineOnASilentLineIsAtOnce) {
   Bench bench;
   bench.to_data_ex();
   bench.acknowledge(0xFFFF);
-  bench.set_mode1(mode1::kGoOffline);
+  bench.set_mode1(regs::kMode1GoOffline);
   bench.run_cycles(1);
   EXPECT_EQ(bench.load(regs::kStatus), 0x00);
   EXPECT_EQ(bench.load(regs::kDoutSm), 0xE1) << "A17";
   EXPECT_EQ(bench.load(regs::kDinSm), 0xE1);
-  EXPECT_TRUE(bench.raised(event::kMacReset | event::kGoLeaveDataEx));
+  EXPECT_TRUE(bench.raised(regs::kEventMacReset | regs::kEventDataEx));
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "silent");
   bench.run_ms(3);
   bench.start();
@@ -166,7 +166,7 @@ TEST(States, GoOfflineWaitsForTheTelegramAndItsAnswer) {
     Tick next() const override { return asked ? bus::kNever : at; }
     void run(Tick) override {
       asked = true;
-      bench.set_mode1(mode1::kGoOffline);
+      bench.set_mode1(regs::kMode1GoOffline);
     }
   } user(bench, begin + 30 * bench.requester.bit(), asked);
   bench.timeline.add(user);
@@ -175,19 +175,19 @@ TEST(States, GoOfflineWaitsForTheTelegramAndItsAnswer) {
   EXPECT_EQ(kind_of(answer), "DL");
   bench.run_cycles(100);
   EXPECT_EQ(bench.state(), DpState::kOffline);
-  EXPECT_TRUE(bench.raised(event::kMacReset));
+  EXPECT_TRUE(bench.raised(regs::kEventMacReset));
 }
 
 TEST(States, StartAndGoOfflineInOneWrite) {
   Bench bench;
   bench.power_on();
   bench.initialise();
-  bench.set_mode1(mode1::kStart | mode1::kGoOffline);
+  bench.set_mode1(regs::kMode1Start | regs::kMode1GoOffline);
   bench.run_cycles(3);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm) << "START when OFFLINE (A55)";
-  bench.set_mode1(mode1::kStart);
+  bench.set_mode1(regs::kMode1Start);
   EXPECT_EQ(bench.count(Reason::kStartOnline), 1);
-  bench.set_mode1(mode1::kStart | mode1::kGoOffline);
+  bench.set_mode1(regs::kMode1Start | regs::kMode1GoOffline);
   bench.run_cycles(3);
   EXPECT_EQ(bench.state(), DpState::kOffline);
 }
@@ -198,10 +198,10 @@ TEST(States, UserLeaveMasterClearsTheOutputs) {
   bench.exchange({0x11, 0x22});
   bench.fetch_outputs();
   bench.acknowledge(0xFFFF);
-  bench.set_mode1(mode1::kUserLeaveMaster);
+  bench.set_mode1(regs::kMode1UserLeaveMaster);
   bench.run_cycles(2);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
-  EXPECT_TRUE(bench.raised(event::kGoLeaveDataEx | event::kDxOut));
+  EXPECT_TRUE(bench.raised(regs::kEventDataEx | regs::kEventDxOut));
   int answer = 0;
   EXPECT_EQ(bench.fetch_outputs(&answer), (Bytes{0, 0}));
   EXPECT_EQ(answer & 0x0C, 0x0C) << "new, and cleared";
@@ -215,8 +215,8 @@ TEST(States, UnlockInWaitPrmClearsTheOutputsToo) {
   bench.fetch_outputs();
   bench.acknowledge(0xFFFF);
   EXPECT_EQ(kind_of(bench.set_prm({}, 0x40)), "SC");
-  EXPECT_TRUE(bench.raised(event::kDxOut));
-  EXPECT_FALSE(bench.raised(event::kGoLeaveDataEx));
+  EXPECT_TRUE(bench.raised(regs::kEventDxOut));
+  EXPECT_FALSE(bench.raised(regs::kEventDataEx));
 }
 
 TEST(States, AWrongOutputLengthIsCfgFault) {
@@ -234,7 +234,7 @@ TEST(States, ParametersInDataExchangeLeadBackToWaitCfg) {
   bench.acknowledge(0xFFFF);
   bench.set_prm({0, 1});
   EXPECT_EQ(bench.state(), DpState::kWaitCfg);
-  EXPECT_TRUE(bench.raised(event::kGoLeaveDataEx | event::kDxOut | event::kNewPrm));
+  EXPECT_TRUE(bench.raised(regs::kEventDataEx | regs::kEventDxOut | regs::kEventNewPrm));
   bench.load(regs::kPrmOk);
   bench.check_cfg();
   bench.load(regs::kCfgOk);
@@ -251,13 +251,13 @@ TEST(States, ResetActsAtOnceAndKeepsTheRam) {
   bench.twins.set(bench.now() + 7, Pin::kReset, 1);
   EXPECT_EQ(bench.twins.chip().level(Pin::kXDataExch), 1);
   bench.run_cycles(5);
-  EXPECT_EQ(bench.load(regs::kLenDout), 0) << "no access in reset";
+  EXPECT_EQ(bench.load(regs::kOrgDoutLength), 0) << "no access in reset";
   EXPECT_EQ(bench.count(Reason::kInReset), 1);
   bench.twins.set(bench.now(), Pin::kReset, 0);
   bench.run_cycles(2);
-  EXPECT_EQ(bench.load(regs::kLenDout), 0) << "two flip-flops (A9)";
+  EXPECT_EQ(bench.load(regs::kOrgDoutLength), 0) << "two flip-flops (A9)";
   bench.run_cycles(1);
-  EXPECT_EQ(bench.load(regs::kLenDout), 2);
+  EXPECT_EQ(bench.load(regs::kOrgDoutLength), 2);
   EXPECT_EQ(bench.irr(), 0);
   EXPECT_EQ(bench.load(regs::kStatus), 0);
   bench.initialise();

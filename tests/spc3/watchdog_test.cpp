@@ -26,7 +26,7 @@ TEST(Watchdog, DpControlEndsTheExchangeOfASilentMaster) {
   bench.run_ms(2);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
   EXPECT_EQ(wd_state(bench), 1U);
-  EXPECT_TRUE(bench.raised(event::kWdTimeout | event::kGoLeaveDataEx | event::kDxOut));
+  EXPECT_TRUE(bench.raised(regs::kEventWdTimeout | regs::kEventDataEx | regs::kEventDxOut));
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0}));
 }
 
@@ -36,8 +36,8 @@ TEST(Watchdog, AVerdictThatNeverComesDoesNotStopIt) {
   bench.set_prm({0x04}, kWdOn, 1, 3);
   bench.run_ms(4);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
-  EXPECT_TRUE(bench.raised(event::kWdTimeout));
-  EXPECT_EQ(bench.load(regs::kPrmOk), spc3::verdict::kNotAllowed);
+  EXPECT_TRUE(bench.raised(regs::kEventWdTimeout));
+  EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictNotAllowed);
 }
 
 TEST(Watchdog, BaudControlSearchesAgainAndLeavesTheState) {
@@ -60,7 +60,7 @@ TEST(Watchdog, BaudControlSearchesAgainAndLeavesTheState) {
   EXPECT_EQ(bench.state(), DpState::kDataExch) << "M 4.4.2";
   EXPECT_EQ(bench.irr(), 0);
   bench.find_baud(1);
-  EXPECT_TRUE(bench.raised(event::kBaudDetect));
+  EXPECT_TRUE(bench.raised(regs::kEventBaudDetect));
   EXPECT_EQ(bench.load(regs::kStatus + 1) & 0x0F, 1);
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "DL");
 }
@@ -99,7 +99,7 @@ TEST(MinTsdr, IsTheDefaultTheRegistersOrTheMasters) {
 TEST(MinTsdr, IsTheCombiDefault) {
   Bench bench;
   Organisation given;
-  given.modes |= mode0::kCombi;
+  given.modes |= regs::kMode0Combi;
   bench.to_wait_prm(given);
   EXPECT_NEAR(tsdr(bench), 60, 1);
 }
@@ -133,7 +133,7 @@ TEST(UserWatchdog, CountsDataTelegramsWithoutItsBit) {
   bench.to_data_ex(given);  // START with Res_User_Wd
   for (int i = 0; i < 3; ++i) EXPECT_EQ(kind_of(bench.exchange({1, 2})), "DL");
   EXPECT_EQ(bench.state(), DpState::kDataExch) << "the first loaded it, 2 are counted";
-  bench.set_mode1(mode1::kResUserWd);
+  bench.set_mode1(regs::kMode1ResUserWd);
   for (int i = 0; i < 3; ++i) bench.exchange({1, 2});
   EXPECT_EQ(bench.state(), DpState::kDataExch);
   bench.ask(56);
@@ -141,7 +141,7 @@ TEST(UserWatchdog, CountsDataTelegramsWithoutItsBit) {
   EXPECT_EQ(kind_of(bench.exchange({8, 8})), "DL") << "still answered";
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
   EXPECT_EQ(bench.count(spc3::Reason::kUserWatchdog), 1);
-  EXPECT_TRUE(bench.raised(event::kGoLeaveDataEx | event::kDxOut));
+  EXPECT_TRUE(bench.raised(regs::kEventDataEx | regs::kEventDxOut));
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0}));
 }
 
@@ -149,7 +149,7 @@ TEST(UserWatchdog, ZeroCounts65536AndTheFirstWithoutTheBitWraps) {
   Bench bench;
   bench.power_on();
   bench.initialise();
-  bench.set_mode1(mode1::kStart);  // A34: the count is 0
+  bench.set_mode1(regs::kMode1Start);  // A34: the count is 0
   bench.run_cycles(2);
   bench.find_baud();
   bench.set_prm();
