@@ -108,7 +108,7 @@ class SlaveStore {
   /// `to_holder`: the master that holds the slave reads it.
   virtual StoredDiagnosis diagnosis(bool to_holder) = 0;
 
-  /// The slave gives up its master: WAIT_PRM follows, or goes on. `by_watchdog`: the master was silent.
+  /// The slave gives up its master: it enters or keeps WAIT_PRM. `by_watchdog`: the master was silent.
   virtual void left(Cycle /*now*/, bool /*by_watchdog*/) {}
   /// The slave's state has changed. Leaving DATA_EXCH clears the outputs and opens the gates (S18).
   virtual void entered(Cycle now, DpState from, DpState to) = 0;

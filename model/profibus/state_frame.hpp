@@ -28,7 +28,7 @@ void begin_frame(StateWriter& writer, const StateFrame& frame);
 /// Adds size and checksum to a state whose last byte is written.
 std::vector<std::uint8_t> end_frame(std::vector<std::uint8_t> bytes);
 
-/// What is after the head of a complete state; throws if it is another frame's, cut or damaged.
+/// Returns the part of a complete state after its head; throws if it is another frame's, cut or damaged.
 StateReader open_frame(const std::uint8_t* bytes, std::size_t size, const StateFrame& frame);
 /// Throws unless the state was saved with the chip's own title, parameter.
 void check_title(const std::string& saved, const std::string& own);

@@ -46,7 +46,7 @@ class ControlBuffers {
   enum class State : std::uint8_t { kFree, kOnWay, kWithUser };
   struct Entry {
     State state = State::kFree;
-    bool waits = false;     ///< in Aux, behind the one with the user
+    bool waits = false;     ///< one is in Aux, the user has an older one
     bool is_there = false;  ///< on its way without an exchange
     std::uint8_t size = 0;  ///< of the one in Aux, or on its way
 

@@ -1,5 +1,5 @@
 #pragma once
-// The interrupt controller (M 4.3; A10 to A15): requests, mask, and the latch INT behind X/INT, which EOI alone resets.
+// The interrupt controller (M 4.3; A10 to A15): requests, mask, and the latch of X/INT, which EOI alone resets.
 #include <algorithm>
 
 #include "model/profibus/time.hpp"

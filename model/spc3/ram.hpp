@@ -1,6 +1,6 @@
 #pragma once
-// The RAM behind 16H, and what an address beyond its end does (A3): 400H is subtracted, and the violation is noted
-// until it is taken.
+// The RAM from 16H on. From an address beyond its end 400H is subtracted, and the violation is noted until it is taken
+// (A3).
 #include <array>
 #include <cstddef>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
-// The chip's SlaveStore: every byte is in the RAM, in the buffers to which the organisation points. What a telegram
-// does to buffers and IRR happens at one edge, a delay after its decision (A40); what the user or a watchdog does, at
+// The chip's SlaveStore: every byte is in the RAM, in the buffers to which the organisation points. A telegram's
+// effects on buffers and IRR come at one edge, a delay after its decision (A40), those of the user or a watchdog at
 // once. Each service is in the file of its name.
 #include "model/profibus/slave_store.hpp"
 #include "model/profibus/station.hpp"
@@ -49,7 +49,7 @@ class RamStore final : public profibus::SlaveStore {
   }
   /// Registers or cells that the station knows have changed.
   void refresh();
-  /// What follows from the registers and is no part of the state.
+  /// Sets everything that follows from registers and is not part of the state.
   void derive();
 
   // --- parts --------------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #include "tests/spc3/bench.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace dsdpv1::spc3_test {
 namespace {
@@ -244,7 +245,7 @@ bus::Exchange Bench::set_prm(const Bytes& user, std::uint8_t status, std::uint8_
                 static_cast<std::uint8_t>(organisation.ident >> 8),
                 static_cast<std::uint8_t>(organisation.ident & 0xFF),
                 group};
-  data.insert(data.end(), user.begin(), user.end());
+  std::copy(user.begin(), user.end(), std::back_inserter(data));
   return ask(61, data, master);
 }
 

@@ -48,7 +48,7 @@ class Twins : public bus::Agent, public bus::Listener {
   void run(Tick now) override;
   void line_changed(Tick at, bool level) override;
 
-  /// Both have come to `at`: their traces are equal. Each `restored`-th time one of them goes on from its state.
+  /// Both have come to `at`: their traces are equal. Each `restored`-th time one of them continues from its state.
   void compare(Tick at);
 
   std::vector<PinChange> trace;
@@ -100,8 +100,8 @@ class Bench {
   void run_ms(Cycle ms) { run_cycles(ms * kMs); }
 
   // --- the user
-  std::uint8_t load(Address address) { return twins.load(cycle(), address); }
-  void store(Address address, std::uint8_t value) { twins.store(cycle(), address, value); }
+  std::uint8_t load(Address cell) { return twins.load(cycle(), cell); }
+  void store(Address cell, std::uint8_t value) { twins.store(cycle(), cell, value); }
   std::uint16_t irr() { return static_cast<std::uint16_t>(load(regs::kIrr) | load(regs::kIrr + 1) << 8); }
   bool raised(std::uint16_t events) { return (irr() & events) == events; }
   void acknowledge(std::uint16_t events);

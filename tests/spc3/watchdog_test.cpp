@@ -4,8 +4,6 @@
 namespace dsdpv1::spc3_test {
 namespace {
 
-using profibus::Reason;
-
 constexpr std::uint8_t kWdOn = 0x88;
 
 unsigned wd_state(Bench& bench) { return bench.load(regs::kStatus) >> 6U; }
@@ -118,7 +116,7 @@ TEST(MinTsdr, ReturnsToTheDefaultWhenTheRateIsLost) {
     EXPECT_NEAR(tsdr(bench), keeps ? 50 : 11, 1) << "START begins a search";
     bench.store(regs::kMinTsdr, 40);
     bench.run_ms(11);
-    EXPECT_EQ(bench.count(Reason::kBaudLost), 1);
+    EXPECT_EQ(bench.count(profibus::Reason::kBaudLost), 1);
     bench.find_baud();
     EXPECT_NEAR(tsdr(bench), keeps ? 40 : 11, 1) << "A33";
   }
