@@ -124,21 +124,22 @@ static void write_organisation(const spc3_device* device, const spc3_config* con
   spc3_put_bytes(device, spc3_buffer(device, SPC3_REG_ORG_READ_CFG_POINTER), config->cfg, config->cfg_length);
 }
 
-/* Events of an earlier operation. OFFLINE, an answer does no more than clear its event (A14). */
+/* Events of an earlier operation, and its interrupt. OFFLINE, an answer does no more than clear its event (A14). */
 static void drop_events(const spc3_device* device) {
   (void)spc3_get(device, SPC3_REG_PRM_NOT_OK);
   (void)spc3_get(device, SPC3_REG_CFG_NOT_OK);
   spc3_put_word(device, SPC3_REG_IAR, 0xFFFF);
+  spc3_put(device, SPC3_REG_MODE_1_S, SPC3_REG_MODE_1_EOI);
 }
 
 static void write_registers(const spc3_device* device, const spc3_config* config) {
+  drop_events(device);
   spc3_put_word(device, SPC3_REG_MODE_0, mode_0(config));
   spc3_put(device, SPC3_REG_MODE_1_R, SPC3_REG_MODE_1_EN_CHANGE_CFG);
   if (config->change_cfg) spc3_put(device, SPC3_REG_MODE_1_S, SPC3_REG_MODE_1_EN_CHANGE_CFG);
   spc3_put(device, SPC3_REG_WD_BAUD_CONTROL,
            config->baud_control != 0u ? config->baud_control : SPC3_REG_WD_BAUD_CONTROL_RESET);
   spc3_put(device, SPC3_REG_MIN_TSDR, device->min_tsdr);
-  drop_events(device);
   spc3_put_word(device, SPC3_REG_IMR, (uint16_t)~config->interrupts);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -111,6 +112,11 @@ TEST_F(Spc3DriverTest, OrganisationIsThatOfTheConfiguration) {
   EXPECT_EQ(chip.ram[kOrgReadCfgLength], 2);
   EXPECT_EQ(chip.buffer(kOrgReadCfgPointer, 2), cfg);
   EXPECT_EQ(chip.ram[kOrgSsaPointer], 0);  // no Set_Slave_Address
+  config.address_locked = false;
+  config.max_ssa = 4;
+  ASSERT_EQ(initialise(), SPC3_OK);
+  EXPECT_EQ(chip.ram[kOrgNoAddressChange], 0);
+  EXPECT_NE(chip.ram[kOrgSsaPointer], 0);
   for (const int preset : {0x22, 0x23, 0x35, 0x36, 0x37, 0x38}) EXPECT_EQ(chip.ram.at(preset), 0);
 }
 
@@ -127,6 +133,9 @@ TEST_F(Spc3DriverTest, RegistersAreThoseOfTheConfiguration) {
   EXPECT_EQ(chip.last(kMinTsdr), 60);
   EXPECT_EQ(chip.last(kWdBaudControl), kWdBaudControlReset);
   EXPECT_EQ(chip.last(kMode1S), kMode1EnChangeCfg);
+  config.change_cfg = false;
+  ASSERT_EQ(initialise(), SPC3_OK);
+  EXPECT_EQ(chip.last(kMode1R), kMode1EnChangeCfg) << "it stays through OFFLINE";
 }
 
 TEST_F(Spc3DriverTest, EachModeBitHasItsMember) {
@@ -169,6 +178,7 @@ TEST_F(Spc3DriverTest, EventsOfAnEarlierOperationAreDropped) {
   ASSERT_EQ(initialise(), SPC3_OK);
   EXPECT_EQ(chip.events, 0);
   EXPECT_THAT(chip.commands, ElementsAre(kPrmNotOk, kCfgNotOk));
+  EXPECT_EQ(chip.last(kMode1S), kMode1Eoi) << "X/INT may still be active";
 }
 
 TEST_F(Spc3DriverTest, AChipThatWorksGoesOfflineFirst) {
@@ -255,6 +265,32 @@ TEST_F(Spc3DriverTest, ASecondAuxIsTakenWhenItSavesRoom) {
   EXPECT_EQ(chip.ram[kOrgAuxSelect], 0);
   EXPECT_EQ(chip.ram[kOrgAuxLength], 8);
   EXPECT_EQ(chip.ram[kOrgAuxPointer + 1], 0);
+  EXPECT_NE(chip.ram[kOrgPrmPointer], 0);
+  config.max_prm = 32;  // 4 x 32 are less than 3 x 24 + 2 x 32
+  config.max_cfg = 24;
+  ASSERT_EQ(initialise(), SPC3_OK);
+  EXPECT_EQ(chip.ram[kOrgAuxSelect], 0);
+  config.max_ssa = 4;  // 5 x 32 are 4 x 24 + 2 x 32: then two
+  ASSERT_EQ(initialise(), SPC3_OK);
+  EXPECT_EQ(chip.ram[kOrgAuxSelect], kOrgAuxSelectPrm);
+  config.max_cfg = 32;
+  ASSERT_EQ(initialise(), SPC3_OK);
+  EXPECT_EQ(chip.ram[kOrgAuxSelect], 0);
+}
+
+TEST_F(Spc3DriverTest, TheLargestLengthsAreAccepted) {
+  config.vpc3 = true;
+  config.address = 126;
+  const spc3_config others = config;
+  for (std::uint8_t spc3_config::*member : {&spc3_config::max_output, &spc3_config::max_input, &spc3_config::max_prm,
+                                            &spc3_config::max_cfg, &spc3_config::max_ssa}) {
+    config = others;
+    config.*member = 244;
+    EXPECT_EQ(initialise(), SPC3_OK);
+  }
+  config = others;
+  config.max_diag = 238;
+  EXPECT_EQ(initialise(), SPC3_OK);
 }
 
 TEST_F(Spc3DriverTest, TheLastByteOfTheRamIsUsedAndNoMore) {
@@ -352,6 +388,15 @@ TEST_F(Spc3DriverTest, AfterAConflictTheNewerParametersAreJudgedInTheirBuffer) {
   EXPECT_EQ(chip.events, 0);
 }
 
+TEST_F(Spc3DriverTest, MoreThanTheLongestTelegramIsNotCopied) {
+  start();
+  chip.telegram(kOrgPrmLength, kEventNewPrm, {0x88, 1, 2, 11, 0x0C, 0xC9, 0, 1});
+  chip.ram[kOrgPrmLength] = 0xFF;
+  spc3_service(&device);
+  ASSERT_EQ(prm_seen.size(), 1U);
+  EXPECT_EQ(prm_seen[0].size(), 244U);
+}
+
 TEST_F(Spc3DriverTest, AnEndlessConflictDoesNotKeepTheCall) {
   start();
   chip.telegram(kOrgPrmLength, kEventNewPrm, {0x88, 1, 2, 11, 0x0C, 0xC9, 0, 1});
@@ -367,6 +412,7 @@ TEST_F(Spc3DriverTest, WithoutAJudgeTheConfigurationMustBeThatOfGetCfg) {
     start();
     dp_state(kDpStateWaitCfg);
     chip.telegram(kOrgCfgLength, kEventNewCfg, bytes);
+    chip.ram.at(chip.ram[kOrgCfgPointer] * 8U + bytes.size()) = 0xEE;  // what lies there after it is nobody's
     EXPECT_EQ(spc3_service(&device), kEventNewCfg);
     EXPECT_THAT(chip.commands, ElementsAre(command));
   }
@@ -425,8 +471,15 @@ TEST_F(Spc3DriverTest, OutputsThatGrowBeginWithZeros) {
     for (int i = 0; i < 3; ++i) chip.put(static_cast<std::uint16_t>(kOrgDoutPointer + i), {1, 2, 3, 4, 5});
     lengths = {length, 10};
     chip.telegram(kOrgCfgLength, kEventNewCfg, cfg);
+    chip.writes.clear();
     spc3_service(&device);
   }
+  EXPECT_EQ(chip.writes.size(), 5U + 3U * 2U);
+  chip.writes.clear();
+  lengths = {4, 10};
+  chip.telegram(kOrgCfgLength, kEventNewCfg, cfg);
+  spc3_service(&device);
+  EXPECT_EQ(chip.writes.size(), 5U) << "IAR, lengths, EOI: nothing has grown";
   for (int i = 0; i < 3; ++i)
     EXPECT_THAT(chip.buffer(static_cast<std::uint16_t>(kOrgDoutPointer + i), 5), ElementsAre(1, 2, 0, 0, 5));
 }
@@ -456,6 +509,23 @@ TEST_F(Spc3DriverTest, ANewAddressIsToldBeforeTheBufferIsFree) {
   EXPECT_EQ(address, (std::pair<int, int>{9, 1}));
   EXPECT_THAT(rest, ElementsAre(7, 8));
   EXPECT_THAT(chip.commands, ElementsAre(kSsaFree));
+  chip.telegram(kOrgSsaLength, kEventNewSsa, {9, 0x0C, 0xC9, 0});
+  spc3_service(&device);
+  EXPECT_EQ(address, (std::pair<int, int>{9, 0}));
+  EXPECT_THAT(rest, IsEmpty());
+}
+
+TEST_F(Spc3DriverTest, AnApplicationWithoutFunctionsIsNotCalled) {
+  application = {};
+  config.max_ssa = 4;
+  start();
+  dp_state(kDpStateWaitCfg);
+  chip.telegram(kOrgSsaLength, kEventNewSsa, {9, 0x0C, 0xC9, 0xFF});
+  chip.telegram(kOrgPrmLength, kEventNewPrm, {0x88, 1, 2, 11, 0x0C, 0xC9, 0, 0xAA});
+  chip.telegram(kOrgCfgLength, kEventNewCfg, cfg);
+  chip.events = static_cast<std::uint16_t>(chip.events | kEventNewGc);
+  spc3_service(&device);
+  EXPECT_THAT(chip.commands, ElementsAre(kPrmOk, kCfgOk, kSsaFree));
 }
 
 TEST_F(Spc3DriverTest, GlobalControlIsTold) {
@@ -464,6 +534,9 @@ TEST_F(Spc3DriverTest, GlobalControlIsTold) {
   chip.events = kEventNewGc;
   EXPECT_EQ(spc3_service(&device), kEventNewGc);
   EXPECT_THAT(controls, ElementsAre(kOrgGcCommandClearData));
+  chip.events = kEventDxOut;
+  spc3_service(&device);
+  EXPECT_EQ(controls.size(), 1U);
 }
 
 TEST_F(Spc3DriverTest, MinTsdrIsWrittenAgainWithTheBaudRate) {
@@ -473,8 +546,22 @@ TEST_F(Spc3DriverTest, MinTsdrIsWrittenAgainWithTheBaudRate) {
   chip.events = kEventBaudDetect;
   spc3_service(&device);
   EXPECT_EQ(chip.last(kMinTsdr), 30);
-  chip.telegram(kOrgPrmLength, kEventNewPrm, {0x88, 1, 2, 100, 0x0C, 0xC9, 0, 1});
+  dp_state(kDpStateWaitCfg);  // by a Set_Prm of seven bytes, which the driver does not see
+  chip.events = kEventBaudDetect;
   spc3_service(&device);
+  EXPECT_EQ(chip.last(kMinTsdr), 30);
+  prm_right = false;
+  chip.telegram(kOrgPrmLength, kEventNewPrm, {0x88, 1, 2, 90, 0x0C, 0xC9, 0, 1});
+  spc3_service(&device);
+  chip.writes.clear();
+  chip.events = kEventBaudDetect;
+  spc3_service(&device);
+  EXPECT_EQ(chip.last(kMinTsdr), 30);
+  prm_right = true;
+  chip.telegram(kOrgPrmLength, kEventNewPrm, {0x88, 1, 2, 100, 0x0C, 0xC9, 0, 1});
+  chip.writes.clear();
+  spc3_service(&device);
+  EXPECT_EQ(chip.last(kMinTsdr), -1);
   dp_state(kDpStateDataEx);
   chip.events = kEventBaudDetect;
   spc3_service(&device);
@@ -518,29 +605,30 @@ TEST_F(Spc3DriverTest, InputsGoIntoTheUsersBuffer) {
     EXPECT_EQ(spc3_set_inputs(&device, inputs.data(), 10), SPC3_OK);
   }
   EXPECT_EQ(chip.count(kNewDin), 3);
+  EXPECT_EQ(chip.writes.size(), 30U);
   EXPECT_EQ(spc3_set_inputs(&device, cfg.data(), 2), SPC3_ERR_INPUT_LENGTH);
   EXPECT_EQ(chip.count(kNewDin), 3);
 }
 
 TEST_F(Spc3DriverTest, OutputsAreThoseOfTheAnsweredBuffer) {
   start();
-  Bytes bytes(4);
+  std::array<std::uint8_t, 5> bytes{};
   spc3_outputs outputs{bytes.data(), 4, 0, false, false};
-  chip.put(kOrgDoutPointer + 2, {1, 2, 3, 4});
+  chip.put(kOrgDoutPointer + 2, {1, 2, 3, 4, 5});
   chip.answers[kNextDout] = 3;
   EXPECT_EQ(spc3_get_outputs(&device, &outputs), SPC3_OK);
   EXPECT_FALSE(outputs.fresh);
-  EXPECT_THAT(bytes, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(bytes, ElementsAre(0, 0, 0, 0, 0));
   chip.answers[kNextDout] = 3 | kNextDoutFresh;
   EXPECT_EQ(spc3_get_outputs(&device, &outputs), SPC3_OK);
   EXPECT_TRUE(outputs.fresh);
   EXPECT_FALSE(outputs.cleared);
   EXPECT_EQ(outputs.length, 4);
-  EXPECT_THAT(bytes, ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(bytes, ElementsAre(1, 2, 3, 4, 0));
   chip.answers[kNextDout] = 1 | kNextDoutFresh | kNextDoutCleared;
   EXPECT_EQ(spc3_get_outputs(&device, &outputs), SPC3_OK);
   EXPECT_TRUE(outputs.cleared);
-  EXPECT_THAT(bytes, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(bytes, ElementsAre(0, 0, 0, 0, 0));
 }
 
 TEST_F(Spc3DriverTest, OutputsStayInTheChipWhenTheCallersBufferIsSmall) {
