@@ -120,7 +120,7 @@ typedef struct spc3_config {
   bool sync, freeze;             /* supported */
   bool clear_by_empty;           /* Spec_Clear: an empty data telegram clears the outputs (A46) */
   bool combined;                 /* DP and other protocols on one line: another min_TSDR (A33) */
-  uint8_t min_tsdr;              /* bit times until Set_Prm brings another; 0: 11 */
+  uint8_t min_tsdr;              /* bit times until Set_Prm brings another; 0: the chip's, 11 without `combined` */
   uint8_t baud_control;          /* val x val x 10 ms without a telegram end the baud rate (A31); 0: 30, 9 s */
   uint16_t user_wd;              /* data telegrams between two spc3_serve_watchdog; 0: 65536 (A34) */
   uint16_t interrupts;           /* SPC3_REG_EVENT_ bits that raise X/INT; 0: polled */

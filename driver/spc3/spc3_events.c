@@ -107,7 +107,8 @@ static void tell_control(const spc3_device* device) {
 /* The search has put min_TSDR back to its default; a master that continues expects that of its Set_Prm (A33). */
 static void restore_tsdr(const spc3_device* device) {
   const bool continues = dp_state(device) != SPC3_REG_DP_STATE_WAIT_PRM && device->prm_tsdr != 0u;
-  spc3_put(device, SPC3_REG_MIN_TSDR, continues ? device->prm_tsdr : device->min_tsdr);
+  const uint8_t value = continues ? device->prm_tsdr : device->min_tsdr;
+  if (value != 0u) spc3_put(device, SPC3_REG_MIN_TSDR, value);
 }
 
 static void take(spc3_device* device, uint16_t events) {

@@ -139,7 +139,7 @@ static void write_registers(const spc3_device* device, const spc3_config* config
   if (config->change_cfg) spc3_put(device, SPC3_REG_MODE_1_S, SPC3_REG_MODE_1_EN_CHANGE_CFG);
   spc3_put(device, SPC3_REG_WD_BAUD_CONTROL,
            config->baud_control != 0u ? config->baud_control : SPC3_REG_WD_BAUD_CONTROL_RESET);
-  spc3_put(device, SPC3_REG_MIN_TSDR, device->min_tsdr);
+  if (config->min_tsdr != 0u) spc3_put(device, SPC3_REG_MIN_TSDR, config->min_tsdr);
   spc3_put_word(device, SPC3_REG_IMR, (uint16_t)~config->interrupts);
 }
 
@@ -147,7 +147,7 @@ static void keep(spc3_device* device, const spc3_config* config) {
   device->max_output = config->max_output;
   device->max_input = config->max_input;
   device->max_diag = config->max_diag;
-  device->min_tsdr = config->min_tsdr != 0u ? config->min_tsdr : SPC3_REG_MIN_TSDR_RESET;
+  device->min_tsdr = config->min_tsdr;
   device->prm_tsdr = 0;
   device->change_cfg = config->change_cfg;
 }

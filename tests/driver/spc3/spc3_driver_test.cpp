@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -133,9 +135,14 @@ TEST_F(Spc3DriverTest, RegistersAreThoseOfTheConfiguration) {
   EXPECT_EQ(chip.last(kMinTsdr), 60);
   EXPECT_EQ(chip.last(kWdBaudControl), kWdBaudControlReset);
   EXPECT_EQ(chip.last(kMode1S), kMode1EnChangeCfg);
+  chip.writes.clear();
   config.change_cfg = false;
+  config.min_tsdr = 0;
+  config.baud_control = 44;
   ASSERT_EQ(initialise(), SPC3_OK);
   EXPECT_EQ(chip.last(kMode1R), kMode1EnChangeCfg) << "it stays through OFFLINE";
+  EXPECT_EQ(chip.last(kMinTsdr), -1) << "the chip's own";
+  EXPECT_EQ(chip.last(kWdBaudControl), 44);
 }
 
 TEST_F(Spc3DriverTest, EachModeBitHasItsMember) {
@@ -572,6 +579,13 @@ TEST_F(Spc3DriverTest, MinTsdrIsWrittenAgainWithTheBaudRate) {
   EXPECT_EQ(chip.last(kMinTsdr), 30);
 }
 
+TEST_F(Spc3DriverTest, WithoutAMinTsdrTheChipsHolds) {
+  start();
+  chip.events = kEventBaudDetect;
+  spc3_service(&device);
+  EXPECT_EQ(chip.last(kMinTsdr), -1);
+}
+
 TEST_F(Spc3DriverTest, EventsAreAcknowledgedBeforeTheWorkAndEoiIsLast) {
   start();
   chip.events = kEventDataEx | kEventDxOut | kEventNewSsa;
@@ -681,6 +695,16 @@ TEST(Spc3Errors, EachHasAText) {
   SPC3_ERROR_TABLE(TEXT)
 #undef TEXT
   EXPECT_STREQ(spc3_error_text(static_cast<spc3_error>(63)), "unknown error");
+}
+
+TEST(Spc3Errors, TheGuideSaysWhatToDo) {
+  std::ifstream file(GUIDE);
+  std::stringstream guide;
+  guide << file.rdbuf();
+#define ROW(name, value, text) \
+  if ((value) != 0) EXPECT_THAT(guide.str(), testing::HasSubstr("| `" #name "` | " #value " |"));
+  SPC3_ERROR_TABLE(ROW)
+#undef ROW
 }
 
 }  // namespace
