@@ -1,6 +1,6 @@
 # What `cmake --install` installs, in components of the same names as those of find_package(dsdpv1 COMPONENTS ...) (docs/install.md):
 #   core      the chip: dsdpv1::core, dsdpv1::registers; needs nothing
-#   driver    the C driver: dsdpv1::driver; needs nothing
+#   driver    the C drivers: dsdpv1::driver, dsdpv1::driver_spc3; needs nothing
 #   bus       segment, masters, monitor, GSD files: dsdpv1::bus
 #   checks    the rules of the user's side: dsdpv1::checks
 #   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus
@@ -79,7 +79,7 @@ endfunction()
 # dsdpv1_install_headers(COMPONENT folders...): their headers with their paths, folders in them included.
 function(dsdpv1_install_headers component)
   install(DIRECTORY ${ARGN} DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT ${component}
-          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1*.h" PATTERN "dsdpv1_regs.svh"
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1*.h" PATTERN "spc3*.h" PATTERN "dsdpv1_regs.svh"
           PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE)
 endfunction()
 
@@ -132,9 +132,9 @@ function(dsdpv1_install_core_and_driver)
   dsdpv1_install_targets(core core dsdpv1_registers dsdpv1_core)
   dsdpv1_install_headers(core model registers)
   dsdpv1_install_pc(core dsdpv1-core "cycle-accurate model of the DSDPV1: the chip" LIBS dsdpv1_core)
-  dsdpv1_install_targets(driver driver dsdpv1_driver)
+  dsdpv1_install_targets(driver driver dsdpv1_driver dsdpv1_driver_spc3)
   dsdpv1_install_headers(driver driver registers)
-  dsdpv1_install_pc(driver dsdpv1-driver "driver for the DSDPV1, in C99" LIBS dsdpv1_driver)
+  dsdpv1_install_pc(driver dsdpv1-driver "drivers for the DSDPV1 and for the SPC3 family, in C99" LIBS dsdpv1_driver dsdpv1_driver_spc3)
 endfunction()
 
 # dsdpv1_install_moved_headers(ROOM FORMER [NAME]): installs the headers of ROOM, or the one with this name, also at their former paths.
