@@ -93,11 +93,11 @@ void Twins::compare(Tick at) {
   step_.advance(at);
   compare_traces();
   if (++comparisons_ % restored != 0) return;
-  const std::vector<std::uint8_t> state = skip_.save();
-  ASSERT_EQ(step_.save(), state);
-  spc3::Chip& one = comparisons_ / restored % 2 == 0 ? skip_ : step_;
+  const unsigned way = comparisons_ / restored;
+  const std::vector<std::uint8_t> state = (way % 3 == 0 ? step_ : skip_).save();
+  spc3::Chip& one = way % 2 == 0 ? skip_ : step_;
   one.restore(state.data(), state.size());
-  ASSERT_EQ(one.save(), state);
+  ASSERT_TRUE(one.save() == state) << "at tick " << one.now();
 }
 
 void Twins::compare_traces() {

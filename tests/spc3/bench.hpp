@@ -1,7 +1,8 @@
 #pragma once
 // A chip of the SPC3 family on a segment: twice, in step and in skip, with the same accesses. Every difference of pins,
-// events, read values or saved states fails the test, and from time to time one of the two goes on from its saved
-// state. A master sends telegrams; the user is the register call. Times are ticks unless their name says otherwise.
+// events or read values fails the test, and from time to time one of the two continues from a saved state, its own or
+// the other's. A master sends telegrams; the user is the register call. Times are ticks unless their name says
+// otherwise.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -48,7 +49,7 @@ class Twins : public bus::Agent, public bus::Listener {
   void run(Tick now) override;
   void line_changed(Tick at, bool level) override;
 
-  /// Both have come to `at`: their traces are equal. Each `restored`-th time one of them continues from its state.
+  /// Both have come to `at`: their traces are equal. Each `restored`-th time one of them continues from a state.
   void compare(Tick at);
 
   std::vector<PinChange> trace;
