@@ -51,6 +51,7 @@ class DpSlave {
   void leave_master(Cycle now) { leave_to_wait_prm(now); }
   void prm_verdict(Cycle now, bool good);
   void refuse_prm(Cycle now);
+  void cfg_is_right() { diagnosis_.cfg_good(); }
   void cfg_verdict(Cycle now, bool good);
 
   // --- for others ----------------------------------------------------------------------------------------------------

@@ -63,6 +63,8 @@ class Station {
   void cfg_verdict(Cycle now, bool good);
   /// The user refuses parameters that are in force already.
   void refuse_parameters(Cycle now);
+  /// The configuration is right, but its verdict waits for something else: no Cfg_Fault any more.
+  void cfg_is_right() { slave_.cfg_is_right(); }
   /// The user gives up the master.
   void leave_master(Cycle now);
   /// The cells of the configuration, changed while the station runs.

@@ -31,6 +31,7 @@ std::uint8_t RamStore::cfg_verdict(Cycle now, bool good) {
   }
   if (modes_.has1(regs::kMode1EnChangeCfg)) ram_.swap_cells(regs::kOrgCfgPointer, regs::kOrgReadCfgPointer);  // A26
   cfg_held_ = true;
+  station_.cfg_is_right();
   begin_exchange(now);
   if (cfg_held_) log_.at_cycle(now, Reason::kExchangeWaits, blocks_.pending(Block::kPrm), !has_inputs());
   return answer;

@@ -28,6 +28,12 @@ TEST(Judging, ConfigurationNotOkIsAFault) {
   bench.run_cycles(2);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
   EXPECT_EQ(bench.diag()[0], kCfgFault | kNotReady);
+  bench.set_prm();
+  bench.check_cfg();
+  EXPECT_EQ(bench.diag()[0], kCfgFault | kNotReady);
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictFinished);
+  EXPECT_EQ(bench.state(), DpState::kWaitCfg);
+  EXPECT_EQ(bench.diag()[0], kNotReady) << "with the next Cfg ok, also without inputs";
 }
 
 TEST(Judging, ANewerTelegramIsAConflict) {
