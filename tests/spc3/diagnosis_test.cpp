@@ -16,7 +16,7 @@ int give(Bench& bench, std::uint8_t flags, const Bytes& user) {
   return bench.load(regs::kNewDiag);
 }
 
-TEST(Diagnosis, BeforeTheFirstItHasTheSixBytes) {
+TEST(Spc3Diagnosis, BeforeTheFirstItHasTheSixBytes) {
   Bench bench;
   bench.to_wait_prm();
   EXPECT_EQ(bench.load(regs::kDiagSm), 0x09) << "A18";
@@ -25,7 +25,7 @@ TEST(Diagnosis, BeforeTheFirstItHasTheSixBytes) {
       << "in RAM, too (A39)";
 }
 
-TEST(Diagnosis, ANewOneMakesDataAnswersHighUntilTheHolderHasReadIt) {
+TEST(Spc3Diagnosis, ANewOneMakesDataAnswersHighUntilTheHolderHasReadIt) {
   Bench bench;
   bench.to_data_ex();
   EXPECT_EQ(give(bench, kExtDiag, {0x42, 0x43}), 2);
@@ -41,7 +41,7 @@ TEST(Diagnosis, ANewOneMakesDataAnswersHighUntilTheHolderHasReadIt) {
   EXPECT_EQ(bench.diag()[0], 0x08) << "Ext_Diag is kept from New_Diag, though byte 0 is another now";
 }
 
-TEST(Diagnosis, StatDiagKeepsTheFlag) {
+TEST(Spc3Diagnosis, StatDiagKeepsTheFlag) {
   Bench bench;
   bench.to_data_ex();
   give(bench, kStatDiag | kOverflow, {});
@@ -54,7 +54,7 @@ TEST(Diagnosis, StatDiagKeepsTheFlag) {
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "DL");
 }
 
-TEST(Diagnosis, AnyMasterMayEndTheFlag) {
+TEST(Spc3Diagnosis, AnyMasterMayEndTheFlag) {
   spc3::Config config;
   config.diag_flag_by = 1;
   Bench bench(Variant::kApc3, config);
@@ -64,7 +64,7 @@ TEST(Diagnosis, AnyMasterMayEndTheFlag) {
   EXPECT_EQ(bench.load(regs::kStatus) & 4, 0);
 }
 
-TEST(Diagnosis, TheRamMayStayAsTheUserWroteIt) {
+TEST(Spc3Diagnosis, TheRamMayStayAsTheUserWroteIt) {
   spc3::Config config;
   config.diag_bytes = 1;
   Bench bench(Variant::kApc3, config);
@@ -74,7 +74,7 @@ TEST(Diagnosis, TheRamMayStayAsTheUserWroteIt) {
   EXPECT_EQ(bench.buffer(regs::kOrgDiagPointer, 7), (Bytes{kExtDiag, 0x11, 0x22, 0x33, 0x44, 0x55, 0x42}));
 }
 
-TEST(Diagnosis, NewDiagWhileItIsSentIsRemembered) {
+TEST(Spc3Diagnosis, NewDiagWhileItIsSentIsRemembered) {
   Bench bench;
   bench.to_data_ex();
   give(bench, 0, {1});
@@ -107,7 +107,7 @@ TEST(Diagnosis, NewDiagWhileItIsSentIsRemembered) {
   EXPECT_EQ(bench.load(regs::kStatus) & 4, 4) << "the remembered one is new";
 }
 
-TEST(Diagnosis, LengthsBelowSixCountAsSix) {
+TEST(Spc3Diagnosis, LengthsBelowSixCountAsSix) {
   Bench bench;
   bench.to_wait_prm();
   bench.store(regs::kOrgDiagLength + 1, 0);

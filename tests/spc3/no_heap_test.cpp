@@ -28,8 +28,8 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 namespace dsdpv1::spc3 {
 namespace {
 
-class NoHeap : public testing::TestWithParam<Engine> {};
-INSTANTIATE_TEST_SUITE_P(Engines, NoHeap, testing::Values(Engine::kStep, Engine::kSkip));
+class Spc3NoHeap : public testing::TestWithParam<Engine> {};
+INSTANTIATE_TEST_SUITE_P(Engines, Spc3NoHeap, testing::Values(Engine::kStep, Engine::kSkip));
 
 /// A chip, and a master on its RXD at 12 Mbit/s.
 class Line {
@@ -79,7 +79,7 @@ constexpr std::uint8_t kCfg[] = {0x85, 0x82, 0x6D, 62, 62, 0x10};
 constexpr std::uint8_t kDiag[] = {0x85, 0x82, 0x6D, 60, 62};
 constexpr std::uint8_t kData[] = {0x05, 0x02, 0x6D, 0x11};
 
-TEST_P(NoHeap, FromResetToDataExchangeAndAgain) {
+TEST_P(Spc3NoHeap, FromResetToDataExchangeAndAgain) {
   Line line(GetParam());
   constexpr Address kCells[][2] = {{0x16, 5},    {0x1A, 1},    {0x1B, 0x10}, {0x1C, 0x12}, {0x1D, 0x14}, {0x1E, 1},
                                    {0x1F, 0x16}, {0x20, 0x18}, {0x21, 0x1A}, {0x24, 6},    {0x25, 6},    {0x26, 0x1C},

@@ -24,7 +24,7 @@ class Random {
 
 // --- Dout and Din ----------------------------------------------------------------------------------------------------
 
-class Exchange : public testing::TestWithParam<Variant> {
+class BuffersByOracle : public testing::TestWithParam<Variant> {
  protected:
   static constexpr std::uint8_t kSync = 0x20, kUnsync = 0x10, kFreeze = 0x08, kUnfreeze = 0x04, kClear = 0x02;
 
@@ -100,9 +100,9 @@ class Exchange : public testing::TestWithParam<Variant> {
   std::set<std::tuple<int, bool, bool, int>> out_edges;
   std::set<std::tuple<int, bool, int>> in_edges;
 };
-INSTANTIATE_TEST_SUITE_P(Names, Exchange, testing::Values(Variant::kApc3, Variant::kVpc3));
+INSTANTIATE_TEST_SUITE_P(Names, BuffersByOracle, testing::Values(Variant::kApc3, Variant::kVpc3));
 
-TEST_P(Exchange, TakesEveryEdgeAsTheOracleDoes) {
+TEST_P(BuffersByOracle, TakesEveryEdgeAsTheOracleDoes) {
   to_data_ex();
   bench.acknowledge(0xFFFF);
   Random random(7);

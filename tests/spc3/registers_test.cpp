@@ -7,7 +7,7 @@ namespace {
 
 using spc3::Reason;
 
-TEST(Registers, AfterResetTheyAreAsThePageSays) {
+TEST(Spc3Registers, AfterResetTheyAreAsThePageSays) {
   for (const Variant variant : {Variant::kApc3, Variant::kSpc3, Variant::kVpc3}) {
     Bench bench(variant);
     bench.power_on();
@@ -28,7 +28,7 @@ TEST(Registers, AfterResetTheyAreAsThePageSays) {
   }
 }
 
-TEST(Registers, ModeRegister0IsForOfflineOnly) {
+TEST(Spc3Registers, ModeRegister0IsForOfflineOnly) {
   Bench bench(Variant::kVpc3);
   bench.to_wait_prm();
   const std::uint8_t before = bench.load(regs::kMode0);
@@ -37,7 +37,7 @@ TEST(Registers, ModeRegister0IsForOfflineOnly) {
   EXPECT_EQ(bench.count(Reason::kMode0Online), 1);
 }
 
-TEST(Registers, PeekAndPokeHaveNoEffect) {
+TEST(Spc3Registers, PeekAndPokeHaveNoEffect) {
   Bench bench;
   bench.to_data_ex();
   bench.exchange({1, 2});

@@ -8,7 +8,7 @@ constexpr std::uint8_t kWdOn = 0x88;
 
 unsigned wd_state(Bench& bench) { return bench.load(regs::kStatus) >> 6U; }
 
-TEST(Watchdog, DpControlEndsTheExchangeOfASilentMaster) {
+TEST(Spc3Watchdog, DpControlEndsTheExchangeOfASilentMaster) {
   Bench bench;
   bench.to_data_ex();
   bench.set_prm({0x04}, kWdOn, 2, 3);  // 6 x 1 ms (A32)
@@ -28,7 +28,7 @@ TEST(Watchdog, DpControlEndsTheExchangeOfASilentMaster) {
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0}));
 }
 
-TEST(Watchdog, AVerdictThatNeverComesDoesNotStopIt) {
+TEST(Spc3Watchdog, AVerdictThatNeverComesDoesNotStopIt) {
   Bench bench;
   bench.to_wait_prm();
   bench.set_prm({0x04}, kWdOn, 1, 3);
@@ -38,7 +38,7 @@ TEST(Watchdog, AVerdictThatNeverComesDoesNotStopIt) {
   EXPECT_EQ(bench.load(regs::kPrmOk), regs::kVerdictNotAllowed);
 }
 
-TEST(Watchdog, BaudControlSearchesAgainAndLeavesTheState) {
+TEST(Spc3Watchdog, BaudControlSearchesAgainAndLeavesTheState) {
   Bench bench;
   bench.power_on();
   bench.initialise();
@@ -63,7 +63,7 @@ TEST(Watchdog, BaudControlSearchesAgainAndLeavesTheState) {
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "DL");
 }
 
-TEST(Watchdog, BaudControlMayBeLinearOrOff) {
+TEST(Spc3Watchdog, BaudControlMayBeLinearOrOff) {
   for (const std::uint8_t value : {std::uint8_t{5}, std::uint8_t{0}}) {
     spc3::Config config;
     config.baud_control = 1;
