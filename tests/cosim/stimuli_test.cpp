@@ -72,7 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
                              {"PRM_OK 1", "CFG_OK 1", "C1_REQUEST 2", "C1_ANSWER 2", "C2_REQUEST 2", "C2_ANSWER 2"}},
                     Directed{"flags", {"SPI_CLAIMED 1", "SPI_RELEASED 1", "TELEGRAM_LENGTH 1", "VERDICT_UNEXPECTED 2"}},
                     Directed{"spi_blocks", {"SPI_CLAIMED 4", "PRM_OK 1", "CFG_OK 1", "C1_ANSWER 1", "C2_ANSWER 1"}},
-                    Directed{"rates", {"TELEGRAM_CUT 15"}}, Directed{"u_timer", {"SPI_CLAIMED 2", "SPI_U_TIMER 2"}}),
+                    Directed{"rates", {"TELEGRAM_CUT 15"}}, Directed{"parallel", {"READY_FLAG 1"}},
+                    Directed{"u_timer", {"SPI_CLAIMED 2", "SPI_U_TIMER 2"}}),
     [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace
