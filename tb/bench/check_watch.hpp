@@ -37,6 +37,9 @@ class CheckWatch : public Observer {
   void looked(std::size_t slave, PinNumber pin, Tick at) override {
     if (on()) slaves_[slave]->checks->looked(pin, at);
   }
+  void accessed(std::size_t slave, const user_cpu::RegisterAccess& access) override {
+    if (on()) slaves_[slave]->checks->accessed(access);
+  }
   void event(std::size_t slave, const profibus::Event& event) override {
     if (on()) slaves_[slave]->checks->event(event);
   }

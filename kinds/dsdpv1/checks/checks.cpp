@@ -24,7 +24,7 @@ void Checks::other_pin(Tick at, Pin pin, Level level) {
   else if (pin == Pin::kIntr0)
     intr0_pin(at, level != 0);
   else if (pin == Pin::kPbrts)
-    station_.pbrts(at, level != 0);
+    station_.drives(at, level != 0);
   else if (!serial())
     parallel_pin(at, pin, level);
   else if (settings_.mode == kUart)

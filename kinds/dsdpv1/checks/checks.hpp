@@ -15,7 +15,6 @@
 
 #include "kinds/dsdpv1/checks/cell_rules.hpp"
 #include "kinds/dsdpv1/checks/check.hpp"
-#include "kinds/dsdpv1/checks/own_station.hpp"
 #include "kinds/dsdpv1/checks/ownership.hpp"
 #include "kinds/dsdpv1/checks/port_timing.hpp"
 #include "kinds/dsdpv1/checks/serial_settings.hpp"
@@ -26,6 +25,7 @@
 #include "kinds/dsdpv1/checks/user_duties.hpp"
 #include "kinds/dsdpv1/pins/pin_table.hpp"
 #include "tb/chip/checks/chip_checks.hpp"
+#include "tb/chip/checks/own_station.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
 namespace dsdpv1::checks {

@@ -46,63 +46,27 @@ FreshData::FreshData(Recorder& recorder, const OwnStation& station)
       inputs_follow_(has_usual_limit(recorder, Check::kInputsRenewed)) {}
 
 void FreshData::reset() {
-  last_.reset();
-  open_ = false;
   leave();
   limit(0);
 }
 
 // --- telegrams -------------------------------------------------------------------------------------------------------
 
-bool FreshData::Request::repeats(const Request& earlier) const {
-  return (fc & bus::fc::kFcv) != 0 && sa == earlier.sa && fc == earlier.fc && check == earlier.check &&
-         size == earlier.size;
-}
-
-FreshData::Request FreshData::request_of(const bus::WireTelegram& telegram, bool is_exchange) {
-  const bus::Telegram& asked = telegram.decoded.telegram;
-  const bus::Bytes& bytes = telegram.decoded.bytes;
-  Request request;
-  request.sa = asked.sa;
-  request.fc = asked.fc;
-  request.size = bytes.size();
-  request.check = bytes.size() < 2 ? std::uint8_t{0} : bytes[bytes.size() - 2];
-  request.executed = telegram.end + bus::baud(telegram.baud).bit;
-  request.outputs = !asked.data.empty();
-  if (is_exchange) {
-    request.service = Service::kExchange;
-  } else if (is_for_user(asked)) {
-    request.service = Service::kAcyclic;
-  } else if (asked.dsap == bus::sap::kSetPrm && parameterises(asked.data)) {
-    request.service = Service::kSetPrm;
-    request.watchdog = watchdog_of(asked.data);
-  }
-  return request;
-}
-
-bool FreshData::telegram(const bus::WireTelegram& telegram) {
-  if (station_.is_asked(telegram)) {
-    const Request request = request_of(telegram, station_.is_exchange(telegram));
-    open_ = !(last_ && request.repeats(*last_));
-    if (open_) last_ = request;
-  } else if (open_ && station_.answers(telegram)) {
-    open_ = false;
-    answered(telegram.decoded.telegram);
-    return last_->service == Service::kAcyclic && telegram.decoded.telegram.kind == bus::TelegramKind::kSc;
-  }
-  return false;
-}
-
 /// Refusals are SD1 with another function code (S20); an answer without inputs is SC or SD1 (S19).
-void FreshData::answered(const bus::Telegram& answer) {
+bool FreshData::telegram(const bus::WireTelegram& telegram) {
+  const bus::WireTelegram* const asked = station_.answered();
+  if (asked == nullptr) return false;
+  const bus::Telegram &request = asked->decoded.telegram, &answer = telegram.decoded.telegram;
   const bool sc = answer.kind == bus::TelegramKind::kSc;
-  if (last_->service == Service::kSetPrm && sc) {
+  if (station_.is_exchange(*asked)) {
+    const bool data = answer.function() == bus::fc::kDl || answer.function() == bus::fc::kDh;
+    const Tick executed = asked->end + bus::baud(asked->baud).bit;
+    if (sc || data) exchanged(executed, !request.data.empty(), !sc && !answer.data.empty());
+  } else if (sc && request.dsap == bus::sap::kSetPrm && parameterises(request.data)) {
     leave();
-    limit(last_->watchdog);
+    limit(watchdog_of(request.data));
   }
-  if (last_->service != Service::kExchange) return;
-  const bool data = answer.function() == bus::fc::kDl || answer.function() == bus::fc::kDh;
-  if (sc || data) exchanged(*last_, !sc && !answer.data.empty());
+  return sc && is_for_user(request);
 }
 
 // --- data exchange ---------------------------------------------------------------------------------------------------
@@ -123,12 +87,11 @@ void FreshData::leave() {
 }
 
 /// After a long silence data exchange has begun again.
-void FreshData::exchanged(const Request& request, bool inputs) {
-  const Tick at = request.executed;
+void FreshData::exchanged(Tick at, bool outputs, bool inputs) {
   if (exchange_ && at - *exchange_ > recorder_.limit(Check::kOutputsFetched).value) leave();
   if (exchange_) interval_ = at - *exchange_;
   exchange_ = at;
-  if (request.outputs && (!fetching_ || *fetching_ < at)) {  // not fetched before the answer was over
+  if (outputs && (!fetching_ || *fetching_ < at)) {  // not fetched before the answer was over
     overwritten_ += outputs_.since() ? 1 : 0;
     outputs_.begins(at);
   }

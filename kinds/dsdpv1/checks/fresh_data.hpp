@@ -1,14 +1,12 @@
 #pragma once
 // In data exchange the user fetches outputs and renews inputs in time (U4, U5).
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 
 #include "bus/monitor/monitor.hpp"
 #include "kinds/dsdpv1/checks/check.hpp"
-#include "kinds/dsdpv1/checks/duty.hpp"
-#include "kinds/dsdpv1/checks/own_station.hpp"
 #include "kinds/dsdpv1/checks/user_hold.hpp"
+#include "tb/chip/checks/duty.hpp"
+#include "tb/chip/checks/own_station.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
 namespace dsdpv1::checks {
@@ -21,27 +19,12 @@ class FreshData {
   /// RESET is low: no data are exchanged.
   void reset();
   void hold(const UserHold& hold);
-  /// A telegram on the line. True if it acknowledges a request on C1 or C2 for the user.
+  /// A telegram on the line, after the station. True if it acknowledges a request on C1 or C2 for the user.
   bool telegram(const bus::WireTelegram& telegram);
   void finish(Tick end);
 
  private:
-  enum class Service : std::uint8_t { kOther, kExchange, kSetPrm, kAcyclic };
-  /// A request to the station; the same again is a repetition, which is not executed (S26).
-  struct Request {
-    Service service = Service::kOther;
-    std::uint8_t sa = 0, fc = 0, check = 0;
-    std::size_t size = 0;
-    Tick executed = 0;
-    bool outputs = false;
-    Tick watchdog = 0;  ///< Set_Prm; 0: off
-
-    bool repeats(const Request& earlier) const;
-  };
-
-  static Request request_of(const bus::WireTelegram& telegram, bool is_exchange);
-  void answered(const bus::Telegram& answer);
-  void exchanged(const Request& request, bool inputs);
+  void exchanged(Tick at, bool outputs, bool inputs);
   void leave();
   void limit(Tick watchdog);
   void pass(Tick now);
@@ -53,8 +36,6 @@ class FreshData {
   Recorder& recorder_;
   const OwnStation& station_;
   const bool outputs_follow_, inputs_follow_;  ///< the limit is the watchdog's, unless the scenario has one
-  std::optional<Request> last_;                ///< of the station
-  bool open_ = false;                          ///< and it has not been answered yet
   std::optional<Tick> exchange_, interval_;    ///< the last executed Data_Exchange, time between the last two
   Duty outputs_, inputs_;
   unsigned overwritten_ = 0;      ///< outputs that came while earlier ones waited

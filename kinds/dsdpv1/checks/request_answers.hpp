@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "kinds/dsdpv1/checks/check.hpp"
-#include "kinds/dsdpv1/checks/duty.hpp"
 #include "kinds/dsdpv1/checks/user_hold.hpp"
 #include "model/profibus/event.hpp"
+#include "tb/chip/checks/duty.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
 namespace dsdpv1::checks {

@@ -4,8 +4,8 @@
 
 #include "bus/monitor/monitor.hpp"
 #include "kinds/dsdpv1/checks/check.hpp"
-#include "kinds/dsdpv1/checks/own_station.hpp"
 #include "kinds/dsdpv1/checks/port_timing.hpp"
+#include "tb/chip/checks/own_station.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
 namespace dsdpv1::checks {

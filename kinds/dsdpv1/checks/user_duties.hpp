@@ -2,12 +2,12 @@
 // What the user owes to chip and master, over any host port: its holds, summed up, and the rules about them.
 #include "bus/monitor/monitor.hpp"
 #include "kinds/dsdpv1/checks/fresh_data.hpp"
-#include "kinds/dsdpv1/checks/own_station.hpp"
 #include "kinds/dsdpv1/checks/refusals.hpp"
 #include "kinds/dsdpv1/checks/request_answers.hpp"
 #include "kinds/dsdpv1/checks/served_blocks.hpp"
 #include "kinds/dsdpv1/checks/start_order.hpp"
 #include "kinds/dsdpv1/checks/user_hold.hpp"
+#include "tb/chip/checks/own_station.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
 namespace dsdpv1::checks {

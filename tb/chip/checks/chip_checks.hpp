@@ -1,11 +1,13 @@
 #pragma once
-// The rules of one chip's user side, judged from its pins and the telegrams on the line. So they apply equally to every
-// user CPU, every engine and foreign RTL; only rules about what the chip refuses need its events.
+// The rules of one chip's user side, judged from its pins, the user's accesses and the telegrams on the line. So they
+// apply equally to every user CPU, every engine and foreign RTL; only rules about what the chip refuses need its
+// events.
 #include <functional>
 
 #include "bus/monitor/monitor.hpp"
 #include "tb/chip/checks/recorder.hpp"
 #include "tb/chip/pins/pins.hpp"
+#include "tb/chip/user_cpu/register_access.hpp"
 
 namespace dsdpv1::profibus {
 struct Event;
@@ -31,6 +33,9 @@ class ChipChecks {
   virtual void hears_looks() {}
   /// Announces, before the user acts on it, that it looked at `pin` last at `at`; negative: never.
   virtual void looked(tb::PinNumber /*pin*/, Tick /*at*/) {}
+  /// An access of the user CPU, after the pins up to its tick: for chips whose user CPU makes accesses without edges;
+  /// the checks of others read them from the pins.
+  virtual void accessed(const user_cpu::RegisterAccess& /*access*/) {}
   /// A telegram of any station that has ended, at `now`.
   virtual void telegram(Tick now, const bus::WireTelegram& telegram) = 0;
   /// Once, at the end of the run.

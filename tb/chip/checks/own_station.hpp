@@ -1,6 +1,6 @@
 #pragma once
 // The station to which the pins belong, as the telegrams on the line show it. Its address is learnt from its answers:
-// while PBRTS is high only the chip drives the line.
+// while the chip drives the line (RTS) no other station does.
 #include <cstdint>
 #include <optional>
 
@@ -12,9 +12,10 @@ using bus::Tick;
 
 class OwnStation {
  public:
-  /// RESET is low: the address must be learnt again.
+  /// RESET is active: the address must be learnt again.
   void reset();
-  void pbrts(Tick at, bool level);
+  /// The chip begins or ends to drive the line.
+  void drives(Tick at, bool on);
   /// Any telegram on the line, before the questions below about it.
   void telegram(const bus::WireTelegram& telegram);
 
@@ -22,15 +23,20 @@ class OwnStation {
   bool is_asked(const bus::WireTelegram& telegram) const;
   /// ... a Data_Exchange.
   bool is_exchange(const bus::WireTelegram& telegram) const;
-  /// An answer of this station without a fault.
-  bool answers(const bus::WireTelegram& telegram) const;
+  /// The request that the last telegram has answered, if it was not a repetition, which is not executed (S26); else
+  /// null.
+  const bus::WireTelegram* answered() const { return answered_ ? &request_ : nullptr; }
 
  private:
   bool is_framed(const bus::WireTelegram& telegram) const;
+  bool answers(const bus::WireTelegram& telegram) const;
 
   std::optional<std::uint8_t> address_;
-  bool sending_ = false;
-  Tick pbrts_rose_ = 0, pbrts_fell_ = 0;
+  bool driving_ = false;
+  Tick began_ = 0, ended_ = 0;
+  bus::WireTelegram request_;  ///< the last new one; without bytes: none
+  bool open_ = false;          ///< it has not been answered yet
+  bool answered_ = false;
 };
 
 }  // namespace dsdpv1::checks

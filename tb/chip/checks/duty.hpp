@@ -2,7 +2,6 @@
 // Something that the user owes from a time on: an action that no pin shows when it is left out.
 #include <optional>
 
-#include "kinds/dsdpv1/checks/check.hpp"
 #include "tb/chip/checks/recorder.hpp"
 
 namespace dsdpv1::checks {
@@ -19,13 +18,13 @@ class Duty {
 
   /// The user does it at `at`; `text()` describes it. Measured unless its violation has been reported.
   template <class Text>
-  void met(Recorder& recorder, Check check, Tick at, const Text& text) {
+  void met(Recorder& recorder, CheckId check, Tick at, const Text& text) {
     if (since_ && !missed_) recorder.value(check, *since_, at - *since_, text, Act::omitted(*since_, at));
     ends();
   }
   /// Time advances to `now`: a violation once the limit has passed.
   template <class Text>
-  void pass(Recorder& recorder, Check check, Tick now, const Text& text) {
+  void pass(Recorder& recorder, CheckId check, Tick now, const Text& text) {
     if (!since_ || missed_ || now - *since_ <= recorder.limit(check).value) return;
     missed_ = true;
     recorder.value(check, *since_, now - *since_, text, Act::omitted(*since_, now));
