@@ -32,7 +32,7 @@ Exchanged UserSide::exchange(Cycle now, const Request& request, bool fail_safe) 
     return {false, outputs_.size(), false, {}};
   }
   ++data_exchanges_;
-  return {true, outputs_.size(), diagnosis_.high_priority(), read_inputs()};
+  return {true, outputs_.size(), diagnosis_.high_priority(), read_inputs(now)};
 }
 
 bool UserSide::new_inputs(Cycle now, const std::uint8_t* bytes, int size) {

@@ -51,20 +51,20 @@ View Diagnosis::bytes(const DiagnosisView& view, const StoredDiagnosis& stored) 
 
 // --- Slave_Diag, and the user's block -------------------------------------------------------------------------------
 
-Reply DpSlave::slave_diag(const Request& request) {
+Reply DpSlave::slave_diag(Cycle now, const Request& request) {
   DiagnosisView view;
   view.ready = state_ == DpState::kDataExch;
   view.prm_req = state_ == DpState::kWaitPrm && !prm_awaited_;
   view.watchdog = watchdog_.state() == Watchdog::State::kDpControl;
   view.master = master_;
   view.ident = config_.ident;
-  const StoredDiagnosis stored = store_.diagnosis(master_ == request.sa);
+  const StoredDiagnosis stored = store_.diagnosis(now, master_ == request.sa);
   if (stored.user.size == View::kNoBuffer) return Reply::status(fc::kRr);
   const View answer = diagnosis_.bytes(view, stored);
   return Reply::with_data(fc::kDl, answer.bytes, answer.size);
 }
 
-StoredDiagnosis UserSide::diagnosis(bool to_holder) {
+StoredDiagnosis UserSide::diagnosis(Cycle /*now*/, bool to_holder) {
   if (to_holder) diagnosis_.read_by_holder();
   return {diagnosis_.bytes(), diagnosis_.ext_diag(), diagnosis_.stat_diag(), inputs_.held(), outputs_.held()};
 }

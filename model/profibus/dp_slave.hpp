@@ -110,7 +110,7 @@ class DpSlave {
   void leave_to_wait_prm(Cycle now, bool by_watchdog = false);
   // data_exchange.cpp, diagnosis.cpp, read_services.cpp, set_slave_address.cpp
   Reply data_exchange(Cycle now, const Request& request);
-  Reply slave_diag(const Request& request);
+  Reply slave_diag(Cycle now, const Request& request);
   Reply read_only(Cycle now, const Request& request);
   static Reply reply_data(const View& view);
   Reply set_slave_address(Cycle now, const Request& request);

@@ -14,10 +14,10 @@ Reply DpSlave::read_only(Cycle now, const Request& request) {
     return Reply::status(fc::kRr);
   }
   switch (request.dsap) {
-    case sap::kReadInputs: return reply_data(store_.read_inputs());
-    case sap::kReadOutputs: return reply_data(store_.read_outputs());
-    case sap::kGetCfg: return reply_data(store_.read_cfg(state_ == DpState::kDataExch));
-    default: return slave_diag(request);
+    case sap::kReadInputs: return reply_data(store_.read_inputs(now));
+    case sap::kReadOutputs: return reply_data(store_.read_outputs(now));
+    case sap::kGetCfg: return reply_data(store_.read_cfg(now, state_ == DpState::kDataExch));
+    default: return slave_diag(now, request);
   }
 }
 
@@ -28,11 +28,11 @@ Reply DpSlave::reply_data(const View& view) {
 
 // --- the user's side -------------------------------------------------------------------------------------------------
 
-View UserSide::read_inputs() { return {inputs_.shown().bytes.data(), inputs_.size()}; }
+View UserSide::read_inputs(Cycle /*now*/) { return {inputs_.shown().bytes.data(), inputs_.size()}; }
 
-View UserSide::read_outputs() { return {outputs_.shown().bytes.data(), outputs_.size()}; }
+View UserSide::read_outputs(Cycle /*now*/) { return {outputs_.shown().bytes.data(), outputs_.size()}; }
 
-View UserSide::read_cfg(bool exchanging) {
+View UserSide::read_cfg(Cycle /*now*/, bool exchanging) {
   const Block<kMaxCfg>& cfg = exchanging ? cfg_ : config().cfg;  // 6.2.9
   return {cfg.bytes.data(), cfg.size};
 }

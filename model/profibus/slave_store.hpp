@@ -102,11 +102,11 @@ class SlaveStore {
   virtual void control(Cycle now, const Control& control) = 0;
 
   // For the answers of services that only read.
-  virtual View read_inputs() = 0;
-  virtual View read_outputs() = 0;
-  virtual View read_cfg(bool exchanging) = 0;
+  virtual View read_inputs(Cycle now) = 0;
+  virtual View read_outputs(Cycle now) = 0;
+  virtual View read_cfg(Cycle now, bool exchanging) = 0;
   /// `to_holder`: the master that holds the slave reads it.
-  virtual StoredDiagnosis diagnosis(bool to_holder) = 0;
+  virtual StoredDiagnosis diagnosis(Cycle now, bool to_holder) = 0;
 
   /// The slave gives up its master: it enters or keeps WAIT_PRM. `by_watchdog`: the master was silent.
   virtual void left(Cycle /*now*/, bool /*by_watchdog*/) {}

@@ -81,10 +81,10 @@ class UserSide final : public SlaveStore {
   IoLengths configured() override;
   Take address(Cycle now, const Request& request, bool right) override;
   void control(Cycle now, const Control& control) override;
-  View read_inputs() override;
-  View read_outputs() override;
-  View read_cfg(bool exchanging) override;
-  StoredDiagnosis diagnosis(bool to_holder) override;
+  View read_inputs(Cycle now) override;
+  View read_outputs(Cycle now) override;
+  View read_cfg(Cycle now, bool exchanging) override;
+  StoredDiagnosis diagnosis(Cycle now, bool to_holder) override;
   void entered(Cycle now, DpState from, DpState to) override;
   void baud(Cycle now, BaudIndex index) override { mail_.baud = {{now}, index}; }
 

@@ -14,10 +14,8 @@ profibus::Take RamStore::configuration(Cycle now, const Request& request, bool /
 
 profibus::IoLengths RamStore::configured() { return {length(regs::kOrgDinLength), length(regs::kOrgDoutLength)}; }
 
-View RamStore::read_cfg(bool /*exchanging*/) {
-  const int size = length(regs::kOrgReadCfgLength);
-  if (size > 0 && ram_.cell(regs::kOrgReadCfgPointer) == 0) return {nullptr, View::kNoBuffer};
-  return bytes(regs::kOrgReadCfgPointer, size);
+View RamStore::read_cfg(Cycle now, bool /*exchanging*/) {
+  return bytes(now, regs::kOrgReadCfgPointer, length(regs::kOrgReadCfgLength));
 }
 
 // --- the user's verdict ----------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ profibus::Exchanged RamStore::exchange(Cycle now, const Request& request, bool f
     log_.at_cycle(now, Reason::kSpecClear, request.sa);
     clear_outputs(now);
   }
-  return {true, outputs, diag_.flag(), read_inputs(), user_is_gone(now)};
+  return {true, outputs, diag_.flag(), read_inputs(now), user_is_gone(now)};
 }
 
 // A4: the pointers of the buffers that this telegram needs.
@@ -75,21 +75,15 @@ void RamStore::deliver_outputs(bool cleared) {
   dout_.deliver(cleared);
 }
 
-View RamStore::read_outputs() {
-  const Address pointer = pointer_of(regs::kOrgDoutPointer, dout_.states().u);
-  const int size = length(regs::kOrgDoutLength);
-  if (size > 0 && ram_.cell(pointer) == 0) return {nullptr, View::kNoBuffer};
-  return bytes(pointer, size);
+View RamStore::read_outputs(Cycle now) {
+  return bytes(now, pointer_of(regs::kOrgDoutPointer, dout_.states().u), length(regs::kOrgDoutLength));
 }
 
 // --- inputs ----------------------------------------------------------------------------------------------------------
 
-View RamStore::read_inputs() {
+View RamStore::read_inputs(Cycle now) {
   if (!freeze_) din_.take();
-  const Address pointer = pointer_of(regs::kOrgDinPointer, din_.states().d);
-  const int size = length(regs::kOrgDinLength);
-  if (size > 0 && ram_.cell(pointer) == 0) return {nullptr, View::kNoBuffer};
-  return bytes(pointer, size);
+  return bytes(now, pointer_of(regs::kOrgDinPointer, din_.states().d), length(regs::kOrgDinLength));
 }
 
 std::uint8_t RamStore::new_din(Cycle now) {

@@ -12,15 +12,12 @@ constexpr Address cell_of(Address first, int buffer) { return static_cast<Addres
 
 }  // namespace
 
-profibus::StoredDiagnosis RamStore::diagnosis(bool to_holder) {
+profibus::StoredDiagnosis RamStore::diagnosis(Cycle now, bool to_holder) {
   const Address pointer = cell_of(regs::kOrgDiagPointer, diag_.chips());
-  profibus::StoredDiagnosis stored;
-  if (ram_.cell(pointer) == 0) {
-    stored.user.size = View::kNoBuffer;
-    return stored;
-  }
   const int size = std::max(length(cell_of(regs::kOrgDiagLength, diag_.chips())), kStandard);
-  stored.user = bytes(pointer, size - kStandard, kStandard);
+  profibus::StoredDiagnosis stored;
+  stored.user = bytes(now, pointer, size - kStandard, kStandard);
+  if (stored.user.size == View::kNoBuffer) return stored;
   stored.ext_diag = diag_.ext_diag();
   stored.stat_diag = diag_.stat_diag();
   stored.overflow = diag_.overflow();

@@ -145,8 +145,13 @@ void RamStore::eval(Cycle now) {
 
 int RamStore::length(Address cell) const { return std::min<int>(ram_.cell(cell), profibus::kMaxIo); }
 
-// `size` bytes of a buffer after its first `skip`, copied: a buffer may go beyond the end of the RAM (A3).
-View RamStore::bytes(Address pointer, int size, int skip) {
+// `size` bytes of a buffer after its first `skip`, copied: a buffer may go beyond the end of the RAM (A3). A4: none
+// without its pointer.
+View RamStore::bytes(Cycle now, Address pointer, int size, int skip) {
+  if (size + skip > 0 && ram_.cell(pointer) == 0) {
+    log_.at_cycle(now, Reason::kNoPointer, pointer);
+    return {nullptr, View::kNoBuffer};
+  }
   const int begin = ram_.buffer(pointer) + skip;
   for (int i = 0; i < size; ++i) answer_[static_cast<std::size_t>(i)] = ram_.read(begin + i);
   return {answer_.data(), size};

@@ -88,11 +88,11 @@ class RamStore final : public profibus::SlaveStore {
   profibus::SlaveConfig slave_config() const;
   profibus::SlaveRules rules() const;
   int length(Address cell) const;
-  View bytes(Address pointer, int size, int skip = 0);
+  View bytes(Cycle now, Address pointer, int size, int skip = 0);
   // data_exchange.cpp
   profibus::Exchanged exchange(Cycle now, const Request& request, bool fail_safe) override;
-  View read_inputs() override;
-  View read_outputs() override;
+  View read_inputs(Cycle now) override;
+  View read_outputs(Cycle now) override;
   bool has_io_buffers(Cycle now) const;
   void put_outputs(Cycle now, const Request& request);
   void pass_outputs(Cycle now);
@@ -107,14 +107,14 @@ class RamStore final : public profibus::SlaveStore {
   bool is_spec_prm(const Request& request) const;
   profibus::Take configuration(Cycle now, const Request& request, bool exchanging) override;
   profibus::IoLengths configured() override;
-  View read_cfg(bool exchanging) override;
+  View read_cfg(Cycle now, bool exchanging) override;
   bool has_inputs() const;
   void begin_exchange(Cycle now);
   std::uint8_t take_back(Cycle now, Block block, std::uint16_t event);
   profibus::Take address(Cycle now, const Request& request, bool right) override;
   // global_control.cpp, diagnosis.cpp
   void control(Cycle now, const profibus::Control& control) override;
-  profibus::StoredDiagnosis diagnosis(bool to_holder) override;
+  profibus::StoredDiagnosis diagnosis(Cycle now, bool to_holder) override;
   void exchange_diag();
 
   profibus::EventLog& log_;

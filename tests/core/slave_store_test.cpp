@@ -71,20 +71,20 @@ class MadeUp final : public SlaveStore {
     ++calls;
     controlled = control;
   }
-  View read_inputs() override {
+  View read_inputs(Cycle /*now*/) override {
     ++calls;
     return view(inputs);
   }
-  View read_outputs() override {
+  View read_outputs(Cycle /*now*/) override {
     ++calls;
     return view(outputs);
   }
-  View read_cfg(bool in_exchange) override {
+  View read_cfg(Cycle /*now*/, bool in_exchange) override {
     ++calls;
     exchanging = in_exchange;
     return view(stored_cfg);
   }
-  StoredDiagnosis diagnosis(bool by_holder) override {
+  StoredDiagnosis diagnosis(Cycle /*now*/, bool by_holder) override {
     ++calls;
     to_holder = by_holder;
     shown.user = view(user_diag);

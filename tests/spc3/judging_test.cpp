@@ -151,7 +151,7 @@ TEST(Judging, APointerOfZeroIsRr) {
   EXPECT_EQ(kind_of(bench.ask(59)), "RR");
   bench.store(regs::kOrgReadCfgLength, 0);
   EXPECT_EQ(kind_of(bench.ask(59)), "SC") << "nothing is needed";
-  EXPECT_EQ(bench.count(Reason::kNoPointer), 2);
+  EXPECT_EQ(bench.count(Reason::kNoPointer), 3);
 }
 
 TEST(Judging, AnAuxThatHoldsAWaitingOneTakesNoOtherKind) {
