@@ -1,5 +1,5 @@
 // The driver of the SPC3 family with the model: a master's telegrams on one side, the driver's accesses on the other,
-// polled and by X/INT, for each name of the chip.
+// polled and by X/INT, for each name of the chip. The checks of the user's side find no rule broken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 
 #include "driver/spc3/spc3.h"
 #include "tests/spc3/bench.hpp"
+#include "tests/spc3/check_feed.hpp"
 
 namespace dsdpv1::spc3_test {
 namespace {
@@ -55,6 +56,12 @@ class Spc3WithModel : public testing::TestWithParam<std::tuple<Variant, Mode>> {
     };
   }
 
+  void TearDown() override {
+    checks.finish();
+    EXPECT_EQ(checks.broken, breaks) << checks.texts;
+    EXPECT_EQ(bench.count(spc3::Reason::kOrganisationOnline), 0);
+  }
+
   void judge_cfg_by_test() {
     application.cfg = [](void* ctx, spc3_cfg* block) {
       auto& test = *static_cast<Spc3WithModel*>(ctx);
@@ -84,6 +91,7 @@ class Spc3WithModel : public testing::TestWithParam<std::tuple<Variant, Mode>> {
         this, [](void* ctx, std::uint16_t address) { return test_of(ctx).read(address); },
         [](void* ctx, std::uint16_t address, std::uint8_t value) { test_of(ctx).write(address, value); }};
     bench.power_on();
+    checks.released();
     ASSERT_EQ(spc3_open(&chip, &port, &application), SPC3_OK);
     begin();
     bench.find_baud();
@@ -127,14 +135,19 @@ class Spc3WithModel : public testing::TestWithParam<std::tuple<Variant, Mode>> {
   static Spc3WithModel& test_of(void* ctx) { return *static_cast<Spc3WithModel*>(ctx); }
   std::uint8_t read(std::uint16_t address) {
     bench.run_cycles(kAccess);
-    return bench.load(address);
+    const std::uint8_t value = bench.load(address);
+    checks.accessed(address, value, false);
+    return value;
   }
   void write(std::uint16_t address, std::uint8_t value) {
     bench.run_cycles(kAccess);
     bench.store(address, value);
+    checks.accessed(address, value, true);
   }
 
   Bench bench;
+  CheckFeed checks{bench, std::get<Variant>(GetParam())};
+  std::set<std::string> breaks;  ///< rules of the user's side
   spc3_device chip{};
   spc3_config config{};
   spc3_application application{};
@@ -303,6 +316,7 @@ TEST_P(Spc3WithModel, ANewAddressIsToldAndTheNextOneTaken) {
 
 TEST_P(Spc3WithModel, TheUserWatchdogEndsDataExchangeUnlessServed) {
   config.user_wd = 5;
+  breaks = {"LIVE_WATCHDOG"};
   to_data_ex();
   for (int i = 0; i < 20; ++i) exchange({1, 2, 3, 4});
   EXPECT_EQ(bench.state(), DpState::kDataExch);
@@ -375,6 +389,7 @@ TEST_P(Spc3WithModel, ALostRateComesBackWithTheMinTsdrOfTheLastSetPrm) {
 
 TEST_P(Spc3WithModel, OnlyAVpc3Has2Kb) {
   const bool vpc3 = config.vpc3;
+  if (!vpc3) breaks = {"USE_RAM"};
   power_on();
   spc3_go_offline(&chip);
   bench.run_cycles(100);

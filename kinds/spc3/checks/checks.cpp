@@ -1,0 +1,91 @@
+#include "kinds/spc3/checks/checks.hpp"
+
+#include "kinds/spc3/checks/start_rules.hpp"
+#include "model/profibus/dp_state.hpp"
+#include "model/profibus/event.hpp"
+#include "model/spc3/reasons.hpp"
+
+namespace dsdpv1::spc3_checks {
+
+using spc3::Pin;
+
+void Checks::pin(Tick at, tb::PinNumber pin, tb::Level level) {
+  history_.add(at, pin, level);
+  switch (static_cast<Pin>(pin)) {
+    case Pin::kReset: return reset_pin(level != 0);
+    case Pin::kRts: return live_.rts(at, level != 0);
+    case Pin::kXInt:
+      if (!in_reset_) interrupt_.x_int(at, level != 0);
+      return;
+    case Pin::kXDataExch:
+      if (!in_reset_) live_.xdataexch(at, level != 0);
+      return;
+    default: return;
+  }
+}
+
+void Checks::reset_pin(bool level) {
+  in_reset_ = level;
+  chip_.reset();
+  blocks_.drop();
+  interrupt_.reset();
+  live_.reset();
+}
+
+// --- accesses --------------------------------------------------------------------------------------------------------
+
+void Checks::accessed(const user_cpu::RegisterAccess& access) {
+  constexpr std::uint16_t kMap = 0x7FF, kMapOfVpc3 = 0xFFF;
+  has_accesses_ = true;
+  if (in_reset_) return;
+  RegisterAccess in_map = access;
+  in_map.address &= chip_.is_vpc3() ? kMapOfVpc3 : kMap;
+  recorder_.now(access.at);
+  pass(access.at);
+  take(in_map);
+}
+
+void Checks::take(const RegisterAccess& access) {
+  const bool was_online = chip_.online(), starts = chip_.starts(access);
+  if (starts) judge_start(recorder_, access.at, chip_);
+  use_.accessed(access, blocks_.judges_cfg() && !live_.exchanging());
+  blocks_.accessed(access);
+  interrupt_.accessed(access);
+  live_.accessed(access);
+  chip_.accessed(access);
+  if (starts) blocks_.start();
+  if (was_online && !chip_.online()) blocks_.drop();
+}
+
+// --- time, telegrams, events -----------------------------------------------------------------------------------------
+
+void Checks::pass(Tick now) {
+  blocks_.pass(now);
+  interrupt_.pass(now);
+  live_.pass(now);
+}
+
+void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
+  recorder_.now(now);
+  live_.telegram(telegram);
+  if (!in_reset_) pass(now);
+}
+
+void Checks::event(const profibus::Event& event) {
+  if (event.reason == spc3::Reason::kToUser) {
+    blocks_.arrived(event.at, event.a);
+  } else if (event.reason == spc3::Reason::kOffline) {
+    chip_.offline();
+    blocks_.drop();
+  } else if (event.reason == profibus::Reason::kDpState &&
+             event.b == static_cast<std::uint16_t>(profibus::DpState::kWaitPrm)) {
+    blocks_.left();
+  }
+}
+
+void Checks::finish(Tick end) {
+  recorder_.now(end);
+  if (!in_reset_) pass(end);
+}
+
+}  // namespace dsdpv1::spc3_checks

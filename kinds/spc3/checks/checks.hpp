@@ -1,0 +1,63 @@
+#pragma once
+// The rules of the user's side of a chip of the SPC3 family, judged from its accesses, from RESET, RTS, X/INT and
+// XDATAEXCH, and from the telegrams on the line; the chip's events, if it tells them, say when a block came.
+//
+//   spc3_checks::Checks checks(limits, variant, pins);
+//   checks.on_violation(...);
+//   checks.pin(at, pin, level);   checks.accessed(access);   checks.telegram(now, telegram);   // in order of time
+//   checks.finish(end);
+#include <functional>
+#include <utility>
+
+#include "kinds/spc3/checks/blocks.hpp"
+#include "kinds/spc3/checks/interrupt_rules.hpp"
+#include "kinds/spc3/checks/live_rules.hpp"
+#include "kinds/spc3/checks/seen_chip.hpp"
+#include "kinds/spc3/checks/use_rules.hpp"
+#include "model/spc3/pins.hpp"
+#include "tb/chip/checks/chip_checks.hpp"
+
+namespace dsdpv1::spc3_checks {
+
+class Checks : public checks::ChipChecks {
+ public:
+  static constexpr tb::PinMask kPins = spc3::mask(spc3::Pin::kReset) | spc3::mask(spc3::Pin::kRts) |
+                                       spc3::mask(spc3::Pin::kXInt) | spc3::mask(spc3::Pin::kXDataExch);
+
+  /// `pins`: the kind's, with the numbers of spc3::Pin; must outlive it.
+  Checks(const checks::Limits& limits, spc3::Variant variant, const tb::PinTable& pins)
+      : history_(pins), recorder_(rules(), limits, history_), chip_(variant) {}
+  Checks(const Checks&) = delete;
+  Checks& operator=(const Checks&) = delete;
+
+  void pin(Tick at, tb::PinNumber pin, tb::Level level) override;
+  /// Addresses in Intel order.
+  void accessed(const user_cpu::RegisterAccess& access) override;
+  void telegram(Tick now, const bus::WireTelegram& telegram) override;
+  void event(const profibus::Event& event) override;
+  void finish(Tick end) override;
+
+  /// Without accesses nothing is judged.
+  bool applies(checks::CheckId /*check*/) const override { return has_accesses_; }
+  const checks::Record& record(checks::CheckId check) const override { return recorder_.record(check); }
+  const checks::Limit& limit(checks::CheckId check) const override { return recorder_.limit(check); }
+  void on_violation(std::function<void(const checks::Violation&)> sink) override {
+    recorder_.on_violation = std::move(sink);
+  }
+
+ private:
+  void reset_pin(bool level);
+  void take(const RegisterAccess& access);
+  void pass(Tick now);
+
+  checks::PinHistory history_;
+  checks::Recorder recorder_;
+  SeenChip chip_;
+  UseRules use_{recorder_, chip_};
+  Blocks blocks_{recorder_, chip_};
+  InterruptRules interrupt_{recorder_, chip_};
+  LiveRules live_{recorder_, chip_, interrupt_};
+  bool in_reset_ = true, has_accesses_ = false;
+};
+
+}  // namespace dsdpv1::spc3_checks
