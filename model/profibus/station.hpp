@@ -111,6 +111,12 @@ class Station {
 
   /// From the decision on a request until PBRTS has fallen after its answer.
   bool answers() const { return tx_.planned(); }
+  /// PBRTS of an answer rises at this edge, unless the answer is postponed or dropped before eval(now).
+  bool begins_answer(Cycle now) const { return answers() && !tx_.rts() && now >= tx_.next(); }
+  void postpone_answer(Cycle by) { tx_.postpone(by); }
+  void drop_answer() { tx_.abort(); }
+  int bit() const { return search_.bit(); }  ///< cycles, at the rate in use or tried
+
   /// Neither an answer nor, after eval(now), a telegram is in progress.
   bool quiet(Cycle now) const { return !answers() && telegrams_.deadline() == kNever && !rx_.receiving(now); }
 

@@ -10,6 +10,12 @@ class UartTx {
   /// Sends `size` bytes, which must stay unchanged until busy() is false. The first start bit falls at `begin`; PBRTS
   /// rises `lead` cycles before and falls `trail` cycles after the end of the last stop bit.
   void send(const std::uint8_t* bytes, int size, int bit, Cycle begin, Cycle lead, Cycle trail);
+  /// Before PBRTS rises: all of it comes so many cycles later.
+  void postpone(Cycle by) {
+    begin_ += by;
+    end_ += by;
+    next_ += by;
+  }
   /// Aborts at once: PBTXD high, PBRTS low.
   void abort();
   /// The edge of `now`. Returns true at the edge at which PBRTS falls.

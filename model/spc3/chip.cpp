@@ -5,6 +5,7 @@
 
 #include "model/spc3/address_map.hpp"
 #include "model/spc3/chip_state.hpp"
+#include "model/spc3/clear_to_send.hpp"
 #include "model/spc3/reasons.hpp"
 
 namespace dsdpv1::spc3 {
@@ -38,7 +39,8 @@ struct Chip::Impl {
         interrupt(delay_of(given, given.int_delay)),
         user(log, config, interrupt, station),
         station(log, station_of(given), user, nullptr),
-        map(log, config, user, interrupt, station) {
+        map(log, config, user, interrupt, station),
+        cts(log, given.cts_wait) {
     reset_blocks();
   }
 
@@ -69,6 +71,7 @@ struct Chip::Impl {
   RamStore user;
   profibus::Station station;
   AddressMap map;
+  ClearToSend cts;
 
   PinSink sink;
   std::uint32_t watched = 0;
@@ -87,6 +90,7 @@ void Chip::Impl::set(Tick at, Pin pin, Level value) {
   advance(at);
   if (pin == Pin::kReset) set_reset(at, value != 0);
   if (pin == Pin::kRxd) station.set_rxd(at, value != 0);
+  if (pin == Pin::kXCts) cts.set(at, value != 0);
   plan();
 }
 
@@ -116,7 +120,8 @@ void Chip::Impl::reset_blocks() {
 
 // Kept because it is read far more often than changed: every caller of a block updates it.
 void Chip::Impl::plan() {
-  const Cycle cycle = std::min({release_at, touched, station.next(), user.next(), map.next(), interrupt.next()});
+  const Cycle cycle =
+      std::min({release_at, touched, station.next(), user.next(), map.next(), interrupt.next(), cts.next()});
   planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
 }
 
@@ -138,6 +143,7 @@ void Chip::Impl::rising_edge(Cycle cycle) {
     running = true;
   }
   if (cycle == touched) touched = kNever;
+  cts.eval(cycle, station);
   station.eval(cycle);
   user.eval(cycle);
   map.eval(cycle);
@@ -196,6 +202,7 @@ void Chip::Impl::publish(Tick at, std::uint32_t levels) {
 Level Chip::Impl::level(Pin pin) const {
   if (pin == Pin::kReset) return reset_pin;
   if (pin == Pin::kRxd) return station.rxd();
+  if (pin == Pin::kXCts) return cts.pin();
   return (outputs & mask(pin)) != 0 ? Level{1} : Level{0};
 }
 
@@ -203,14 +210,14 @@ Level Chip::Impl::level(Pin pin) const {
 
 template <class Archive>
 void Chip::Impl::store(Archive& archive) {
-  auto& [its_config, its_log, its_interrupt, its_user, its_station, its_map, its_sink, its_watched, its_now, its_done,
-         its_edge, its_touched, its_release, its_reset, runs, its_outputs] = *this;
+  auto& [its_config, its_log, its_interrupt, its_user, its_station, its_map, its_cts, its_sink, its_watched, its_now,
+         its_done, its_edge, its_touched, its_release, its_reset, runs, its_outputs] = *this;
   archive.given(its_config, its_log, its_sink, its_watched, its_edge);
   archive.within(Tick{0}, Tick{1} << 62, its_now);
   archive.cycles(its_done, its_touched, its_release);
   archive(its_interrupt);
   its_station.store(archive, its_user);
-  archive(its_map, its_reset, runs);
+  archive(its_map, its_cts, its_reset, runs);
   archive.within(0U, (1U << kPinCount) - 1, its_outputs);
   if constexpr (Archive::kReads) its_user.derive();
   archive.check(is_possible());

@@ -46,7 +46,7 @@ class Chip {
   Chip& operator=(const Chip&) = delete;
 
   /// Changes an input pin at tick `at` (>= every earlier call's). Setting a pin to its present level does nothing.
-  /// Before the first call RESET and RXD are high.
+  /// Before the first call RESET and RXD are high, XCTS is low.
   void set(Tick at, Pin pin, Level level);
   /// Evaluates everything up to and including tick `to`; reports pin changes and events to the sinks on the way.
   void advance(Tick to);

@@ -1,6 +1,6 @@
 #pragma once
-// The pins that the core has: reset, the line, the interrupt and the sign of the data exchange (design 2). The CPU's
-// bus is the register call of Chip.
+// The pins that the core has: reset, the line, the interrupt and the sign of the data exchange. The CPU's bus is the
+// register call of Chip.
 #include <cstdint>
 
 #include "model/profibus/time.hpp"
@@ -10,8 +10,8 @@ namespace dsdpv1::spc3 {
 using profibus::Cycle;
 using profibus::Tick;
 
-enum class Pin : std::uint8_t { kReset, kRxd, kTxd, kRts, kXInt, kXDataExch };
-constexpr int kPinCount = 6;
+enum class Pin : std::uint8_t { kReset, kRxd, kXCts, kTxd, kRts, kXInt, kXDataExch };
+constexpr int kPinCount = 7;
 
 /// 0 or 1.
 using Level = std::int16_t;
@@ -21,7 +21,7 @@ constexpr std::uint32_t kOutputPins = mask(Pin::kTxd) | mask(Pin::kRts) | mask(P
 
 /// The manual's name of a pin (M table 2.1).
 constexpr const char* name(Pin pin) {
-  constexpr const char* kNames[kPinCount] = {"RESET", "RXD", "TXD", "RTS", "X/INT", "XDATAEXCH"};
+  constexpr const char* kNames[kPinCount] = {"RESET", "RXD", "XCTS", "TXD", "RTS", "X/INT", "XDATAEXCH"};
   return kNames[static_cast<unsigned>(pin)];
 }
 

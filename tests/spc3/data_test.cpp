@@ -143,6 +143,15 @@ TEST(Data, ClearDataClearsAlsoUnderSync) {
   EXPECT_FALSE(bench.raised(regs::kEventDxOut)) << "no older outputs come back";
 }
 
+TEST(Data, ParametersInDataExchangeEndSyncAndFreeze) {
+  Bench bench;
+  to_data_ex(bench);
+  bench.control(kSync | kFreeze);
+  EXPECT_EQ(bench.diag()[1] & 0x30, 0x30);
+  bench.set_prm({}, kLockSyncFreeze, 0, 0, 0, 0x01);
+  EXPECT_EQ(bench.diag()[1] & 0x30, 0);
+}
+
 TEST(Data, AControlOfAnotherGroupOrMasterLeavesItsCell) {
   Bench bench;
   to_data_ex(bench);

@@ -245,6 +245,44 @@ TEST(States, ParametersInDataExchangeLeadBackToWaitCfg) {
   EXPECT_EQ(bench.state(), DpState::kDataExch);
 }
 
+TEST(ClearToSend, AnAnswerWaitsForXctsAndIsDroppedAfterItsTime) {
+  Bench bench;
+  bench.to_data_ex();
+  struct User : bus::Agent {
+    Bench& bench;
+    Tick at = bus::kNever;
+    explicit User(Bench& of) : bench(of) {}
+    void plan(Tick when) {
+      at = when;
+      announce();
+    }
+    Tick next() const override { return at; }
+    void run(Tick now) override {
+      at = bus::kNever;
+      bench.twins.set(now, Pin::kXCts, 0);
+    }
+  } user(bench);
+  bench.timeline.add(user);
+  const auto telegram = bus::make_telegram(5, 2, 0x6D, {1, 2});
+  const Tick bit = bench.requester.bit(), length = 11 * 11 * bit;
+  const double undisturbed = bench.requester.send(bench.timeline, telegram).tsdr_bits();
+  bench.run_cycles(400);
+  bench.twins.set(bench.now(), Pin::kXCts, 1);
+  const Tick begin = bench.now() + 40 * bit;
+  user.plan(begin + length + 18 * bit);
+  const bus::Exchange late = bench.requester.send(bench.timeline, telegram, {.at = begin});
+  EXPECT_EQ(kind_of(late), "DL");
+  EXPECT_GT(late.tsdr_bits(), undisturbed + 4);
+  EXPECT_LT(late.tsdr_bits(), undisturbed + 11);
+  bench.run_cycles(400);
+  bench.twins.set(bench.now(), Pin::kXCts, 1);
+  EXPECT_EQ(kind_of(bench.exchange({3, 4})), "silent");
+  EXPECT_EQ(bench.count(Reason::kNotClear), 1) << "A35";
+  EXPECT_EQ(bench.fetch_outputs(), (Bytes{3, 4})) << "only the answer is lost";
+  bench.twins.set(bench.now(), Pin::kXCts, 0);
+  EXPECT_EQ(kind_of(bench.exchange({3, 4})), "DL");
+}
+
 TEST(States, ResetActsAtOnceAndKeepsTheRam) {
   Bench bench;
   bench.to_data_ex();
