@@ -41,11 +41,9 @@ void RamStore::forget() {
 }
 
 void RamStore::start(Cycle now) {
-  blocks_.reset();
   if (variant_.start_clears_control) ram_.set_cell(regs::kOrgGcCommand, 0);
   locked_ = ram_.cell(regs::kOrgNoAddressChange) == regs::kAddressChangeLocked;
   if (!modes_.has0(regs::kMode0DpMode)) log_.at_cycle(now, Reason::kNoDpMode);
-  refresh();
   station_.start(now, slave_config());
   if (config_.tsdr_at_search != 0 && modes_.min_tsdr != 0) station_.set_min_tsdr(modes_.min_tsdr);
 }

@@ -122,6 +122,17 @@ TEST(Judging, NewParametersDropAnAcceptedConfiguration) {
   bench.give_inputs({1, 2, 3});
   bench.run_cycles(2);
   EXPECT_EQ(bench.state(), DpState::kWaitCfg) << "a new Check_Cfg is needed";
+  bench.check_cfg();
+  bench.load(regs::kCfgOk);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+  bench.exchange({1, 2});
+  bench.set_prm();
+  bench.check_cfg();
+  bench.load(regs::kCfgOk);
+  bench.set_prm();
+  bench.give_inputs({1, 2, 3});
+  EXPECT_EQ(bench.count(profibus::Reason::kVerdictUnexpected), 0) << "nothing is held back any more";
 }
 
 TEST(Judging, TooLongForTheAuxIsRr) {

@@ -21,10 +21,10 @@ TEST(Spc3Watchdog, DpControlEndsTheExchangeOfASilentMaster) {
   bench.acknowledge(0xFFFF);
   bench.run_ms(5);
   EXPECT_EQ(bench.state(), DpState::kDataExch);
-  bench.run_ms(2);
+  for (Cycle i = 0; i < 2 * kMs && bench.state() == DpState::kDataExch; ++i) bench.run_cycles(1);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
   EXPECT_EQ(wd_state(bench), 1U);
-  EXPECT_TRUE(bench.raised(regs::kEventWdTimeout | regs::kEventDataEx | regs::kEventDxOut));
+  EXPECT_TRUE(bench.raised(regs::kEventWdTimeout | regs::kEventDataEx | regs::kEventDxOut)) << "at the same edge";
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0}));
 }
 
