@@ -18,9 +18,12 @@ SITE = ROOT / "docs/site"
 ROW = re.compile(r"^\| \[[^\]]+\]\(([^)#]+)\) \|", re.M)
 LINK = re.compile(r"\]\(([^)\s#]+)(?:#[^)\s]*)?\)")
 MORE = {"Developers": ["../CONTRIBUTING.md", "../CHANGELOG.md"],
-        "Reference": ["../reference/cli.md", "../reference/run.md", "../reference/c_api.md", "../reference/driver.md", "../reference/python.md"]}
+        "Reference": ["../reference/cli.md", "../reference/run.md", "../reference/c_api.md", "../reference/driver.md", "../reference/driver_spc3.md",
+                      "../reference/python.md"]}
 HEADERS = {"c_api": ("C API", "include/dsdpv1", "The functions, structs and constants of `libdsdpv1.so`, from its headers. What they are for: [C API](../docs/c_api.md)."),
-           "driver": ("C driver", "driver", "The functions, structs and constants of the C driver, from its headers. How to use it: [programmer's guide](../docs/programmers_guide.md).")}
+           "driver": ("C driver", "driver", "The functions, structs and constants of the C driver, from its headers. How to use it: [programmer's guide](../docs/programmers_guide.md)."),
+           "driver_spc3": ("C driver, SPC3 family", "driver/spc3",
+                           "The same for APC3, SPC3 and VPC3+. How to use it: [programmer's guide](../docs/programmers_guide.md#the-spc3-family).")}
 PYTHON = ["dsdpv1", "dsdpv1.user", "dsdpv1.registers"]
 
 

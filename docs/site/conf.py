@@ -19,7 +19,7 @@ highlight_language = "none"
 
 myst_heading_anchors = 6
 
-breathe_projects = {name: str(BUILD / "doxygen" / name) for name in ("c_api", "driver")}
+breathe_projects = {name: str(BUILD / "doxygen" / name) for name in ("c_api", "driver", "driver_spc3")}
 breathe_domain_by_extension = {"h": "c"}
 breathe_show_define_initializer = True
 
