@@ -1,10 +1,10 @@
 #pragma once
-// Generates docs/checks.md.
+// Generates docs/checks.md up to the sections of other families.
 #include <string>
 
 namespace dsdpv1::checks {
 
-/// The whole document: how to use the checks, and each with rule, clause, formula and limit.
+/// How to use the checks of any chip; those of the DSDPV1, each with rule, clause, formula and limit.
 std::string markdown();
 
 }  // namespace dsdpv1::checks

@@ -1,0 +1,54 @@
+#include "kinds/spc3/checks/markdown.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "kinds/spc3/checks/check.hpp"
+#include "tb/chip/checks/rules_markdown.hpp"
+
+namespace dsdpv1::spc3_checks {
+namespace {
+
+const char* const kIntroduction = R"(
+## The checks of the SPC3 family
+
+The checks of `apc3`, `spc3` and `vpc3` (`kinds/spc3/checks/`) see the user's accesses, each a byte with its address and tick; RESET, RTS, X/INT and
+XDATAEXCH; and the telegrams on the line. So they judge every user CPU in the same way. Modes, limits and records are those above. Clauses and tables are those of the APC3
+manual, rulings those of [spc3.md](spc3.md). Addresses are in Intel order.
+
+| checks | judged |
+|---|---|
+| `START_...` | at each START: registers, organisation, buffers |
+| `USE_...` | each access: owner of the buffer, cells that must not change online, the RAM's end |
+| `ACK_...` | the answers to Set_Prm, Chk_Cfg and Set_Slave_Address |
+| `IRQ_...` | IRR, IAR, IMR and EOI |
+| `LIVE_...` | in DATA_EX: outputs, inputs, user watchdog |
+
+These find the same as events of the chip ([reasons.md](reasons.md)), for each access: `USE_RAM` and `RAM_VIOLATION`; `USE_ORGANISATION` and `MODE0_ONLINE`, `ORGANISATION_ONLINE`.
+A write of the value that a cell has already does not violate `USE_ORGANISATION`. `NOT_ALLOWED` (answer 11) violates `ACK_FOUNDED` only without an event that the user has seen:
+the master may have left meanwhile.
+
+The accesses do not show:
+
+- Bytes that the user has neither written nor read since power-on. They count as 00, and as not preset.
+- The chip's owners of buffers. The user's is known from the answers of commands, after RESET and OFFLINE from A17 and A18; all others are the chip's.
+- OFFLINE. The chip's event OFFLINE tells it, else the next look that shows MAC_Reset or PASSIVE_IDLE = 0. Up to then accesses count as online.
+- The arrival of a block. `ACK_TIME` begins with the chip's event `TO_USER`, without such events with the first look at IRR or IR.
+- The station's address. `LIVE_OUTPUTS` and `LIVE_WATCHDOG` learn it from the answers on the line while RTS is high, so they begin after the first one.
+- A Diag_Buffer_Changed that the user has left standing. A later look at it counts as the return of the buffer.
+
+A scenario with a user that does wrong on purpose names the check under `allow`, or switches it off.
+)";
+
+std::string place_of(const std::string& ruling) {
+  std::string anchor = ruling;
+  std::transform(anchor.begin(), anchor.end(), anchor.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return (ruling[0] == 'A' ? "spc3.md#" : "chip.md#") + anchor;
+}
+
+}  // namespace
+
+std::string markdown() { return kIntroduction + checks::rules_markdown(rules(), place_of); }
+
+}  // namespace dsdpv1::spc3_checks

@@ -1,0 +1,10 @@
+#pragma once
+// Generates the last sections of docs/checks.md.
+#include <string>
+
+namespace dsdpv1::spc3_checks {
+
+/// The sight of the checks of the SPC3 family, and each with rule, clause, formula and limit.
+std::string markdown();
+
+}  // namespace dsdpv1::spc3_checks
