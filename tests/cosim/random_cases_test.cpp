@@ -6,32 +6,13 @@
 #include <string>
 
 #include "cosim/random/campaign.hpp"
-#include "cosim/random/play_options.hpp"
-#include "cosim/random/random_cases.hpp"
 #include "kinds/dsdpv1/kind.hpp"
 #include "kinds/dsdpv1/random/random_host.hpp"
 #include "kinds/dsdpv1/random/random_user.hpp"
+#include "tests/cosim/played.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
-
-/// The effects of a stimulus, in model and RTL.
-class Played {
- public:
-  explicit Played(const Stimulus& stimulus, PlayOptions options = quick_options(), Tick limit = Tick{1} << 40) {
-    options.limit = limit;
-    const std::unique_ptr<PlayListener> watch = options.kind->random()->watch(*options.chip, situations_);
-    options.listeners.push_back(watch.get());
-    result_ = play(stimulus, reference_top(options, 0, 1), options);
-    EXPECT_FALSE(result_.difference);
-  }
-  std::uint64_t count(const char* group, const std::string& item) const { return situations_.of({group, item}); }
-  Tick end() const { return static_cast<Tick>(result_.counts.cycles) * profibus::kTicksPerCycle; }
-
- private:
-  PlayResult result_;
-  Situations situations_;
-};
 
 /// A chip that is ready, its user with an initialisation of `cfg`, and `more`.
 std::string from_power_on(const std::string& more) {

@@ -57,6 +57,7 @@ const char* answer_of(const bus::Telegram& answer) {
 
 void SituationWatch::begins(const tb::PinDevice& both) {
   model_ = &both;
+  rulings_.begins(both);
   for (int pin = 0; pin < pin_count(chip_.part); ++pin)
     levels_.at(static_cast<std::size_t>(pin)) = both.level(static_cast<PinNumber>(pin));
 }
@@ -83,6 +84,7 @@ void SituationWatch::input_changed(Tick at, Pin pin, Level level) {
     sync_ = freeze_ = false;
     service_.clear();
     reader_.reset();
+    rulings_.reset();
   } else if (pin == Pin::kReset) {
     released(at);
   } else if (parallel && pin == Pin::kRReq && level != 0) {
@@ -93,7 +95,14 @@ void SituationWatch::input_changed(Tick at, Pin pin, Level level) {
     situations_.count("RXD falls in", phase());
   } else if (parallel && (pin == Pin::kRd || pin == Pin::kWr) && level == 0 && this->level(Pin::kCsr) == 0) {
     access_begins(pin == Pin::kWr);
+  } else if (parallel && pin == Pin::kWr && level != 0) {
+    write_ends();
   }
+}
+
+void SituationWatch::write_ends() {
+  const bool owned = level(Pin::kRReq) != 0 && level(Pin::kRSta) != 0 && level(Pin::kLSta) == 0;
+  if (owned && level(Pin::kCsr) == 0) rulings_.written(level(Pin::kA));
 }
 
 void SituationWatch::access_begins(bool write) {
@@ -122,6 +131,7 @@ void SituationWatch::block_written() {
 }
 
 void SituationWatch::cell_read(int address) {
+  rulings_.read(address);
   const unsigned what = std::exchange(unread_.at(static_cast<std::size_t>(address)), std::uint8_t{0});
   if (what == 0) return;
   const ChipBlock& block = kChipBlocks.at((what - 1) / std::size(kBlockCells));
@@ -145,7 +155,9 @@ void SituationWatch::evaluated(Tick /*now*/, tb::PinDevice& model) {
   const char* item = model.works_on();
   if (item == item_) return;
   block_written();
+  if (item_ != nullptr) rulings_.block_written(item_);
   item_ = item;
+  rulings_.works_on(item);
   if (std::strcmp(item, "-") != 0) situations_.count("transfers", item);
 }
 
@@ -153,6 +165,7 @@ void SituationWatch::evaluated(Tick /*now*/, tb::PinDevice& model) {
 
 void SituationWatch::event(const profibus::Event& event) {
   using profibus::Reason;
+  rulings_.event(event);
   if (event.reason == Reason::kDpState) {
     situations_.count("DP states", fmt::format("{} to {}", dp_state_name(event.a), dp_state_name(event.b)));
     state_ = event.b;
@@ -188,10 +201,13 @@ void SituationWatch::telegram(Tick /*now*/, const bus::WireTelegram& telegram) {
   const std::string service = std::exchange(service_, {});
   if (!telegram.right()) return;
   const bus::Telegram& decoded = telegram.decoded.telegram;
-  if (decoded.is_request() && decoded.wants_answer() && decoded.da == model_->address() && state_ != kOffline)
+  if (decoded.is_request() && decoded.wants_answer() && decoded.da == model_->address() && state_ != kOffline) {
+    rulings_.request(decoded);
     service_ = fmt::format("{} in {}", service_of(decoded), dp_state_name(state_));
-  if (asked && telegram.tsdr && decoded.is_response())
-    situations_.count("services", fmt::format("{}: {}", service, answer_of(decoded)));
+  }
+  if (!asked || !telegram.tsdr || !decoded.is_response()) return;
+  situations_.count("services", fmt::format("{}: {}", service, answer_of(decoded)));
+  rulings_.answer(decoded);
 }
 
 void SituationWatch::host_telegram(const tb::HostTelegram& telegram) {
@@ -216,8 +232,9 @@ void SituationWatch::host_reply(const bus::Bytes& bytes) {
   situations_.count("telegrams of the host",
                     refused ? fmt::format("{}, refused", kind) : fmt::format("{}, code {:02X}", kind, code));
   if (exchange && !error) exchange_reply(bytes[1]);
-  if (command == 0 && !error && request_.size() > 3)
-    for (int i = 0; i < request_[3]; ++i) cell_read((request_[1] << 8 | request_[2]) + i);
+  if (command > 1 || error || request_.size() <= 3) return;
+  for (int i = 0, first = request_[1] << 8 | request_[2]; i < request_[3]; ++i)
+    command == 0 ? cell_read(first + i) : rulings_.written(first + i);
 }
 
 void SituationWatch::exchange_reply(unsigned function) {

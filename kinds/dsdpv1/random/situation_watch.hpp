@@ -7,6 +7,7 @@
 #include "cosim/random/play_listener.hpp"
 #include "cosim/random/situations.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/random/ruling_watch.hpp"
 #include "registers/dsdpv1_regs.hpp"
 #include "tb/chip/host_reader.hpp"
 
@@ -14,7 +15,8 @@ namespace dsdpv1::cosim {
 
 class SituationWatch : public PlayListener {
  public:
-  SituationWatch(const tb::Dsdpv1Settings& chip, Situations& counted) : chip_(chip), situations_(counted) {}
+  SituationWatch(const tb::Dsdpv1Settings& chip, Situations& counted)
+      : chip_(chip), situations_(counted), rulings_(chip, counted) {}
 
   void begins(const tb::PinDevice& both) override;
   void pin(Tick at, Side side, PinNumber pin, Level level) override;
@@ -27,6 +29,7 @@ class SituationWatch : public PlayListener {
   void access_begins(bool write);
   void block_written();
   void cell_read(int address);
+  void write_ends();
   void released(Tick at);
   void global_control(unsigned command);
   void host_telegram(const tb::HostTelegram& telegram);
@@ -38,6 +41,7 @@ class SituationWatch : public PlayListener {
 
   const tb::Dsdpv1Settings& chip_;
   Situations& situations_;
+  RulingWatch rulings_;
   const tb::PinDevice* model_ = nullptr;
   std::array<Level, kRsuPinCount> levels_{};
   const char* item_ = nullptr;  ///< of the access in progress, counted

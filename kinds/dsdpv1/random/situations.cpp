@@ -207,6 +207,16 @@ Words host_telegrams(HostMode mode) {
   return all;
 }
 
+/// D16. With a serial port no CRC of inputs is checked (SP15).
+Words meanings(HostMode mode) {
+  Words all = {"history: B011.7 falls", "present: B011.7 falls"};
+  if (mode == HostMode::kParallel)
+    all.insert(all.end(),
+               {"history: B011.7 clears it", "history: B011.7 with a wrong block", "history: a wrong block sets it",
+                "history: a right block leaves it", "present: B011.7 leaves it"});
+  return all;
+}
+
 Words replies_of_exchanges() {
   Words all;
   for (const char* news : {"outputs", "parameters", "configuration", "C1", "C2"})
@@ -236,6 +246,12 @@ std::vector<Situation> known_situations(Part part, HostMode mode) {
   add(all, "Sync and Freeze", sync_and_freeze());
   add(all, "transfers", transfers());
   add(all, "written and read", cells_read());
+  add(all, "B00B.2 and B011", meanings(mode));
+  add(all, "reserved cells", {"written and read"});
+  add(all, "min_TSDR", {"below 11", "above max_TSDR"});
+  add(all, "answers to reads", {"C1 shorter", "C1 longer", "C2 shorter", "C2 longer"});
+  add(all, "timer U", {"ends after a request", "ends after a turn", "an answer after it"});
+  if (part != Part::kDsdpv1) add(all, "requests before answers", {"C1", "C2"});
   add(all, "RESET falls in", phases());
   if (mode == HostMode::kParallel) {
     add(all, "R_REQ rises in", phases());
@@ -321,6 +337,12 @@ constexpr RulingRow kRulingRows[] = {
     {"written and read", "Chk_Cfg", "data", "D6"},
     {"written and read", "C1 request", "header", "V5"},
     {"written and read", "C2 request", "header", "V5"},
+    {"B00B.2 and B011", "", "", "D16"},
+    {"reserved cells", "", "", "P13"},
+    {"min_TSDR", "", "", "S11"},
+    {"answers to reads", "", "", "V15"},
+    {"timer U", "", "", "V13"},
+    {"requests before answers", "", "", "R9"},
     {"RESET falls in", "", "", "P1, P10"},
     {"R_REQ rises in", "", "", "H1, P9"},
     {"accesses of the user", "", "", "P5"},
@@ -339,7 +361,8 @@ constexpr RulingRow kSerialRows[] = {
     {"transfers", "inputs", "", "SP15"},        {"transfers", "diagnosis", "", "SP15"},
     {"transfers", "", "answer", "SP15"},        {"transfers", "Set_Prm", "Set_Prm", "R12"},
     {"transfers", "Chk_Cfg", "Chk_Cfg", "R12"}, {"written and read", "", "CRC", "SP15"},
-    {"RESET falls in", "", "", "R14"},          {"telegrams of the host", "", "", "R15"}};
+    {"RESET falls in", "", "", "R14"},          {"B00B.2 and B011", "", "", "R6"},
+    {"telegrams of the host", "", "", "R15"}};
 /// The host's telegrams, and the begin of its accesses, have the same names at both.
 constexpr RulingRow kSpiRows[] = {{"XSS falls in", "", "", "SP1, R14"},
                                   {"transfers", "initialisation", "", "SP18"},
