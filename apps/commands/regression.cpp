@@ -249,8 +249,7 @@ cosim::Seen seen_of(const Run& run, const Json& json) {
   for (const auto& [code, times] : json.at("codes").items()) seen.codes[code] = times;
   for (const auto& [group, counts] : json.at("situations").items())
     for (const auto& [name, times] : counts.items()) seen.situations.add({group, name}, times);
-  const auto mode = std::find(run.options.begin(), run.options.end(), "--mode");
-  if (mode != run.options.end() && mode + 1 != run.options.end()) seen.mode = *(mode + 1);
+  seen.mode = run.mode;
   return seen;
 }
 
