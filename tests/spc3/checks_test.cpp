@@ -230,9 +230,9 @@ const Planted kPlanted[] = {
      "New_Din was never read"},
 };
 
-class PlantedFaults : public testing::TestWithParam<Planted> {};
+class Spc3PlantedFaults : public testing::TestWithParam<Planted> {};
 
-TEST_P(PlantedFaults, AreFoundByTheirRuleAlone) {
+TEST_P(Spc3PlantedFaults, AreFoundByTheirRuleAlone) {
   const Planted& planted = GetParam();
   Script user;
   planted.fault(user);
@@ -240,7 +240,7 @@ TEST_P(PlantedFaults, AreFoundByTheirRuleAlone) {
   EXPECT_THAT(user.found.front().text, HasSubstr(planted.said));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, PlantedFaults, testing::ValuesIn(kPlanted),
+INSTANTIATE_TEST_SUITE_P(Each, Spc3PlantedFaults, testing::ValuesIn(kPlanted),
                          [](const auto& each) { return std::string(each.param.id) + "_" + each.param.name; });
 
 TEST(ListOfPlantedFaults, HasEachRuleWithALimit) {

@@ -6,7 +6,7 @@
 namespace dsdpv1::spc3_test {
 namespace {
 
-class Driver : public testing::TestWithParam<Variant> {
+class Spc3Driver : public testing::TestWithParam<Variant> {
  protected:
   void SetUp() override {
     const spc3_port port = {
@@ -15,14 +15,14 @@ class Driver : public testing::TestWithParam<Variant> {
     spc3_application application = {};
     application.ctx = this;
     application.prm = [](void* ctx, const std::uint8_t* bytes, std::uint8_t length) {
-      auto& test = *static_cast<Driver*>(ctx);
+      auto& test = *static_cast<Spc3Driver*>(ctx);
       test.prm.assign(bytes, bytes + length);
       return test.accepts;
     };
     application.address = [](void* ctx, std::uint8_t address, bool, const std::uint8_t*, std::uint8_t) {
-      static_cast<Driver*>(ctx)->given = address;
+      static_cast<Spc3Driver*>(ctx)->given = address;
     };
-    application.control = [](void* ctx, std::uint8_t command) { static_cast<Driver*>(ctx)->control = command; };
+    application.control = [](void* ctx, std::uint8_t command) { static_cast<Spc3Driver*>(ctx)->control = command; };
     ASSERT_EQ(spc3_open(&device, &port, &application), SPC3_OK);
     config.address = 5;
     config.ident = 0x0CC9;
@@ -78,10 +78,10 @@ class Driver : public testing::TestWithParam<Variant> {
   bool accepts = true, cleared = false;
   int given = 0, control = 0;
 };
-INSTANTIATE_TEST_SUITE_P(Names, Driver, testing::Values(Variant::kApc3, Variant::kSpc3, Variant::kVpc3),
+INSTANTIATE_TEST_SUITE_P(Names, Spc3Driver, testing::Values(Variant::kApc3, Variant::kSpc3, Variant::kVpc3),
                          [](const auto& tested) { return std::string(spc3::row(tested.param).name); });
 
-TEST_P(Driver, BringsTheChipToDataExchange) {
+TEST_P(Spc3Driver, BringsTheChipToDataExchange) {
   to_data_ex();
   EXPECT_EQ(prm, (Bytes{0x80, 0, 0, 0, 0x0C, 0xC9, 0, 0, 0x42}));
   EXPECT_EQ(bench.exchange({7, 8}).answer().data, (Bytes{1, 2, 3}));
@@ -94,7 +94,7 @@ TEST_P(Driver, BringsTheChipToDataExchange) {
   EXPECT_EQ(bench.ask(59).answer().data, (Bytes{0x12, 0x21}));
 }
 
-TEST_P(Driver, AnswersConflictsUntilTheNewestIsJudged) {
+TEST_P(Spc3Driver, AnswersConflictsUntilTheNewestIsJudged) {
   bring_up();
   bench.set_prm({0, 1});
   bench.set_prm({0, 2, 2});
@@ -110,7 +110,7 @@ TEST_P(Driver, AnswersConflictsUntilTheNewestIsJudged) {
   EXPECT_EQ(bench.diag()[0], 0x42);
 }
 
-TEST_P(Driver, GivesDiagnosesAndServesTheWatchdog) {
+TEST_P(Spc3Driver, GivesDiagnosesAndServesTheWatchdog) {
   to_data_ex();
   const std::uint8_t user[] = {3, 0xAA, 0xBB};
   EXPECT_EQ(spc3_set_diagnosis(&device, SPC3_DIAG_EXT, user, 3), SPC3_OK);
@@ -128,7 +128,7 @@ TEST_P(Driver, GivesDiagnosesAndServesTheWatchdog) {
   EXPECT_TRUE(cleared);
 }
 
-TEST_P(Driver, HearsOfAddressesAndControls) {
+TEST_P(Spc3Driver, HearsOfAddressesAndControls) {
   bring_up();
   bench.ask(55, {77, 0x0C, 0xC9, 0});
   spc3_service(&device);
@@ -144,7 +144,7 @@ TEST_P(Driver, HearsOfAddressesAndControls) {
   EXPECT_EQ(control, 0x20);
 }
 
-TEST_P(Driver, ComesBackFromOffline) {
+TEST_P(Spc3Driver, ComesBackFromOffline) {
   to_data_ex();
   spc3_go_offline(&device);
   bench.run_cycles(2);
