@@ -46,7 +46,7 @@ static groups choose_groups(const spc3_config* config) {
   return ((4u + ssa) * segments(one.first)) < with_two ? one : two;
 }
 
-enum { kPlaces = 14 };
+enum { kPlaces = 15 };
 
 /* Writes nothing when `device` is null: the end of the last buffer is what counts. */
 static uint16_t place_buffers(const spc3_device* device, const spc3_config* config) {
@@ -68,6 +68,7 @@ static uint16_t place_buffers(const spc3_device* device, const spc3_config* conf
       {SPC3_REG_ORG_PRM_POINTER, prm},
       {SPC3_REG_ORG_CFG_POINTER, aux.first},
       {SPC3_REG_ORG_READ_CFG_POINTER, aux.first},
+      {SPC3_REG_ORG_SAP_POINTER, 1u},
   };
   uint16_t next = SPC3_REG_BUFFERS >> SPC3_SEGMENT_BITS;
   for (uint8_t i = 0; i < (uint8_t)kPlaces; ++i) { /* a buffer without a byte keeps the pointer 00 (A4) */
@@ -113,13 +114,13 @@ static void write_organisation(const spc3_device* device, const spc3_config* con
   spc3_put(device, SPC3_REG_ORG_NO_ADDRESS_CHANGE, locked);
   spc3_put(device, SPC3_REG_ORG_IDENT_LOW, (uint8_t)(config->ident & 0xFFu));
   spc3_put(device, SPC3_REG_ORG_IDENT_HIGH, (uint8_t)(config->ident >> 8));
-  spc3_put(device, SPC3_REG_ORG_SAP_POINTER, 0xFF);
   spc3_put_word(device, SPC3_REG_ORG_USER_WD, config->user_wd);
   spc3_put(device, SPC3_REG_ORG_DOUT_LENGTH, config->max_output);
   spc3_put(device, SPC3_REG_ORG_DIN_LENGTH, config->max_input);
   spc3_put(device, SPC3_REG_ORG_DIAG_LENGTH, kDiagHead);
   spc3_put(device, SPC3_REG_ORG_DIAG_LENGTH + 1u, kDiagHead);
   (void)place_buffers(device, config);
+  spc3_put(device, spc3_buffer(device, SPC3_REG_ORG_SAP_POINTER), 0xFF); /* an empty list of SAPs (clause 3.3) */
   spc3_put(device, SPC3_REG_ORG_READ_CFG_LENGTH, config->cfg_length);
   spc3_put_bytes(device, spc3_buffer(device, SPC3_REG_ORG_READ_CFG_POINTER), config->cfg, config->cfg_length);
 }

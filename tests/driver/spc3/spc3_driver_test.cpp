@@ -101,7 +101,7 @@ TEST_F(Spc3DriverTest, OrganisationIsThatOfTheConfiguration) {
   config.user_wd = 0x1234;
   ASSERT_EQ(initialise(), SPC3_OK);
   EXPECT_EQ(chip.ram[kOrgAddress], 5);
-  EXPECT_EQ(chip.ram[kOrgSapPointer], 0xFF);
+  EXPECT_EQ(chip.ram[static_cast<std::size_t>(chip.ram[kOrgSapPointer] << 3)], 0xFF);
   EXPECT_EQ(chip.ram[kOrgUserWd], 0x34);
   EXPECT_EQ(chip.ram[kOrgUserWd + 1], 0x12);
   EXPECT_EQ(chip.ram[kOrgDoutLength], 4);
@@ -301,12 +301,12 @@ TEST_F(Spc3DriverTest, TheLargestLengthsAreAccepted) {
 }
 
 TEST_F(Spc3DriverTest, TheLastByteOfTheRamIsUsedAndNoMore) {
-  config.max_output = config.max_input = 136;  // 6 x 136, 2 x 64, 2 x 248, 4 x 8: 0x5C0 bytes
+  config.max_output = config.max_input = 136;  // 6 x 136, 2 x 64, 2 x 248, 3 x 8, 8: 0x5C0 bytes
   config.max_diag = 58;
   config.max_prm = 244;
-  config.max_ssa = 4;
+  config.max_ssa = 0;
   ASSERT_EQ(initialise(), SPC3_OK);
-  EXPECT_EQ(0x600 - buffers(chip).back().second, 8 - 4);  // Read_Cfg may have 4 of the last 8 bytes
+  EXPECT_EQ(0x600 - buffers(chip).back().second, 8 - 3 + 8);  // of Read_Cfg, then the list of SAPs
   config.max_diag = 59;
   EXPECT_EQ(initialise(), SPC3_ERR_CONFIG_FIT);
   config.vpc3 = true;
