@@ -43,7 +43,7 @@ bool RamStore::has_inputs() const {
 // A24, after each command that may make it so.
 void RamStore::begin_exchange(Cycle now) {
   const bool exchanges = station_.slave().state() == DpState::kDataExch;
-  const bool ready = !blocks_.pending(Block::kPrm) && !blocks_.pending(Block::kCfg) && has_inputs();
+  const bool ready = !blocks_.pending(Block::kPrm) && has_inputs();
   if (!cfg_held_ || (!exchanges && !ready)) return;
   cfg_held_ = false;
   station_.cfg_verdict(now, true);

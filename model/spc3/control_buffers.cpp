@@ -27,7 +27,6 @@ int ControlBuffers::aux_of(Block block) const { return ram_.cell(regs::kOrgAuxSe
 // A37, A23: no second one. A57: no other kind's Aux, but a Check_Cfg gives way to a Set_Prm, which drops it (A53).
 bool ControlBuffers::is_held(Block block, bool spec) const {
   if ((spec || block == Block::kSsa) && pending(block)) return true;
-  if (spec) return false;
   for (const Block each : kBlocks) {
     const bool gives_way = each == block || (each == Block::kCfg && block == Block::kPrm);
     if (!gives_way && of(each).waits && aux_of(each) == aux_of(block)) return true;

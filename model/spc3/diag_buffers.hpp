@@ -10,13 +10,10 @@ class DiagBuffers {
  public:
   void reset() { *this = DiagBuffers(); }
 
-  enum class Answer : std::uint8_t { kExchanged, kRemembered, kRefused };
-  /// New_Diag_Cmd; the caller exchanges() after kExchanged.
-  Answer request() {
-    if (requested_) return Answer::kRefused;
-    if (!sending_) return Answer::kExchanged;
-    requested_ = true;
-    return Answer::kRemembered;
+  /// New_Diag_Cmd. True: exchange() now; false: it is remembered.
+  bool request() {
+    requested_ = sending_;
+    return !sending_;
   }
   /// The user's buffer becomes the chip's, and is to be sent; `flags`: bits 2..0 of its byte 0.
   void exchange(std::uint8_t flags) {

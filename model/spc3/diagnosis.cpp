@@ -29,9 +29,8 @@ profibus::StoredDiagnosis RamStore::diagnosis(Cycle now, bool to_holder) {
 }
 
 std::uint8_t RamStore::new_diag(Cycle now) {
-  const DiagBuffers::Answer answer = diag_.request();
-  if (answer != DiagBuffers::Answer::kExchanged) {
-    log_.at_cycle(now, Reason::kDiagBusy, answer == DiagBuffers::Answer::kRefused);
+  if (!diag_.request()) {
+    log_.at_cycle(now, Reason::kDiagBusy);
     return 0;
   }
   exchange_diag();

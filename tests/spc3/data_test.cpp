@@ -252,11 +252,31 @@ TEST(Data, APointerOfZeroIsRrAndChangesNothing) {
   EXPECT_EQ(bench.state(), DpState::kDataExch);
   EXPECT_EQ(bench.load(regs::kDoutSm), states);
   bench.store(of_d, segment);
+  bench.give_inputs({9, 9, 9});
+  const auto of_n = static_cast<Address>(regs::kOrgDinPointer + (bench.load(regs::kDinSm) >> 2 & 3) - 1);
+  const std::uint8_t next = bench.load(of_n);
+  bench.store(of_n, 0);
+  EXPECT_EQ(kind_of(bench.exchange({1, 2})), "RR") << "the buffer that would be D";
+  EXPECT_EQ(bench.load(regs::kDoutSm), states);
+  bench.store(of_n, next);
   for (const Address pointer :
        {Address{regs::kOrgDinPointer}, Address{regs::kOrgDinPointer + 1}, Address{regs::kOrgDinPointer + 2}})
     bench.store(pointer, 0);
   EXPECT_EQ(kind_of(bench.exchange({1, 2})), "RR");
   EXPECT_EQ(kind_of(bench.ask(56)), "RR");
+}
+
+TEST(Data, AClearWithoutPointerLeavesTheOrganisation) {
+  Bench bench;
+  Organisation given;
+  given.outputs = 60;
+  bench.to_data_ex(given);
+  bench.exchange(Bytes(60, 1));
+  for (int i = 0; i < 3; ++i) bench.store(static_cast<Address>(regs::kOrgDoutPointer + i), 0);
+  bench.set_mode1(regs::kMode1UserLeaveMaster);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.load(regs::kOrgDoutLength), 60);
+  EXPECT_EQ(bench.load(regs::kOrgIdentHigh), 0x0C);
 }
 
 TEST(Data, LengthsMayChangeInWaitCfg) {

@@ -135,6 +135,20 @@ TEST(Judging, NewParametersDropAnAcceptedConfiguration) {
   EXPECT_EQ(bench.count(profibus::Reason::kVerdictUnexpected), 0) << "nothing is held back any more";
 }
 
+TEST(Judging, ANewConfigurationDropsTheAcceptedOne) {
+  Bench bench;
+  bench.to_wait_cfg();
+  bench.check_cfg();
+  bench.load(regs::kCfgOk);
+  bench.check_cfg();
+  bench.give_inputs({1, 2, 3});
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kWaitCfg) << "it is pending (A24)";
+  EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictFinished);
+  bench.run_cycles(2);
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+}
+
 TEST(Judging, TooLongForTheAuxIsRr) {
   Bench bench;
   bench.to_wait_cfg();
@@ -232,6 +246,7 @@ TEST(Judging, AConfigurationInDataExchangeGoesToTheUser) {
   EXPECT_EQ(bench.load(regs::kCfgOk), regs::kVerdictFinished);
   bench.run_cycles(2);
   EXPECT_EQ(bench.state(), DpState::kDataExch);
+  EXPECT_EQ(bench.count(profibus::Reason::kCfgAccepted), 2) << "without new inputs";
   bench.check_cfg({0x99});
   bench.load(regs::kCfgNotOk);
   bench.run_cycles(2);

@@ -178,6 +178,23 @@ TEST(States, GoOfflineWaitsForTheTelegramAndItsAnswer) {
   EXPECT_TRUE(bench.raised(regs::kEventMacReset));
 }
 
+TEST(States, GoOfflineWaitsForTheEffectsOfTheLastTelegram) {
+  Bench bench;
+  bench.to_data_ex();
+  bench.acknowledge(0xFFFF);
+  bench.requester.send(bench.timeline, bus::make_telegram(bus::kBroadcast, 2, 0x46, {0x02, 0}, 58, 62),
+                       {.wants_answer = false});
+  bench.run_cycles(10);
+  EXPECT_EQ(bench.irr(), 0);
+  bench.set_mode1(regs::kMode1GoOffline);
+  bench.run_cycles(5);
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+  bench.run_cycles(60);
+  EXPECT_EQ(bench.state(), DpState::kOffline);
+  EXPECT_TRUE(bench.raised(regs::kEventNewGc | regs::kEventDxOut | regs::kEventMacReset));
+  EXPECT_EQ(bench.load(regs::kOrgGcCommand), 0x02);
+}
+
 TEST(States, StartAndGoOfflineInOneWrite) {
   Bench bench;
   bench.power_on();
