@@ -49,6 +49,7 @@ const Planted kPlanted[] = {
     {"START_LENGTH", "DiagOf5", start_with<regs::kOrgDiagLength + 1, 5>, "25H is 5, 6 to 244"},
     {"START_LENGTH", "NoAux2", start_with<regs::kOrgAuxSelect, regs::kOrgAuxSelectPrm>, "29H is 0, 7 to 244"},
     {"START_PRESET", "Reserved", start_with<0x35, 1>, "35H is not set to 00"},
+    {"START_PRESET", "ListOfSaps", start_with<regs::kOrgSapPointer, 0xFF>, "17H does not point to FF"},
     {"START_PRESET", "NoResUserWd",
      [](Script& user) {
        user.initialise();

@@ -50,8 +50,9 @@ class Script {
   /// A right one: address 5, two inputs and outputs, one Aux, two bytes of configuration.
   void initialise() {
     write_word(regs::kMode0, regs::kMode0DpMode);
-    write_all(regs::kOrg, {5, 0xFF, 20, 0, 2, 8,  9, 10, 2, 11, 12, 13, 0, 0, 6, 6, 14, 15,   16,
-                           0, 0,    16, 0, 0, 18, 0, 20, 0, 22, 2,  24, 0, 0, 0, 0, 0,  0x34, 0x12});
+    write_all(regs::kOrg, {5, 25, 20, 0, 2, 8,  9, 10, 2, 11, 12, 13, 0, 0, 6, 6, 14, 15,   16,
+                           0, 0,  16, 0, 0, 18, 0, 20, 0, 22, 2,  24, 0, 0, 0, 0, 0,  0x34, 0x12});
+    write(25 << 3, 0xFF);
     write_all(kDout2, {0, 0});
     write(regs::kMode1S, regs::kMode1ResUserWd);
   }

@@ -86,7 +86,7 @@ Fault length_fault(const SeenChip& chip) {
 
 Fault preset_fault(const SeenChip& chip) {
   constexpr Address kReserved[] = {0x22, 0x23, 0x35, 0x36, 0x37, 0x38};
-  if (!chip.is_known(regs::kOrgSapPointer)) return "17H is not set";
+  if (chip.cell(chip.buffer(regs::kOrgSapPointer, 1).begin) != 0xFF) return "17H does not point to FF";
   for (const Address cell : kReserved)
     if (!chip.is_known(cell) || chip.cell(cell) != 0) return fmt::format("{:02X}H is not set to 00", cell);
   return chip.has_res_user_wd() ? "" : "Res_User_Wd is not set";
