@@ -14,7 +14,7 @@ class CheckFeed {
  public:
   /// `bench` must outlive it.
   CheckFeed(Bench& bench, Variant variant)
-      : bench_(bench), monitor_(bench.segment), checks_(checks::Limits(spc3_checks::rules()), variant, script_pins()) {
+      : bench_(bench), monitor_(bench.segment), checks_(limits(), variant, script_pins()) {
     bench.timeline.add(monitor_);
     monitor_.on_telegram = [this](const bus::WireTelegram& telegram) {
       catch_up();
@@ -42,6 +42,12 @@ class CheckFeed {
   std::string texts;
 
  private:
+  /// The tests are short.
+  static checks::Limits limits() {
+    checks::Limits all(spc3_checks::rules());
+    for (const Check each : {Check::kAckTime, Check::kIrqEoi}) all[each].value = 2 * bus::kTicksPerMs;
+    return all;
+  }
   void catch_up() {
     const auto& trace = bench_.twins.trace;
     const auto& events = bench_.twins.events;
