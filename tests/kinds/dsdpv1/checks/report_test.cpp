@@ -87,7 +87,7 @@ TEST_F(ChecksOfTheProgram, UnknownWordIsRefusedInOneLine) {
 }
 
 TEST(ChecksDocument, IsWhatTheTableSays) {
-  EXPECT_TRUE(read(DSDPV1_SOURCE_DIR "/docs/checks.md") == call("reasons --checks").out)
+  EXPECT_TRUE(read(DSDPV1_SOURCE_DIR "/docs/checks.md") == call("reasons --checks", DSDPV1_SOURCE_DIR).out)
       << "docs/checks.md is stale: ./run generate";
 }
 
