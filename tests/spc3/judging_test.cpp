@@ -271,6 +271,15 @@ TEST(Judging, Vpc3RefusesReservedBitsOfParameters) {
   }
 }
 
+TEST(Judging, DisStopIsReportedAndCheckCfgWaitsForParameters) {
+  Bench bench;
+  bench.to_wait_prm();
+  EXPECT_EQ(kind_of(bench.check_cfg()), "RS") << "A52";
+  bench.set_prm({0xFA});
+  EXPECT_EQ(bench.count(Reason::kDisStop), 1) << "A21";
+  EXPECT_EQ(bench.state(), DpState::kWaitCfg) << "other bits of byte 7 are not checked";
+}
+
 // --- Set_Slave_Address -----------------------------------------------------------------------------------------------
 
 TEST(Judging, AnAddressIsTakenInsideAndGoesToTheUser) {

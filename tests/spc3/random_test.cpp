@@ -7,7 +7,7 @@
 namespace dsdpv1::spc3_test {
 namespace {
 
-/// Accesses in the middle of telegrams.
+/// Accesses and saved states in the middle of telegrams.
 class Meddler : public bus::Agent {
  public:
   Meddler(Bench& bench, std::mt19937& random) : bench_(bench), random_(random) {}
@@ -16,8 +16,9 @@ class Meddler : public bus::Agent {
     plan();
   }
   Tick next() const override { return left_ > 0 ? at_ : bus::kNever; }
-  void run(Tick /*now*/) override {
+  void run(Tick now) override {
     --left_;
+    bench_.twins.compare(now);  // also a saved state in the middle of a telegram
     if (random_() % 2 == 0)
       bench_.load(static_cast<spc3::Address>(random_() % 0x18));
     else

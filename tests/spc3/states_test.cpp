@@ -73,6 +73,28 @@ TEST_P(EachName, TheEventComesAfterItsDelay) {
   bench.run_ms(1);
 }
 
+TEST(States, DelaysOfAnSpc3With24MhzAreTwiceAsLong) {
+  spc3::Config config;
+  config.clock = 24;
+  Bench bench(Variant::kSpc3, config);
+  bench.to_data_ex();
+  bench.acknowledge(0xFFFF);
+  bench.set_mode1(regs::kMode1Eoi);
+  bench.run_cycles(100);
+  const auto telegram = bus::make_telegram(5, 2, 0x6D, {1, 2});
+  const bus::Exchange sent = bench.requester.send(bench.timeline, telegram, {.wants_answer = false});
+  const Cycle decided = sent.request_end / profibus::kTicksPerCycle + 3 + 4 + 1;
+  bench.run_until((decided + 63) * profibus::kTicksPerCycle);
+  EXPECT_FALSE(bench.raised(regs::kEventDxOut));
+  bench.run_cycles(1);
+  EXPECT_TRUE(bench.raised(regs::kEventDxOut)) << "A44";
+  bench.run_cycles(1);
+  EXPECT_EQ(bench.twins.chip().level(Pin::kXInt), 1);
+  bench.run_cycles(1);
+  EXPECT_EQ(bench.twins.chip().level(Pin::kXInt), 0);
+  bench.run_ms(1);
+}
+
 TEST(States, NoInputsNeedNoNewDin) {
   Bench bench;
   Organisation given;
