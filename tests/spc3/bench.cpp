@@ -62,6 +62,7 @@ Twins::Twins(bus::Segment& segment, const spc3::Config& config)
 
 std::uint8_t Twins::load(Cycle cycle, Address address) {
   announce();
+  hear();
   const std::uint8_t value = skip_.load(cycle, address);
   EXPECT_EQ(step_.load(cycle, address), value) << std::hex << address;
   return value;
@@ -69,12 +70,14 @@ std::uint8_t Twins::load(Cycle cycle, Address address) {
 
 void Twins::store(Cycle cycle, Address address, std::uint8_t value) {
   announce();
+  hear();
   skip_.store(cycle, address, value);
   step_.store(cycle, address, value);
 }
 
 void Twins::set(Tick at, Pin pin, spc3::Level level) {
   announce();
+  hear();
   skip_.set(at, pin, level);
   step_.set(at, pin, level);
 }
@@ -84,11 +87,26 @@ void Twins::poke(Address address, std::uint8_t value) {
   step_.poke(address, value);
 }
 
-void Twins::line_changed(Tick at, bool level) { set(at, Pin::kRxd, level ? 1 : 0); }
+void Twins::line_changed(Tick at, bool level) {
+  const profibus::Unheard may_wait = skip_.unheard();
+  if (at < may_wait.from || at >= may_wait.until) return set(at, Pin::kRxd, level ? 1 : 0);
+  unheard_.push_back({at, Pin::kRxd, level ? spc3::Level{1} : spc3::Level{0}});
+  step_.set(at, Pin::kRxd, level ? 1 : 0);
+}
 
-void Twins::run(Tick now) { skip_.advance(now); }
+void Twins::hear() {
+  for (const PinChange& change : unheard_) skip_.hear(change.at, change.level != 0);
+  unheard_.clear();
+}
+
+void Twins::run(Tick now) {
+  hear();
+  skip_.advance(now);
+}
 
 void Twins::compare(Tick at) {
+  announce();
+  hear();
   skip_.advance(at);
   step_.advance(at);
   compare_traces();

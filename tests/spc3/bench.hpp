@@ -33,7 +33,7 @@ struct PinChange {
   spc3::Level level;
 };
 
-/// Both chips, as one station.
+/// Both chips, as one station. The one in skip hears the line as late as it may.
 class Twins : public bus::Agent, public bus::Listener {
  public:
   Twins(bus::Segment& segment, const spc3::Config& config);
@@ -62,11 +62,13 @@ class Twins : public bus::Agent, public bus::Listener {
   static void on_skip_event(void* self, const profibus::Event& event);
   static void on_step_event(void* self, const profibus::Event& event);
   void compare_traces();
+  void hear();
 
   bus::Segment& segment_;
   bus::StationId station_;
   spc3::Chip skip_, step_;
   std::vector<PinChange> step_trace_;
+  std::vector<PinChange> unheard_;  // of RXD, not told to skip_ yet
   std::vector<profibus::Event> step_events_;
   std::size_t compared_pins_ = 0, compared_events_ = 0;
   unsigned comparisons_ = 0;
