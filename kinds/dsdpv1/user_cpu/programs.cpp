@@ -143,7 +143,8 @@ void UserProgram::exchange() {
   dsdpv1_exchange_result result{};
   result.outputs = buffer;
   result.capacity = sizeof buffer;
-  const std::vector<std::uint8_t> inputs = next_inputs();
+  const std::vector<std::uint8_t> inputs =
+      next_inputs_.next(input_length_.value_or(std::uint8_t{0}), outputs_, device_.max_input);
   const bool known = inputs_known();
   const auto length = static_cast<std::uint8_t>(std::min<std::size_t>(inputs.size(), 255));
   static constexpr std::uint8_t kNothing = 0;  // inputs of length 0 are inputs as well
@@ -169,23 +170,7 @@ void UserProgram::poll_acyclic() {
 
 /// Before the master has sent a configuration the length of the inputs is unknown.
 bool UserProgram::inputs_known() const {
-  return set_inputs_ || (input_length_ && options_.inputs != InputSource::kIdle);
-}
-
-std::vector<std::uint8_t> UserProgram::next_inputs() {
-  std::vector<std::uint8_t> inputs;
-  const std::size_t length = input_length_.value_or(std::uint8_t{0});
-  if (set_inputs_) {
-    inputs = *set_inputs_;
-  } else if (options_.inputs == InputSource::kCount) {
-    inputs.assign(length, count_++);
-  } else {
-    inputs = options_.inputs == InputSource::kLoopBack ? outputs_ : options_.constant;
-    inputs.resize(length);
-  }
-  if (std::exchange(wrong_length_, false))
-    inputs.resize(inputs.size() < device_.max_input ? inputs.size() + 1 : inputs.size() - 1);
-  return inputs;
+  return next_inputs_.are_set() || (input_length_ && options_.inputs != InputSource::kIdle);
 }
 
 // ----------------------------------------------------------------------------------------------------------- judging
@@ -247,7 +232,7 @@ void UserProgram::wait_while_stopped() {
   }
 }
 
-void UserProgram::carry_out(const command::SetInputs& set) { set_inputs_ = set.bytes; }
+void UserProgram::carry_out(const command::SetInputs& set) { next_inputs_.set(set.bytes); }
 
 void UserProgram::carry_out(const command::SetDiagnosis& set) {
   const auto length = static_cast<std::uint8_t>(std::min<std::size_t>(set.bytes.size(), 255));
@@ -305,7 +290,7 @@ void UserProgram::carry_out(const command::WrongCrc& wrong) {
   }
 }
 
-void UserProgram::carry_out(const command::WrongLength&) { wrong_length_ = true; }
+void UserProgram::carry_out(const command::WrongLength&) { next_inputs_.spoil_length(); }
 
 void UserProgram::carry_out(const command::SendVerdict& verdict) {
   const auto which = static_cast<std::uint8_t>(verdict.cfg ? DSDPV1_VERDICT_CFG : DSDPV1_VERDICT_PRM);

@@ -16,6 +16,7 @@
 #include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_port.hpp"
 #include "tb/chip/user_cpu/program.hpp"
+#include "tb/chip/user_cpu/program_inputs.hpp"
 
 namespace dsdpv1::user_cpu {
 
@@ -107,7 +108,6 @@ class UserProgram {
   void service();
   void service_if_pending();
   void intr0();
-  std::vector<std::uint8_t> next_inputs();
   bool inputs_known() const;
   dsdpv1_verdict judge(Judgement judgement);
   bool check(dsdpv1_error error, const char* during);
@@ -132,6 +132,7 @@ class UserProgram {
   void carry_out(const command::HostTelegram& telegram);
 
   ProgramOptions options_;
+  ProgramInputs next_inputs_{options_};
   HostPort host_;
   std::deque<DriverCommand> commands_;
   Cpu* cpu_ = nullptr;
@@ -143,10 +144,7 @@ class UserProgram {
   HoldCounters before_start_;
   std::vector<DriverError> errors_;
   std::vector<std::uint8_t> inputs_, outputs_;
-  std::optional<std::vector<std::uint8_t>> set_inputs_;
   std::optional<std::uint8_t> input_length_;
-  std::uint8_t count_ = 0;
-  bool wrong_length_ = false;
   bool stopped_ = false;
 };
 
