@@ -11,14 +11,9 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// Throws for a kind without RTL.
 std::unique_ptr<Rtl> rtl_of(const MakeRtl& make, const tb::ChipKind& kind, const tb::ChipRequest& request) {
-  if (kind.rtl() != nullptr) return make(request.name, kind, request.settings);
-  std::vector<std::string> with_rtl;
-  for (const tb::ChipKind* each : tb::chip_kinds())
-    if (each->rtl() != nullptr) with_rtl.emplace_back(each->name());
-  throw tb::InputError(fmt::format("--engine rtl and lockstep are for chips of the kinds {}, the scenario has {}",
-                                   tb::join(with_rtl), kind.name()));
+  require_rtl(kind);
+  return make(request.name, kind, request.settings);
 }
 
 class RtlExecution : public tb::Execution {
@@ -40,6 +35,15 @@ class RtlExecution : public tb::Execution {
 };
 
 }  // namespace
+
+void require_rtl(const tb::ChipKind& kind) {
+  if (kind.rtl() != nullptr) return;
+  std::vector<std::string> with_rtl;
+  for (const tb::ChipKind* each : tb::chip_kinds())
+    if (each->rtl() != nullptr) with_rtl.emplace_back(each->name());
+  throw tb::InputError(
+      fmt::format("RTL is for chips of the kinds {}, the scenario has {}", tb::join(with_rtl), kind.name()));
+}
 
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
   return std::make_unique<RtlExecution>(std::move(make));

@@ -11,6 +11,9 @@
 
 namespace dsdpv1::cosim {
 
+/// Throws InputError for a kind without RtlOf.
+void require_rtl(const tb::ChipKind& kind);
+
 /// The RTL drives the pins. A core with the same inputs reports states and events, which pins do not show.
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make);
 

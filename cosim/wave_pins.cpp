@@ -71,7 +71,8 @@ std::vector<tb::compare::NamedPair> pairs_of(const PinMap& map, const tb::PinTab
   return pairs;
 }
 
-PinSurroundings::PinSurroundings(const tb::ChipKind& kind) : kind_(kind), watch_(kind.rtl()->watch_memory()) {
+PinSurroundings::PinSurroundings(const tb::ChipKind& kind) : kind_(kind) {
+  if (kind.rtl() != nullptr) watch_ = kind.rtl()->watch_memory();
   for (PinNumber pin = 0; pin < end_of(kind.pins()); ++pin) {
     const tb::PinInfo& info = kind.pins()[pin];
     if (info.bus != nullptr && !info.input) continue;
@@ -84,16 +85,18 @@ void PinSurroundings::change(Tick at, std::size_t number, std::string_view value
   const PinNumber pin = pins_.at(number);
   if (value.size() != static_cast<std::size_t>(kind_.pins()[pin].width)) return;  // another signal with that name
   const Level level = level_of(value);
-  watch_->change(at, pin, level);
+  if (watch_) watch_->change(at, pin, level);
   if (pin == kind_.board_pins().rxd) received_.add(at, level != 0);
   if (pin == kind_.board_pins().txd) sent_.add(at, level != 0);
 }
 
 std::vector<tb::compare::Line> PinSurroundings::lines(Tick now) const {
-  return {{"last telegram", telegram_text(received_, now)},
-          {"last answer", telegram_text(sent_, now)},
-          {"last access", watch_->last_of_user()},
-          {"DPRAM", watch_->last_of_chip()}};
+  std::vector<tb::compare::Line> lines = {{"last telegram", telegram_text(received_, now)},
+                                          {"last answer", telegram_text(sent_, now)}};
+  if (!watch_) return lines;
+  lines.push_back({"last access", watch_->last_of_user()});
+  lines.push_back({"DPRAM", watch_->last_of_chip()});
+  return lines;
 }
 
 }  // namespace dsdpv1::cosim

@@ -15,10 +15,9 @@ namespace dsdpv1::cosim {
 /// wave are left out; outputs must be there, a bus under its own name or that of its output.
 std::vector<tb::compare::NamedPair> pairs_of(const PinMap& map, const tb::PinTable& pins);
 
-/// The last telegrams on both lines, and the last accesses of user and chip.
+/// The last telegrams on both lines, and the last accesses of user and chip if an RtlOf of the kind watches them.
 class PinSurroundings : public tb::compare::Surroundings {
  public:
-  /// The kind must have an RtlOf.
   explicit PinSurroundings(const tb::ChipKind& kind);
   const std::vector<std::string>& pins() const override { return names_; }
   void change(Tick at, std::size_t number, std::string_view value) override;
@@ -28,7 +27,7 @@ class PinSurroundings : public tb::compare::Surroundings {
   const tb::ChipKind& kind_;
   std::vector<PinNumber> pins_;  ///< all except the outputs on a bus, by place in names_
   std::vector<std::string> names_;
-  std::unique_ptr<MemoryWatch> watch_;
+  std::unique_ptr<MemoryWatch> watch_;  ///< null without RtlOf
   LineHistory received_, sent_;
 };
 

@@ -18,6 +18,7 @@
 #include "lab/accept/outcome.hpp"
 #include "lab/accept/plan.hpp"
 #include "tb/bench/bench.hpp"
+#include "tb/chip/chip_kind.hpp"
 #include "tb/report/html/report_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_fields.hpp"
@@ -106,6 +107,14 @@ class Accept : public Command {
     return kPassed;
   }
 
+  /// The stimuli are about a memory that chip and user share.
+  static std::vector<std::string> chips() {
+    std::vector<std::string> names;
+    for (const tb::ChipKind* kind : tb::chip_kinds())
+      if (!kind->busy_times().empty()) names.emplace_back(kind->name());
+    return names;
+  }
+
   /// Fills in what depends on other options; throws tb::InputError.
   void complete() {
     if (order_.program.empty() != native_)
@@ -113,6 +122,7 @@ class Accept : public Command {
                                    : "dsdpv1-sim accept: PROGRAM is missing (dsdpv1-sim accept PROGRAM)");
     check_word("dsdpv1-sim accept: --engine", engine_, {"step", "skip"});
     if (order_.chip.empty()) order_.chip = order_.mode.empty() ? "dsdpv1" : "dsdpv1_rsu";
+    check_word("dsdpv1-sim accept: --chip", order_.chip, chips());
     if (order_.gsd.empty()) {
       order_.gsd = std::filesystem::path(data_folder()) / "scenarios" / "dsdpv1.gsd";
       if (order_.modules.empty()) order_.modules = {"2 bytes in", "2 bytes out"};

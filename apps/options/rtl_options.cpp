@@ -10,6 +10,7 @@
 
 #include "apps/data_folder.hpp"
 #include "apps/options/words.hpp"
+#include "cosim/lockstep_execution.hpp"
 #include "io/input/input_error.hpp"
 
 namespace dsdpv1::app {
@@ -110,12 +111,14 @@ void CoverageFile::write() {
 
 cosim::PinMap load_map(const std::string& path, const tb::ChipKind& kind) {
   std::vector<std::string> parameters;
-  for (const cosim::RtlParameter& each : kind.rtl()->parameters(*kind.make_chip_settings()))
-    parameters.emplace_back(each.key);
+  if (kind.rtl() != nullptr)
+    for (const cosim::RtlParameter& each : kind.rtl()->parameters(*kind.make_chip_settings()))
+      parameters.emplace_back(each.key);
   return cosim::load_pin_map(path, kind.pins(), parameters);
 }
 
 cosim::PinMap own_map(const OwnRtlArguments& arguments, const tb::ChipKind& kind) {
+  cosim::require_rtl(kind);
   return arguments.pins.empty() ? cosim::default_pin_map(kind.pins()) : load_map(arguments.pins, kind);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 #include "bus/capture/captured_telegram.hpp"
 #include "io/input/suggest.hpp"
@@ -91,10 +92,17 @@ std::uint32_t Record::number(Wire first, std::size_t count, Tick at) const {
 std::vector<std::size_t> RecordTaker::choose(const std::vector<std::string>& signals) {
   for (std::size_t place = 0; place < table_.size(); ++place) look_for(static_cast<Wire>(place), signals);
   leave_out_lone_data();
-  if (chosen_.empty())
+  if (shows_nothing())
     throw CaptureError("shows no pin of the chip, its signals are " + tb::join(first_of(signals)) +
                        "; expected the names of table 1, or --signal PIN=NAME");
   return places_;
+}
+
+/// Any chip has a RESET, so that pin alone is of another one.
+bool RecordTaker::shows_nothing() const {
+  return std::all_of(
+      chosen_.begin(), chosen_.end(),
+      [this](const Chosen& each) { return std::string_view(table_.at(place_of(each.wire)).name) == "RESET"; });
 }
 
 void RecordTaker::look_for(Wire wire, const std::vector<std::string>& signals) {

@@ -104,6 +104,7 @@ class RecordTaker : public bus::capture::LevelTaker {
                           const std::vector<std::string>& signals) const;
   std::size_t named_place(const WireInfo& wire, const std::vector<std::string>& signals) const;
   void leave_out_lone_data();
+  bool shows_nothing() const;
 
   const WireTable& table_;
   Names names_;
