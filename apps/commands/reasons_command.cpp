@@ -58,9 +58,30 @@ void print_table(std::string& text, const std::string& head, const std::vector<t
                         each.code, each.severity, each.text, each.advice, linked(each.source, "[{}]({})"));
 }
 
-/// The codes of the kind of chip and of the monitor; the checks have a separate page.
+bool has(const std::vector<tb::CodeTable>& tables, const std::string& code) {
+  return std::any_of(
+      tables.begin(), tables.end(),
+      [&code](const tb::CodeTable& table) {
+        return std::any_of(
+            table.codes.begin(), table.codes.end(), [&code](const tb::CodeText& each) { return each.code == code; });
+      });
+}
+
+/// The codes that no table before has.
+void add_codes(std::vector<tb::CodeTable>& tables, const tb::ChipKind& kind) {
+  for (tb::CodeTable table : kind.codes()) {
+    auto& codes = table.codes;
+    codes.erase(std::remove_if(codes.begin(), codes.end(),
+                               [&tables](const tb::CodeText& each) { return has(tables, each.code); }),
+                codes.end());
+    if (!codes.empty()) tables.push_back(std::move(table));
+  }
+}
+
+/// The codes of the kind of chip, of other kinds besides, and of the monitor; the checks have a separate page.
 std::vector<tb::CodeTable> tables_of(const tb::ChipKind& kind) {
   std::vector<tb::CodeTable> tables = kind.codes();
+  for (const tb::ChipKind* other : tb::chip_kinds()) add_codes(tables, *other);
   tables.push_back({"The bus", "Findings of the bus monitor on the line.", tb::scenario::flag_codes()});
   return tables;
 }

@@ -83,7 +83,8 @@ enum {
  * rts_lead and rts_trail (P2), intr_low and intr_gap (P7), search_window_ms, search_window_bits and baud_control_ms
  * (S1), fcb_rule (S26: 0 letter, 1 content). The DSDPV1-RSU adds those of docs/chip_rsu.md; each number of a list is
  * one parameter: "uart_gaps[0]" to "uart_gaps[7]". Its straps are not parameters but the pins MODE, ADR, UBR and UIV,
- * although scenarios have keys for them (mode, address, uart_rate, interval). */
+ * although scenarios have keys for them (mode, address, uart_rate, interval). apc3, spc3 and vpc3 have those of
+ * docs/spc3.md; a word is its place among the words of the key. */
 typedef struct dpsim_parameter_info {
   uint32_t size;
   const char* name;        /**< the key in a scenario's `chip` */

@@ -149,6 +149,8 @@ class ChipKind {
   /// of the slave.
   virtual void check_user(const OwnSettings& /*settings*/, const OwnSettings& /*chip*/, const keys::Source& /*source*/,
                           const std::string& /*slave*/, int /*where*/) const {}
+  /// Throws InputError for what a slave of the scenario has, or the script asks of it, and this chip does not have.
+  virtual void check_slave(const scenario::Scenario& /*scenario*/, const scenario::Slave& /*slave*/) const {}
   /// Throws InputError for an order that has no effect with these settings of the user CPU and the chip; `where` is its
   /// line.
   virtual void check_order(const std::string& /*order*/, const OwnSettings& /*user*/, const OwnSettings& /*chip*/,

@@ -88,6 +88,7 @@ class Checker {
   void check_slave(const Slave& slave) const {
     check_objects(slave.user_cpu.dpv1);
     scenario_.kind->check_user(*slave.user_cpu.own, *scenario_.chip, {scenario_.file}, slave.name.text, slave.line);
+    scenario_.kind->check_slave(scenario_, slave);
     if (slave.gsd.empty() && !slave.modules.empty())
       fail(slave.modules.front().line, "modules without gsd, expected the modules of a GSD file");
     if (!slave.gsd.empty()) return;

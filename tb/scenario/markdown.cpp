@@ -180,19 +180,38 @@ bool has(const Object& object, const std::string& key) {
   return false;
 }
 
-/// Keys of `own` that `usual` does not have; empty: none.
-std::string keys_besides(const Object& usual, const Object& own, const char* kind) {
-  std::vector<const Field*> fields;
-  for (const Field& field : own.fields)
-    if (!has(usual, field.name)) fields.push_back(&field);
-  if (fields.empty()) return {};
-  return fmt::format(
-      "\n## {} of {}\n\nIts additional keys.\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n{}", own.name,
-      kind, rows(fields));
+/// Objects of the kinds before: what one of them has alike is not repeated.
+using Before = std::vector<std::pair<const char*, const Object*>>;
+
+/// The kind before that has this key alike; null: none.
+const char* kind_with(const Field& field, const Before& before) {
+  for (const auto& [kind, object] : before) {
+    const Field* other = object->find(field.name);
+    if (other != nullptr && row(*other) == row(field)) return kind;
+  }
+  return nullptr;
 }
 
-std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
+/// Keys of `own` that `usual` does not have; empty: none.
+std::string keys_besides(const Object& usual, const Object& own, const char* kind, const Before& before = {}) {
+  std::vector<const Field*> fields;
+  const char* alike = nullptr;
+  for (const Field& field : own.fields) {
+    if (has(usual, field.name)) continue;
+    const char* const other = kind_with(field, before);
+    other == nullptr ? fields.push_back(&field) : static_cast<void>(alike = other);
+  }
+  std::string text = fmt::format("\n## {} of {}\n\nIts additional keys", own.name, kind);
+  if (fields.empty()) return alike == nullptr ? "" : fmt::format("{} are those of {}.\n", text, alike);
+  if (alike != nullptr) text += fmt::format(", beside those of {}", alike);
+  return text + ".\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows(fields);
+}
+
+std::string orders_besides(const ChipKind& usual, const ChipKind& kind, const std::vector<const ChipKind*>& before) {
   std::vector<Choice> choices;
+  for (const ChipKind* other : before)
+    if (&other->orders() == &kind.orders() && !kind.orders().empty())
+      return fmt::format("\n## actions of {}\n\nIts additional actions are those of {}.\n", kind.name(), other->name());
   for (const Order& order : kind.orders()) {
     bool known = false;
     for (const Order& other : usual.orders()) known |= other.choice.word == order.choice.word;
@@ -208,9 +227,14 @@ std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
 }
 
 /// Additional keys in scenarios with chips of another kind.
-std::string besides(const ChipKind& usual, const ChipKind& kind) {
-  std::string text = keys_besides(usual.chip_keys(), kind.chip_keys(), kind.name()) +
-                     keys_besides(usual.user_keys(), kind.user_keys(), kind.name()) +
+std::string besides(const ChipKind& usual, const ChipKind& kind, const std::vector<const ChipKind*>& before) {
+  Before chips, users;
+  for (const ChipKind* other : before) {
+    chips.emplace_back(other->name(), &other->chip_keys());
+    users.emplace_back(other->name(), &other->user_keys());
+  }
+  std::string text = keys_besides(usual.chip_keys(), kind.chip_keys(), kind.name(), chips) +
+                     keys_besides(usual.user_keys(), kind.user_keys(), kind.name(), users) +
                      keys_besides(check_keys(usual), check_keys(kind), kind.name());
   std::vector<const Object*> known, own;
   collect(usual.user_keys(), known);
@@ -218,7 +242,7 @@ std::string besides(const ChipKind& usual, const ChipKind& kind) {
   for (const Object* object : own)
     if (object != &kind.user_keys() && std::find(known.begin(), known.end(), object) == known.end())
       text += section(*object);
-  return text + orders_besides(usual, kind);
+  return text + orders_besides(usual, kind, before);
 }
 
 }  // namespace
@@ -228,8 +252,12 @@ std::string markdown(const ChipKind& kind) {
   collect(description(kind), objects);
   std::string text = kIntroduction;
   for (const Object* object : objects) text += section(*object);
-  for (const ChipKind* other : chip_kinds())
-    if (other != &kind) text += besides(kind, *other);
+  std::vector<const ChipKind*> before;
+  for (const ChipKind* other : chip_kinds()) {
+    if (other == &kind) continue;
+    text += besides(kind, *other, before);
+    before.push_back(other);
+  }
   return text;
 }
 

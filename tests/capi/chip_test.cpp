@@ -81,15 +81,14 @@ TEST(CapiChip, ChipsInTwoThreadsDoWhatEachDoesAlone) {
 }
 
 TEST(CapiChip, PinsOfTheRegistryAreThoseOfTheHeaderAndOfTable1) {
-  ASSERT_EQ(dpsim_kind_count(), 3U);
-  EXPECT_STREQ(dpsim_kind_name(0), "dsdpv1");
-  EXPECT_STREQ(dpsim_kind_name(1), "dsdpv1_r");
-  EXPECT_STREQ(dpsim_kind_name(2), "dsdpv1_rsu");
-  EXPECT_EQ(dpsim_kind_name(3), nullptr);
+  const char* const kinds[] = {"dsdpv1", "dsdpv1_r", "dsdpv1_rsu", "apc3", "spc3", "vpc3"};
+  ASSERT_EQ(dpsim_kind_count(), std::size(kinds));
+  for (size_t i = 0; i < std::size(kinds); ++i) EXPECT_STREQ(dpsim_kind_name(i), kinds[i]);
+  EXPECT_EQ(dpsim_kind_name(std::size(kinds)), nullptr);
   EXPECT_EQ(dpsim_pin_count("dsdpv1_r"), static_cast<size_t>(dsdpv1::kPinCount));
   EXPECT_EQ(dpsim_pin_count("dsdpv1_rsu"), static_cast<size_t>(dsdpv1::kRsuPinCount));
   ASSERT_EQ(dpsim_pin_count("dsdpv1"), static_cast<size_t>(dsdpv1::kPinCount));
-  EXPECT_EQ(dpsim_pin_count("spc3"), 0U);
+  EXPECT_EQ(dpsim_pin_count("spc9"), 0U);
   const dsdpv1::Chip fresh;
   for (size_t i = 0; i < dpsim_pin_count(nullptr); ++i) {
     const auto pin = static_cast<Pin>(i);

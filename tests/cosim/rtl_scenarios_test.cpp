@@ -25,7 +25,8 @@ std::vector<std::string> scenarios(bool long_ones) {
   constexpr bus::Tick kLongest = 120 * bus::kTicksPerMs;
   std::vector<std::string> names = shipped_scenarios();
   const auto is_other = [long_ones](const std::string& name) {
-    return (tb::scenario::load(DSDPV1_SOURCE_DIR "/scenarios/" + name + ".yaml").end > kLongest) != long_ones;
+    const tb::scenario::Scenario scenario = tb::scenario::load(DSDPV1_SOURCE_DIR "/scenarios/" + name + ".yaml");
+    return scenario.kind->rtl() == nullptr || (scenario.end > kLongest) != long_ones;
   };
   names.erase(std::remove_if(names.begin(), names.end(), is_other), names.end());
   return names;

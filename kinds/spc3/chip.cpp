@@ -1,0 +1,77 @@
+#include "kinds/spc3/chip.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace dsdpv1::tb {
+namespace {
+
+using spc3::Pin;
+
+constexpr PinNumber number(Pin pin) { return static_cast<PinNumber>(pin); }
+
+const char* rulings_of(Pin pin) {
+  switch (pin) {
+    case Pin::kTxd: return "S11, S13, S14, S20, A28, A39";
+    case Pin::kRts: return "P2, S11";
+    case Pin::kXInt: return "A12, A13, A40";
+    case Pin::kXDataExch: return "A24, A35";
+    default: return "";
+  }
+}
+
+}  // namespace
+
+/// A slash in a name parts the scopes of a wave, and no HDL has it.
+const PinTable& spc3_pins() {
+  static const PinTable table = [] {
+    PinTable pins;
+    for (int i = 0; i < spc3::kPinCount; ++i) {
+      const auto pin = static_cast<Pin>(i);
+      const bool input = (spc3::mask(pin) & spc3::kOutputPins) == 0;
+      const bool line = pin == Pin::kRxd || pin == Pin::kTxd;
+      pins.push_back({pin == Pin::kXInt ? "X_INT" : spc3::name(pin), 1, input, nullptr, line, false, rulings_of(pin)});
+    }
+    return pins;
+  }();
+  return table;
+}
+
+const BoardPins kSpc3BoardPins = {number(Pin::kReset), number(Pin::kRxd), number(Pin::kTxd), number(Pin::kRts),
+                                  number(Pin::kXInt)};
+
+void Spc3Device::watch(const PinSink& sink, PinMask pins) {
+  sink_ = sink;
+  chip_.watch({[](void* self, Tick at, Pin pin, Level level) {
+                 const PinSink& to = static_cast<Spc3Device*>(self)->sink_;
+                 to.call(to.self, at, number(pin), level);
+               },
+               this},
+              sink.call == nullptr ? 0 : pins);
+}
+
+Spc3PinChip::Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, PinMask watched,
+                         bus::Segment& segment, bool late)
+    : PinChip(name, std::move(device), spc3_pins(), kSpc3BoardPins, watched, segment, late),
+      core_(dynamic_cast<Spc3Device*>(device_.get())) {}
+
+spc3::Chip& Spc3PinChip::advanced(Tick at) {
+  device().advance(at);
+  return core_->chip();
+}
+
+std::uint8_t Spc3PinChip::load(Tick at, std::uint16_t address) {
+  const std::uint8_t value = advanced(at).load(at / profibus::kTicksPerCycle, address);
+  plan_again();
+  if (wanted_.actions) listener_->action(number_, at, fmt::format("read {:03X}: {:02X}", address, value));
+  return value;
+}
+
+void Spc3PinChip::store(Tick at, std::uint16_t address, std::uint8_t value) {
+  advanced(at).store(at / profibus::kTicksPerCycle, address, value);
+  plan_again();
+  if (wanted_.actions) listener_->action(number_, at, fmt::format("write {:03X} = {:02X}", address, value));
+}
+
+}  // namespace dsdpv1::tb

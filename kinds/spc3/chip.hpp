@@ -1,0 +1,70 @@
+#pragma once
+// A chip of the SPC3 family on the segment: its core as a device with numbered pins, the enumerators of spc3::Pin, its
+// wiring on a board, and its register call for the user CPU.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kinds/spc3/inside_watch.hpp"
+#include "kinds/spc3/user_cpu/register_call.hpp"
+#include "model/spc3/chip.hpp"
+#include "tb/chip/pin_chip.hpp"
+
+namespace dsdpv1::tb {
+
+const PinTable& spc3_pins();
+extern const BoardPins kSpc3BoardPins;
+
+class Spc3Device : public PinDevice {
+ public:
+  explicit Spc3Device(const spc3::Config& config) : chip_(config) {}
+
+  void set(Tick at, PinNumber pin, Level level) override { chip_.set(at, static_cast<spc3::Pin>(pin), level); }
+  void advance(Tick to) override { chip_.advance(to); }
+  Tick now() const override { return chip_.now(); }
+  Tick next_event() const override { return chip_.next_event(); }
+  Level level(PinNumber pin) const override { return chip_.level(static_cast<spc3::Pin>(pin)); }
+  Level sample(Tick /*at*/) override { return kLevelZ; }  // no data bus yet
+  void watch(const PinSink& sink, PinMask pins) override;
+  void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
+  profibus::Unheard unheard() const override { return chip_.unheard(); }
+  void hear(Tick at, bool level) override { chip_.hear(at, level); }
+
+  ChipStatus status() const override { return common_status(chip_.status()); }
+  std::uint8_t address() const override { return chip_.address(); }
+  std::uint8_t peek(std::uint16_t address) const override { return chip_.peek(address); }
+  void poke(std::uint16_t address, std::uint8_t value) override { chip_.poke(address, value); }
+  void look_inside(Tick now, std::size_t number, ChipListener& listener) override {
+    inside_.look(now, chip_, number, listener);
+  }
+
+  std::vector<std::uint8_t> save() const override { return chip_.save(); }
+  void restore(const std::uint8_t* bytes, std::size_t size) override { chip_.restore(bytes, size); }
+
+  spc3::Chip& chip() { return chip_; }
+
+ private:
+  spc3::Chip chip_;
+  PinSink sink_;
+  Spc3Inside inside_;
+};
+
+class Spc3PinChip : public PinChip, private spc3_user::RegisterCall {
+ public:
+  Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, PinMask watched, bus::Segment& segment,
+              bool late);
+
+  /// RESET is high-active.
+  void set_reset(Tick at, bool released) override { PinChip::set_reset(at, !released); }
+  /// Null for RTL, which has no register call.
+  user_cpu::UserSide* user_side() override { return core_ == nullptr ? nullptr : static_cast<RegisterCall*>(this); }
+
+ private:
+  std::uint8_t load(Tick at, std::uint16_t address) override;
+  void store(Tick at, std::uint16_t address, std::uint8_t value) override;
+  spc3::Chip& advanced(Tick at);
+
+  Spc3Device* const core_;
+};
+
+}  // namespace dsdpv1::tb

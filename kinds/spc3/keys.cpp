@@ -1,0 +1,206 @@
+// The keys of the SPC3 family in a scenario, and what a scenario with these chips must not ask for.
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "io/input/input_error.hpp"
+#include "io/input/units.hpp"
+#include "kinds/spc3/settings.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+using keys::ObjectOf;
+using keys::Range;
+using spc3::Variant;
+using Words = std::vector<keys::WordFor<std::uint32_t>>;
+using ChipKeys = ObjectOf<Spc3Settings>;
+
+/// A parameter with words; all others are integers.
+struct WordKey {
+  const char* text;
+  Words words;
+};
+
+const WordKey* word_key(std::string_view parameter) {
+  static const std::map<std::string_view, WordKey> all = {
+      {"fcb_rule",
+       {"Which request with FCV = 1 is a repetition (S26).",
+        {{0, "letter", "the same SA and FCB as the request before"},
+         {1, "content", "the same telegram as the request before"}}}},
+      {"violation",
+       {"An access beyond the RAM (A3).",
+        {{0, "offline", "the chip goes OFFLINE"}, {1, "status_only", "it only sets the status bit"}}}},
+      {"address_cells",
+       {"Time at which the cells 16 and 39 hold (A5).", {{0, "start", "at START"}, {1, "live", "always"}}}},
+      {"prm7", {"The judge of a Set_Prm of seven bytes (A20).", {{0, "chip", ""}, {1, "user", ""}}}},
+      {"prm_reserved",
+       {"Reserved bits of a Set_Prm (A21).",
+        {{0, "fault", "Prm_Fault, unless mode register 2 allows them"}, {1, "ignore", "not checked"}}}},
+      {"prm_taken",
+       {"Begin of the effect of a Set_Prm (A49).",
+        {{0, "receipt", "when it is received"}, {1, "verdict", "with the user's ok (S15)"}}}},
+      {"ssa_cells",
+       {"The cells 16 and 39 after a Set_Slave_Address (A23).",
+        {{0, "keep", "unchanged"}, {1, "write", "written by the chip"}}}},
+      {"data_ex", {"Begin of DATA_EX (A24).", {{1, "new_din", "with the first inputs"}, {2, "cfg_ok", "with Cfg ok"}}}},
+      {"fresh_56", {"A repeated read of the inputs is composed again (A28).", {{0, "no", ""}, {1, "yes", ""}}}},
+      {"baud_control",
+       {"Time of BAUD_CONTROL (A31).", {{0, "square", "value x value x 10 ms"}, {1, "linear", "value x 10 ms"}}}},
+      {"tsdr_at_search",
+       {"min_TSDR at each begin of the search (A33).",
+        {{0, "default", "the default again"}, {1, "keep", "unchanged"}}}},
+      {"diag_bytes",
+       {"The six standard bytes of a diagnosis (A39).",
+        {{0, "ram", "written into its buffer"}, {1, "answer", "only sent"}}}},
+      {"clock",
+       {"The clock in MHz; with 24 event_delay and int_delay double (A44).", {{24, "24", ""}, {48, "48", ""}}}},
+      {"empty_data",
+       {"Empty data with Spec_Clear_Mode (A46).",
+        {{0, "clear", "Clear"}, {1, "by_prm", "Clear only with byte 7 bit 6 of Set_Prm"}}}},
+      {"diag_flag_by", {"The master whose read ends Diag_Flag (A51).", {{0, "holder", ""}, {1, "any", ""}}}},
+      {"type", {"The type in the status register (A1).", {{11, "B", ""}, {12, "C", ""}, {14, "E", ""}}}}};
+  const auto found = all.find(parameter);
+  return found == all.end() ? nullptr : &found->second;
+}
+
+/// Some parameters are those of one chip only.
+bool has_parameter(Variant variant, std::string_view name) {
+  if (name == "clock") return variant == Variant::kSpc3;
+  if (name == "type" || name == "prm_reserved") return variant == Variant::kVpc3;
+  return true;
+}
+
+void add_parameter(ChipKeys& o, Variant variant, const char* key, std::uint32_t spc3::Config::*member, Range range,
+                   const char* unit, const char* text) {
+  if (!has_parameter(variant, key)) return;
+  const WordKey* words = word_key(key);
+  if (words == nullptr) {
+    o.integer(key, member, range, unit, text);
+    return;
+  }
+  keys::Field& field = o.word(key, member, words->words, words->text);
+  if (field.default_text.empty()) field.default_text = row(variant).exchanges_at_cfg_ok ? "cfg_ok" : "new_din";  // A24
+}
+
+ChipKeys chip_keys_of(Variant variant) {
+  ChipKeys o("chip", "The parameters of the chip that its rulings mark (p) (docs/spc3.md), for all slaves.");
+#define SPC3_PARAMETER(name, initial, least, most, unit, ruling, text) \
+  add_parameter(o, variant, #name, &spc3::Config::name, {least, most}, unit, text " (" ruling ").");
+#include "model/spc3/parameters.inc"
+  return o;
+}
+
+}  // namespace
+
+const keys::Object& spc3_chip_keys(Variant variant) {
+  static const std::array<ChipKeys, spc3::kVariants.size()> all = {
+      chip_keys_of(Variant::kApc3), chip_keys_of(Variant::kSpc3), chip_keys_of(Variant::kVpc3)};
+  return all.at(static_cast<std::size_t>(variant));
+}
+
+const keys::Object& spc3_user_keys() {
+  using spc3_user::Mode;
+  static const ObjectOf<Spc3User> keys = [] {
+    using U = Spc3User;
+    const Range short_time = {0, bus::kTicksPerMs};
+    ObjectOf<U> o("user_cpu", "The processor that runs the user program, and its bus to the chip.");
+    o.word(
+        "mode", &U::mode,
+        std::vector<keys::WordFor<Mode>>{{Mode::kInterrupt, "interrupt", "X/INT calls a handler, which judges"},
+                                         {Mode::kPolled, "polled", "the main loop reads the requests in each cycle"}},
+        "How the program gets the chip's events.");
+    o.time("access", &U::access, {1, bus::kTicksPerMs},
+           "An access to one byte with the instructions round it. It takes effect at its end (A16).");
+    o.time("interrupt_latency", &U::interrupt_latency, short_time,
+           "From X/INT to the first instruction of its handler.");
+    o.integer("wd_baud_control", &U::wd_baud_control, {1, 255}, "",
+              "WD_BAUD_CONTROL_Val, cell 0A: a baud rate without telegrams ends after value x value x 10 ms (A31).");
+    o.integer("user_wd", &U::user_watchdog, {1, 0xFFFF}, "data telegrams",
+              "User watchdog, cells 18 and 19: the program serves it in each cycle (A34).");
+    return o;
+  }();
+  return keys;
+}
+
+spc3::Config spc3_config_of(const ChipRequest& request) {
+  spc3::Config config = static_cast<const spc3::Config&>(static_cast<const Spc3Settings&>(request.settings));
+  config.engine = request.engine == Engine::kStep || request.inside ? spc3::Engine::kStep : spc3::Engine::kSkip;
+  return config;
+}
+
+namespace {
+
+using user_cpu::command::OfChip;
+
+std::string said_go_offline(const OfChip&) { return "Go_Offline"; }
+std::string said_leave_master(const OfChip&) { return "User_Leave_Master"; }
+std::string said_write(const OfChip& order) { return "writes " + bytes_text(order.bytes); }
+std::string said_read(const OfChip& order) { return "reads " + bytes_text(order.bytes); }
+
+}  // namespace
+
+const std::vector<Order>& spc3_orders() {
+  static const std::vector<Order> orders = {
+      {{spc3_user::kGoOffline,
+        "The user CPU writes Go_Offline (A55). The program begins again when MAC_Reset comes.",
+        {"slave"},
+        {}},
+       said_go_offline},
+      {{spc3_user::kLeaveMaster, "The user CPU writes User_Leave_Master.", {"slave"}, {}}, said_leave_master},
+      {{spc3_user::kWriteChip,
+        "The user CPU writes to the chip: `bytes` are the address, high byte first, and the values from there on.",
+        {"slave", "bytes"},
+        {}},
+       said_write},
+      {{spc3_user::kReadChip,
+        "The user CPU reads a byte of the chip: `bytes` are its address, high byte first. Some reads are commands.",
+        {"slave", "bytes"},
+        {}},
+       said_read}};
+  return orders;
+}
+
+// --- what these chips do not have ------------------------------------------------------------------------------------
+
+namespace {
+
+[[noreturn]] void refuse(const scenario::Scenario& scenario, int line, const std::string& what, const char* instead) {
+  throw InputError(scenario.file, line, fmt::format("{}, but a {} {}", what, scenario.kind->name(), instead));
+}
+
+void check_settings(const scenario::Scenario& scenario, const scenario::Slave& slave) {
+  constexpr const char* kNoDpv1 = "has no DPV1, expected none of it";
+  if (slave.init.dpv1) refuse(scenario, slave.init.line, "dpv1 is true", kNoDpv1);
+  for (const keys::Given& key : slave.user_cpu.given) {
+    if (key.key == "dpv1") refuse(scenario, key.line, "user_cpu has dpv1", kNoDpv1);
+    if (key.key == "overwrite_inputs" && !slave.user_cpu.overwrite_inputs)
+      refuse(scenario, key.line, "overwrite_inputs is false", "does not tell whether inputs were taken, expected true");
+  }
+}
+
+void check_action(const scenario::Scenario& scenario, const scenario::Action& action) {
+  using scenario::ActionKind;
+  const std::size_t least = action.word == spc3_user::kWriteChip ? 3 : action.word == spc3_user::kReadChip ? 2 : 0;
+  if (action.bytes.size() < least)
+    throw InputError(scenario.file, action.line,
+                     fmt::format("bytes has {} bytes, expected two of the address{}", action.bytes.size(),
+                                 least == 3 ? " and one or more values" : ""));
+  if (action.what == ActionKind::kWrongLength)
+    refuse(scenario, action.line, action.word, "has one length of inputs, expected other actions");
+  if (action.what == ActionKind::kAnswerAcyclic)
+    refuse(scenario, action.line, action.word, "has no DPV1, expected other actions");
+}
+
+}  // namespace
+
+void check_spc3_slave(const scenario::Scenario& scenario, const scenario::Slave& slave) {
+  check_settings(scenario, slave);
+  for (const scenario::Action& action : scenario.script)
+    if (action.slave.text == slave.name.text) check_action(scenario, action);
+}
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,115 @@
+#include "kinds/spc3/kind.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "kinds/spc3/chip.hpp"
+#include "kinds/spc3/settings.hpp"
+#include "kinds/spc3/user_cpu/native_user.hpp"
+#include "model/spc3/reasons.hpp"
+#include "tb/bench/program_options.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+using spc3::Variant;
+
+class Spc3Kind : public ChipKind {
+ public:
+  explicit Spc3Kind(Variant variant) : variant_(variant) {}
+
+  const char* name() const override { return row(variant_).name; }
+  const char* title() const override { return row(variant_).title; }
+  const PinTable& pins() const override { return spc3_pins(); }
+  const BoardPins& board_pins() const override { return kSpc3BoardPins; }
+  int cells() const override { return row(variant_).ram_size; }
+
+  const keys::Object& chip_keys() const override { return spc3_chip_keys(variant_); }
+  std::unique_ptr<OwnSettings> make_chip_settings() const override {
+    auto settings = std::make_unique<Spc3Settings>();
+    settings->variant = variant_;
+    return settings;
+  }
+  const keys::Object& user_keys() const override { return spc3_user_keys(); }
+  std::unique_ptr<OwnSettings> make_user_settings() const override { return std::make_unique<Spc3User>(); }
+  void check_slave(const scenario::Scenario& scenario, const scenario::Slave& slave) const override {
+    check_spc3_slave(scenario, slave);
+  }
+  std::string place_of(const std::string& init_key) const override;
+  const std::vector<Order>& orders() const override { return spc3_orders(); }
+
+  const std::vector<profibus::Reason>& reasons() const override {
+    static const std::vector<profibus::Reason> all = spc3::reasons();
+    return all;
+  }
+  std::string describe(const profibus::Event& event) const override { return spc3::describe(event); }
+  const std::vector<CodeTable>& codes() const override { return spc3_codes(); }
+  const std::vector<PinGroup>& pin_groups() const override {
+    static const std::vector<PinGroup> groups = {{"line", {"RXD", "TXD", "RTS"}},
+                                                 {"user", {"RESET", "X_INT", "XDATAEXCH"}}};
+    return groups;
+  }
+  const std::vector<InnerSignal>& inner_signals() const override { return Spc3Inside::signals(); }
+
+  std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {
+    return std::make_unique<Spc3Device>(spc3_config_of(request));
+  }
+  std::unique_ptr<PinChip> make_pin_chip(const ChipRequest& request, std::unique_ptr<PinDevice> device,
+                                         bus::Segment& segment) const override {
+    return std::make_unique<Spc3PinChip>(request.name, std::move(device), request.watched, segment, request.late);
+  }
+  MakeUser make_user(const UserRequest& request) const override;
+
+ private:
+  const Variant variant_;
+};
+
+/// Addresses of docs/spc3.md, hexadecimal.
+std::string Spc3Kind::place_of(const std::string& init_key) const {
+  static const std::map<std::string, const char*> places = {{"ident", "cells 3A, 3B"},
+                                                            {"max_inputs", "cell 1E at first"},
+                                                            {"max_outputs", "cell 1A at first"},
+                                                            {"max_diag", "cells 24, 25; 32 without it and a GSD"},
+                                                            {"max_prm", "cells 28, 29; 32 without it and a GSD"},
+                                                            {"max_cfg", "cells 28, 29; 32 without it"},
+                                                            {"cfg", "the Read_Cfg buffer"},
+                                                            {"set_slave_address", "cell 2E, 00: no"},
+                                                            {"freeze", "mode register 0 bit 7"},
+                                                            {"sync", "mode register 0 bit 6"},
+                                                            {"fail_safe", "mode register 0 bit 13"}};
+  const auto found = places.find(init_key);
+  return found == places.end() ? "" : found->second;
+}
+
+/// The RAM does not hold the longest blocks: what neither scenario nor GSD limits has this many bytes.
+constexpr std::uint8_t kUsualBlock = 32;
+
+user_cpu::StationConfig within_ram(user_cpu::StationConfig station, const scenario::Slave& slave) {
+  const bool unlimited = slave.gsd.empty();
+  if (unlimited && !slave.init.max_diag) station.max_diag = kUsualBlock;
+  if (unlimited && !slave.init.max_prm) station.max_prm = kUsualBlock;
+  if (!slave.init.max_cfg) station.max_cfg = std::max(kUsualBlock, static_cast<std::uint8_t>(station.cfg.size()));
+  return station;
+}
+
+MakeUser Spc3Kind::make_user(const UserRequest& request) const {
+  const auto& own = static_cast<const Spc3User&>(*request.slave.user_cpu.own);
+  spc3_user::FirmwareOptions firmware = own;
+  firmware.vpc3 = variant_ == Variant::kVpc3;
+  auto& chip = static_cast<spc3_user::RegisterCall&>(*request.chip.user_side());
+  return [&slave = request.slave, &own, firmware, &chip](const user_cpu::StationConfig& station, Tick start) {
+    return std::make_unique<spc3_user::NativeUser>(chip, own, firmware,
+                                                   program_options(slave.user_cpu, within_ram(station, slave)), start);
+  };
+}
+
+}  // namespace
+
+const ChipKind& kind_of(Variant variant) {
+  static const std::array<Spc3Kind, spc3::kVariants.size()> kinds = {Spc3Kind(Variant::kApc3), Spc3Kind(Variant::kSpc3),
+                                                                     Spc3Kind(Variant::kVpc3)};
+  return kinds.at(static_cast<std::size_t>(variant));
+}
+
+}  // namespace dsdpv1::tb

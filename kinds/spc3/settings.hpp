@@ -1,0 +1,30 @@
+#pragma once
+// Settings in a scenario for a chip of the SPC3 family: its parameters, and the user CPU.
+#include "kinds/spc3/user_cpu/native_cpu.hpp"
+#include "kinds/spc3/user_cpu/program.hpp"
+#include "model/spc3/config.hpp"
+#include "tb/chip/chip_kind.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace dsdpv1::tb {
+
+struct Spc3Settings : OwnSettings, spc3::Config {};
+
+struct Spc3User : OwnSettings, spc3_user::CpuTiming, spc3_user::FirmwareOptions {};
+
+// The keys (ChipKind::chip_keys, user_keys).
+const keys::Object& spc3_chip_keys(spc3::Variant variant);
+const keys::Object& spc3_user_keys();
+
+/// ChipKind::orders.
+const std::vector<Order>& spc3_orders();
+/// ChipKind::check_slave.
+void check_spc3_slave(const scenario::Scenario& scenario, const scenario::Slave& slave);
+
+/// The chip's parameters, with the engine of the request.
+spc3::Config spc3_config_of(const ChipRequest& request);
+
+/// ChipKind::codes.
+const std::vector<CodeTable>& spc3_codes();
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+"""The SPC3 family with every command: each row of ROWS does what its cell of docs/spc3_use.md says.
+
+    combinations_test.py DSDPV1_SIM [NUMBER...]   all rows, or these; compares the page's table, too
+    combinations_test.py --table                  prints the table of docs/spc3_use.md
+
+Needs DSDPV1_LIBRARY for the C API and Python.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[4]
+PAGE = ROOT / "docs/spc3_use.md"
+KINDS = ("apc3", "spc3", "vpc3")
+SCENARIO = """name: x
+baud: 12M
+end: 12ms
+chip: {kind: %s}
+slaves:
+  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: "31"}, user_cpu: {behaviour: constant, constant: "A1 A2"}}
+masters:
+  - {name: plc, address: 2, start: 2ms, slaves: [{slave: io, outputs: "01 02"}]}
+expect:
+  - {slave: io, dp_state: data_exch, outputs: "01 02", by: 11ms}
+"""
+FAILURES = []
+
+
+class Cell:
+    """One kind in its own folder."""
+
+    def __init__(self, simulator, kind, folder):
+        self.simulator, self.kind, self.folder = simulator, kind, folder
+        (folder / "x.yaml").write_text(SCENARIO % kind, encoding="utf-8")
+
+    def sim(self, *words):
+        return subprocess.run([self.simulator, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False)
+
+    def passes(self, *words):
+        done = self.sim(*words)
+        self.expect(words, done.returncode, 0, done.stdout[-1000:] + done.stderr)
+        return done
+
+    def is_refused(self, text, *words):
+        done = self.sim(*words)
+        self.expect(words, (done.returncode, done.stderr.count("\n"), text in done.stderr), (2, 1, True), done.stdout[-500:] + done.stderr)
+
+    def expect(self, what, seen, wanted, said=""):
+        if seen != wanted:
+            FAILURES.append(f"{self.kind}, {what}: {seen} instead of {wanted}\n{said}")
+
+    def read(self, name):
+        return (self.folder / name).read_bytes()
+
+
+def engines(cell):
+    for engine in ("skip", "step"):
+        cell.passes("run", "x.yaml", "-q", "--engine", engine, "--log", f"{engine}.log", "--trace", f"{engine}.trace")
+    cell.expect("logs", cell.read("step.log"), cell.read("skip.log"))
+    cell.expect("traces", cell.read("step.trace"), cell.read("skip.trace"))
+
+
+def outputs(cell):
+    cell.passes("run", "x.yaml", "-q", "--wave", "x.vcd", "--capture", "x.pcapng", "--result", "x.json", "--report", "x.html", "--junit", "x.xml")
+    wave = cell.read("x.vcd").decode()
+    cell.expect("pins in the wave", [pin for pin in ("RESET", "RXD", "TXD", "RTS", "X_INT", "XDATAEXCH") if f" {pin} " not in wave], [])
+    cell.expect("state in the result", json.loads(cell.read("x.json"))["slaves"][0]["dp_state"], "DATA_EXCH")
+
+
+def inside(cell):
+    cell.passes("run", "x.yaml", "-q", "--engine", "step", "--wave", "x.vcd", "--wave-inside")
+    wave = cell.read("x.vcd").decode()
+    for word in ("sD1\\x20N-\\x20U2\\x20F3", "sWAIT_CFG", "sDATA_EX", "sBAUD_CONTROL"):
+        cell.expect("named states", word in wave or word.replace("\\x20", "_") in wave, True, word)
+
+
+def saved(cell):
+    cell.passes("run", "x.yaml", "-q", "--log", "whole.log", "--save-at", "8ms", "x.run")
+    cell.passes("run", "--restore", "x.run", "-q")
+
+
+def golden(cell):
+    (cell.folder / "goldens").mkdir()
+    cell.passes("traces", "regenerate", "x.yaml", "--folder", "goldens", "--no-progress")
+    for engine in ("skip", "step"):
+        cell.passes("traces", "check", "x.yaml", "--folder", "goldens", "--no-progress", "--engine", engine)
+
+
+def replay(cell):
+    cell.passes("run", "x.yaml", "-q", "--capture", "x.pcapng")
+    done = cell.passes("replay", "x.pcapng", "--as", "5", "--scenario", "x.yaml", "--no-progress")
+    cell.expect("replay", done.stdout.rstrip().rpartition("\n")[2].startswith("EQUAL"), True, done.stdout[-500:])
+
+
+def campaigns(cell):
+    cell.passes("sweep", "x.yaml", "--param", "user_cpu.cycle=50us,200us", "--out", "sweep", "--no-progress", "-q", "--jobs", "1")
+    cell.passes("regress", "x.yaml", "--no-progress", "--jobs", "1")
+
+
+def serve(cell):
+    cell.passes("serve", "x.yaml", "--tcp", "0", "--for", "12ms")
+
+
+def without_chip(cell):
+    cell.passes("run", "x.yaml", "-q", "--wave", "a.vcd", "--capture", "x.pcapng")
+    cell.passes("compare", "a.vcd", "a.vcd")
+    cell.passes("decode", "x.pcapng")
+    cell.passes("gsd", ROOT / "scenarios/dsdpv1.gsd")
+
+
+def c_api_and_python(cell):
+    import dsdpv1  # pylint: disable=import-outside-toplevel  # the table needs none
+    cell.expect("Python", dsdpv1.run(cell.folder / "x.yaml").verdict, "PASSED")
+    chip = dsdpv1.Chip(cell.kind)
+    chip.poke(0x50, 0xA5)
+    cell.expect("peek", chip.peek(0x50), 0xA5)
+    cell.expect("buffers after RESET", (chip.peek(0x08), chip.peek(0x0A), chip.peek(0x0C)), (0xE1, 0xE1, 0x09))
+
+
+def systemc(cell):
+    cell.is_refused(f"--view tlm is not for chips of the kind {cell.kind}", "run", "x.yaml", "--view", "tlm")
+
+
+def rtl(cell):
+    for engine in ("rtl", "lockstep"):
+        cell.is_refused(f"the scenario has {cell.kind}", "run", "x.yaml", "--engine", engine)
+    cell.is_refused(f"the scenario has {cell.kind}", "cosim", "x.yaml", "--rtl", ".", "--top", "x")
+
+
+def random_rtl(cell):
+    for command in (("rtl-random",), ("rtl-faults",), ("verify-rtl", "--rtl", ".", "--top", "x")):
+        cell.is_refused(f"--chip is {cell.kind}, expected dsdpv1", *command, "--chip", cell.kind)
+
+
+def board(cell):
+    cell.is_refused("unknown key kind", "run", "x.yaml", "--set", "user_cpu.kind=arm")
+    cell.is_refused("--gdb needs a slave whose user_cpu has kind: arm", "run", "x.yaml", "--gdb", "0")
+
+
+def accept(cell):
+    cell.is_refused(f"--chip is {cell.kind}, expected dsdpv1", "accept", "--native", "--chip", cell.kind)
+
+
+def calibrate(cell):
+    cell.passes("run", "x.yaml", "-q", "--wave", "x.vcd")
+    cell.is_refused("shows no pin of the chip", "calibrate", "x.vcd")
+
+
+def not_there(cell):
+    cell.is_refused("has no DPV1", "run", "x.yaml", "--set", "slaves.io.init.dpv1=true")
+    cell.is_refused("does not tell whether inputs were taken", "run", "x.yaml", "--set", "user_cpu.overwrite_inputs=false")
+    for action, why in (("do: wrong_length", "has one length of inputs"), ("do: answer_acyclic, answering: never", "has no DPV1"),
+                        ("do: hold_dpram, for: 1us", "hold_dpram"), ("do: write_chip, bytes: 06 00", "expected two of the address and one or more values")):
+        text = SCENARIO % cell.kind + f"script: [{{at: 1ms, slave: io, {action}}}]\n"
+        (cell.folder / "y.yaml").write_text(text, encoding="utf-8")
+        cell.is_refused(why, "run", "y.yaml")
+
+
+ROWS = [  # what, how, the function
+    ("`run --engine skip`, `step`", "yes", engines),
+    ("`--wave`, `--log`, `--trace`, `--capture`, `--result`, `--report`, `--junit`", "yes", outputs),
+    ("`--wave-inside`", "states of MAC, DP, watchdog and buffers in words", inside),
+    ("`--save`, `--restore`, `--rewind-on`", "yes", saved),
+    ("`traces`, `--golden`", "yes", golden),
+    ("`replay`", "with `--scenario`; without it the model is a DSDPV1", replay),
+    ("`sweep`, `regress`", "yes", campaigns),
+    ("`serve`", "yes", serve),
+    ("`compare`, `decode`, `gsd`", "yes: about lines and files", without_chip),
+    ("C API, Python", "scenarios; a chip with its line, `peek` and `poke`", c_api_and_python),
+    ("`--view tlm`, SystemC modules", "refused: there is none", systemc),
+    ("`--engine rtl`, `lockstep`, `cosim`", "refused: no reference RTL", rtl),
+    ("`rtl-random`, `rtl-faults`, `verify-rtl`", "refused: no random users", random_rtl),
+    ("ARM board, host process, `--gdb`", "refused: `user_cpu` has no `kind`", board),
+    ("`accept`", "refused: its stimuli are for firmware of a DSDPV1", accept),
+    ("`calibrate`", "refused: the pins are not those of a DSDPV1", calibrate),
+    ("DPV1, `wrong_length`, `overwrite_inputs: false`, `hold_dpram`", "refused: the chips have none of it", not_there),
+]
+
+
+def table():
+    return "".join(["| with the SPC3 family | works |\n|---|---|\n", *(f"| {what} | {how} |\n" for what, how, _ in ROWS)])
+
+
+def check_page():
+    found = re.search(r"<!-- combinations -->\n(.*?)<!-- /combinations -->", PAGE.read_text(encoding="utf-8"), re.S)
+    if not found or found.group(1) != table():
+        FAILURES.append(f"{PAGE}: its table is not that of --table")
+
+
+def main():
+    if sys.argv[1] == "--table":
+        print(table(), end="")
+        return 0
+    wanted = [ROWS[int(number)] for number in sys.argv[2:]] or ROWS
+    check_page()
+    for what, _, carry_out in wanted:
+        for kind in KINDS:
+            with tempfile.TemporaryDirectory() as folder:
+                carry_out(Cell(sys.argv[1], kind, pathlib.Path(folder)))
+        print(what, flush=True)
+    print("\n".join(FAILURES))
+    return 1 if FAILURES else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
