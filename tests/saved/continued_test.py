@@ -24,7 +24,7 @@ TICKS = {"ms": 12_000_000, "us": 12_000, "s": 12_000_000_000}
 TICKS_PER_CYCLE = 250
 # Scenario and options.
 FEW = (("bus_timing", ("--set", "masters.0.slaves.0.outputs=random")), ("two_slaves", ("--checks", "off")), ("rsu_spi_limits", ("--engine", "step")),
-       ("rsu_uart_1m8432", ()), ("rsu_uart_460k8", ("--view", "tlm")), ("violations", ()), ("arm_board_12m", ()), ("arm_board_12m", ("--view", "tlm")))
+       ("rsu_uart_1m8432", ()), ("rsu_uart_460k8", ("--view", "tlm")), ("violations", ()), ("spc3_services", ()), ("arm_board_12m", ()), ("arm_board_12m", ("--view", "tlm")))
 
 
 def ticks_of(text):
