@@ -74,8 +74,9 @@ bool has_parameter(Variant variant, std::string_view name) {
   return true;
 }
 
-void add_parameter(ChipKeys& o, Variant variant, const char* key, std::uint32_t spc3::Config::*member, Range range,
-                   const char* unit, const char* text) {
+void add_parameter(  // NOLINT(readability-function-size): as the macro has it
+    ChipKeys& o, Variant variant, const char* key, std::uint32_t spc3::Config::*member, Range range, const char* unit,
+    const char* text) {
   if (!has_parameter(variant, key)) return;
   const WordKey* words = word_key(key);
   if (words == nullptr) {

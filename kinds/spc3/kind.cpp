@@ -46,7 +46,7 @@ class Spc3Kind : public ChipKind {
   std::string describe(const profibus::Event& event) const override { return spc3::describe(event); }
   const std::vector<CodeTable>& codes() const override { return spc3_codes(); }
   const std::vector<PinGroup>& pin_groups() const override {
-    static const std::vector<PinGroup> groups = {{"line", {"RXD", "TXD", "RTS"}},
+    static const std::vector<PinGroup> groups = {{"line", {"RXD", "TXD", "RTS", "XCTS"}},
                                                  {"user", {"RESET", "X_INT", "XDATAEXCH"}}};
     return groups;
   }
@@ -95,7 +95,7 @@ user_cpu::StationConfig within_ram(user_cpu::StationConfig station, const scenar
 
 MakeUser Spc3Kind::make_user(const UserRequest& request) const {
   const auto& own = static_cast<const Spc3User&>(*request.slave.user_cpu.own);
-  spc3_user::FirmwareOptions firmware = own;
+  auto firmware = static_cast<const spc3_user::FirmwareOptions&>(own);
   firmware.vpc3 = variant_ == Variant::kVpc3;
   auto& chip = static_cast<spc3_user::RegisterCall&>(*request.chip.user_side());
   return [&slave = request.slave, &own, firmware, &chip](const user_cpu::StationConfig& station, Tick start) {

@@ -67,7 +67,7 @@ def engines(cell):
 def outputs(cell):
     cell.passes("run", "x.yaml", "-q", "--wave", "x.vcd", "--capture", "x.pcapng", "--result", "x.json", "--report", "x.html", "--junit", "x.xml")
     wave = cell.read("x.vcd").decode()
-    cell.expect("pins in the wave", [pin for pin in ("RESET", "RXD", "TXD", "RTS", "X_INT", "XDATAEXCH") if f" {pin} " not in wave], [])
+    cell.expect("pins in the wave", [pin for pin in ("RESET", "RXD", "TXD", "RTS", "XCTS", "X_INT", "XDATAEXCH") if f" {pin} " not in wave], [])
     cell.expect("state in the result", json.loads(cell.read("x.json"))["slaves"][0]["dp_state"], "DATA_EXCH")
 
 
