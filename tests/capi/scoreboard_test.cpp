@@ -220,7 +220,7 @@ TEST(CapiScoreboard, WrongCallsSayWhatIsAllowed) {
   EXPECT_EQ(dpsim_scoreboard_create(nullptr, &options, &made), DPSIM_ERR_ARGUMENT);
   EXPECT_EQ(std::string(dpsim_error_message()).find("dpsim_scoreboard_create: tolerance is -1, expected 0 to "), 0U);
   auto model = sized<dpsim_chip_options>();
-  model.kind = "spc3";
+  model.kind = "spc9";
   EXPECT_EQ(dpsim_scoreboard_create(&model, nullptr, &made), DPSIM_ERR_NOT_FOUND);
   EXPECT_EQ(made, nullptr);
   dpsim_scoreboard_result unsized{};
