@@ -63,15 +63,21 @@ spc3::Chip& Spc3PinChip::advanced(Tick at) {
 
 std::uint8_t Spc3PinChip::load(Tick at, std::uint16_t address) {
   const std::uint8_t value = advanced(at).load(at / profibus::kTicksPerCycle, address);
-  plan_again();
-  if (wanted_.actions) listener_->action(number_, at, fmt::format("read {:03X}: {:02X}", address, value));
+  report({at, address, value, false});
   return value;
 }
 
 void Spc3PinChip::store(Tick at, std::uint16_t address, std::uint8_t value) {
   advanced(at).store(at / profibus::kTicksPerCycle, address, value);
+  report({at, address, value, true});
+}
+
+void Spc3PinChip::report(const user_cpu::RegisterAccess& access) {
   plan_again();
-  if (wanted_.actions) listener_->action(number_, at, fmt::format("write {:03X} = {:02X}", address, value));
+  if (wanted_.reads) listener_->accessed(number_, access);
+  if (!wanted_.actions) return;
+  const char* const words = access.write ? "write {:03X} = {:02X}" : "read {:03X}: {:02X}";
+  listener_->action(number_, access.at, fmt::format(fmt::runtime(words), access.address, access.value));
 }
 
 }  // namespace dsdpv1::tb

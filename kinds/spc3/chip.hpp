@@ -9,6 +9,7 @@
 #include "kinds/spc3/user_cpu/register_call.hpp"
 #include "model/spc3/chip.hpp"
 #include "tb/chip/pin_chip.hpp"
+#include "tb/chip/user_cpu/register_access.hpp"
 
 namespace dsdpv1::tb {
 
@@ -63,6 +64,7 @@ class Spc3PinChip : public PinChip, private spc3_user::RegisterCall {
   std::uint8_t load(Tick at, std::uint16_t address) override;
   void store(Tick at, std::uint16_t address, std::uint8_t value) override;
   spc3::Chip& advanced(Tick at);
+  void report(const user_cpu::RegisterAccess& access);
 
   Spc3Device* const core_;
 };

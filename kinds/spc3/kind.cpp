@@ -4,6 +4,8 @@
 #include <array>
 #include <map>
 
+#include "kinds/spc3/checks/check.hpp"
+#include "kinds/spc3/checks/checks.hpp"
 #include "kinds/spc3/chip.hpp"
 #include "kinds/spc3/settings.hpp"
 #include "kinds/spc3/user_cpu/native_user.hpp"
@@ -51,6 +53,13 @@ class Spc3Kind : public ChipKind {
     return groups;
   }
   const std::vector<InnerSignal>& inner_signals() const override { return Spc3Inside::signals(); }
+
+  const checks::RuleTable& rules() const override { return spc3_checks::rules(); }
+  PinMask checked_pins() const override { return spc3_checks::Checks::kPins; }
+  std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
+                                                  const OwnSettings* /*chip*/) const override {
+    return std::make_unique<spc3_checks::Checks>(limits, variant_, spc3_pins());
+  }
 
   std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {
     return std::make_unique<Spc3Device>(spc3_config_of(request));

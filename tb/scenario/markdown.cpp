@@ -228,14 +228,15 @@ std::string orders_besides(const ChipKind& usual, const ChipKind& kind, const st
 
 /// Additional keys in scenarios with chips of another kind.
 std::string besides(const ChipKind& usual, const ChipKind& kind, const std::vector<const ChipKind*>& before) {
-  Before chips, users;
+  Before chips, users, checked;
   for (const ChipKind* other : before) {
     chips.emplace_back(other->name(), &other->chip_keys());
     users.emplace_back(other->name(), &other->user_keys());
+    checked.emplace_back(other->name(), &check_keys(*other));
   }
   std::string text = keys_besides(usual.chip_keys(), kind.chip_keys(), kind.name(), chips) +
                      keys_besides(usual.user_keys(), kind.user_keys(), kind.name(), users) +
-                     keys_besides(check_keys(usual), check_keys(kind), kind.name());
+                     keys_besides(check_keys(usual), check_keys(kind), kind.name(), checked);
   std::vector<const Object*> known, own;
   collect(usual.user_keys(), known);
   collect(kind.user_keys(), own);

@@ -71,6 +71,13 @@ def outputs(cell):
     cell.expect("state in the result", json.loads(cell.read("x.json"))["slaves"][0]["dp_state"], "DATA_EXCH")
 
 
+def checks(cell):
+    cell.passes("run", "x.yaml", "-q", "--checks", "fail")
+    done = cell.sim("run", "x.yaml", "--no-progress", "--set", "checks.ACK_TIME.max=1ns")
+    cell.expect("a limit that no user keeps", (done.returncode, "ACK_TIME" in done.stdout), (1, True), done.stdout[-1000:] + done.stderr)
+    cell.passes("run", "x.yaml", "-q", "--set", "checks.ACK_TIME.max=1ns", "--checks", "off")
+
+
 def inside(cell):
     cell.passes("run", "x.yaml", "-q", "--engine", "step", "--wave", "x.vcd", "--wave-inside")
     wave = cell.read("x.vcd").decode()
@@ -163,6 +170,7 @@ def not_there(cell):
 ROWS = [  # what, how, the function
     ("`run --engine skip`, `step`", "yes", engines),
     ("`--wave`, `--log`, `--trace`, `--capture`, `--result`, `--report`, `--junit`", "yes", outputs),
+    ("`--checks`", "[their own](checks.md#the-checks-of-the-spc3-family)", checks),
     ("`--wave-inside`", "states of MAC, DP, watchdog and buffers in words", inside),
     ("`--save`, `--restore`, `--rewind-on`", "yes", saved),
     ("`traces`, `--golden`", "yes", golden),
