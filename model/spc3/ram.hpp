@@ -33,8 +33,9 @@ class Ram {
   void set_cell(Address address, std::uint8_t value) { bytes_[address] = value; }
   unsigned word(Address low) const { return cell(low) | static_cast<unsigned>(cell(low + 1)) << 8; }
   void swap_cells(Address a, Address b) { std::swap(bytes_[a], bytes_[b]); }
-  /// The first byte of the buffer to which a cell points (a segment); `bytes` after it do not wrap within a segment.
+  /// The first byte of the buffer to which a cell points.
   int buffer(Address pointer) const { return cell(pointer) << shift_; }
+  /// The 8 bytes of a segment, none of which is beyond the end.
   std::uint8_t* segment(int address) { return &bytes_[checked(address)]; }
 
   /// The address that is accessed instead of one beyond the end.
