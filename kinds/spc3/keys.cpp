@@ -175,6 +175,8 @@ namespace {
 
 void check_settings(const scenario::Scenario& scenario, const scenario::Slave& slave) {
   constexpr const char* kNoDpv1 = "has no DPV1, expected none of it";
+  if (slave.init.prm_mode > 2 || slave.init.cfg_mode > 2)
+    throw InputError(scenario.file, slave.init.line, "prm_mode or cfg_mode is above 2, expected 0, 1 or 2");
   if (slave.init.dpv1) refuse(scenario, slave.init.line, "dpv1 is true", kNoDpv1);
   for (const keys::Given& key : slave.user_cpu.given) {
     if (key.key == "dpv1") refuse(scenario, key.line, "user_cpu has dpv1", kNoDpv1);

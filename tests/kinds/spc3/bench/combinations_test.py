@@ -159,6 +159,7 @@ def calibrate(cell):
 
 def not_there(cell):
     cell.is_refused("has no DPV1", "run", "x.yaml", "--set", "slaves.io.init.dpv1=true")
+    cell.is_refused("expected 0, 1 or 2", "run", "x.yaml", "--set", "slaves.io.init.cfg_mode=3")
     cell.is_refused("does not tell whether inputs were taken", "run", "x.yaml", "--set", "user_cpu.overwrite_inputs=false")
     for action, why in (("do: wrong_length", "has one length of inputs"), ("do: answer_acyclic, answering: never", "has no DPV1"),
                         ("do: hold_dpram, for: 1us", "hold_dpram"), ("do: write_chip, bytes: 06 00", "expected two of the address and one or more values")):
