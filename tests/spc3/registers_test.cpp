@@ -182,6 +182,11 @@ TEST(UserTimer, ComesEachMillisecondOrTenOfSpc3AndVpc3) {
       EXPECT_FALSE(bench.raised(regs::kEventUserTimer));
       bench.run_cycles(1);
       EXPECT_EQ(bench.raised(regs::kEventUserTimer), variant != Variant::kApc3) << "A36";
+      bench.set_mode1(regs::kMode1GoOffline);
+      bench.run_cycles(2);
+      bench.acknowledge(regs::kEventUserTimer);
+      bench.run_ms(2 * ms);
+      EXPECT_FALSE(bench.raised(regs::kEventUserTimer)) << "not OFFLINE";
     }
   }
 }
