@@ -21,6 +21,9 @@ constexpr const char* kRates[] = {"12M", "6M", "3M", "1.5M", "500k", "187.5k", "
 // A row of table 30: each bit of RmEntry::bits implies the one before it.
 constexpr const char* kRmStates[] = {"not in use", "in use", "in use, connected", "in use, connected, exchanging"};
 
+// Telegrams that a user judges or takes.
+constexpr const char* kBlocks[] = {"Set_Prm", "Check_Cfg", "Set_Slave_Address"};
+
 constexpr std::uint16_t kNone = 0xFFFF;  // kNoSap in 16 bits
 
 // Ticks of 1/12 ns in the unit that leaves 1 to 999: "10.000 ns", "2.700 us".
@@ -32,8 +35,8 @@ std::string time_text(unsigned ticks) {
   return digits.insert(digits.size() - 3, ".") + (is_long ? " us" : " ns");
 }
 
-// `format` is empty for decimal, "4x" for four hexadecimal digits, "ns" for a time, "state", "rate" and "rm" for their
-// names, "sap" for a number or "none"; "high" and "low" are the bytes, the low one also as "low2x".
+// `format` is empty for decimal, "4x" for four hexadecimal digits, "ns" for a time, "state", "rate", "rm" and "block"
+// for their names, "sap" for a number or "none"; "high" and "low" are the bytes, the low one also as "low2x".
 std::string field_text(std::uint16_t value, const std::string& format) {
   if (format.empty()) return std::to_string(value);
   if (format == "ns") return time_text(value);
@@ -41,6 +44,7 @@ std::string field_text(std::uint16_t value, const std::string& format) {
   if (format == "state") return kStates[value % std::size(kStates)];
   if (format == "rate") return kRates[value % std::size(kRates)];
   if (format == "rm") return kRmStates[(value & 1) + (value >> 1 & 1) + (value >> 2 & 1)];
+  if (format == "block") return kBlocks[value % std::size(kBlocks)];
   if (format == "high") return std::to_string(value >> 8);
   if (format.rfind("low", 0) == 0) return field_text(value & 0xFF, format.substr(3));
   constexpr const char* kDigits = "0123456789ABCDEF";

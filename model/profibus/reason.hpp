@@ -17,9 +17,9 @@ enum class Severity : std::uint8_t {
 // X(identifier, severity, stable code, source, text, advice). The source: rulings of docs/chip.md and docs/chip_rsu.md
 // (S6) and clauses of docs/conformance.md (T19-4) that make the chip say this, separated by commas. The text may hold
 // {a}, {b}, {c} (decimal), {a:4x} (hexadecimal, 4 digits), {a:ns} (ticks of 1/12 ns, as a time), {a:state} (of DP),
-// {a:rate} (of baud), {a:sap} (a SAP or none), {a:rm} (a row of the RM registry), {a:high} and {a:low} (its bytes),
-// {a:low2x}. Text and advice may hold names of words.inc, as {sync}, replaced by the chip's words. docs/reasons.md
-// explains each reason of the chip; it comes from the tables.
+// {a:rate} (of baud), {a:sap} (a SAP or none), {a:rm} (a row of the RM registry), {a:block} (a telegram for the user),
+// {a:high} and {a:low} (its bytes), {a:low2x}. Text and advice may hold names of words.inc, as {sync}, replaced by the
+// chip's words. docs/reasons.md explains each reason of the chip; it comes from the tables.
 struct ReasonRow {
   Severity severity;
   const char *code, *source, *text, *advice;
