@@ -94,6 +94,7 @@ void Lockstep::set(Tick at, PinNumber pin, Level level) {
   advance(at);
   if (model_->level(pin) == level) return;
   note(at, Side::kInput, pin, level);
+  if (options_.keeps_inputs && !difference_) keep_input(at, pin, level);
   watch_change(at, pin, level);
   model_->set(at, pin, level);
   rtl_.set(at, pin, level);
@@ -102,6 +103,19 @@ void Lockstep::set(Tick at, PinNumber pin, Level level) {
 void Lockstep::note(Tick at, Side side, PinNumber pin, Level level) {
   history_.add(at, side, pin, level);
   if (on_pin_) on_pin_(at, side, pin, level);
+}
+
+void Lockstep::keep_input(Tick at, PinNumber pin, Level level) {
+  constexpr std::size_t kMost = 1'000'000;  // as in a stimulus file
+  const tb::BoardPins& places = kind_.board_pins();
+  if (pin == places.rxd) {
+    if (model_->level(places.rts) != 0 || (level != 0 && !others_low_)) return;
+    others_low_ = level == 0;
+  }
+  inputs_.push_back({at, pin, level});
+  if (inputs_.size() < kMost) return;
+  inputs_.clear();
+  options_.keeps_inputs = false;
 }
 
 void Lockstep::watch_change(Tick at, PinNumber pin, Level level) {

@@ -20,6 +20,14 @@ struct LockstepOptions {
   Tolerances tolerances{};
   bool compare_dpram = true;  ///< if the RTL's memory can be read
   int history_cycles = 5000;  ///< shown in the wave of a difference
+  bool keeps_inputs = false;  ///< for Lockstep::inputs
+};
+
+/// A change of an input.
+struct InputChange {
+  Tick at;
+  PinNumber pin;
+  Level level;
 };
 
 using Difference = tb::LockstepDifference;
@@ -76,6 +84,9 @@ class Lockstep : public tb::PinDevice {
   /// The first difference; nothing is compared after it.
   const std::optional<Difference>& difference() const { return difference_; }
   const MatchCounts& counts() const;
+  /// All of them from power-on, without the line while the chip drives it. Empty if they are not wanted, or too
+  /// many.
+  const std::vector<InputChange>& inputs() const { return inputs_; }
   /// Writes the last cycles of both sides; runs them some cycles further, so that the wave also shows what follows a
   /// difference. Listeners are not called for that.
   void write_wave(const std::string& path);
@@ -84,6 +95,7 @@ class Lockstep : public tb::PinDevice {
   void model_changed(Tick at, PinNumber pin, Level level);
   void rtl_changed(Tick at, PinNumber pin, Level level);
   void note(Tick at, Side side, PinNumber pin, Level level);
+  void keep_input(Tick at, PinNumber pin, Level level);
   void watch_change(Tick at, PinNumber pin, Level level);
   bool ends_later() const { return rtl_.ends() == TickEnds::kLater; }
   void look_at_memory(Tick to);
@@ -102,6 +114,8 @@ class Lockstep : public tb::PinDevice {
   History history_;
   std::unique_ptr<MemoryWatch> watch_;
   std::vector<std::uint8_t> image_;  ///< the RTL's memory
+  std::vector<InputChange> inputs_;
+  bool others_low_ = false;  ///< the line, by another station than the chip
   tb::PinSink sink_;
   profibus::EventSink event_sink_;
   std::deque<profibus::Event> events_;  ///< the last ones

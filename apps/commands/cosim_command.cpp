@@ -38,6 +38,10 @@ class Cosim : public Command {
     app.add_option("--wave-to", run_.wave.to, "Only up to this time")->needs(wave)->excludes(replay);
     add_wave_save_option(app, wave_save_, wave);
     add_log_options(app, run_.log, run_.log_whole)->excludes(replay);
+    app.add_option("--stimulus", stimulus_,
+                   "Write what the chip got up to a difference as a stimulus, shortened, if it shows it without the "
+                   "scenario")
+        ->excludes(replay);
     app.add_option("--result", run_.result, "Result, measurements and the first difference as JSON");
     add_checks_option(app, run_.checks)->excludes(replay);
     add_set_option(app, run_.set);
@@ -57,7 +61,7 @@ class Cosim : public Command {
                                                       ? ": a scenario is missing (FILE.yaml, or --replay FILE)"
                                                       : ": expected one of SCENARIO and --replay"));
     run_.scenario = scenario_file(kCosim, run_.scenario);
-    if (!replay_.empty()) return rtl_random(stimulus());
+    if (!replay_.empty()) return rtl_random(arguments_of_stimulus());
     leave_nothing_on_signals();
     RunRequest request{run_, {}, options_of(run_), {}, {}};
     request.scenario = tb::scenario::load(run_.scenario, tb::scenario::parse_settings(run_.set));
@@ -75,7 +79,7 @@ class Cosim : public Command {
 
  private:
   /// The stimulus of --replay, as rtl-random plays it.
-  RtlRandomArguments stimulus() const {
+  RtlRandomArguments arguments_of_stimulus() const {
     RtlRandomArguments stimulus;
     stimulus.command = kCosim;
     stimulus.chip = chip_;
@@ -96,6 +100,7 @@ class Cosim : public Command {
     std::vector<NamedFile> outputs = wave_files(kCosim, run_.wave.file, wave_save_);
     outputs.insert(outputs.end(), {{"--difference", run_.difference},
                                    {"--log", run_.log},
+                                   {"--stimulus", stimulus_},
                                    {"--result", run_.result},
                                    {"--coverage", own_.coverage}});
     check_outputs(kCosim, inputs, outputs);
@@ -105,24 +110,43 @@ class Cosim : public Command {
   int run_own_rtl(RunRequest request, const OwnRtl& own) const {
     cosim::LockstepOptions lockstep;
     lockstep.tolerances = own.map.tolerances;
-    if (run_.wave.file.empty())
-      return run_lockstep(
-                 request, [&own](auto&&...) { return own.make(std::nullopt); }, lockstep)
-          .status;
+    lockstep.keeps_inputs = !stimulus_.empty();
+    if (run_.wave.file.empty()) {
+      LockstepOutcome outcome = run_lockstep(
+          request, [&own](auto&&...) { return own.make(std::nullopt); }, lockstep);
+      write_stimulus(request, std::move(outcome), own);
+      return outcome.status;
+    }
     cosim::JoinedWave wave(run_.wave.file, own_.build);
     const tb::WaveSelection window = request.options.wave.selection;
     request.options.wave.path = wave.model();
     const auto make = [&](const std::string& name, const auto&...) {
       return own.make(wave.trace(name, window.from, window.to));
     };
-    const LockstepOutcome outcome = run_lockstep(request, make, lockstep);
+    LockstepOutcome outcome = run_lockstep(request, make, lockstep);
     wave.finish(outcome.difference);
+    write_stimulus(request, std::move(outcome), own);
     if (wave_save_) write_save_files(run_.wave.file, *request.scenario.kind);
     std::cout << "with the inside   " << run_.wave.file << '\n' << std::flush;
     return outcome.status;
   }
 
+  /// The file of --stimulus.
+  void write_stimulus(const RunRequest& request, LockstepOutcome&& outcome, const OwnRtl& own) const {
+    if (stimulus_.empty() || !outcome.difference) return;
+    const tb::scenario::Scenario& scenario = request.scenario;
+    RtlRandomArguments arguments;
+    arguments.chip.chip = scenario.kind->name();
+    arguments.own = own_;
+    arguments.stimulus = stimulus_;
+    app::write_stimulus(arguments,
+                        {std::move(outcome.inputs), *outcome.difference, scenario.chip,
+                         cosim::chip_settings_of(run_.scenario, run_.set, *scenario.kind, *scenario.chip)},
+                        own);
+  }
+
   RunArguments run_;
+  std::string stimulus_;
   bool wave_save_ = false;  ///< once the wave has both sides, so not the run's
   std::string replay_;      ///< a stimulus file instead of a scenario
   RtlChip chip_;            ///< ... for this kind of chip

@@ -1,10 +1,12 @@
 #pragma once
 // Model and RTL in lockstep without a scenario: of rtl-random, and of cosim, whose stimulus is played so.
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "apps/options/rtl_options.hpp"
+#include "cosim/lockstep.hpp"
 
 namespace dsdpv1::app {
 
@@ -19,6 +21,7 @@ struct RtlRandomArguments {
   std::string difference = "lockstep.vcd";     ///< ... and its wave
   OwnRtlArguments own;                         ///< without a folder: the reference RTL
   std::vector<std::string> set;                ///< chip.KEY=VALUE: parameters of the model
+  std::vector<std::string> told;               ///< the same in a stimulus, which `set` changes
   std::string wave, log, result, tsv;          ///< empty: none
   bool campaign = false;                       ///< all four host ports in turn, kept in `state`
   std::string state = "rtl-campaign";          ///< folder
@@ -28,6 +31,18 @@ struct RtlRandomArguments {
 };
 
 /// Returns the exit code; throws tb::InputError.
-int rtl_random(const RtlRandomArguments& arguments);
+int rtl_random(RtlRandomArguments arguments);
+
+/// The inputs of a scenario's chip up to a difference.
+struct ScenarioInputs {
+  std::vector<cosim::InputChange> changes;
+  cosim::Difference difference;
+  std::shared_ptr<const tb::OwnSettings> chip;
+  std::vector<std::string> set;  ///< the same as texts, for the stimulus
+};
+
+/// Plays these inputs to the RTL as a stimulus. If it shows the same difference, it goes into the file of --stimulus,
+/// shortened.
+void write_stimulus(const RtlRandomArguments& arguments, const ScenarioInputs& inputs, const OwnRtl& own);
 
 }  // namespace dsdpv1::app

@@ -23,6 +23,7 @@
 #include "cosim/random/play_log.hpp"
 #include "cosim/random/play_options.hpp"
 #include "cosim/random/play_wave.hpp"
+#include "cosim/random/recorded_stimulus.hpp"
 #include "cosim/random/stimulus_result.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
@@ -38,9 +39,13 @@ namespace {
 constexpr int kShrinkRuns = 600;
 constexpr std::uint64_t kRound = 5'000'000;  // cycles of a campaign between two records: some seconds
 constexpr const char* kChip = "chip";        // its scope in waves
+constexpr cosim::Tick kNoLimit = cosim::Tick{1} << 50;
 
-cosim::Stimulus read_stimulus(const std::string& path, const tb::ChipKind& kind) {
-  return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path, kind);
+/// With its parameters, which those of the command line change.
+cosim::Stimulus read_stimulus(RtlRandomArguments& arguments) {
+  const std::string text = tb::read_file(arguments.replay, tb::kStimulusFile);
+  arguments.told = cosim::settings_in(text);
+  return cosim::parse_stimulus(text, arguments.replay, arguments.chip.kind());
 }
 
 std::string counts_text(const cosim::MatchCounts& counts) {
@@ -63,7 +68,10 @@ cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
 }
 
 Bench bench_of(const RtlRandomArguments& arguments) {
-  Bench bench{play_options(arguments.chip, arguments.own, arguments.set, arguments.no_dpram), {}, {}, {}};
+  std::vector<std::string> set = arguments.told;
+  set.insert(set.end(), arguments.set.begin(), arguments.set.end());
+  Bench bench{play_options(arguments.chip, arguments.own, set, arguments.no_dpram), {}, {}, {}};
+  if (!arguments.replay.empty()) bench.options.limit = kNoLimit;  // its last action is the end
   if (arguments.own.rtl.empty()) {
     bench.make = reference_of(arguments)(bench.options);
     return bench;
@@ -178,12 +186,13 @@ std::string command_text(const RtlRandomArguments& arguments) {
   return text + fmt::format(" --seed {} --replay {}", arguments.seed, tb::shell_word(arguments.stimulus));
 }
 
-/// Shrinks a case that differs into the file of --stimulus; returns its text.
+/// Shrinks a case that differs into the file of --stimulus, with the parameters that only the file says; returns its
+/// text.
 std::string shrink(const RtlRandomArguments& arguments, const cosim::Stimulus& stimulus, const Bench& bench,
                    tb::OutputFile& file, cosim::StimulusResult& result) {
   std::cout << "shrinking it ...\n" << std::flush;
   const cosim::Stimulus shrunk = cosim::shrink(stimulus, bench.make, kShrinkRuns, bench.options);
-  const std::string text = cosim::to_text(shrunk, *bench.options.kind);
+  const std::string text = cosim::to_text(shrunk, *bench.options.kind, arguments.told);
   file.write(text);
   file.commit();
   result.stimulus = arguments.stimulus;
@@ -308,13 +317,13 @@ void check_files(const RtlRandomArguments& arguments) {
 
 }  // namespace
 
-int rtl_random(const RtlRandomArguments& arguments) {
+int rtl_random(RtlRandomArguments arguments) {
   leave_nothing_on_signals();
   check_files(arguments);
   arguments.chip.port();
   if (arguments.campaign) return campaign_of_all(arguments);
   cosim::Stimulus stimulus;
-  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, arguments.chip.kind());
+  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments);
   CoverageFile coverage(arguments.own);
   const Bench bench = bench_of(arguments);
   if (!arguments.own.rtl.empty())
@@ -334,6 +343,26 @@ int rtl_random(const RtlRandomArguments& arguments) {
   coverage.add(bench.counts);
   coverage.write();
   return status;
+}
+
+void write_stimulus(const RtlRandomArguments& given, const ScenarioInputs& inputs, const OwnRtl& own) {
+  RtlRandomArguments arguments = given;
+  arguments.told = inputs.set;
+  Bench bench{cosim::usual_options(arguments.chip.kind()), [&own] { return own.make(std::nullopt); }, {}, {}};
+  bench.options.chip = inputs.chip;
+  bench.options.limit = kNoLimit;
+  bench.options.lockstep.tolerances = own.map.tolerances;
+  bench.options.reads_back = true;  // as where it is played again, unless the stimulus says that it is alone
+  const cosim::Stimulus stimulus = cosim::recorded_stimulus(inputs.changes, inputs.difference.at, *bench.options.kind);
+  const cosim::PlayResult played = cosim::play(stimulus, bench.make, bench.options);
+  if (inputs.changes.empty() || !played.difference || played.difference->at != inputs.difference.at ||
+      played.difference->what != inputs.difference.what) {
+    std::cout << "as a stimulus     the chip's inputs alone do not show it: the scenario has to be run\n";
+    return;
+  }
+  tb::OutputFile file(arguments.stimulus);
+  cosim::StimulusResult result;
+  shrink(arguments, stimulus, bench, file, result);
 }
 
 namespace {

@@ -178,8 +178,10 @@ LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make, con
     std::string text;
     const bool same = cosim::report(execution, request.arguments.difference, text);
     std::cout << text << std::flush;
-    if (!same) outcome.difference = execution.different()->difference();
-    return same;
+    if (same) return true;
+    outcome.difference = execution.different()->difference();
+    outcome.inputs = execution.different()->inputs();
+    return false;
   };
   outcome.status = run_scenario(request, std::move(made), steps);
   return outcome;

@@ -32,6 +32,7 @@ tb::RunOptions options_of(const RunArguments& arguments);
 struct LockstepOutcome {
   int status = 0;  ///< exit code
   std::optional<cosim::Difference> difference;
+  std::vector<cosim::InputChange> inputs;  ///< of the chip that differs, if LockstepOptions::keeps_inputs
 };
 
 /// Model and the RTL that `make` makes side by side.

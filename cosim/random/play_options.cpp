@@ -2,6 +2,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+
 #include "cosim/random/random_cases.hpp"
 #include "io/input/input_error.hpp"
 #include "tb/scenario/settings.hpp"
@@ -26,6 +28,28 @@ std::shared_ptr<const tb::OwnSettings> chip_settings(const tb::ChipKind& kind, c
   if (const YAML::Node keys = scenario["chip"]; keys.IsDefined())
     tb::keys::read_object(kind.chip_keys(), dynamic_cast<void*>(chip.get()), keys, {"--set"});
   return chip;
+}
+
+std::vector<std::string> chip_settings_of(const std::string& scenario, const std::vector<std::string>& set,
+                                          const tb::ChipKind& kind, const tb::OwnSettings& chip) {
+  const std::string prefix = "chip.";
+  std::vector<std::string> all;
+  const std::vector<std::string>& quick = kind.random()->words().quick;
+  for (const RtlParameter& each : kind.rtl()->parameters(chip)) {
+    const std::string key = prefix + each.key + "=";
+    if (std::any_of(quick.begin(), quick.end(), [&](const std::string& text) { return text.rfind(key, 0) == 0; }))
+      all.push_back(key + std::to_string(each.words.front()));
+  }
+  YAML::Node root = YAML::LoadFile(scenario);
+  for (const tb::scenario::Setting& each : tb::scenario::parse_settings(set)) tb::scenario::apply(each, kind, root);
+  if (!root["chip"].IsMap()) return all;  // only its kind
+  for (const auto& each : root["chip"]) {
+    YAML::Emitter value;
+    value << YAML::Flow << each.second;
+    const std::string key = each.first.as<std::string>();
+    if (key != "kind") all.push_back(prefix + key + "=" + value.c_str());
+  }
+  return all;
 }
 
 PlayOptions usual_options(const tb::ChipKind& kind) {

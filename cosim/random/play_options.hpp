@@ -12,6 +12,11 @@ namespace dsdpv1::cosim {
 /// The settings of a scenario's chip, changed by texts of --set, chip.KEY=VALUE. Throws tb::InputError.
 std::shared_ptr<const tb::OwnSettings> chip_settings(const tb::ChipKind& kind, const std::vector<std::string>& set);
 
+/// The parameters of a scenario, changed by its --set, as texts chip.KEY=VALUE for rtl-random: those that it sets, and
+/// those that quick_options would make short. `chip`: its settings.
+std::vector<std::string> chip_settings_of(const std::string& scenario, const std::vector<std::string>& set,
+                                          const tb::ChipKind& kind, const tb::OwnSettings& chip);
+
 /// The default parameters of scenarios.
 PlayOptions usual_options(const tb::ChipKind& kind = *tb::chip_kinds().front());
 /// ... with short times, for random cases and directed stimuli on the reference RTL.

@@ -325,7 +325,8 @@ class Player {
     if (std::any_of(stimulus.begin(), stimulus.end(), [](const Action& each) { return each.during != nullptr; }))
       for (PinLane* each : {&user_, &board_}) chip_.tell_of_accesses(*each);
     for (Place& place : places_) timeline_.add(*place.lane);
-    if (options.reads_back) {
+    const auto alone = [](const Action& each) { return each.verb == Verb::kAlone; };
+    if (options.reads_back && std::none_of(stimulus.begin(), stimulus.end(), alone)) {
       reader_.emplace(chip_, user_, options);
       chip_.tell(*reader_);
       timeline_.add(*reader_);

@@ -58,6 +58,7 @@ struct HostPort {
 struct Vocabulary {
   std::vector<HostPort> ports = {};            ///< the usual one first
   std::vector<VerbRow> verbs = {};             ///< Verb::kPin, and the kind's own
+  tb::PinMask selects = 0;                     ///< inputs of which one is low during an access of the user
   std::vector<const char*> access_parts = {};  ///< PinDevice::works_on(), at which actions can be aimed
   std::vector<std::string> quick = {};         ///< texts of --set: times so short that every state is reached quickly
   std::string faults = {}, stimuli = {};       ///< paths in the source tree: its list of faults, its directed stimuli

@@ -39,16 +39,24 @@ class Shrinker {
     best_ = candidate;
     return true;
   }
+  /// Where actions begin that are not joined to the one before, and the end.
+  std::vector<std::ptrdiff_t> begins() const {
+    std::vector<std::ptrdiff_t> all;
+    for (std::size_t i = 0; i < best_.size(); ++i)
+      if (!best_[i].joined) all.push_back(static_cast<std::ptrdiff_t>(i));
+    all.push_back(static_cast<std::ptrdiff_t>(best_.size()));
+    return all;
+  }
   /// Removes blocks of actions, from halves down to single ones, from the end to the beginning.
   bool leave_out() {
     const std::size_t before = best_.size();
-    for (std::size_t size = std::max<std::size_t>(1, best_.size() / 2); size > 0 && runs_ > 0; size /= 2) {
-      for (std::size_t end = best_.size(); end > 0 && runs_ > 0; end -= std::min(end, size)) {
+    std::vector<std::ptrdiff_t> at = begins();
+    for (std::size_t size = std::max<std::size_t>(1, (at.size() - 1) / 2); size > 0 && runs_ > 0; size /= 2) {
+      for (std::size_t end = at.size() - 1; end > 0 && runs_ > 0; end -= std::min(end, size)) {
         Stimulus candidate = best_;
-        const std::size_t last = std::min(end, best_.size()), first = last - std::min(last, size);
-        candidate.erase(candidate.begin() + static_cast<std::ptrdiff_t>(first),
-                        candidate.begin() + static_cast<std::ptrdiff_t>(last));
-        try_it(candidate);
+        const std::size_t last = std::min(end, at.size() - 1), first = last - std::min(last, size);
+        candidate.erase(candidate.begin() + at[first], candidate.begin() + at[last]);
+        if (try_it(candidate)) at = begins();
       }
     }
     return best_.size() < before;
@@ -56,6 +64,7 @@ class Shrinker {
   /// Removes wire faults and odd delays that have no effect.
   void simplify() {
     for (std::size_t i = 0; i < best_.size() && runs_ > 0; ++i) {
+      if (best_[i].joined) continue;
       Stimulus candidate = best_;
       candidate[i].faults = {};
       candidate[i].delay = candidate[i].delay / 1000 * 1000;

@@ -20,7 +20,8 @@ const std::vector<VerbRow>& own_verbs() {
       {Verb::kSend, "send", {{"rate", &Action::rate, 0, 9}, {"reply", &Action::reply_bits, 0, 2000}}, nullptr, true},
       {Verb::kSpike, "spike", {{"low", &Action::low, 1, kLongest}}, nullptr},
       {Verb::kReset, "reset", {{"low", &Action::low, 1, kLongest}}, nullptr},
-      {Verb::kSync, "sync", {}, nullptr}};
+      {Verb::kSync, "sync", {}, nullptr},
+      {Verb::kAlone, "alone", {}, nullptr}};
   return verbs;
 }
 
@@ -90,9 +91,10 @@ std::string faults_text(const bus::WireFaults& faults) {
 bool is_aimed(const Action& action) { return action.during != nullptr; }
 
 /// True for verbs of user and board, whose lanes observe the chip.
-bool may_be_aimed(Verb verb) { return verb != Verb::kSend && verb != Verb::kSpike && verb != Verb::kSync; }
+bool may_be_aimed(Verb verb) { return verb == Verb::kReset || verb >= Verb::kPin; }
 
 constexpr const char* kDuring = "during";
+constexpr const char* kSet = "set";
 
 /// "C1_request".
 std::string word_of(const char* part) {
@@ -110,7 +112,7 @@ std::string part_words(const std::vector<const char*>& parts) {
 std::string line_of(const Action& action, const tb::ChipKind& kind) {
   const VerbRow& verb = *find_verb(kind, [&action](const VerbRow& each) { return each.verb == action.verb; });
   std::string line = verb.word;
-  if (action.verb == Verb::kSync) return line;
+  if (action.verb == Verb::kSync || action.verb == Verb::kAlone) return line;
   line += fmt::format(" +{}", action.delay);
   if (action.verb == Verb::kPin) line += fmt::format(" {}", kind.pins()[action.pin].name);
   for (const Field& field : verb.fields) {
@@ -133,7 +135,7 @@ class LineParser {
   /// nullopt for an empty line or a comment.
   std::optional<Action> parse() {
     std::string word;
-    if (!(words_ >> word) || word[0] == '#') return std::nullopt;
+    if (!(words_ >> word) || word[0] == '#' || word == kSet) return std::nullopt;
     verb_ = verb_called(kind_, word);
     if (verb_ == nullptr) fail_verb(word);
     Action action;
@@ -157,7 +159,7 @@ class LineParser {
              fmt::format("--chip {}", other->name()));
     std::string allowed = "send, spike";
     for (const VerbRow& each : words().verbs) allowed += fmt::format(", {}", each.word);
-    fail("unknown action " + word, allowed + ", reset, sync, repeat, end");
+    fail("unknown action " + word, allowed + ", reset, sync, alone, set, repeat, end");
   }
   const Vocabulary& words() const { return kind_.random()->words(); }
   long number(const std::string& text, int base, Tick least, Tick most) const {
@@ -303,11 +305,22 @@ class FileParser {
 
 }  // namespace
 
-std::string to_text(const Stimulus& stimulus, const tb::ChipKind& kind) {
+std::string to_text(const Stimulus& stimulus, const tb::ChipKind& kind, const std::vector<std::string>& set) {
   std::string text =
       "# Stimulus for the lockstep of model and RTL, see docs/cosim.md. Times are ticks of 1/12 ns, 250 a cycle.\n";
+  for (const std::string& each : set) text += fmt::format("{} {}\n", kSet, each);
   for (const Action& action : stimulus) text += line_of(action, kind) + "\n";
   return text;
+}
+
+std::vector<std::string> settings_in(const std::string& text) {
+  std::vector<std::string> all;
+  std::istringstream lines(text);
+  for (std::string line, word, setting; std::getline(lines, line);) {
+    std::istringstream words(line);
+    if (words >> word && word == kSet && std::getline(words >> std::ws, setting)) all.push_back(setting);
+  }
+  return all;
 }
 
 Stimulus parse_stimulus(const std::string& text, const std::string& file, const tb::ChipKind& kind) {

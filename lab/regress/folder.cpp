@@ -82,15 +82,26 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// The words of a run that plays its stimulus, shortened, instead of what has led to it.
-std::vector<std::string> words_of_stimulus(const Run& run, const std::string& stimulus) {
+/// The words of a run that plays its stimulus, shortened, instead of what has led to it. One of a scenario has its
+/// parameters in it.
+std::vector<std::string> words_of_stimulus(const Run& run, const std::string& chip, const std::string& stimulus) {
   Run played = run;
+  if (run.engine == "cosim") {
+    played.options = {"--chip", chip};
+    played.settings.clear();
+  }
   played.engine = "replay";
   played.scenario = stimulus;
   played.seed.clear();
   const auto random = std::find(played.options.begin(), played.options.end(), "--jobs");
   played.options.erase(random, played.options.end());  // and --cycles
   return played.words();
+}
+
+/// A scenario's RTL differs.
+bool differs(const Run& run, const Json& result) {
+  return run.engine == "cosim" && result.is_object() &&
+         result.value("/lockstep/difference"_json_pointer, Json()).is_object();
 }
 
 }  // namespace
@@ -188,7 +199,7 @@ std::vector<std::string> Folder::words(const Run& run) const {
   }
   words.insert(words.end(), {"--result", files / kResult, "--log", files / kLog});
   if (run.has_own_rtl() || run.engine == "lockstep") words.insert(words.end(), {"--difference", files / kDifference});
-  if (run.is_stimulus()) words.insert(words.end(), {"--stimulus", files / kStimulus});
+  if (run.is_stimulus() || run.engine == "cosim") words.insert(words.end(), {"--stimulus", files / kStimulus});
   if (run.engine == "replay") words.emplace_back("--shrink");
   if (run.is_stimulus()) return words;
   if (!run.has_own_rtl()) words.insert(words.end(), {"--quiet", "--no-progress"});
@@ -219,7 +230,7 @@ Outcome Folder::finish(const Run& run, const std::string& key, const Ended& ende
   Outcome outcome = outcome_of(ended, result);
   if (!outcome.passed()) outcome.log = end_of(files / kLog);
   in_folder(folder_, [&] {
-    if (!outcome.passed()) write_again(run);
+    if (!outcome.passed()) write_again(run, differs(run, result));
     keep_counts(run);
     keep_files(run, outcome);
   });
@@ -233,16 +244,19 @@ Outcome Folder::finish(const Run& run, const std::string& key, const Ended& ende
 }
 
 /// A script that plays what differs again, from anywhere; it takes more options.
-void Folder::write_again(const Run& run) const {
+void Folder::write_again(const Run& run, bool differs) const {
   const std::string kept = folder_.item_file(run.file_name());
   const bool has_stimulus = fs::exists(fs::path(place(run)) / kStimulus);
-  std::vector<std::string> words = has_stimulus ? words_of_stimulus(run, kept + "/" + kStimulus) : run.words();
+  std::vector<std::string> words =
+      has_stimulus ? words_of_stimulus(run, description_.rtl.chip, kept + "/" + kStimulus) : run.words();
   if (run.has_own_rtl()) {
     const std::vector<std::string> own = description_.rtl.words();
     words.insert(words.end(), own.begin(), own.end());
     if (run.engine != "golden") words.insert(words.end(), {"--difference", kept + "/" + kDifference});
   }
-  std::string text = fmt::format("#!/bin/sh\ncd {} && exec {}", shell_word(fs::current_path().string()),
+  const char* note =
+      differs && !has_stimulus ? "# The chip's inputs alone, played as a stimulus, do not show it.\n" : "";
+  std::string text = fmt::format("#!/bin/sh\n{}cd {} && exec {}", note, shell_word(fs::current_path().string()),
                                  shell_word(fs::read_symlink("/proc/self/exe").string()));
   for (const std::string& word : words) text += " " + shell_word(word);
   write_file((fs::path(place(run)) / kAgain).string(), text + " \"$@\"\n");

@@ -72,7 +72,7 @@ class Folder {
   void remove(const Run& run) const;
 
  private:
-  void write_again(const Run& run) const;
+  void write_again(const Run& run, bool differs) const;
   void keep_counts(const Run& run) const;
   void keep_files(const Run& run, Outcome& outcome) const;
 

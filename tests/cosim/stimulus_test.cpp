@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"sync\nfly +1\n",
               "my.stimulus:2: unknown action fly, allowed: send, spike, take, give, write, read, block, pin, reset, "
-              "sync, repeat, end"},
+              "sync, alone, set, repeat, end"},
         Wrong{"sync\nspi +0 : 01\n",
               "my.stimulus:2: spi is an action of the DSDPV1-RSU's host, allowed: --chip dsdpv1_rsu"},
         Wrong{"uart +0 rate=7 : 01\n",

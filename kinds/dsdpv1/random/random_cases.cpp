@@ -32,7 +32,8 @@ std::vector<HostPort> ports_of(Part part) {
 }
 
 Vocabulary words_of(Part part) {
-  Vocabulary words{ports_of(part), verbs_of(part), {std::begin(kAccessParts), std::end(kAccessParts)}};
+  const tb::PinMask selects = mask(Pin::kCsr) | (has_serial_ports(part) ? mask(Pin::kXss) : 0);
+  Vocabulary words{ports_of(part), verbs_of(part), selects, {std::begin(kAccessParts), std::end(kAccessParts)}};
   for (const Limit& each : kLimits) words.quick.push_back(setting(each, each.usual));
   if (has_serial_ports(part)) words.quick.emplace_back("chip.u_timer=20000");  // for SPI: some frames
   words.faults = fmt::format("rtl_ref/{}/faults.txt", row(part).rtl);

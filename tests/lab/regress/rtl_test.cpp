@@ -67,6 +67,12 @@ class RegressOwnRtl : public RegressRtl {
     return call("verify-rtl " + arguments + " --rtl own_rtl --top board_chip --pins pins.yaml --no-progress",
                 folder_.path());
   }
+  /// Where a run is kept whose name begins so.
+  std::filesystem::path folder_of(const std::string& run) const {
+    for (const auto& each : std::filesystem::directory_iterator(folder_.file("rtl-verification/runs")))
+      if (each.is_directory() && each.path().filename().string().rfind(run, 0) == 0) return each.path();
+    return {};
+  }
   /// INTR0 falls in it.
   std::string scenario() const { return "'" DSDPV1_SOURCE_DIR "/scenarios/power_on_12m.yaml'"; }
 };
@@ -90,6 +96,12 @@ TEST_F(RegressOwnRtl, IsVerifiedByEachWayAndOnlyWhatAChangeConcernsRunsAgain) {
   const std::string page = app_test::read(folder_.file("rtl-verification/index.html"));
   EXPECT_THAT(page, HasSubstr("sh rtl-verification/runs/power_on_12m.cosim.pins."));
   EXPECT_THAT(page, HasSubstr("difference.vcd"));
+  const std::filesystem::path kept = folder_of("power_on_12m.cosim");
+  EXPECT_TRUE(std::filesystem::exists(kept / "lockstep.stimulus")) << "what the chip of the scenario got";
+  EXPECT_THAT(app_test::read(kept / "again.sh"), HasSubstr(" rtl-random --replay "));
+  const Called again = call((kept / "again.sh").string(), "/", "sh");
+  EXPECT_EQ(again.status, 1);
+  EXPECT_THAT(again.out, HasSubstr("pin INTR0: model no such change within the tolerance, RTL 1"));
 }
 
 TEST_F(RegressOwnRtl, GoldenAndRegressionTakeItToo) {
