@@ -38,9 +38,8 @@ std::string text_of(const char* text) { return text == nullptr ? "" : text; }
 
 // It needs libdw, which programs that use this library need not have.
 void refuse_boards(const Scenario& scenario) {
-  const tb::ChipKind& kind = *scenario.kind;
   for (const tb::scenario::Slave& slave : scenario.slaves)
-    if (kind.has_debugger(slave))
+    if (slave.kind->has_debugger(slave))
       fail(DPSIM_ERR_UNSUPPORTED, scenario.file + ":" + std::to_string(slave.user_cpu.line) + ": slave " +
                                       slave.name.text +
                                       " has an ARM board, allowed in this library are kind: native and process; "

@@ -5,9 +5,8 @@
 namespace dsdpv1::capi {
 
 RunWatch::RunWatch(const tb::scenario::Scenario& scenario) : scenario_(scenario) {
-  const Kind& kind = kind_of(scenario.kind->name());
   for (std::size_t slave = 0; slave < scenario.slaves.size(); ++slave)
-    events_.emplace_back(kind, static_cast<std::uint16_t>(slave), clock_);
+    events_.emplace_back(kind_of(scenario.slaves[slave].kind->name()), static_cast<std::uint16_t>(slave), clock_);
 }
 
 void RunWatch::on_change(dpsim_change_fn fn, void* user) {
@@ -38,7 +37,7 @@ std::uint16_t RunWatch::slave_of(const std::string& name) const {
 void RunWatch::begins(std::size_t slave, const tb::ChipView& chip) {
   if (segment_ == nullptr) return;
   if (slave == 0) tell(0, DPSIM_LINE, 0, segment_->level() ? 1 : 0);
-  for (std::size_t i = 0; i < scenario_.kind->pins().size(); ++i) {
+  for (std::size_t i = 0; i < scenario_.slaves[slave].kind->pins().size(); ++i) {
     const auto number = static_cast<tb::PinNumber>(i);
     pin(slave, 0, number, chip.level(number));
   }

@@ -65,9 +65,10 @@ class Cosim : public Command {
     leave_nothing_on_signals();
     RunRequest request{run_, {}, options_of(run_), {}, {}};
     request.scenario = tb::scenario::load(run_.scenario, tb::scenario::parse_settings(run_.set));
-    request.options.wave = wave_options(kCosim, run_.wave, *request.scenario.kind);
+    request.options.wave = wave_options(kCosim, run_.wave, kinds(request.scenario));
     request.options.wave.inside = true;
     check_files(request.scenario);
+    check_one_chip(request.scenario, "RTL");
     CoverageFile coverage(own_);
     const OwnRtl own =
         build_own_rtl(own_, kCosim, *request.scenario.kind, *request.scenario.chip, !run_.wave.file.empty());
@@ -126,7 +127,7 @@ class Cosim : public Command {
     LockstepOutcome outcome = run_lockstep(request, make, lockstep);
     wave.finish(outcome.difference);
     write_stimulus(request, std::move(outcome), own);
-    if (wave_save_) write_save_files(run_.wave.file, *request.scenario.kind);
+    if (wave_save_) write_save_files(run_.wave.file, kinds(request.scenario));
     std::cout << "with the inside   " << run_.wave.file << '\n' << std::flush;
     return outcome.status;
   }

@@ -35,7 +35,7 @@ void check_words(const std::string& option, const std::vector<std::string>& give
 bool pins_only(const Run& run) {
   try {
     const auto scenario = tb::scenario::load(run.scenario, tb::scenario::parse_settings(run.settings));
-    return scenario.kind->needs_pins(scenario);
+    return tb::scenario::needs_pins(scenario);
   } catch (const tb::InputError&) {  // the run says what is wrong
     return false;
   }

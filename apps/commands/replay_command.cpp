@@ -94,7 +94,7 @@ class Replay : public Command {
     const Recording recording = record();
     const tb::replay::Firmware firmware = tb::replay::firmware_of(recording);
     const tb::scenario::Scenario scenario = scenario_of(given, recording, firmware);
-    take_run_words(*scenario.kind);
+    take_run_words(kinds(scenario));
     check_files(scenario);
     tb::replay::Replay replay(recording, firmware, scenario, options_, run_, execution());
     tb::ShareProgress progress(shows_progress(progress_));
@@ -104,7 +104,7 @@ class Replay : public Command {
       return !interrupted();
     });
     progress.clear();
-    write_files(replay, result, *scenario.kind);
+    write_files(replay, result, kinds(scenario));
     if (!quiet_) std::cout << tb::replay::text(result, replay.bench_result()) << std::flush;
     return status_of(result, replay.bench_result());
   }
@@ -151,12 +151,12 @@ class Replay : public Command {
     options_.lead_in = !no_lead_in_;
   }
 
-  void take_run_words(const tb::ChipKind& kind) {
+  void take_run_words(const tb::ChipKinds& kinds) {
     check_word(kReplay + ": --engine", run_.engine_name, {"step", "skip", "rtl"});
     if (wave_.inside && run_.engine_name == "rtl")
       throw tb::InputError(kReplay + ": --wave-inside is about the model, it needs --engine step or skip");
     run_.engine = run_.engine_name == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
-    run_.wave = wave_options(kReplay, wave_, kind);
+    run_.wave = wave_options(kReplay, wave_, kinds);
     run_.checks = checks_mode(kReplay, checks_);
     run_.capture = capture_request(kReplay, capture_out_);
   }
@@ -216,8 +216,9 @@ class Replay : public Command {
     check_outputs(kReplay, inputs, outputs);
   }
 
-  void write_files(const tb::replay::Replay& replay, const tb::replay::Result& result, const tb::ChipKind& kind) const {
-    if (wave_.save) write_save_files(wave_.file, kind);
+  void write_files(const tb::replay::Replay& replay, const tb::replay::Result& result,
+                   const tb::ChipKinds& kinds) const {
+    if (wave_.save) write_save_files(wave_.file, kinds);
     write_wanted(json_, tb::replay::json(result));
     write_wanted(table_, tb::replay::table(result));
     write_wanted(result_, tb::result_json(replay.bench_result()));

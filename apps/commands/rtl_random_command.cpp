@@ -104,7 +104,7 @@ class StimulusOutputs {
     const cosim::MakeTop traced = [&] { return bench.make_own(trace); };
     cosim::PlayResult result = cosim::play(stimulus, traced, options);
     wave.finish(result.difference);
-    if (arguments_.wave_save) write_save_files(arguments_.wave, *options.kind);
+    if (arguments_.wave_save) write_save_files(arguments_.wave, {options.kind});
     return result;
   }
   void finish(const cosim::StimulusResult& result) {

@@ -41,9 +41,8 @@ void check_golden(const RunArguments& arguments) {
 }  // namespace
 
 void check_has_board(const std::string& program, const tb::scenario::Scenario& scenario) {
-  const tb::ChipKind& kind = *scenario.kind;
   if (std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
-                  [&kind](const tb::scenario::Slave& slave) { return kind.has_debugger(slave); }))
+                  [](const tb::scenario::Slave& slave) { return slave.kind->has_debugger(slave); }))
     return;
   throw tb::InputError(program + ": --gdb needs a slave whose user_cpu has kind: arm, " + scenario.file + " has none");
 }
@@ -153,7 +152,7 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
   if (lockstep.judge) lockstep.judge(result);
   files.write(result);
   if (arguments.wave.save && !(rewind.wanted() && !rewind.recorded()))
-    write_save_files(arguments.wave.file, *scenario.kind);
+    write_save_files(arguments.wave.file, kinds(scenario));
   if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
   const bool ran_through = !lockstep.report || lockstep.report();
   if (!arguments.quiet && ran_through)
@@ -190,7 +189,7 @@ LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make, con
 namespace {
 
 void check_view(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
-  if (arguments.view == "tlm" && scenario.kind->needs_pins(scenario))
+  if (arguments.view == "tlm" && tb::scenario::needs_pins(scenario))
     throw tb::InputError("dsdpv1-sim run: --view tlm has whole frames and telegrams at the chip's serial ports, and " +
                          scenario.file + " an ARM board that moves their pins, or spoil_reads, expected --view pins");
 }
@@ -267,7 +266,7 @@ int run(const RunArguments& given, const cosim::MakeRtl& own) {
   leave_nothing_on_signals();
   RunRequest request = request_of(given);
   const RunArguments& arguments = request.arguments;
-  request.options.wave = wave_options("dsdpv1-sim run", arguments.wave, *request.scenario.kind);
+  request.options.wave = wave_options("dsdpv1-sim run", arguments.wave, kinds(request.scenario));
   check_outputs_of(arguments, request.scenario);
   check_view(arguments, request.scenario);
   if (arguments.gdb) check_has_board("dsdpv1-sim run", request.scenario);

@@ -66,7 +66,7 @@ class Serve : public Command {
     tb::scenario::Scenario scenario = tb::scenario::load(scenario_, tb::scenario::parse_settings(set_));
     if (!baud_.empty()) scenario.baud = baud_index("dsdpv1-sim serve: --baud", baud_);
     scenario.end = duration_.empty() ? kOpenEnd : time_of("dsdpv1-sim serve: --for", duration_, 1);
-    take_run_words(*scenario.kind);
+    take_run_words(kinds(scenario));
     if (gdb_) attach_gdb(scenario);
     check_files(scenario);
     WantedFile result_file(result_), junit_file(junit_);
@@ -90,7 +90,7 @@ class Serve : public Command {
               << std::flush;
 
     tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
-    if (wave_.save) write_save_files(wave_.file, *scenario.kind);
+    if (wave_.save) write_save_files(wave_.file, kinds(scenario));
     if (bench.wave_is_empty()) std::cerr << nothing_recorded(wave_) << '\n';
     result.pacing = execution.pacing();
     result_file.write([&] { return tb::result_json(result); });
@@ -119,8 +119,8 @@ class Serve : public Command {
         ->needs(serial);
   }
 
-  void take_run_words(const tb::ChipKind& kind) {
-    run_.wave = wave_options("dsdpv1-sim serve", wave_, kind);
+  void take_run_words(const tb::ChipKinds& kinds) {
+    run_.wave = wave_options("dsdpv1-sim serve", wave_, kinds);
     run_.capture = capture_request("dsdpv1-sim serve", capture_);
     run_.checks = checks_mode("dsdpv1-sim serve", checks_);
     run_.open_ended = true;

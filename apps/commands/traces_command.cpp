@@ -107,6 +107,7 @@ int for_scenarios(const TracesArguments& given, const std::function<int(const st
 OwnRtl own_rtl_for(const std::string& file, const TracesArguments& given, const tb::ChipKind*& chip) {
   if (given.own.rtl.empty()) return {};
   const tb::scenario::Scenario scenario = tb::scenario::load(file);
+  check_one_chip(scenario, "RTL");
   if (chip == nullptr) chip = scenario.kind;
   if (chip != scenario.kind)
     throw tb::InputError(file, 0,
@@ -119,7 +120,7 @@ OwnRtl own_rtl_for(const std::string& file, const TracesArguments& given, const 
 /// Scenarios of kinds without RTL are left out of all scenarios, and refused if they are named.
 bool is_left_out(const TracesArguments& given, const std::string& file) {
   const bool needs_rtl = given.engine == "rtl" || given.engine == "lockstep";
-  return needs_rtl && given.scenarios.empty() && tb::scenario::load(file).kind->rtl() == nullptr;
+  return needs_rtl && given.scenarios.empty() && !has_rtl(tb::scenario::load(file));
 }
 
 int check(const TracesArguments& given) {

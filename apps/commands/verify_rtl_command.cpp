@@ -134,7 +134,9 @@ class VerifyRtl : public Command {
     for (const std::string& file : shipped_scenarios()) {
       try {
         const tb::scenario::Scenario scenario = tb::scenario::load(file);
-        if (scenario.kind == &chip_.kind()) all.push_back({file, why_not(*scenario.chip)});
+        if (scenario.kind != &chip_.kind()) continue;
+        check_one_chip(scenario, "RTL");
+        all.push_back({file, why_not(*scenario.chip)});
       } catch (const tb::InputError& error) {
         all.push_back({file, error.what()});
       }

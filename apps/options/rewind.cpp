@@ -30,12 +30,12 @@ Rewind::Rewind(const RunArguments& arguments, const tb::scenario::Scenario& scen
   if (arguments.rewind_on.first.empty()) return;
   std::tie(code_, time_) = arguments.rewind_on;
   file_ = arguments.wave.file;
-  around_ = check_window("dsdpv1-sim run", "--rewind-on", code_, time_, *scenario.kind);
+  around_ = check_window("dsdpv1-sim run", "--rewind-on", code_, time_, kinds(scenario));
   if (arguments.view != "pins" || (arguments.engine != "step" && arguments.engine != "skip"))
     throw tb::InputError(
         "dsdpv1-sim run: --rewind-on is about the model, it needs --view pins and --engine step or skip");
   for (const tb::scenario::Slave& each : scenario.slaves)
-    if (scenario.kind->has_process(each))
+    if (each.kind->has_process(each))
       throw tb::InputError(scenario.file, each.line,
                            fmt::format("the user CPU of {} is a process, which cannot be rewound; expected --wave-on "
                                        "instead of --rewind-on",

@@ -25,9 +25,12 @@ std::string now() {
   return text.data();
 }
 
-void check_code(const std::string& command, const char* option, const std::string& code, const tb::ChipKind& kind) {
-  std::vector<std::string> allowed = tb::scenario::all_codes(kind);
-  allowed.insert(allowed.begin(), tb::kAnyViolation);
+void check_code(const std::string& command, const char* option, const std::string& code, const tb::ChipKinds& kinds) {
+  std::vector<std::string> allowed = {tb::kAnyViolation};
+  for (const tb::ChipKind* kind : kinds) {
+    const std::vector<std::string>& codes = tb::scenario::all_codes(*kind);
+    allowed.insert(allowed.end(), codes.begin(), codes.end());
+  }
   if (std::find(allowed.begin(), allowed.end(), code) != allowed.end()) return;
   throw tb::InputError(fmt::format("{}: {} is {}{}, expected {} and the codes of dsdpv1-sim reasons", command, option,
                                    code, tb::did_you_mean(code, allowed), tb::kAnyViolation));
@@ -92,14 +95,24 @@ std::vector<NamedFile> wave_files(const std::string& command, const std::string&
   return files;
 }
 
-void write_save_files(const std::string& wave, const tb::ChipKind& kind) {
+/// Kinds that share a group share its pins: the largest has all of them.
+void write_save_files(const std::string& wave, const tb::ChipKinds& kinds) {
   std::vector<tb::SignalGroup> groups;
-  for (const tb::PinGroup& each : kind.pin_groups())
-    groups.push_back({each.title, {each.pins.begin(), each.pins.end()}});
+  for (const tb::ChipKind* kind : kinds) {
+    for (const tb::PinGroup& each : kind->pin_groups()) {
+      const tb::SignalGroup group = {each.title, {each.pins.begin(), each.pins.end()}};
+      const auto same = std::find_if(groups.begin(), groups.end(),
+                                     [&group](const tb::SignalGroup& other) { return other.title == group.title; });
+      if (same == groups.end())
+        groups.push_back(group);
+      else if (same->signals.size() < group.signals.size())
+        *same = group;
+    }
+  }
   tb::write_save_files(wave, groups);
 }
 
-tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKind& kind) {
+tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKinds& kinds) {
   if (!arguments.file.empty()) tb::check_wave_name(arguments.file);
   tb::WaveOptions options;
   options.path = arguments.file;
@@ -115,13 +128,13 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
   if (options.selection.to < options.selection.from)
     throw tb::InputError(fmt::format("{}: --wave-to is {}, expected a time not before --wave-from, {}", command,
                                      arguments.to, arguments.from));
-  for (const std::string& code : arguments.on) check_code(command, "--wave-on", code, kind);
+  for (const std::string& code : arguments.on) check_code(command, "--wave-on", code, kinds);
   return options;
 }
 
 bus::Tick check_window(const std::string& command, const char* option, const std::string& code,
-                       const std::string& around, const tb::ChipKind& kind) {
-  check_code(command, option, code, kind);
+                       const std::string& around, const tb::ChipKinds& kinds) {
+  check_code(command, option, code, kinds);
   return time_of(command + ": " + option, around);
 }
 

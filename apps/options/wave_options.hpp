@@ -28,14 +28,14 @@ CLI::Option* add_wave_save_option(CLI::App& command, bool& save, CLI::Option* wa
 /// are made of the wave, which can be read again only if it is a regular file.
 std::vector<NamedFile> wave_files(const std::string& command, const std::string& wave, bool save);
 /// Writes those files, once the wave is complete; throws tb::InputError.
-void write_save_files(const std::string& wave, const tb::ChipKind& kind);
+void write_save_files(const std::string& wave, const tb::ChipKinds& kinds);
 
 /// Throws tb::InputError, which begins with `command`, "dsdpv1-sim run".
-tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKind& kind);
+tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKinds& kinds);
 
 /// The time of an option that records `around` before and after an event with this code. Throws tb::InputError.
 bus::Tick check_window(const std::string& command, const char* option, const std::string& code,
-                       const std::string& around, const tb::ChipKind& kind);
+                       const std::string& around, const tb::ChipKinds& kinds);
 
 /// To be said at the end of a run whose wave shows nothing.
 std::string nothing_recorded(const WaveArguments& arguments);

@@ -59,7 +59,7 @@ typedef struct dpsim_run_info {
   uint32_t size;
   uint32_t slaves;
   const char* name;
-  const char* kind; /**< of its chips */
+  const char* kind; /**< of its chips; a slave may have another */
   uint64_t end;     /**< tick */
 } dpsim_run_info;
 DPSIM_API dpsim_status dpsim_run_get_info(const dpsim_run* run, dpsim_run_info* info);

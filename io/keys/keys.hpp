@@ -33,6 +33,11 @@ struct Word {
 
 struct Object;
 
+/// The file being read: where its errors point to.
+struct Source {
+  std::string file;
+};
+
 /// The type of a value.
 struct Type {
   Kind kind = Kind::kText;
@@ -42,11 +47,12 @@ struct Type {
   Kind element = Kind::kObject;    ///< of a kList
   Range each;                      ///< of the elements of a kList of integers
   const Object* object = nullptr;  ///< of a kObject, or of the elements of a kList; outlives the Type
-};
+  /// Where elements of a kList differ: the object of this one, which outlives the Type; null: always `object`.
+  std::function<const Object&(const YAML::Node& node, const Source& source)> choose = nullptr;
 
-/// The file being read: where its errors point to.
-struct Source {
-  std::string file;
+  const Object& object_of(const YAML::Node& node, const Source& source) const {
+    return choose ? choose(node, source) : *object;
+  }
 };
 
 struct Field {
@@ -297,19 +303,21 @@ class ObjectOf : public Object {
     });
   }
 
+  /// `choose`: see Type; each object it returns describes U.
   template <class U>
-  Field& list(const char* key, std::vector<U> T::*member, const ObjectOf<U>& described, Range items, const char* text) {
+  Field& list(const char* key, std::vector<U> T::*member, const ObjectOf<U>& described, Range items, const char* text,
+              std::function<const Object&(const YAML::Node&, const Source&)> choose = nullptr) {
     Field& field = add(key, Kind::kList, text);
     field.type.object = &described;
     field.type.range = items;
-    return on_read(field,
-                   [member, &described](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
-                     check_list(self, node, source);
-                     for (const YAML::Node& item : node) {
-                       (owner.*member).emplace_back();
-                       read_object(described, &(owner.*member).back(), item, source);
-                     }
-                   });
+    field.type.choose = std::move(choose);
+    return on_read(field, [member](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
+      check_list(self, node, source);
+      for (const YAML::Node& item : node) {
+        (owner.*member).emplace_back();
+        read_object(self.type.object_of(item, source), &(owner.*member).back(), item, source);
+      }
+    });
   }
 
   /// A list, or instead `word`, which makes `flag` false.

@@ -142,13 +142,11 @@ class Dsdpv1Kind : public ChipKind {
   bool has_process(const scenario::Slave& slave) const override {
     return own(slave.user_cpu).kind == CpuKind::kProcess;
   }
-  bool needs_pins(const scenario::Scenario& scenario) const override {
-    const bool serial = static_cast<const Dsdpv1Settings&>(*scenario.chip).mode != HostMode::kParallel;
-    if (std::any_of(scenario.script.begin(), scenario.script.end(),
-                    [](const scenario::Action& action) { return action.word == user_cpu::kSpoilReads; }))
-      return true;
-    return serial && std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
-                                 [this](const scenario::Slave& slave) { return has_debugger(slave); });
+  bool needs_pins(const scenario::Scenario& scenario, const scenario::Slave& slave) const override {
+    if (static_cast<const Dsdpv1Settings&>(*slave.chip).mode != HostMode::kParallel && has_debugger(slave)) return true;
+    return std::any_of(scenario.script.begin(), scenario.script.end(), [&slave](const scenario::Action& action) {
+      return action.word == user_cpu::kSpoilReads && action.slave.text == slave.name.text;
+    });
   }
 
  private:

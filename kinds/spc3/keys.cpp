@@ -169,41 +169,48 @@ const std::vector<Order>& spc3_orders() {
 
 namespace {
 
-[[noreturn]] void refuse(const scenario::Scenario& scenario, int line, const std::string& what, const char* instead) {
-  throw InputError(scenario.file, line, fmt::format("{}, but a {} {}", what, scenario.kind->name(), instead));
+/// Where, and of which chip.
+struct At {
+  const std::string& file;
+  const char* chip;
+};
+
+[[noreturn]] void refuse(const At& at, int line, const std::string& what, const char* instead) {
+  throw InputError(at.file, line, fmt::format("{}, but a {} {}", what, at.chip, instead));
 }
 
-void check_settings(const scenario::Scenario& scenario, const scenario::Slave& slave) {
+void check_settings(const At& at, const scenario::Slave& slave) {
   constexpr const char* kNoDpv1 = "has no DPV1, expected none of it";
   if (slave.init.prm_mode > 2 || slave.init.cfg_mode > 2)
-    throw InputError(scenario.file, slave.init.line, "prm_mode or cfg_mode is above 2, expected 0, 1 or 2");
-  if (slave.init.dpv1) refuse(scenario, slave.init.line, "dpv1 is true", kNoDpv1);
+    throw InputError(at.file, slave.init.line, "prm_mode or cfg_mode is above 2, expected 0, 1 or 2");
+  if (slave.init.dpv1) refuse(at, slave.init.line, "dpv1 is true", kNoDpv1);
   for (const keys::Given& key : slave.user_cpu.given) {
-    if (key.key == "dpv1") refuse(scenario, key.line, "user_cpu has dpv1", kNoDpv1);
+    if (key.key == "dpv1") refuse(at, key.line, "user_cpu has dpv1", kNoDpv1);
     if (key.key == "overwrite_inputs" && !slave.user_cpu.overwrite_inputs)
-      refuse(scenario, key.line, "overwrite_inputs is false", "does not tell whether inputs were taken, expected true");
+      refuse(at, key.line, "overwrite_inputs is false", "does not tell whether inputs were taken, expected true");
   }
 }
 
-void check_action(const scenario::Scenario& scenario, const scenario::Action& action) {
+void check_action(const At& at, const scenario::Action& action) {
   using scenario::ActionKind;
   const std::size_t least = action.word == spc3_user::kWriteChip ? 3 : action.word == spc3_user::kReadChip ? 2 : 0;
   if (action.bytes.size() < least)
-    throw InputError(scenario.file, action.line,
+    throw InputError(at.file, action.line,
                      fmt::format("bytes has {} bytes, expected two of the address{}", action.bytes.size(),
                                  least == 3 ? " and one or more values" : ""));
   if (action.what == ActionKind::kWrongLength)
-    refuse(scenario, action.line, action.word, "has one length of inputs, expected other actions");
+    refuse(at, action.line, action.word, "has one length of inputs, expected other actions");
   if (action.what == ActionKind::kAnswerAcyclic)
-    refuse(scenario, action.line, action.word, "has no DPV1, expected other actions");
+    refuse(at, action.line, action.word, "has no DPV1, expected other actions");
 }
 
 }  // namespace
 
 void check_spc3_slave(const scenario::Scenario& scenario, const scenario::Slave& slave) {
-  check_settings(scenario, slave);
+  const At at{scenario.file, slave.kind->name()};
+  check_settings(at, slave);
   for (const scenario::Action& action : scenario.script)
-    if (action.slave.text == slave.name.text) check_action(scenario, action);
+    if (action.slave.text == slave.name.text) check_action(at, action);
 }
 
 }  // namespace dsdpv1::tb

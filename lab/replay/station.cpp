@@ -61,6 +61,8 @@ scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmw
   static_cast<checks::Limits&>(scenario.checks) = checks::Limits(kind.rules());
   scenario::Slave slave;
   slave.name.text = name_of(recording);
+  slave.kind = scenario.kind;
+  slave.chip = scenario.chip;
   slave.address = recording.slave;
   slave.gsd.text = gsd;
   slave.init = init_of(firmware, !gsd.empty());

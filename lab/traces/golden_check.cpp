@@ -40,10 +40,10 @@ GoldenCheck::GoldenCheck(const Trace& golden, const scenario::Scenario& scenario
     : golden_(golden),
       cursors_(golden.cursors()),
       levels_(cursors_.size(), kLevelX),
-      pins_(scenario.kind->pins().size()),
+      numbers_(scenario),
       longest_telegram_(kLongestBits * bus::baud(scenario.baud).bit) {
   for (const Cursor& cursor : cursors_) next_.push_back(cursor.at());
-  for (std::size_t i = 0; i < scenario.slaves.size(); ++i) accesses_.push_back(scenario.kind->make_access_reader());
+  for (const scenario::Slave& slave : scenario.slaves) accesses_.push_back(slave.kind->make_access_reader());
 }
 
 void GoldenCheck::change(std::size_t signal, Tick at, Level level) {
@@ -71,8 +71,7 @@ bool GoldenCheck::matches(std::size_t signal, Tick at, Level level) {
 
 void GoldenCheck::note_access(std::size_t signal, Tick at, Level level) {
   if (golden_.signals()[signal].kind != Signal::Kind::kInput) return;
-  if (AccessReader* reader = accesses_[signal / pins_].get())
-    reader->pin(at, static_cast<PinNumber>(signal % pins_), level);
+  if (AccessReader* reader = accesses_[numbers_.slave(signal)].get()) reader->pin(at, numbers_.pin(signal), level);
 }
 
 Tick GoldenCheck::earliest() const {
@@ -105,8 +104,7 @@ void GoldenCheck::find(Tick at, std::size_t signal, const Side& golden, const Si
   const Signal& found = golden_.signals()[signal];
   if (difference_ && rank(difference_->signal) <= rank(found)) return;
   difference_ = Difference{at, found, golden, here};
-  const bool of_slave = signal / pins_ < accesses_.size();
-  const AccessReader* reader = of_slave ? accesses_[signal / pins_].get() : nullptr;
+  const AccessReader* reader = signal < numbers_.line() ? accesses_[numbers_.slave(signal)].get() : nullptr;
   access_ = reader != nullptr ? reader->words() : "";
 }
 

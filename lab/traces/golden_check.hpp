@@ -73,7 +73,7 @@ class GoldenCheck : public Sink, public Observer {
   std::uint64_t matched_ = 0;
   std::optional<Difference> difference_;
 
-  std::size_t pins_;                                     ///< of a slave
+  SignalNumbers numbers_;
   std::vector<std::unique_ptr<AccessReader>> accesses_;  ///< by slave
   std::string access_;                                   ///< last access of the slave's user before the difference
   Tick longest_telegram_;

@@ -100,7 +100,7 @@ bool read_signal(std::istringstream& line, Signal& signal, std::uint64_t& entrie
 Signals signals_of(const scenario::Scenario& scenario) {
   Signals signals;
   for (const scenario::Slave& slave : scenario.slaves)
-    for (const PinInfo& pin : scenario.kind->pins())
+    for (const PinInfo& pin : slave.kind->pins())
       signals.push_back(
           {slave.name.text, pin.name, pin.width, pin.input ? Signal::Kind::kInput : Signal::Kind::kOutput});
   signals.push_back({"bus", "line", 1, Signal::Kind::kLine});

@@ -48,7 +48,6 @@ class Bench::BaudFollower : private bus::Listener {
 
 Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std::unique_ptr<Execution> execution)
     : scenario_(scenario),
-      kind_(*scenario.kind),
       options_(options),
       execution_(std::move(execution)),
       setup_(scenario),
@@ -62,7 +61,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
     return stations_.slaves[slave]->where(act);
   };
   replies_.on_change = [this](const auto&, auto, const auto&) { observers_.changed(); };
-  if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline(), kind_);
+  if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline());
   for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);
   baud_follower_ = std::make_unique<BaudFollower>(*this);
   add_monitor();
@@ -86,23 +85,27 @@ bool Bench::needs_all_pins() const {
 }
 
 /// Pins needed by the bench itself are watched anyway.
-PinMask Bench::watched_pins() const { return needs_all_pins() ? all_of(kind_.pins()) : checks_.pins() | hosts_.pins(); }
+PinMask Bench::watched_pins(const scenario::Slave& slave) const {
+  if (needs_all_pins()) return all_of(slave.kind->pins());
+  return checks_.pins(slave) | hosts_.pins(stations_.slaves.size());
+}
 
 /// True if nothing, except perhaps the wave, needs each change of each pin or each cycle.
 bool Bench::takes_runs() const { return !options_.wave.inside && options_.trace.empty() && options_.observers.empty(); }
 
 void Bench::add_slave(const scenario::Slave& slave) {
   user_cpu::StationConfig station = setup_.station(slave);
-  const bool late = !needs_all_pins() && hosts_.port() == nullptr;  // checks do not mind
+  const char* const port = hosts_.port(stations_.slaves.size());
+  const bool late = !needs_all_pins() && port == nullptr;  // checks do not mind
   std::unique_ptr<ChipView> chip = execution_->make_chip(
-      kind_, {slave.name.text, *scenario_.chip, options_.engine, options_.wave.inside, watched_pins(), late});
-  MakeUser make_user = kind_.make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
+      *slave.kind, {slave.name.text, *slave.chip, options_.engine, options_.wave.inside, watched_pins(slave), late});
+  MakeUser make_user = slave.kind->make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
   auto& slaves = stations_.slaves;
   slaves.push_back(std::make_unique<SlaveStation>(slaves.size(), slave, std::move(station), std::move(chip),
                                                   std::move(make_user), *execution_, observers_));
   SlaveStation& made = *slaves.back();
-  checks_.add(made.name(), made.chip());
-  if (waves_) waves_->add_chip(made.name(), made.chip(), hosts_.port());
+  checks_.add(slave, made.chip());
+  if (waves_) waves_->add_chip(made.name(), *slave.kind, made.chip(), port);
   const ChipNews wanted = wanted_news(made.chip());
   if (wanted.runs) waves_->take_runs();
   made.chip().listen(observers_, slaves.size() - 1, wanted);
@@ -118,7 +121,7 @@ ChipNews Bench::wanted_news(const ChipView& chip) const {
 const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {
   const auto& slaves = scenario_.slaves;
   const auto first = std::find_if(slaves.begin(), slaves.end(),
-                                  [this](const scenario::Slave& each) { return kind_.has_debugger(each); });
+                                  [](const scenario::Slave& each) { return each.kind->has_debugger(each); });
   return options_.gdb && first != slaves.end() && &*first == &slave ? &*options_.gdb : nullptr;
 }
 
@@ -193,7 +196,7 @@ void Bench::add_observers() {
   observers_.add(*this);
   observers_.add(exchange_);
   if (checks_.on()) observers_.add(checks_);
-  if (hosts_.port() != nullptr) observers_.add(hosts_);
+  if (hosts_.reads_any()) observers_.add(hosts_);
   if (trace_) observers_.add(*trace_);
   if (waves_) observers_.add(*waves_);
   if (capture_) observers_.add(*capture_);
@@ -267,7 +270,7 @@ Tick Bench::sleeps_until() const {
 void Bench::wake_wave(Tick from, Tick to) {
   for (const auto& slave : stations_.slaves) {
     if (now() > 0) slave->chip().sync(now());
-    slave->chip().watch(now(), all_of(kind_.pins()));
+    slave->chip().watch(now(), all_of(slave->kind().pins()));
   }
   waves_->wake(now(), from, to, execution_->segment().level());
 }
@@ -296,9 +299,9 @@ std::uint64_t Bench::digest(Tick now) {
   hash.add(monitor_->statistics().wrong);
   for (const auto& slave : stations_.slaves) slave->chip().sync(now);
   for (const auto& slave : stations_.slaves) {
-    for (std::size_t pin = 0; pin < kind_.pins().size(); ++pin)
-      if (!kind_.pins()[pin].line)
-        hash.add(static_cast<std::uint64_t>(slave->chip().level(static_cast<PinNumber>(pin))));
+    const PinTable& pins = slave->kind().pins();
+    for (std::size_t pin = 0; pin < pins.size(); ++pin)
+      if (!pins[pin].line) hash.add(static_cast<std::uint64_t>(slave->chip().level(static_cast<PinNumber>(pin))));
     add(hash, slave->result());
   }
   return hash.value();

@@ -92,7 +92,7 @@ class Bench : private Observer {
   friend class Observers;
   class BaudFollower;
 
-  PinMask watched_pins() const;
+  PinMask watched_pins(const scenario::Slave& slave) const;
   bool needs_all_pins() const;
   bool takes_runs() const;
   void add_slave(const scenario::Slave& slave);
@@ -132,7 +132,6 @@ class Bench : private Observer {
   void finish_outputs();
 
   const scenario::Scenario& scenario_;
-  const ChipKind& kind_;
   RunOptions options_;
   std::unique_ptr<Execution> execution_;
   Setup setup_;

@@ -13,11 +13,14 @@ namespace {
 
 /// Rejects conditions on checks that are switched off: they would always be false, or always true.
 void refuse_unmade(const scenario::Scenario& scenario, ChecksMode mode, const scenario::Condition& condition) {
-  const checks::RuleTable& rules = scenario.kind->rules();
+  const ChipKind& kind =
+      condition.slave.empty() ? *scenario.kind : *scenario.slaves[slave_number(scenario, condition.slave.text)].kind;
+  const checks::RuleTable& rules = kind.rules();
   const auto rule = std::find_if(rules.begin(), rules.end(),
                                  [&](const checks::Rule& each) { return condition.event.text == each.id; });
   if (rule == rules.end()) return;
-  const bool made = scenario.checks[checks::CheckId(static_cast<std::size_t>(rule - rules.begin()))].on;
+  const bool made =
+      &kind != scenario.kind || scenario.checks[checks::CheckId(static_cast<std::size_t>(rule - rules.begin()))].on;
   if (mode != ChecksMode::kOff && made) return;
   throw InputError(scenario.file, condition.line,
                    fmt::format("{} is a check, which is off, expected {}", rule->id,
@@ -30,41 +33,47 @@ CheckWatch::CheckWatch(const scenario::Scenario& scenario, ChecksMode mode, cons
     : scenario_(scenario),
       mode_(mode),
       observers_(observers),
-      on_(mode != ChecksMode::kOff && !scenario.kind->rules().empty()) {
+      on_(mode != ChecksMode::kOff &&
+          std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
+                      [](const scenario::Slave& slave) { return !slave.kind->rules().empty(); })) {
   for (const scenario::Expectation& each : scenario.expect) refuse_unmade(scenario, mode, each);
   for (const scenario::Action& each : scenario.script)
     if (each.when) refuse_unmade(scenario, mode, *each.when);
 }
 
-PinMask CheckWatch::pins() const { return on() ? scenario_.kind->checked_pins() : 0; }
+PinMask CheckWatch::pins(const scenario::Slave& slave) const { return on() ? slave.kind->checked_pins() : 0; }
 
-void CheckWatch::add(const std::string& slave, ChipView& chip) {
+void CheckWatch::add(const scenario::Slave& slave, ChipView& chip) {
   if (!on()) return;
-  const std::size_t rules = scenario_.kind->rules().size();
+  const checks::RuleTable& rules = slave.kind->rules();
   slaves_.push_back(std::make_unique<Slave>());
   Slave& entry = *slaves_.back();
   entry.number = slaves_.size() - 1;
-  entry.name = slave;
+  entry.name = slave.name.text;
+  entry.rules = &rules;
   entry.chip = &chip;
-  entry.checks = scenario_.kind->make_checks(scenario_.checks, scenario_.chip.get());
-  entry.allowed.resize(rules);
-  entry.listed_of.resize(rules);
+  entry.checks = slave.kind->make_checks(scenario::limits_of(scenario_, *slave.kind), slave.chip.get());
+  if (entry.checks == nullptr) return;
+  entry.allowed.resize(rules.size());
+  entry.listed_of.resize(rules.size());
   entry.checks->hears_looks();
   entry.checks->on_violation([this, &entry](const checks::Violation& violation) { keep(entry, violation); });
 }
 
 void CheckWatch::telegram(const HeardTelegram& telegram) {
-  for (const auto& slave : slaves_) slave->checks->telegram(telegram.now, telegram.telegram);
+  for (const auto& slave : slaves_)
+    if (slave->checks != nullptr) slave->checks->telegram(telegram.now, telegram.telegram);
 }
 
 void CheckWatch::finish(Tick end) {
-  for (const auto& slave : slaves_) slave->checks->finish(end);
+  for (const auto& slave : slaves_)
+    if (slave->checks != nullptr) slave->checks->finish(end);
 }
 
 void CheckWatch::keep(Slave& slave, checks::Violation violation) {
   violation.where = observers_.where(slave.number, violation.act);
   const std::size_t check = violation.check.index;
-  const bool allowed = scenario::allows(scenario_, scenario_.kind->rules()[check].id, slave.name);
+  const bool allowed = scenario::allows(scenario_, (*slave.rules)[check].id, slave.name);
   if (allowed) ++slave.allowed.at(check);
   if (mode_ == ChecksMode::kFail && !allowed) ++failures_;
   if (slave.listed_of.at(check)++ < CheckResult::kListed) slave.listed.push_back(violation);
@@ -75,12 +84,13 @@ void CheckWatch::keep(Slave& slave, checks::Violation violation) {
 }
 
 std::uint64_t CheckWatch::left_out() const {
-  if (slaves_.empty()) return 0;
+  const auto own = std::find_if(slaves_.begin(), slaves_.end(),
+                                [this](const auto& slave) { return slave->rules == &scenario_.kind->rules(); });
+  if (own == slaves_.end() || (*own)->checks == nullptr) return 0;
   std::uint64_t count = 0;
-  const checks::ChipChecks& own = *slaves_.front()->checks;
-  for (std::size_t i = 0; i < scenario_.kind->rules().size(); ++i) {
+  for (std::size_t i = 0; i < (*own)->rules->size(); ++i) {
     const checks::CheckId check(i);
-    if (own.applies(check) && !own.limit(check).on) ++count;
+    if ((*own)->checks->applies(check) && !(*own)->checks->limit(check).on) ++count;
   }
   return count;
 }
@@ -88,8 +98,8 @@ std::uint64_t CheckWatch::left_out() const {
 std::vector<CheckResult> CheckWatch::results() const {
   std::vector<CheckResult> results;
   for (const auto& slave : slaves_) {
-    const checks::RuleTable& rules = scenario_.kind->rules();
-    for (std::size_t i = 0; i < rules.size(); ++i) {
+    const checks::RuleTable& rules = *slave->rules;
+    for (std::size_t i = 0; slave->checks != nullptr && i < rules.size(); ++i) {
       const checks::CheckId check(i);
       if (!slave->checks->limit(check).on || !slave->checks->applies(check)) continue;
       CheckResult result{slave->name,          &rules[i], slave->checks->limit(check), slave->checks->record(check),

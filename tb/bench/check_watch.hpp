@@ -20,28 +20,28 @@ class CheckWatch : public Observer {
   CheckWatch& operator=(const CheckWatch&) = delete;
 
   bool on() const { return on_; }
-  /// The pins that must be watched, none when off.
-  PinMask pins() const;
+  /// The slave's pins that must be watched, none when off.
+  PinMask pins(const scenario::Slave& slave) const;
 
   /// Slaves are numbered in the order in which they are added. Does nothing when off.
-  void add(const std::string& slave, ChipView& chip);
+  void add(const scenario::Slave& slave, ChipView& chip);
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
-    slaves_[slave]->checks->pin(at, pin, level);
+    if (checks::ChipChecks* own = of(slave)) own->pin(at, pin, level);
   }
   void edges(std::size_t slave, const PinEdge* first, const PinEdge* last) override {
-    slaves_[slave]->checks->pins(first, last);
+    if (checks::ChipChecks* own = of(slave)) own->pins(first, last);
   }
   void read(std::size_t slave, Tick sample) override {
-    if (on()) slaves_[slave]->checks->read(sample);
+    if (checks::ChipChecks* own = of(slave)) own->read(sample);
   }
   void looked(std::size_t slave, PinNumber pin, Tick at) override {
-    if (on()) slaves_[slave]->checks->looked(pin, at);
+    if (checks::ChipChecks* own = of(slave)) own->looked(pin, at);
   }
   void accessed(std::size_t slave, const user_cpu::RegisterAccess& access) override {
-    if (on()) slaves_[slave]->checks->accessed(access);
+    if (checks::ChipChecks* own = of(slave)) own->accessed(access);
   }
   void event(std::size_t slave, const profibus::Event& event) override {
-    if (on()) slaves_[slave]->checks->event(event);
+    if (checks::ChipChecks* own = of(slave)) own->event(event);
   }
   void telegram(const HeardTelegram& telegram) override;
   void finish(Tick end);
@@ -58,11 +58,14 @@ class CheckWatch : public Observer {
     std::size_t number = 0;
     std::string name;
     ChipView* chip = nullptr;
-    std::unique_ptr<checks::ChipChecks> checks;
+    const checks::RuleTable* rules = nullptr;
+    std::unique_ptr<checks::ChipChecks> checks;  ///< null: its kind has none
     std::vector<checks::Violation> listed;
     std::vector<std::uint64_t> allowed;  ///< by check
     std::vector<std::size_t> listed_of;
   };
+  /// Null without checks.
+  checks::ChipChecks* of(std::size_t slave) { return on() ? slaves_[slave]->checks.get() : nullptr; }
   void keep(Slave& slave, checks::Violation violation);
 
   const scenario::Scenario& scenario_;

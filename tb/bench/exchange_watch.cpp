@@ -146,11 +146,12 @@ void ExchangeWatch::master_state(Tick now, const std::string& master, const std:
     entry->since = now;
     // What was done after the slave's own step, of which the master knows only now, may still show. Of a kind that does
     // not tell its steps the master's is all there is.
-    if (entry->acted < entered_[index_of(entry->slave)].value_or(now)) entry->disturbed = entry->kept_away = false;
+    if (entry->acted < entered_[slave_number(scenario_, entry->slave)].value_or(now))
+      entry->disturbed = entry->kept_away = false;
   } else if (entry->in && !entry->disturbed && !entry->kept_away && !entry->may_leave && entry->left++ == 0) {
     entry->first_left = now;
     entry->why = stations_.master(master).slave(*stations_.listed_address(member)).step_reason;
-    const auto& end = ends_[index_of(entry->slave)];
+    const auto& end = ends_[slave_number(scenario_, entry->slave)];
     if (end && end->at >= *entry->since)
       entry->why += fmt::format("; {} at {}", profibus::code(end->reason), bus::moment_text(end->at));
   }
@@ -201,25 +202,20 @@ ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult& s
 std::vector<ExpectationResult> ExchangeWatch::finish(const std::vector<SlaveResult>& slaves) const {
   std::vector<ExpectationResult> results;
   results.reserve(entries_.size());
-  for (const Entry& entry : entries_) results.push_back(judged(entry, slaves[index_of(entry.slave)]));
+  for (const Entry& entry : entries_) results.push_back(judged(entry, slaves[slave_number(scenario_, entry.slave)]));
   return results;
-}
-
-std::size_t ExchangeWatch::index_of(const std::string& slave) const {
-  const auto found = std::find_if(scenario_.slaves.begin(), scenario_.slaves.end(),
-                                  [&slave](const scenario::Slave& each) { return each.name.text == slave; });
-  return static_cast<std::size_t>(found - scenario_.slaves.begin());
 }
 
 std::string ExchangeWatch::waits_for(const SlaveResult& slave) const {
   if (slave.status.dp_state == profibus::DpState::kDataExch) return "";
-  const Steps& steps = steps_[index_of(slave.name)];
+  const Steps& steps = steps_[slave_number(scenario_, slave.name)];
   const auto stands = std::find_if(steps.begin(), steps.end(), [](const auto& each) { return each.has_value(); });
   if (stands == steps.end())
     return slave.status.dp_state == profibus::DpState::kOffline ? "its user CPU has not initialised it" : "";
   const std::string code = profibus::code((*stands)->reason);
-  return fmt::format("{} since {}: {}. {}", code, bus::moment_text((*stands)->at), scenario_.kind->describe(**stands),
-                     advice_of(*scenario_.kind, code));
+  const ChipKind& kind = *scenario_.slaves[slave_number(scenario_, slave.name)].kind;
+  return fmt::format("{} since {}: {}. {}", code, bus::moment_text((*stands)->at), kind.describe(**stands),
+                     advice_of(kind, code));
 }
 
 }  // namespace dsdpv1::tb

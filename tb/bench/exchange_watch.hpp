@@ -48,7 +48,6 @@ class ExchangeWatch : public Observer {
   /// For each step to data exchange, the chip's event that blocks it; empty if none does.
   using Steps = std::array<std::optional<profibus::Event>, 4>;
   ExpectationResult judged(const Entry& entry, const SlaveResult& slave) const;
-  std::size_t index_of(const std::string& slave) const;
 
   const scenario::Scenario& scenario_;
   const Stations& stations_;

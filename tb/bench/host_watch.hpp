@@ -1,5 +1,6 @@
 #pragma once
 // The telegrams between chips with a serial host port and their users: one reader per slave.
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -17,15 +18,23 @@ class HostWatch : public Observer {
   HostWatch(const HostWatch&) = delete;
   HostWatch& operator=(const HostWatch&) = delete;
 
-  /// As in HostReader; null: nothing is read.
-  const char* port() const { return readers_.empty() ? nullptr : readers_.front()->port(); }
-  /// The pins that must be watched, none if nothing is read.
-  PinMask pins() const { return readers_.empty() ? 0 : readers_.front()->pins(); }
+  bool reads_any() const {
+    return std::any_of(
+        readers_.begin(), readers_.end(), [](const auto& reader) { return reader != nullptr; });
+  }
+  /// The slave's, as in HostReader; null: nothing is read.
+  const char* port(std::size_t slave) const { return reads(slave) ? readers_[slave]->port() : nullptr; }
+  /// Its pins that must be watched, none if nothing is read.
+  PinMask pins(std::size_t slave) const { return reads(slave) ? readers_[slave]->pins() : 0; }
   void add_to(bus::Timeline& timeline);
-  void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override { readers_[slave]->pin(at, pin, level); }
+  void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
+    if (reads(slave)) readers_[slave]->pin(at, pin, level);
+  }
 
  private:
-  std::vector<std::unique_ptr<HostReader>> readers_;  ///< by slave, or none
+  bool reads(std::size_t slave) const { return slave < readers_.size() && readers_[slave] != nullptr; }
+
+  std::vector<std::unique_ptr<HostReader>> readers_;  ///< by slave, null for other ports; or none
 };
 
 }  // namespace dsdpv1::tb

@@ -54,7 +54,7 @@ const Journal::Tally& Journal::tally(std::size_t slave, const profibus::Event& e
   if (!kept || !kept->is_of(slave, event))
     kept = EventTally{slave, event,
                       tally(name_of(slave), profibus::code(event.reason), profibus::severity(event.reason),
-                            scenario_.kind->cell_of(event))};
+                            kind_of(slave).cell_of(event))};
   return kept->tally;
 }
 
@@ -77,9 +77,8 @@ void Journal::count_again(const Tally& tally, Tick at) {
 }
 
 template <class Where>
-void Journal::happened(const Tally& tally, Tick at, const std::string& words, const profibus::Event* event,
-                       const Where& where) {
-  const auto text = [&] { return event != nullptr ? scenario_.kind->describe(*event) : words; };
+void Journal::happened(const Tally& tally, Tick at, const std::string& words, const OfChip& chip, const Where& where) {
+  const auto text = [&] { return chip.event != nullptr ? chip.kind->describe(*chip.event) : words; };
   const Occurrence& sample = tally.sample;
   count(tally, at);
   const std::optional<user_cpu::Place> place = where();
@@ -93,14 +92,14 @@ void Journal::happened(const Tally& tally, Tick at, const std::string& words, co
     ++occurrences_dropped_;
     return;
   }
-  kept_.push_back({sample, event != nullptr ? std::optional(*event) : std::nullopt});
+  kept_.push_back({sample, chip.kind, chip.event != nullptr ? std::optional(*chip.event) : std::nullopt});
   kept_.back().occurrence.at = at;
   kept_.back().occurrence.text = words;
   kept_.back().occurrence.where = place;
 }
 
 void Journal::violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
-  const std::string id = scenario_.kind->rules()[violation.check.index].id;
+  const std::string id = kind_of(slave_number(scenario_, slave)).rules()[violation.check.index].id;
   observers_.counted(violation.found, slave, id, true, ++counts_[slave][id]);
   if (!log_) return;
   LogEntry entry{
@@ -114,9 +113,10 @@ void Journal::violated(const std::string& slave, const checks::Violation& violat
 void Journal::event(std::size_t slave, const profibus::Event& event) {
   const Tally& kept = tally(slave, event);
   if (is_only_counted(kept)) return count_again(kept, event.at);
-  happened(kept, event.at, {}, &event, [&]() -> std::optional<user_cpu::Place> {
+  const ChipKind& kind = kind_of(slave);
+  happened(kept, event.at, {}, {&kind, &event}, [&]() -> std::optional<user_cpu::Place> {
     const bool done_by_user = profibus::severity(event.reason) != profibus::Severity::kInfo;
-    const std::optional<user_cpu::Act> act = done_by_user ? scenario_.kind->act_of(event) : std::nullopt;
+    const std::optional<user_cpu::Act> act = done_by_user ? kind.act_of(event) : std::nullopt;
     return act ? observers_.where(slave, *act) : std::nullopt;
   });
 }
@@ -130,12 +130,12 @@ void Journal::flag(const bus::Flag& flag) {
   const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
   happened(
       tally("bus", scenario::flag_code(flag.kind), wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo),
-      flag.at, flag.text, nullptr, [] { return std::nullopt; });
+      flag.at, flag.text, {}, [] { return std::nullopt; });
 }
 
 void Journal::error(std::size_t slave, const user_cpu::ProgramError& error) {
   happened(
-      tally(name_of(slave), error.code, severity_of(*scenario_.kind, error.code)), error.at, error.text, nullptr,
+      tally(name_of(slave), error.code, severity_of(kind_of(slave), error.code)), error.at, error.text, {},
       [&error] { return error.where; });
 }
 
@@ -145,7 +145,7 @@ void Journal::outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, boo
 
 void Journal::user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& /*registers*/) {
   happened(
-      tally(name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation), at, why, nullptr,
+      tally(name_of(slave), scenario::kFirmwareFault, profibus::Severity::kViolation), at, why, {},
       [&] { return observers_.where(slave, user_cpu::Act::done(at)); });
 }
 
@@ -166,7 +166,7 @@ std::uint64_t Journal::count(const std::string& station, const std::string& code
 void Journal::fill(RunResult& result) const {
   for (const Kept& kept : kept_) {
     result.occurrences.push_back(kept.occurrence);
-    if (kept.event) result.occurrences.back().text = scenario_.kind->describe(*kept.event);
+    if (kept.event) result.occurrences.back().text = kept.kind->describe(*kept.event);
   }
   std::stable_sort(result.occurrences.begin(), result.occurrences.end(), [](const Occurrence& a, const Occurrence& b) {
     return std::tie(a.at, a.station) < std::tie(b.at, b.station);

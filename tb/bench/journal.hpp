@@ -50,6 +50,7 @@ class Journal : public Observer {
 
  private:
   const std::string& name_of(std::size_t slave) const { return scenario_.slaves[slave].name.text; }
+  const ChipKind& kind_of(std::size_t slave) const { return *scenario_.slaves[slave].kind; }
 
   /// Repetitions at one station, with one code, at one place: found once, then only counted.
   struct Tally {
@@ -72,10 +73,15 @@ class Journal : public Observer {
   void count(const Tally& tally, Tick at);
   bool is_only_counted(const Tally& tally) const;
   void count_again(const Tally& tally, Tick at);
-  /// An error of the program, a flag of the monitor; or `event`, one of the chip, whose text is made on demand.
-  /// `where()` gives the place of the user's act; it is asked only when it is listed or logged.
+  /// An event of a chip of this kind, or nothing.
+  struct OfChip {
+    const ChipKind* kind = nullptr;
+    const profibus::Event* event = nullptr;
+  };
+  /// An error of the program, a flag of the monitor; or one of the chip, whose text is made on demand. `where()` gives
+  /// the place of the user's act; it is asked only when it is listed or logged.
   template <class Where>
-  void happened(const Tally& tally, Tick at, const std::string& text, const profibus::Event* event, const Where& where);
+  void happened(const Tally& tally, Tick at, const std::string& text, const OfChip& chip, const Where& where);
 
   const scenario::Scenario& scenario_;
   const Observers& observers_;
@@ -83,6 +89,7 @@ class Journal : public Observer {
   std::optional<RunLog> log_;
   struct Kept {
     Occurrence occurrence;
+    const ChipKind* kind;
     std::optional<profibus::Event> event;  ///< its text has not been made yet
   };
   std::vector<Kept> kept_;

@@ -6,7 +6,7 @@
 
 namespace dsdpv1::tb {
 void PinTrace::pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) {
-  const PinInfo& info = scenario_.kind->pins()[pin];
+  const PinInfo& info = scenario_.slaves[slave].kind->pins()[pin];
   if (info.input || at < from_) return;
   if (at != at_) flush();
   at_ = at;

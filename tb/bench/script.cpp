@@ -214,12 +214,10 @@ void Script::act_on_user(const Action& action, Tick now) {
 }
 
 void Script::order_of_chip(const Action& action, Tick now) {
-  const auto& orders = scenario_.kind->orders();
-  const Order& order = *std::find_if(orders.begin(), orders.end(),
-                                     [&action](const Order& each) { return each.choice.word == action.word; });
   const user_cpu::command::OfChip command{
       action.word, action.duration.value_or(0), action.block, action.times, action.bytes, action.listen};
   SlaveStation& slave = stations_.slave(action.slave.text);
+  const Order& order = *order_of(slave.kind(), action.word);
   for (int i = 0; i < (order.one_by_one ? action.times : 1); ++i) {
     journal_.log(now, slave.name(), "script", order.said(command));
     slave.command(now, command);

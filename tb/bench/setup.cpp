@@ -109,7 +109,7 @@ user_cpu::StationConfig Setup::station(const scenario::Slave& slave) {
   override_with(station.max_output, init.max_outputs);
   override_with(station.max_diag, init.max_diag);
   override_with(station.max_prm, init.max_prm);
-  station.max_cfg = static_cast<std::uint8_t>(init.max_cfg.value_or(scenario_.kind->most_cfg()));
+  station.max_cfg = static_cast<std::uint8_t>(init.max_cfg.value_or(slave.kind->most_cfg()));
   override_with(station.address_change, init.set_slave_address);
   override_with(station.freeze, init.freeze);
   override_with(station.sync, init.sync);

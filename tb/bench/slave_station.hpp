@@ -25,6 +25,7 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   SlaveStation& operator=(const SlaveStation&) = delete;
 
   const std::string& name() const { return slave_.name.text; }
+  const ChipKind& kind() const { return *slave_.kind; }
   const ChipView& chip() const { return *chip_; }
   ChipView& chip() { return *chip_; }
   const user_cpu::StationConfig& station() const { return station_; }

@@ -43,10 +43,8 @@ WaveSelection selection_of(const WaveOptions& options) {
 
 }  // namespace
 
-WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, const bus::Timeline& timeline,
-                           const ChipKind& kind)
+WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, const bus::Timeline& timeline)
     : timeline_(timeline),
-      kind_(kind),
       on_(options.on),
       inside_(options.inside),
       asleep_(options.asleep),
@@ -67,9 +65,11 @@ std::unique_ptr<WaveWriter> WaveRecorder::file(const WaveOptions& options) {
   return wave;
 }
 
-void WaveRecorder::add_chip(const std::string& name, const ChipView& chip, const char* host_port) {
-  const PinTable& pins = kind_.pins();
+void WaveRecorder::add_chip(const std::string& name, const ChipKind& kind, const ChipView& chip,
+                            const char* host_port) {
+  const PinTable& pins = kind.pins();
   ChipSignals signals;
+  signals.kind = &kind;
   signals.chip = &chip;
   signals.pins.resize(pins.size());
   writer_->open_scope(name);
@@ -90,15 +90,15 @@ void WaveRecorder::add_chip(const std::string& name, const ChipView& chip, const
   signals.user = writer_->words("user");
   event_signals_[name] = writer_->words("event");
   signals.rm_entries = {writer_->words("rm_30"), writer_->words("rm_2F")};
-  if (inside_) signals.inside = add_inside();
+  if (inside_) signals.inside = add_inside(kind);
   writer_->close_scope();
   chips_.push_back(signals);
 }
 
-std::vector<WaveRecorder::Signal> WaveRecorder::add_inside() {
+std::vector<WaveRecorder::Signal> WaveRecorder::add_inside(const ChipKind& kind) {
   std::vector<Signal> signals;
   writer_->open_scope("inside");
-  for (const InnerSignal& each : kind_.inner_signals())
+  for (const InnerSignal& each : kind.inner_signals())
     signals.push_back(each.width == 0 ? writer_->words(each.name) : writer_->wire(each.name, each.width));
   writer_->close_scope();
   return signals;
@@ -234,7 +234,7 @@ void WaveRecorder::make_change(const Follower& follower) {
 void WaveRecorder::inside(std::size_t slave, bus::Tick at, std::size_t signal, Level level, const std::string& word) {
   make_changes(at, slave);
   const Signal own = chips_[slave].inside[signal];
-  if (kind_.inner_signals()[signal].width == 0)
+  if (chips_[slave].kind->inner_signals()[signal].width == 0)
     say(at, own, word);
   else
     set(at, own, level);
@@ -270,7 +270,8 @@ void WaveRecorder::event(std::size_t slave, const profibus::Event& event) {
   if (event.reason == profibus::Reason::kDpState)
     say(event.at, chip.dp_state, name(static_cast<profibus::DpState>(event.b)));
   if (event.reason == profibus::Reason::kRmEntry)
-    say(event.at, chip.rm_entries.at(static_cast<std::size_t>(profibus::kC2FirstSap - event.a)), kind_.describe(event));
+    say(event.at, chip.rm_entries.at(static_cast<std::size_t>(profibus::kC2FirstSap - event.a)),
+        chip.kind->describe(event));
 }
 
 void WaveRecorder::master_state(bus::Tick now, const std::string& master, const std::string& member,

@@ -59,13 +59,13 @@ class LineRun {
 
 class WaveRecorder : public Observer, private bus::Listener {
  public:
-  /// Attaches to the line as a separate station. `timeline` and `kind` must outlive it.
-  WaveRecorder(const WaveOptions& options, bus::Segment& segment, const bus::Timeline& timeline, const ChipKind& kind);
+  /// Attaches to the line as a separate station. `timeline` must outlive it.
+  WaveRecorder(const WaveOptions& options, bus::Segment& segment, const bus::Timeline& timeline);
 
   // Declarations, before `begin`.
   // Slaves are numbered in the order in which they are added.
   // `host_port`: the serial port whose telegrams are reported, null: none.
-  void add_chip(const std::string& name, const ChipView& chip, const char* host_port);
+  void add_chip(const std::string& name, const ChipKind& kind, const ChipView& chip, const char* host_port);
   /// `members`: its slaves or connections, all with the state `initial`.
   void add_master(const std::string& master, const std::vector<std::string>& members, const std::string& initial);
   /// Writes the first values.
@@ -126,6 +126,7 @@ class WaveRecorder : public Observer, private bus::Listener {
     bool has_followed = false;  ///< a run, so that a change may be reported that was already made
   };
   struct ChipSignals {
+    const ChipKind* kind = nullptr;
     const ChipView* chip = nullptr;
     std::vector<PinSignal> pins;
     std::vector<Signal> inside;
@@ -170,11 +171,10 @@ class WaveRecorder : public Observer, private bus::Listener {
     writer_->say(last_, signal, word);
   }
   std::unique_ptr<WaveWriter> file(const WaveOptions& options);
-  std::vector<Signal> add_inside();
+  std::vector<Signal> add_inside(const ChipKind& kind);
   bool opens_window(const std::string& code, bool violation) const;
 
   const bus::Timeline& timeline_;
-  const ChipKind& kind_;
   const std::vector<std::string> on_;
   const bool inside_;
   bool asleep_;

@@ -47,13 +47,20 @@ const std::vector<BusyTime>& ChipKind::busy_times() const {
   return none;
 }
 
-const std::vector<const ChipKind*>& chip_kinds() { return all_kinds(); }
+const ChipKinds& chip_kinds() { return all_kinds(); }
 
 const ChipKind* find_chip_kind(const std::string& name) {
   const auto& kinds = all_kinds();
   const auto found =
       std::find_if(kinds.begin(), kinds.end(), [&name](const ChipKind* kind) { return name == kind->name(); });
   return found == kinds.end() ? nullptr : *found;
+}
+
+const Order* order_of(const ChipKind& kind, const std::string& word) {
+  const auto& orders = kind.orders();
+  const auto found =
+      std::find_if(orders.begin(), orders.end(), [&word](const Order& each) { return each.choice.word == word; });
+  return found == orders.end() ? nullptr : &*found;
 }
 
 void add_chip_kind(const ChipKind& kind) { all_kinds().push_back(&kind); }

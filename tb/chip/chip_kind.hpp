@@ -175,8 +175,10 @@ class ChipKind {
   virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
   /// Whether the slave's user CPU is a process of its own, which a copy of this one does not have.
   virtual bool has_process(const scenario::Slave& /*slave*/) const { return false; }
-  /// Whether a user CPU of the scenario sets pins for which --view tlm only has transactions.
-  virtual bool needs_pins(const scenario::Scenario& /*scenario*/) const { return false; }
+  /// Whether the slave's user CPU sets pins in this scenario for which --view tlm only has transactions.
+  virtual bool needs_pins(const scenario::Scenario& /*scenario*/, const scenario::Slave& /*slave*/) const {
+    return false;
+  }
 
   // --- Optional features: null if missing.
   // For co-simulation with RTL: --engine rtl and lockstep, cosim.
@@ -222,8 +224,12 @@ class ChipKind {
   virtual const std::vector<BusyTime>& busy_times() const;
 };
 
+using ChipKinds = std::vector<const ChipKind*>;
+
 /// All kinds in this program, the default of scenarios first.
-const std::vector<const ChipKind*>& chip_kinds();
+const ChipKinds& chip_kinds();
+/// Null if a user CPU of this kind knows no such order.
+const Order* order_of(const ChipKind& kind, const std::string& word);
 /// Null if there is none with this name.
 const ChipKind* find_chip_kind(const std::string& name);
 /// Adds one, which must outlive the program's use of scenarios, before the first scenario is read or described.

@@ -79,7 +79,8 @@ class Checker {
   }
 
   void check_code(const Name& code) const {
-    if (code.empty() || is_code(*scenario_.kind, code.text)) return;
+    const auto has_it = [&code](const Slave& slave) { return is_code(*slave.kind, code.text); };
+    if (code.empty() || std::any_of(scenario_.slaves.begin(), scenario_.slaves.end(), has_it)) return;
     const std::vector<std::string>& codes = all_codes(*scenario_.kind);
     fail(code.line, fmt::format("event {} does not exist{}, expected the codes of docs/reasons.md", code.text,
                                 did_you_mean(code.text, codes)));
@@ -87,8 +88,8 @@ class Checker {
 
   void check_slave(const Slave& slave) const {
     check_objects(slave.user_cpu.dpv1);
-    scenario_.kind->check_user(*slave.user_cpu.own, *scenario_.chip, {scenario_.file}, slave.name.text, slave.line);
-    scenario_.kind->check_slave(scenario_, slave);
+    slave.kind->check_user(*slave.user_cpu.own, *slave.chip, {scenario_.file}, slave.name.text, slave.line);
+    slave.kind->check_slave(scenario_, slave);
     if (slave.gsd.empty() && !slave.modules.empty())
       fail(slave.modules.front().line, "modules without gsd, expected the modules of a GSD file");
     if (!slave.gsd.empty()) return;
@@ -220,9 +221,13 @@ class Checker {
   }
 
   void check_order(const Action& action) const {
-    for (const Slave& slave : scenario_.slaves)
-      if (slave.name.text == action.slave.text)
-        scenario_.kind->check_order(action.word, *slave.user_cpu.own, *scenario_.chip, {scenario_.file}, action.line);
+    for (const Slave& slave : scenario_.slaves) {
+      if (slave.name.text != action.slave.text) continue;
+      if (order_of(*slave.kind, action.word) == nullptr)
+        fail(action.line, fmt::format("slave {} is a {}, expected a slave of a kind with {}", slave.name.text,
+                                      slave.kind->title(), action.word));
+      slave.kind->check_order(action.word, *slave.user_cpu.own, *slave.chip, {scenario_.file}, action.line);
+    }
   }
 
   void check_target(const Action& action) const {

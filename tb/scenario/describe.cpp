@@ -34,7 +34,7 @@ keys::Field kind_field() {
   field.doc =
       "Kind of the chip. The other keys, some keys of `user_cpu`, the checks and some actions are those of this chip.";
   field.read = [self = field](void*, const YAML::Node& node, const keys::Source& source) {
-    keys::read_word(self, node, source);  // `kind_of` has already read it
+    keys::read_word(self, node, source);  // `kind_in` has already read it
   };
   return field;
 }
@@ -49,19 +49,13 @@ const keys::Object& chip_keys(const ChipKind& kind) {
   return found->second;
 }
 
-keys::Field chip_field(const ChipKind& kind) {
-  keys::Field field;
-  field.name = "chip";
-  field.type.kind = keys::Kind::kObject;
-  field.type.object = &chip_keys(kind);
-  field.doc = "Kind of the slaves' chip, and parameters other than its defaults.";
-  field.read = [&kind, keys = field.type.object](void* owner, const YAML::Node& node, const keys::Source& source) {
-    std::unique_ptr<OwnSettings> settings = kind.make_chip_settings();
-    keys::read_object(*keys, dynamic_cast<void*>(settings.get()), node, source);
-    kind.check_chip(*settings, source);
-    static_cast<Scenario*>(owner)->chip = std::move(settings);
-  };
-  return field;
+void set_chip(Scenario& scenario, const ChipKind& /*kind*/, std::unique_ptr<OwnSettings> settings) {
+  scenario.chip = std::move(settings);
+}
+
+void set_chip(Slave& slave, const ChipKind& kind, std::unique_ptr<OwnSettings> settings) {
+  slave.kind = &kind;
+  slave.chip = std::move(settings);
 }
 
 /// Missing keys leave the chip's limits unchanged.
@@ -78,6 +72,32 @@ keys::Field checks_field(const ChipKind& kind) {
 }
 
 }  // namespace
+
+template <class Owner>
+keys::Field chip_field(const ChipKind& kind, const char* doc) {
+  keys::Field field;
+  field.name = "chip";
+  field.type.kind = keys::Kind::kObject;
+  field.type.object = &chip_keys(kind);
+  field.doc = doc;
+  field.read = [&kind, keys = field.type.object](void* owner, const YAML::Node& node, const keys::Source& source) {
+    std::unique_ptr<OwnSettings> settings = kind.make_chip_settings();
+    keys::read_object(*keys, dynamic_cast<void*>(settings.get()), node, source);
+    kind.check_chip(*settings, source);
+    set_chip(*static_cast<Owner*>(owner), kind, std::move(settings));
+  };
+  return field;
+}
+template keys::Field chip_field<Slave>(const ChipKind& kind, const char* doc);
+
+/// Anything but a word is left to the reader of the key.
+const ChipKind& kind_in(const YAML::Node& mapping, const ChipKind& usual, const keys::Source& source) {
+  const YAML::Node chip = mapping.IsMap() ? mapping["chip"] : YAML::Node();
+  const YAML::Node name = chip.IsDefined() && chip.IsMap() ? chip["kind"] : YAML::Node();
+  if (!name.IsDefined() || !name.IsScalar()) return usual;
+  const keys::Field field = kind_field();
+  return *chip_kinds().at(keys::read_word(field, name, source));
+}
 
 const ObjectOf<Allow>& allow_keys() {
   static const ObjectOf<Allow> keys = [] {
@@ -98,11 +118,15 @@ ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
   o.word("baud", &Scenario::baud, baud_words(), "Baud rate of the masters; the chips find it themselves.").required =
       true;
   o.time("end", &Scenario::end, {bus::kTicksPerUs, kLongestTime}, "End of the run.").required = true;
-  o.fields.push_back(chip_field(kind));
+  o.fields.push_back(chip_field<Scenario>(kind, "Kind of the slaves' chips, and parameters other than its defaults."));
   o.list("masters", &Scenario::masters, master_keys(), {0, 4},
          "The DP masters class 1. Several at a time, and those beside masters of class 2, need `bus: {ring: true}`.");
   o.list("masters2", &Scenario::masters2, master2_keys(), {0, 4}, "The DP masters class 2.");
-  o.list("slaves", &Scenario::slaves, slave_keys(kind), {1, 125}, "The chips, each with its user CPU.").required = true;
+  o.list("slaves", &Scenario::slaves, slave_keys(kind), {1, 125}, "The chips, each with its user CPU.",
+         [&kind](const YAML::Node& slave, const keys::Source& source) -> const keys::Object& {
+           return slave_keys(kind_in(slave, kind, source));
+         })
+      .required = true;
   o.list("script", &Scenario::script, action_keys(kind), kItems, "Actions during the run.");
   o.list_or("expect", &Scenario::expect, expectation_keys(), kItems, {"none", "not even data exchange"},
             &Scenario::expects_exchange,

@@ -20,6 +20,13 @@ const ObjectOf<T>& per_kind(const ChipKind& kind, ObjectOf<T> (*describe)(const 
   return found != all.end() ? found->second : all.emplace(&kind, describe(kind)).first->second;
 }
 
+/// The key `chip` of a Scenario or Slave.
+template <class Owner>
+keys::Field chip_field(const ChipKind& kind, const char* doc);
+/// The kind that the mapping names in `chip`; `usual` if it names none. Throws InputError if there is none of this
+/// name.
+const ChipKind& kind_in(const YAML::Node& mapping, const ChipKind& usual, const keys::Source& source);
+
 const ObjectOf<Master>& master_keys();
 const ObjectOf<BusParameters>& bus_keys();
 const ObjectOf<Master2>& master2_keys();

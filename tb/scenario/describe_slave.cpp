@@ -95,6 +95,10 @@ ObjectOf<Slave> describe_slave(const ChipKind& kind) {
   o.integer("address", &Slave::address, {0, 255}, "",
             "Station address that the user CPU sets; above 126 the chip refuses.")
       .required = true;
+  o.fields.push_back(chip_field<Slave>(
+      kind,
+      "This slave's chip, in place of the scenario's: its kind (default: the scenario's), and parameters other than "
+      "the kind's defaults. Actions for one kind, and limits of `checks`, stay those of the scenario's."));
   o.file("gsd", &Slave::gsd, "GSD file that the initialisation follows, relative to the scenario's folder.");
   o.names("modules", &Slave::modules, {0, 64}, "Names of the GSD's modules that are plugged in.");
   o.object("init", &Slave::init, per_kind<InitData>(kind, describe_init),

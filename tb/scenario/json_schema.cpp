@@ -17,6 +17,17 @@ using keys::Field;
 using keys::Kind;
 using keys::Object;
 
+/// In front of the names of a kind's definitions.
+std::string prefix_of(const ChipKind& kind) {
+  return &kind == chip_kinds().front() ? "" : std::string(kind.name()) + ".";
+}
+
+/// A mapping whose key `chip` names this kind.
+Json is_of(const ChipKind& kind) {
+  const Json chip = {{"properties", {{"kind", {{"const", kind.name()}}}}}, {"required", {"kind"}}};
+  return {{"properties", {{"chip", chip}}}, {"required", {"chip"}}};
+}
+
 class SchemaWriter {
  public:
   /// `prefix` for the names of definitions.
@@ -95,10 +106,20 @@ class SchemaWriter {
   }
 
   Json element(const Field& field) {
+    if (field.type.choose) return of_named_kind(*field.type.object);
     if (field.type.object != nullptr) return reference(*field.type.object);
     if (field.type.element == Kind::kInteger)
       return {{"type", "integer"}, {"minimum", field.type.each.min}, {"maximum", field.type.each.max}};
     return {{"type", "string"}, {"minLength", 1}};
+  }
+
+  /// The object of the kind that the mapping names, else of this one.
+  Json of_named_kind(const Object& described) {
+    Json choice = reference(described);
+    for (const ChipKind* kind : chip_kinds())
+      choice = {
+          {"if", is_of(*kind)}, {"then", {{"$ref", "#/$defs/" + prefix_of(*kind) + described.name}}}, {"else", choice}};
+    return choice;
   }
 
   Json property(const Field& field) {
@@ -174,11 +195,6 @@ Json definitions_of(const ChipKind& kind, const std::string& prefix) {
 
 Json scenario_of(const std::string& prefix) { return {{"$ref", "#/$defs/" + prefix + "scenario"}}; }
 
-Json is_of(const ChipKind& kind) {
-  const Json chip = {{"properties", {{"kind", {{"const", kind.name()}}}}}, {"required", {"kind"}}};
-  return {{"properties", {{"chip", chip}}}, {"required", {"chip"}}};
-}
-
 }  // namespace
 
 std::string json_schema() {
@@ -186,7 +202,7 @@ std::string json_schema() {
   Json definitions = definitions_of(*usual, ""), choice = scenario_of("");
   for (const ChipKind* kind : chip_kinds()) {
     if (kind == usual) continue;
-    const std::string prefix = std::string(kind->name()) + ".";
+    const std::string prefix = prefix_of(*kind);
     definitions.update(definitions_of(*kind, prefix));
     choice = {{"if", is_of(*kind)}, {"then", scenario_of(prefix)}, {"else", choice}};
   }

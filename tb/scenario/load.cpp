@@ -10,8 +10,8 @@
 
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
-#include "io/input/suggest.hpp"
 #include "tb/scenario/check.hpp"
+#include "tb/scenario/describe.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb::scenario {
@@ -74,34 +74,26 @@ std::string beside(const std::string& scenario, const std::string& relative) {
 }
 
 /// The values of all keys of the kind file in `node` and below.
-void collect_files(const keys::Object& object, const YAML::Node& node, std::vector<std::string>& found) {
+void collect_files(const keys::Object& object, const YAML::Node& node, const keys::Source& source,
+                   std::vector<std::string>& found) {
   for (const keys::Field& field : object.fields) {
     const YAML::Node value = node.IsMap() ? node[field.name] : YAML::Node(YAML::NodeType::Undefined);
     if (!value.IsDefined()) continue;
     if (field.type.kind == keys::Kind::kFile && value.IsScalar()) found.push_back(value.Scalar());
     if (field.type.object == nullptr) continue;
-    if (value.IsMap()) collect_files(*field.type.object, value, found);
+    if (value.IsMap()) collect_files(*field.type.object, value, source, found);
     if (!value.IsSequence()) continue;
-    for (const YAML::Node& item : value) collect_files(*field.type.object, item, found);
+    for (const YAML::Node& item : value) collect_files(field.type.object_of(item, source), item, source, found);
   }
 }
 
-/// The kind of chip in a scenario. Anything but a word is left to the reader of the key.
 const ChipKind& kind_of(const YAML::Node& root, const std::string& file) {
-  const YAML::Node chip = root.IsMap() ? root["chip"] : YAML::Node();
-  const YAML::Node name = chip.IsDefined() && chip.IsMap() ? chip["kind"] : YAML::Node();
-  if (!name.IsDefined() || !name.IsScalar()) return *chip_kinds().front();
-  if (const ChipKind* kind = find_chip_kind(name.Scalar())) return *kind;
-  std::vector<std::string> names;
-  for (const ChipKind* each : chip_kinds()) names.emplace_back(each->name());
-  throw InputError(
-      file, keys::line_of(name),
-      fmt::format("kind is {}{}, expected {}", name.Scalar(), did_you_mean(name.Scalar(), names), join(names)));
+  return kind_in(root, *chip_kinds().front(), {file});
 }
 
 std::vector<std::string> files_of(const YAML::Node& root, const std::string& scenario) {
   std::vector<std::string> found;
-  collect_files(description(kind_of(root, scenario)), root, found);
+  collect_files(description(kind_of(root, scenario)), root, {scenario}, found);
   for (std::string& file : found) file = beside(scenario, file);
   return found;
 }
@@ -124,8 +116,10 @@ Scenario parse(const std::string& text, const std::string& file, const std::vect
   scenario.chip = kind.make_chip_settings();
   static_cast<checks::Limits&>(scenario.checks) = checks::Limits(kind.rules());
   keys::read_object(description(kind), &scenario, root, {file});
-  for (Slave& slave : scenario.slaves)
-    if (!slave.user_cpu.own) slave.user_cpu.own = kind.make_user_settings();
+  for (Slave& slave : scenario.slaves) {
+    if (slave.kind == nullptr) slave.kind = &kind, slave.chip = scenario.chip;
+    if (!slave.user_cpu.own) slave.user_cpu.own = slave.kind->make_user_settings();
+  }
   scenario.file = file;
   scenario.files = files_of(root, file);
   check(scenario);
@@ -134,6 +128,43 @@ Scenario parse(const std::string& text, const std::string& file, const std::vect
 
 Scenario load(const std::string& path, const std::vector<Setting>& settings) {
   return parse(read_file(path), path, settings);
+}
+
+std::size_t slave_number(const Scenario& scenario, const std::string& name) {
+  const auto found = std::find_if(scenario.slaves.begin(), scenario.slaves.end(),
+                                  [&name](const Slave& each) { return each.name.text == name; });
+  return static_cast<std::size_t>(found - scenario.slaves.begin());
+}
+
+ChipKinds kinds(const Scenario& scenario) {
+  ChipKinds found;
+  for (const Slave& slave : scenario.slaves)
+    if (std::find(found.begin(), found.end(), slave.kind) == found.end()) found.push_back(slave.kind);
+  return found;
+}
+
+bool has_rtl(const Scenario& scenario) {
+  return std::all_of(
+      scenario.slaves.begin(), scenario.slaves.end(), [](const Slave& slave) { return slave.kind->rtl() != nullptr; });
+}
+
+bool needs_pins(const Scenario& scenario) {
+  return std::any_of(
+      scenario.slaves.begin(), scenario.slaves.end(),
+      [&scenario](const Slave& slave) { return slave.kind->needs_pins(scenario, slave); });
+}
+
+checks::Limits limits_of(const Scenario& scenario, const ChipKind& kind) {
+  return &kind == scenario.kind ? static_cast<const checks::Limits&>(scenario.checks) : checks::Limits(kind.rules());
+}
+
+void check_one_chip(const Scenario& scenario, const std::string& what) {
+  for (const Slave& slave : scenario.slaves)
+    if (slave.chip != scenario.chip)
+      throw InputError(
+          scenario.file, slave.line,
+          fmt::format("slave {} has a chip of its own, expected one chip for all slaves: {} takes no other",
+                      slave.name.text, what));
 }
 
 bool allows(const Scenario& scenario, const std::string& code, const std::string& station) {

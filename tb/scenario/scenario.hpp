@@ -145,6 +145,8 @@ struct UserCpu {
 
 struct Slave {
   Name name;
+  const ChipKind* kind = nullptr;           ///< its own, else the scenario's
+  std::shared_ptr<const OwnSettings> chip;  ///< from ChipKind::make_chip_settings; the same
   int address = 0;
   Name gsd;
   std::vector<Name> modules;
@@ -276,7 +278,7 @@ enum class ChecksMode : std::uint8_t {
   kOff,     ///< no checks
 };
 
-/// The checks, and limits that replace the chip's, for all slaves.
+/// The checks, and limits that replace those of the scenario's kind of chip, for its slaves. Others have their kind's.
 struct Checks : checks::Limits {
   ChecksMode mode = ChecksMode::kFail;
   int line = 0;
@@ -288,7 +290,7 @@ struct Scenario {
   std::string name;
   int baud = 0;  ///< index of bus/baud.hpp
   bus::Tick end = 0;
-  const ChipKind* kind = nullptr;           ///< of all slaves
+  const ChipKind* kind = nullptr;           ///< of the slaves that name none
   std::shared_ptr<const OwnSettings> chip;  ///< from ChipKind::make_chip_settings
   std::vector<Master> masters;
   std::vector<Master2> masters2;
@@ -312,6 +314,19 @@ std::vector<std::string> files(const std::string& path, const std::vector<Settin
 std::string read_file(const std::string& path);
 /// `path` of a scenario, resolved by the program: relative to the scenario's folder.
 std::string resolve(const Scenario& scenario, const Name& path);
+
+/// The number of the slave with this name, in the order of the scenario; that of all slaves if there is none.
+std::size_t slave_number(const Scenario& scenario, const std::string& name);
+/// The slaves' kinds of chips, each once, in the order of the slaves.
+ChipKinds kinds(const Scenario& scenario);
+/// Whether all of the slaves' kinds have reference RTL.
+bool has_rtl(const Scenario& scenario);
+/// Whether a user CPU sets pins for which --view tlm only has transactions.
+bool needs_pins(const Scenario& scenario);
+/// The limits of checks for slaves of this kind.
+checks::Limits limits_of(const Scenario& scenario, const ChipKind& kind);
+/// Throws InputError if slaves have different chips, or parameters: `what` takes only one, "a golden trace".
+void check_one_chip(const Scenario& scenario, const std::string& what);
 
 /// Whether the scenario allows this violation of `station` (a slave's name, "bus").
 bool allows(const Scenario& scenario, const std::string& code, const std::string& station);

@@ -137,6 +137,14 @@ std::optional<std::size_t> item_number(const YAML::Node& list, const std::string
   return std::nullopt;
 }
 
+/// The kind of the slave to whose item the path leads; else `usual`.
+const ChipKind& kind_of_item(const YAML::Node& slaves, const Steps& steps, const ChipKind& usual,
+                             const Setting& setting) {
+  if (steps[0] != "slaves" || steps.size() < 2 || !slaves.IsDefined() || !slaves.IsSequence()) return usual;
+  const std::optional<std::size_t> number = item_number(slaves, steps[1]);
+  return number ? kind_in(slaves[*number], usual, {setting.origin}) : usual;
+}
+
 class Writer {
  public:
   Writer(const Setting& setting, const ChipKind& kind, const Steps& steps, const YAML::Node& value)
@@ -148,7 +156,8 @@ class Writer {
     if (at + 1 == steps_.size()) {
       put(node[field.name]);
     } else if (has_items(field)) {
-      write(item(node[field.name], field, steps_[at + 1]), *field.type.object, at + 2);
+      const YAML::Node chosen = item(node[field.name], field, steps_[at + 1]);
+      write(chosen, field.type.object_of(chosen, {setting_.origin}), at + 2);
     } else {
       if (!node[field.name].IsDefined()) node[field.name] = YAML::Node(YAML::NodeType::Map);
       mark(node[field.name]);
@@ -220,14 +229,18 @@ const Field& field_of_any(const std::string& path, const std::string& origin) {
 void check(const Setting& setting) { value_of(field_of_any(setting.path, setting.origin), setting); }
 
 void apply(const Setting& setting, const ChipKind& kind, YAML::Node& root) {
-  const Field& field = field_of(setting.path, kind, setting.origin);
-  const YAML::Node value = value_of(field, setting);
   const Steps steps = split(setting.path);
-  const Writer writer(setting, kind, steps, value);
-  if (!of_every_slave(steps[0], kind)) return writer.write(root, description(kind), 0);
   const YAML::Node slaves = root.IsMap() ? root["slaves"] : YAML::Node();
-  if (!slaves.IsDefined() || !slaves.IsSequence()) return;  // the reader reports its fault
-  for (const YAML::Node& slave : slaves) writer.write(slave, slave_keys(kind), 0);
+  const auto put = [&](const YAML::Node& node, const Object& object, const ChipKind& own) {
+    const YAML::Node value = value_of(field_of(setting.path, own, setting.origin), setting);
+    Writer(setting, own, steps, value).write(node, object, 0);
+  };
+  if (!of_every_slave(steps[0], kind)) return put(root, description(kind), kind_of_item(slaves, steps, kind, setting));
+  if (!slaves.IsDefined() || !slaves.IsSequence()) return check(setting);  // the reader reports the fault of the file
+  for (const YAML::Node& slave : slaves) {
+    const ChipKind& own = kind_in(slave, kind, {setting.origin});
+    put(slave, slave_keys(own), own);
+  }
 }
 
 }  // namespace dsdpv1::tb::scenario

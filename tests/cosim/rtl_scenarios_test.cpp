@@ -26,7 +26,7 @@ std::vector<std::string> scenarios(bool long_ones) {
   std::vector<std::string> names = shipped_scenarios();
   const auto is_other = [long_ones](const std::string& name) {
     const tb::scenario::Scenario scenario = tb::scenario::load(DSDPV1_SOURCE_DIR "/scenarios/" + name + ".yaml");
-    return scenario.kind->rtl() == nullptr || (scenario.end > kLongest) != long_ones;
+    return !has_rtl(scenario) || (scenario.end > kLongest) != long_ones;
   };
   names.erase(std::remove_if(names.begin(), names.end(), is_other), names.end());
   return names;

@@ -76,6 +76,99 @@ std::string error_of_scenario(const std::string& text) {
   return "none";
 }
 
+// ------------------------------------------------------------------------------------------- a chip of a slave's own
+
+/// A DSDPV1-RSU over SPI as the scenario's chip, `demo` with it and `other` with a DSDPV1.
+std::string two_chips(const std::string& rest = "", const std::string& user = "{}") {
+  return "name: two\nbaud: 1.5M\nend: 10ms\n"
+         "chip: {kind: dsdpv1_rsu, mode: spi, rts_lead: 8}\n"
+         "slaves:\n"
+         "  - {name: demo, address: 5, init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"},\n"
+         "     user_cpu: {spi: {clock: 9000}}}\n"
+         "  - {name: other, address: 6, init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"},\n"
+         "     chip: {kind: dsdpv1, intr_gap: 99}, user_cpu: " +
+         user + "}\n" + rest;
+}
+
+const tb::Dsdpv1Settings& chip_of(const sc::Slave& slave) {
+  return static_cast<const tb::Dsdpv1Settings&>(*slave.chip);
+}
+
+TEST(ChipOfASlave, ReplacesTheScenariosAsAWhole) {
+  const sc::Scenario scenario = sc::parse(two_chips(), "s.yaml");
+  const sc::Slave &demo = scenario.slaves[0], &other = scenario.slaves[1];
+  EXPECT_EQ(demo.kind, scenario.kind);
+  EXPECT_EQ(demo.chip, scenario.chip);
+  EXPECT_EQ(chip_of(demo).rts_lead, 8);
+  EXPECT_STREQ(other.kind->name(), "dsdpv1");
+  EXPECT_EQ(chip_of(other).rts_lead, dsdpv1::Config{}.rts_lead);
+  EXPECT_EQ(chip_of(other).intr_gap, 99);
+  EXPECT_EQ(sc::kinds(scenario), (tb::ChipKinds{demo.kind, other.kind}));
+}
+
+TEST(ChipOfASlave, WithoutAKindIsOneOfTheScenarios) {
+  const sc::Scenario scenario = sc::parse(
+      two_chips(), "s.yaml", sc::parse_settings({"slaves.demo.chip.rts_trail=3", "slaves.demo.chip.mode=spi"}));
+  EXPECT_EQ(scenario.slaves[0].kind, scenario.kind);
+  EXPECT_EQ(chip_of(scenario.slaves[0]).rts_trail, 3);
+  EXPECT_EQ(chip_of(scenario.slaves[0]).rts_lead, dsdpv1::Config{}.rts_lead);
+}
+
+TEST(ChipOfASlave, DecidesWhichKeysItsUserCpuHas) {
+  EXPECT_EQ(error_of_scenario(two_chips("", "{spi: {clock: 9000}}")).substr(0, 37),
+            "s.yaml:9: unknown key spi in user_cpu");
+  EXPECT_EQ(error_of_scenario(two_chips("", "{fsmc: {datast: 3}}")), "none");
+}
+
+TEST(ChipOfASlave, IsReachedFromTheCommandLine) {
+  const auto with = [](const std::string& setting) {
+    return sc::parse(two_chips(), "s.yaml", sc::parse_settings({setting})).slaves[1];
+  };
+  EXPECT_EQ(chip_of(with("slaves.other.chip.intr_gap=70")).intr_gap, 70);
+  EXPECT_EQ(with("slaves.1.user_cpu.fsmc.datast=3").user_cpu.given.size(), 1U);
+  EXPECT_STREQ(with("slaves.other.chip.kind=dsdpv1_r").kind->name(), "dsdpv1_r");
+  EXPECT_THROW(with("slaves.other.user_cpu.spi.clock=9000"), tb::InputError);
+}
+
+TEST(ChipOfASlave, TakesOnlyActionsOfItsKind) {
+  EXPECT_EQ(error_of_scenario(two_chips("script: [{at: 1ms, do: flip_bit, slave: demo}]\n")), "none");
+  EXPECT_EQ(error_of_scenario(two_chips("script: [{at: 1ms, do: flip_bit, slave: other}]\n")),
+            "s.yaml:10: slave other is a DSDPV1, expected a slave of a kind with flip_bit");
+}
+
+TEST(ChipOfASlave, HasItsKindsLimits) {
+  const sc::Scenario scenario = sc::parse(two_chips("checks: {TIMING_TS: {min: 15ns}}\n"), "s.yaml");
+  const auto ts = [&](const sc::Slave& slave) {
+    const checks::RuleTable& rules = slave.kind->rules();
+    std::size_t i = 0;
+    while (std::string(rules.at(i).id) != "TIMING_TS") ++i;
+    return sc::limits_of(scenario, *slave.kind)[checks::CheckId(i)].value;
+  };
+  EXPECT_EQ(ts(scenario.slaves[0]), 15 * bus::kTicksPerNs);
+  EXPECT_NE(ts(scenario.slaves[1]), 15 * bus::kTicksPerNs);
+}
+
+TEST(ChipOfASlave, IsRefusedWhereOneChipIsWanted) {
+  EXPECT_NO_THROW(sc::check_one_chip(sc::parse(kSmall, "s.yaml"), "RTL"));
+  try {
+    sc::check_one_chip(sc::parse(two_chips(), "s.yaml"), "RTL");
+    FAIL();
+  } catch (const tb::InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "s.yaml:8: slave other has a chip of its own, expected one chip for all slaves: RTL takes no other");
+  }
+}
+
+TEST(ChipOfASlave, OfAnUnknownKindIsRefused) {
+  try {
+    sc::parse(two_chips(), "s.yaml", sc::parse_settings({"slaves.other.chip.kind=dsdpv"}));
+    FAIL();
+  } catch (const tb::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("kind is \"dsdpv\" (did you mean dsdpv1?)"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Scenario, WhatBeginsWithACommaIsRefusedAtOnce) {
   EXPECT_EQ(error_of_scenario(","), "s.yaml:1: is empty, expected a scenario");
   EXPECT_EQ(error_of_scenario(kSmall + ",\n").rfind("s.yaml:", 0), 0U);

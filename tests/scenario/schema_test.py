@@ -40,6 +40,16 @@ class Schema(unittest.TestCase):
         self.assertFalse(self.is_right({}, {}, "flip_bit"))
         self.assertFalse(self.is_right({**rsu, "mode": "i2c"}, {}))
 
+    def test_a_slave_with_a_chip_of_its_own_has_the_keys_of_that_chip(self):
+        def with_own(own, user_cpu):
+            slave = {"name": "s", "address": 5, "chip": own, "init": {"ident": 1, "cfg": "31"}, "user_cpu": user_cpu}
+            return self.judge.is_valid({"name": "n", "baud": "12M", "end": "2ms", "chip": {"kind": "dsdpv1_r"}, "slaves": [slave]})
+
+        self.assertTrue(with_own({"kind": "dsdpv1_rsu", "mode": "spi"}, {"spi": {"clock": 9000}}))
+        self.assertFalse(with_own({"kind": "dsdpv1", "mode": "spi"}, {}))
+        self.assertFalse(with_own({"kind": "dsdpv1"}, {"spi": {"clock": 9000}}))
+        self.assertTrue(with_own({"rts_lead": 8}, {}))
+
 
 if __name__ == "__main__":
     SIM = sys.argv[1]

@@ -108,7 +108,7 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
   if (own.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*own.fsmc);
   if (own.access) options.access = static_cast<const AccessTiming&>(*own.access);
   options.switches = switches_of(own);
-  const auto& settings = static_cast<const Dsdpv1Settings&>(*request.scenario.chip);
+  const auto& settings = static_cast<const Dsdpv1Settings&>(*request.slave.chip);
   if (dsdpv1::has_serial_ports(settings.part)) {
     options.serial = true;
     options.mode = settings.mode;

@@ -55,7 +55,7 @@ MakeUser process_user(const UserRequest& request, user_cpu::HostBus& host) {
   options.patience_ms = static_cast<int>((own.patience + bus::kTicksPerMs - 1) / bus::kTicksPerMs);
   if (line_reader != nullptr) options.lines_of = line_reader;
   (void)untold(request.scenario, request.slave, options.arguments[0], "is a process of this computer");
-  const user_cpu::HostPort port = host_port_of(own, static_cast<const Dsdpv1Settings&>(*request.scenario.chip));
+  const user_cpu::HostPort port = host_port_of(own, static_cast<const Dsdpv1Settings&>(*request.slave.chip));
   return [&host, timing = timing_of(own), options, port](const user_cpu::StationConfig&, Tick start) {
     return std::make_unique<user_cpu::ProcessUser>(host, timing, options, start, port);
   };
@@ -71,7 +71,7 @@ MakeUser make_dsdpv1_user(const UserRequest& request) {
   auto& host = static_cast<user_cpu::HostBus&>(*request.chip.user_side());
   if (own(request.slave.user_cpu).kind == CpuKind::kProcess) return process_user(request, host);
   if (own(request.slave.user_cpu).kind != CpuKind::kArm)
-    return native_user(request.slave.user_cpu, static_cast<const Dsdpv1Settings&>(*request.scenario.chip), host);
+    return native_user(request.slave.user_cpu, static_cast<const Dsdpv1Settings&>(*request.slave.chip), host);
   if (arm_maker != nullptr) return arm_maker(request, host);
   throw InputError(request.scenario.file, request.slave.user_cpu.line,
                    "kind is arm, but this program has no ARM board, allowed without it are native and process");

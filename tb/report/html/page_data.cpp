@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "io/input/suggest.hpp"
 #include "tb/report/result_fields.hpp"
 #include "tb/scenario/event_codes.hpp"
 
@@ -109,16 +110,19 @@ Json code_of(const checks::Rule& rule) {
 }
 
 /// The meaning of the run's checks and events; the checks first.
-Json codes_of(const RunResult& result, const ChipKind& kind) {
+Json codes_of(const RunResult& result, const ChipKinds& kinds) {
   std::set<std::string> used;
   for (const CheckResult& each : result.checks) used.insert(each.rule->id);
   for (const Occurrence& each : result.occurrences) used.insert(each.code);
   for (const Repeated& each : result.refused) used.insert(each.code);
   for (const Repeated& each : result.violated) used.insert(each.code);
   Json codes = Json::array();
-  for (const checks::Rule& rule : kind.rules())
-    if (used.erase(rule.id) != 0) codes.push_back(code_of(rule));
-  std::vector<CodeTable> tables = kind.codes();
+  std::vector<CodeTable> tables;
+  for (const ChipKind* kind : kinds) {
+    for (const checks::Rule& rule : kind->rules())
+      if (used.erase(rule.id) != 0) codes.push_back(code_of(rule));
+    tables.insert(tables.end(), kind->codes().begin(), kind->codes().end());
+  }
   tables.push_back({"", "", scenario::flag_codes()});
   for (const CodeTable& table : tables)
     for (const CodeText& each : table.codes)
@@ -127,8 +131,9 @@ Json codes_of(const RunResult& result, const ChipKind& kind) {
 }
 
 Json violation_of(const scenario::Scenario& scenario, const ViolationPicture& picture) {
-  const checks::Rule& rule = scenario.kind->rules()[picture.violation.check.index];
-  return {{"slave", scenario.slaves[picture.slave].name.text},
+  const scenario::Slave& slave = scenario.slaves[picture.slave];
+  const checks::Rule& rule = slave.kind->rules()[picture.violation.check.index];
+  return {{"slave", slave.name.text},
           {"check", rule.id},
           {"rule", rule.rule},
           {"clause", rule.clause},
@@ -140,7 +145,13 @@ Json violation_of(const scenario::Scenario& scenario, const ViolationPicture& pi
           {"from", picture.from},
           {"to", picture.to},
           {"of_rule", picture.of_rule},
-          {"pins", pins_of(scenario.kind->pins(), picture.pins)}};
+          {"pins", pins_of(slave.kind->pins(), picture.pins)}};
+}
+
+std::string titles_of(const ChipKinds& kinds) {
+  std::vector<std::string> titles;
+  for (const ChipKind* kind : kinds) titles.emplace_back(kind->title());
+  return join(titles);
 }
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -160,16 +171,17 @@ std::string without_tags(const std::string& json) {
 
 std::string page_data(const RunResult& result, const RunRecorder& recorder, const std::string& version) {
   const scenario::Scenario& scenario = recorder.scenario();
+  const ChipKinds kinds = scenario::kinds(scenario);
   Json times = Json::array(), diagrams = Json::array(), violations = Json::array();
   for (const TimesOf* each : recorder.times()) times.push_back(times_of(*each));
   for (std::size_t slave = 0; slave < scenario.slaves.size(); ++slave)
     for (const DiagramWatch& each : recorder.diagrams(slave))
-      diagrams.push_back(diagram_of(*scenario.kind, scenario.slaves[slave].name.text, each));
+      diagrams.push_back(diagram_of(*scenario.slaves[slave].kind, scenario.slaves[slave].name.text, each));
   for (const ViolationPicture& each : recorder.pictures()) violations.push_back(violation_of(scenario, each));
   const Json json = {{"version", version},
-                     {"chip", scenario.kind->title()},
+                     {"chip", titles_of(kinds)},
                      {"documents", DSDPV1_DOCUMENTS_URL},
-                     {"codes", codes_of(result, *scenario.kind)},
+                     {"codes", codes_of(result, kinds)},
                      {"telegrams", telegrams_of(recorder.telegrams())},
                      {"times", times},
                      {"diagrams", diagrams},

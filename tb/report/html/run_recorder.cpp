@@ -12,19 +12,20 @@ namespace {
 constexpr Tick kBefore = 2 * bus::kTicksPerUs, kAfter = bus::kTicksPerUs;  ///< shown round a violation
 constexpr Tick kLongest = 100 * bus::kTicksPerUs;  ///< ... from where it was to where it was seen
 
-SpanLimits limits_of(const scenario::Scenario& scenario, const char* check) {
-  const checks::RuleTable& rules = scenario.kind->rules();
+SpanLimits limits_of(const checks::RuleTable& rules, const checks::Limits& limits, const char* check) {
   for (std::size_t i = 0; check != nullptr && i < rules.size(); ++i) {
-    const checks::Limit& limit = scenario.checks[checks::CheckId(i)];
+    const checks::Limit& limit = limits[checks::CheckId(i)];
     if (std::string_view(rules[i].id) != check || !limit.on || limit.value == checks::kNoLimit) continue;
     return rules[i].bound == checks::Bound::kMin ? SpanLimits{limit.value, {}} : SpanLimits{{}, limit.value};
   }
   return {};
 }
 
-std::vector<SpanLimits> limits_of(const scenario::Scenario& scenario, const TimingDiagram& diagram) {
+std::vector<SpanLimits> limits_of(const scenario::Scenario& scenario, const ChipKind& kind,
+                                  const TimingDiagram& diagram) {
+  const checks::Limits of_slave = scenario::limits_of(scenario, kind);
   std::vector<SpanLimits> limits;
-  for (const DiagramSpan& span : diagram.spans) limits.push_back(limits_of(scenario, span.check));
+  for (const DiagramSpan& span : diagram.spans) limits.push_back(limits_of(kind.rules(), of_slave, span.check));
   return limits;
 }
 
@@ -36,11 +37,11 @@ SpanLimits tsdr_limits(int baud) {
 }  // namespace
 
 RunRecorder::RunRecorder(const scenario::Scenario& scenario) : scenario_(scenario), telegrams_(scenario) {
-  const ChipKind& kind = *scenario.kind;
   for (const scenario::Slave& each : scenario.slaves) {
+    const ChipKind& kind = *each.kind;
     Slave& slave = slaves_.emplace_back(kind.pins().size());
     for (const TimingDiagram& diagram : kind.timing_diagrams())
-      slave.diagrams.emplace_back(diagram, limits_of(scenario, diagram), slave.memory);
+      slave.diagrams.emplace_back(diagram, limits_of(scenario, kind, diagram), slave.memory);
     for (const BusyTime& busy : kind.busy_times()) slave.busy.push_back({{}, {busy.title, each.name.text, {}, 0, {}}});
   }
 }
@@ -48,7 +49,7 @@ RunRecorder::RunRecorder(const scenario::Scenario& scenario) : scenario_(scenari
 void RunRecorder::begins(std::size_t slave, const ChipView& chip) {
   Slave& own = slaves_[slave];
   own.chip = &chip;
-  for (std::size_t pin = 0; pin < scenario_.kind->pins().size(); ++pin) {
+  for (std::size_t pin = 0; pin < scenario_.slaves[slave].kind->pins().size(); ++pin) {
     const auto number = static_cast<PinNumber>(pin);
     own.memory.begin(number, chip.level(number));
   }
@@ -59,17 +60,19 @@ void RunRecorder::pin(std::size_t slave, Tick at, PinNumber pin, Level level) {
   if (!own.waiting.empty()) take_pictures(own, at);
   own.memory.add(at, pin, level);
   for (DiagramWatch& each : own.diagrams) each.pin(at, pin, level);
-  busy_changed(own, at, pin);
+  busy_changed(slave, at, pin);
 }
 
-void RunRecorder::busy_changed(Slave& slave, Tick at, PinNumber changed) {
-  const std::vector<BusyTime>& all = scenario_.kind->busy_times();
+void RunRecorder::busy_changed(std::size_t number, Tick at, PinNumber changed) {
+  Slave& slave = slaves_[number];
+  const ChipKind& kind = *scenario_.slaves[number].kind;
+  const std::vector<BusyTime>& all = kind.busy_times();
   for (std::size_t i = 0; i < all.size(); ++i) {
     if ((all[i].pins & mask_of(changed)) == 0) continue;
     bool is_busy = false;
-    for (std::size_t pin = 0; pin < scenario_.kind->pins().size(); ++pin) {
-      const auto number = static_cast<PinNumber>(pin);
-      is_busy = is_busy || ((all[i].pins & mask_of(number)) != 0 && slave.memory.level(number) == 1);
+    for (std::size_t i_pin = 0; i_pin < kind.pins().size(); ++i_pin) {
+      const auto pin = static_cast<PinNumber>(i_pin);
+      is_busy = is_busy || ((all[i].pins & mask_of(pin)) != 0 && slave.memory.level(pin) == 1);
     }
     Busy& busy = slave.busy[i];
     if (is_busy && !busy.since) busy.since = at;
@@ -114,11 +117,8 @@ void RunRecorder::answer(const bus::WireTelegram& wire) {
 // --- violations ------------------------------------------------------------------------------------------------------
 
 void RunRecorder::violated(const std::string& slave, const checks::Violation& violation, const char* /*kind*/) {
-  const auto& all = scenario_.slaves;
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&slave](const scenario::Slave& each) { return each.name.text == slave; });
-  if (found == all.end()) return;
-  const auto number = static_cast<std::size_t>(found - all.begin());
+  const std::size_t number = slave_number(scenario_, slave);
+  if (number == slaves_.size()) return;
   Slave& own = slaves_[number];
   if (own.pictures_of[violation.check.index]++ >= kMostOfARule ||
       pictures_.size() + own.waiting.size() >= kMostPictures) {
@@ -139,9 +139,10 @@ void RunRecorder::take_pictures(Slave& slave, Tick now) {
 }
 
 void RunRecorder::take(const Slave& slave, ViolationPicture& picture) {
-  const PinMask of_rule = scenario_.kind->rules()[picture.violation.check.index].pins;
+  const ChipKind& kind = *scenario_.slaves[picture.slave].kind;
+  const PinMask of_rule = kind.rules()[picture.violation.check.index].pins;
   std::vector<PinTrace> others;
-  for (std::size_t pin = 0; pin < scenario_.kind->pins().size(); ++pin) {
+  for (std::size_t pin = 0; pin < kind.pins().size(); ++pin) {
     const auto number = static_cast<PinNumber>(pin);
     PinTrace trace = slave.memory.trace(number, picture.from, picture.to);
     const bool belongs = (of_rule & mask_of(number)) != 0;

@@ -82,7 +82,7 @@ class RunRecorder : public Observer {
     std::optional<Tick> last_exchange;
     std::optional<TimesOf> tsdr, cycle;
   };
-  void busy_changed(Slave& slave, Tick at, PinNumber changed);
+  void busy_changed(std::size_t number, Tick at, PinNumber changed);
   void answer(const bus::WireTelegram& wire);
   void take_pictures(Slave& slave, Tick now);
   void take(const Slave& slave, ViolationPicture& picture);
