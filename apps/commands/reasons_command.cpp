@@ -27,7 +27,7 @@ void add_check_codes(std::vector<tb::CodeText>& list, const tb::ChipKind& kind) 
   }
 }
 
-/// Of `kind`, and those that other kinds have besides.
+/// Rows of `kind`, then those that only other kinds have.
 std::vector<tb::CodeText> check_codes(const tb::ChipKind& kind) {
   std::vector<tb::CodeText> list;
   add_check_codes(list, kind);

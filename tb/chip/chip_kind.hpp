@@ -175,7 +175,7 @@ class ChipKind {
   virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
   /// Whether the slave's user CPU is a process of its own, which a copy of this one does not have.
   virtual bool has_process(const scenario::Slave& /*slave*/) const { return false; }
-  /// Whether the slave's user CPU sets pins in this scenario for which --view tlm only has transactions.
+  /// True if the slave's user CPU sets pins in this scenario for which --view tlm only has transactions.
   virtual bool needs_pins(const scenario::Scenario& /*scenario*/, const scenario::Slave& /*slave*/) const {
     return false;
   }

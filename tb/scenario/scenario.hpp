@@ -319,16 +319,16 @@ std::string resolve(const Scenario& scenario, const Name& path);
 std::size_t slave_number(const Scenario& scenario, const std::string& name);
 /// The slaves' kinds of chips, each once, in the order of the slaves.
 ChipKinds kinds(const Scenario& scenario);
-/// Whether all of the slaves' kinds have reference RTL.
+/// True if all of the slaves' kinds have reference RTL.
 bool has_rtl(const Scenario& scenario);
-/// Whether a user CPU sets pins for which --view tlm only has transactions.
+/// True if a user CPU sets pins for which --view tlm only has transactions.
 bool needs_pins(const Scenario& scenario);
 /// The limits of checks for slaves of this kind.
 checks::Limits limits_of(const Scenario& scenario, const ChipKind& kind);
 /// Throws InputError if slaves have different chips, or parameters: `what` takes only one, "a golden trace".
 void check_one_chip(const Scenario& scenario, const std::string& what);
 
-/// Whether the scenario allows this violation of `station` (a slave's name, "bus").
+/// True if the scenario allows this violation of `station` (a slave's name, "bus").
 bool allows(const Scenario& scenario, const std::string& code, const std::string& station);
 
 /// The description of a whole scenario with chips of this kind.

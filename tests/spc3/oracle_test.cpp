@@ -44,7 +44,7 @@ class BuffersByOracle : public testing::TestWithParam<Variant> {
     bench.run_cycles(2);
     ASSERT_EQ(bench.state(), DpState::kDataExch);
   }
-  /// Whether DX_OUT has come since the last call.
+  /// True if DX_OUT has come since the last call.
   void told(bool expected) {
     EXPECT_EQ(bench.raised(regs::kEventDxOut), expected);
     bench.acknowledge(0xFFFF);
