@@ -32,24 +32,26 @@ Json files_of(const scenario::Scenario& scenario) {
   return files;
 }
 
-/// Kind and parameters of a chip: those that the mapping `chip` gives, else the defaults.
-Json parameters_of(const ChipKind& kind, const YAML::Node& chip) {
-  Json parameters = {{"kind", kind.name()}};
+/// Adds the parameters of a chip: those that the mapping `chip` gives, else the defaults.
+void add_parameters(Json& parameters, const ChipKind& kind, const YAML::Node& chip) {
   for (const keys::Field& field : kind.chip_keys().fields) {
     const bool given = chip && chip.IsMap() && chip[field.name];
     parameters[field.name] = given ? chip[field.name].Scalar() : field.default_text;
   }
-  return parameters;
 }
 
 Json parameters_of(const scenario::Scenario& scenario, const std::string& text) {
   const YAML::Node root = YAML::Load(text);
-  Json parameters = parameters_of(*scenario.kind, root["chip"]);
-  parameters["baud"] = std::string(bus::baud(scenario.baud).name);
-  parameters["end"] = time_text(scenario.end);
-  for (std::size_t i = 0; i < scenario.slaves.size(); ++i)
-    if (const scenario::Slave& slave = scenario.slaves[i]; slave.chip != scenario.chip)
-      parameters["slaves"][slave.name.text] = parameters_of(*slave.kind, root["slaves"][i]["chip"]);
+  Json parameters = {{"kind", scenario.kind->name()},
+                     {"baud", std::string(bus::baud(scenario.baud).name)},
+                     {"end", time_text(scenario.end)}};
+  add_parameters(parameters, *scenario.kind, root["chip"]);
+  for (std::size_t i = 0; i < scenario.slaves.size(); ++i) {
+    const scenario::Slave& slave = scenario.slaves[i];
+    if (slave.chip == scenario.chip) continue;
+    Json& own = parameters["slaves"][slave.name.text] = {{"kind", slave.kind->name()}};
+    add_parameters(own, *slave.kind, root["slaves"][i]["chip"]);
+  }
   return parameters;
 }
 

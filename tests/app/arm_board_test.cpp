@@ -68,12 +68,12 @@ std::vector<std::string> shipped_but(const std::vector<std::string>& beginnings)
 
 /// foreign.c only supports the parallel port.
 std::vector<std::string> parallel_scenarios() {
-  return shipped_but({"rsu_spi", "rsu_uart", "arm_spi", "arm_uart", "spc3_"});
+  return shipped_but({"rsu_spi", "rsu_uart", "arm_spi", "arm_uart", "spc3_", "mixed_"});
 }
 
 /// Scenarios over SPI, and those over the UART with own times or telegrams, need a native CPU; a board rejects them.
 std::vector<std::string> native_scenarios() {
-  return shipped_but({"rsu_spi", "rsu_uart_", "arm_board_12m", "arm_spi", "arm_uart", "spc3_"});
+  return shipped_but({"rsu_spi", "rsu_uart_", "arm_board_12m", "arm_spi", "arm_uart", "spc3_", "mixed_"});
 }
 INSTANTIATE_TEST_SUITE_P(All, ArmScenarios, testing::ValuesIn(native_scenarios()),
                          [](const auto& each) { return each.param; });
