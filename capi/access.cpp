@@ -64,6 +64,16 @@ tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& acce
   return sampled;
 }
 
+/// The port of a chip that has been advanced to the access; this moves the present tick there.
+tb::RegisterPort& port_at(dpsim_chip& chip, Tick at) {
+  tb::RegisterPort* const port = chip.device().registers();
+  if (port == nullptr)
+    capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind is accessed by the pins of its host bus or port");
+  chip.advance(at);
+  chip.clock.now = at;
+  return *port;
+}
+
 }  // namespace
 
 dpsim_status dpsim_access_timing_default(dpsim_access_timing* timing) {
@@ -106,5 +116,30 @@ dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_t address,
         need(chip, "chip");
         capi::need_range("address", address, 0, chip->kind.chip.cells() - 1);
         carry_out(*chip, tick, HostAccess::write(address, value, timing_of(timing)), end);
+      });
+}
+
+dpsim_status dpsim_chip_load(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t* value) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        need(value, "value");
+        const Tick at = capi::tick_from(tick, chip->clock.now);
+        const capi::Running running(chip->clock);
+        *value = port_at(*chip, at).load(at, address);
+        chip->changes.check();
+      });
+}
+
+dpsim_status dpsim_chip_store(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t value) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        const Tick at = capi::tick_from(tick, chip->clock.now);
+        const capi::Running running(chip->clock);
+        port_at(*chip, at).store(at, address, value);
+        chip->changes.check();
       });
 }

@@ -8,7 +8,7 @@
 
 namespace dsdpv1::capi {
 
-class BusDevice : public tb::PinDevice, private tb::ChipListener {
+class BusDevice : public tb::PinDevice, private tb::ChipListener, private tb::RegisterPort {
  public:
   BusDevice(const Kind& kind, const ChipPlan& plan, dpsim_bus& bus);
 
@@ -24,8 +24,11 @@ class BusDevice : public tb::PinDevice, private tb::ChipListener {
   std::uint8_t address() const override { return chip_.address(); }
   std::uint8_t peek(std::uint16_t address) const override;
   void poke(std::uint16_t address, std::uint8_t value) override { chip_.poke(now(), address, value); }
+  tb::RegisterPort* registers() override { return chip_.has_registers() ? this : nullptr; }
 
  private:
+  std::uint8_t load(Tick at, std::uint16_t address) override { return chip_.load(at, address); }
+  void store(Tick at, std::uint16_t address, std::uint8_t value) override { chip_.store(at, address, value); }
   void pin(std::size_t /*slave*/, Tick at, tb::PinNumber pin, tb::Level level) override {
     if ((told_ & tb::mask_of(pin)) != 0) changes_.call(changes_.self, at, pin, level);
   }

@@ -190,6 +190,13 @@ DPSIM_API dpsim_status dpsim_chip_read(dpsim_chip* chip, uint64_t tick, uint16_t
 DPSIM_API dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t value,
                                         const dpsim_access_timing* timing, uint64_t* end);
 
+/** Reads or writes one byte of the registers and memory of an SPC3, APC3 or VPC3+ at `tick`, to which the chip runs,
+ * with all effects (A16: a read may be a command) and without pins; an output moves at the next cycle.
+ * `address`: 0 to 0x7FF, VPC3+ 0xFFF, higher ones wrap. DPSIM_ERR_UNSUPPORTED: a kind whose user has pins.
+ * DPSIM_ERR_TIME. */
+DPSIM_API dpsim_status dpsim_chip_load(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t* value);
+DPSIM_API dpsim_status dpsim_chip_store(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t value);
+
 /* ---- changes of pins ---- */
 
 /** Reports changes of these pins, also inputs, from now on, in order of time: to `fn`, or, with `fn` NULL, by

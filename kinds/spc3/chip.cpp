@@ -53,27 +53,20 @@ void Spc3Device::watch(const PinSink& sink, PinMask pins) {
 
 Spc3PinChip::Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, PinMask watched,
                          bus::Segment& segment, bool late)
-    : PinChip(name, std::move(device), spc3_pins(), kSpc3BoardPins, watched, segment, late),
-      core_(dynamic_cast<Spc3Device*>(device_.get())) {}
-
-spc3::Chip& Spc3PinChip::advanced(Tick at) {
-  device().advance(at);
-  return core_->chip();
-}
+    : PinChip(name, std::move(device), spc3_pins(), kSpc3BoardPins, watched, segment, late) {}
 
 std::uint8_t Spc3PinChip::load(Tick at, std::uint16_t address) {
-  const std::uint8_t value = advanced(at).load(at / profibus::kTicksPerCycle, address);
+  const std::uint8_t value = PinChip::load(at, address);
   report({at, address, value, false});
   return value;
 }
 
 void Spc3PinChip::store(Tick at, std::uint16_t address, std::uint8_t value) {
-  advanced(at).store(at / profibus::kTicksPerCycle, address, value);
+  PinChip::store(at, address, value);
   report({at, address, value, true});
 }
 
 void Spc3PinChip::report(const user_cpu::RegisterAccess& access) {
-  plan_again();
   if (wanted_.reads) listener_->accessed(number_, access);
   if (!wanted_.actions) return;
   const char* const words = access.write ? "write {:03X} = {:02X}" : "read {:03X}: {:02X}";

@@ -16,7 +16,7 @@ namespace dsdpv1::tb {
 const PinTable& spc3_pins();
 extern const BoardPins kSpc3BoardPins;
 
-class Spc3Device : public PinDevice {
+class Spc3Device : public PinDevice, private RegisterPort {
  public:
   explicit Spc3Device(const spc3::Config& config) : chip_(config) {}
 
@@ -35,6 +35,7 @@ class Spc3Device : public PinDevice {
   std::uint8_t address() const override { return chip_.address(); }
   std::uint8_t peek(std::uint16_t address) const override { return chip_.peek(address); }
   void poke(std::uint16_t address, std::uint8_t value) override { chip_.poke(address, value); }
+  RegisterPort* registers() override { return this; }
   void look_inside(Tick now, std::size_t number, ChipListener& listener) override {
     inside_.look(now, chip_, number, listener);
   }
@@ -42,9 +43,14 @@ class Spc3Device : public PinDevice {
   std::vector<std::uint8_t> save() const override { return chip_.save(); }
   void restore(const std::uint8_t* bytes, std::size_t size) override { chip_.restore(bytes, size); }
 
-  spc3::Chip& chip() { return chip_; }
-
  private:
+  std::uint8_t load(Tick at, std::uint16_t address) override {
+    return chip_.load(at / profibus::kTicksPerCycle, address);
+  }
+  void store(Tick at, std::uint16_t address, std::uint8_t value) override {
+    chip_.store(at / profibus::kTicksPerCycle, address, value);
+  }
+
   spc3::Chip chip_;
   PinSink sink_;
   Spc3Inside inside_;
@@ -58,15 +64,12 @@ class Spc3PinChip : public PinChip, private spc3_user::RegisterCall {
   /// RESET is high-active.
   void set_reset(Tick at, bool released) override { PinChip::set_reset(at, !released); }
   /// Null for RTL, which has no register call.
-  user_cpu::UserSide* user_side() override { return core_ == nullptr ? nullptr : static_cast<RegisterCall*>(this); }
+  user_cpu::UserSide* user_side() override { return has_registers() ? static_cast<RegisterCall*>(this) : nullptr; }
 
  private:
   std::uint8_t load(Tick at, std::uint16_t address) override;
   void store(Tick at, std::uint16_t address, std::uint8_t value) override;
-  spc3::Chip& advanced(Tick at);
   void report(const user_cpu::RegisterAccess& access);
-
-  Spc3Device* const core_;
 };
 
 }  // namespace dsdpv1::tb

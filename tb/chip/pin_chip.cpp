@@ -178,6 +178,19 @@ void PinChip::poke(Tick now, std::uint16_t address, std::uint8_t value) {
   device_->poke(address, value);
 }
 
+std::uint8_t PinChip::load(Tick at, std::uint16_t address) {
+  device().advance(at);
+  const std::uint8_t value = device_->registers()->load(at, address);
+  plan_again();
+  return value;
+}
+
+void PinChip::store(Tick at, std::uint16_t address, std::uint8_t value) {
+  device().advance(at);
+  device_->registers()->store(at, address, value);
+  plan_again();
+}
+
 void PinChip::report_edges(PinEdge* first, PinEdge* last) {
   const auto is_known = [this](const PinEdge& edge) {
     return std::exchange(inputs_[edge.pin], edge.level) == edge.level;

@@ -41,6 +41,10 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener {
   void set_pin(Tick at, PinNumber pin, Level level);
   Level sample(Tick at) { return device().sample(at); }
   void poke(Tick now, std::uint16_t address, std::uint8_t value);
+  // Accesses by the device's RegisterPort, if it has one.
+  bool has_registers() { return device_->registers() != nullptr; }
+  std::uint8_t load(Tick at, std::uint16_t address);
+  void store(Tick at, std::uint16_t address, std::uint8_t value);
 
   Tick next() const override;
   void run(Tick now) override;

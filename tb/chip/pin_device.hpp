@@ -9,6 +9,7 @@
 #include "model/profibus/uart_rx.hpp"
 #include "tb/chip/chip_view.hpp"
 #include "tb/chip/pins/pins.hpp"
+#include "tb/chip/register_port.hpp"
 
 namespace dsdpv1::tb {
 
@@ -75,6 +76,8 @@ class PinDevice {
   /// A cell of the memory shared by chip and user, without time or side effects; ChipKind::cells() of them.
   virtual std::uint8_t peek(std::uint16_t address) const = 0;
   virtual void poke(std::uint16_t address, std::uint8_t value) = 0;
+  /// Accesses without the pins of a CPU's bus, of a device that is advanced to their tick; null: only by pins.
+  virtual RegisterPort* registers() { return nullptr; }
   /// Reports internal signals that have changed since the last call; for a core with Engine::kStep.
   virtual void look_inside(Tick /*now*/, std::size_t /*number*/, ChipListener& /*listener*/) {}
   /// The item of its present access to that memory, as in its documents; empty: none, or unknown.

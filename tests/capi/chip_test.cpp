@@ -383,6 +383,49 @@ TEST(CapiChip, ACellThatIsPokedIsSeenByPeekAndAtThePins) {
   EXPECT_EQ(dpsim_chip_poke(chip.get(), 0x800, 0), DPSIM_ERR_ARGUMENT);
 }
 
+/// An APC3 out of RESET, which is high-active and its first pin.
+Owned<dpsim_chip> make_apc3() {
+  auto options = sized<dpsim_chip_options>();
+  options.kind = "apc3";
+  dpsim_chip* chip = nullptr;
+  ok(dpsim_chip_create(&options, &chip));
+  ok(dpsim_chip_set(chip, 20 * kCycle, 0, 0));
+  ok(dpsim_chip_advance(chip, 30 * kCycle));
+  return Owned<dpsim_chip>(chip);
+}
+
+TEST(CapiChip, RegistersWithoutABusAreReadAndWrittenWithTheirEffects) {
+  const auto chip = make_apc3();
+  uint64_t now = 30 * kCycle;
+  const auto load = [&](uint16_t address) {
+    uint8_t value = 0;
+    ok(dpsim_chip_load(chip.get(), now += kCycle, address, &value));
+    return value;
+  };
+  const auto store = [&](uint16_t address, uint8_t value) {
+    ok(dpsim_chip_store(chip.get(), now += kCycle, address, value));
+  };
+  EXPECT_EQ(load(0x08), 0xE1) << "buffers of the inputs: D 1, U 2, F 3 (A17)";
+  EXPECT_EQ(load(0x09), 3) << "New_Din is a command: the user has another buffer now";
+  EXPECT_EQ(load(0x08), 0x39) << "D 1, N 2, U 3";
+  store(0x07, 0x01);  // DP_Mode
+  store(0x16, 5);
+  store(0x08, 0x01);  // START
+  EXPECT_EQ(load(0x04) & 0x09, 0x01) << "PASSIVE_IDLE";
+  load(0x7FF);
+  EXPECT_EQ(load(0x04) & 0x09, 0x08) << "a violation, and OFFLINE (A3)";
+}
+
+TEST(CapiChip, RegistersAreOnlyCalledInTimeAndOfAKindWithoutPinsForThem) {
+  uint8_t value = 0;
+  const auto apc3 = make_apc3();
+  EXPECT_EQ(dpsim_chip_load(apc3.get(), 29 * kCycle, 4, &value), DPSIM_ERR_TIME);
+  EXPECT_EQ(dpsim_chip_load(apc3.get(), 31 * kCycle, 4, nullptr), DPSIM_ERR_ARGUMENT);
+  const auto dsdpv1 = make_chip();
+  EXPECT_EQ(dpsim_chip_load(dsdpv1.get(), kCycle, 4, &value), DPSIM_ERR_UNSUPPORTED);
+  EXPECT_EQ(dpsim_chip_store(dsdpv1.get(), kCycle, 4, 0), DPSIM_ERR_UNSUPPORTED);
+}
+
 TEST(CapiTime, ConvertsAbsoluteTimesWithoutDrift) {
   EXPECT_EQ(dpsim_ticks_to(250, DPSIM_FS), 20'833'333U);
   EXPECT_EQ(dpsim_ticks_to(250, DPSIM_PS), 20'833U);

@@ -51,6 +51,75 @@ class Line:
         self.bus.run(5 * MS)
 
 
+class Spc3User:
+    """The user of a chip of the SPC3 family: sets it up and takes its events, by register calls (docs/spc3.md)."""
+
+    BUFFERS = {0x1B: 8, 0x1C: 8, 0x1D: 8, 0x1F: 8, 0x20: 8, 0x21: 8, 0x26: 16, 0x27: 16, 0x2B: 64, 0x30: 64, 0x32: 64, 0x34: 64}
+
+    def __init__(self, bus, chip, slave):
+        self.bus, self.chip, self.outputs = bus, chip, b""
+        chip.set("RESET", 0, bus.now + 20 * CYCLE)
+        bus.run(bus.now + 30 * CYCLE)
+        segment = 8
+        for pointer, size in self.BUFFERS.items():
+            self.store(pointer, segment)
+            segment += size // 8
+        for address, value in {0x16: slave.address, 0x1A: 8, 0x1E: 8, 0x24: 6, 0x25: 6, 0x28: 64, 0x33: len(slave.cfg), 0x39: 0xFF,
+                               0x3A: slave.ident & 0xFF, 0x3B: slave.ident >> 8, 0x07: 0x01}.items():
+            self.store(address, value)
+        self.write_buffer(0x34, slave.cfg)
+        self.set_inputs(bytes(8))
+        self.store(0x08, 0x21)  # START, Res_User_Wd
+
+    def load(self, address):
+        return self.chip.load(address, self.bus.now + CYCLE)
+
+    def store(self, address, value):
+        self.chip.store(address, value, self.bus.now + CYCLE)
+
+    def write_buffer(self, pointer, data):
+        start = self.load(pointer) * 8
+        for place, byte in enumerate(data):
+            self.store(start + place, byte)
+
+    def set_inputs(self, data):
+        self.write_buffer(0x1E + (self.load(0x08) >> 4 & 3), data)
+        self.load(0x09)
+
+    def serve(self):
+        events = self.load(0x01)
+        self.store(0x03, events)
+        while events & 0x08 and self.load(0x0E) == 1:  # New_Prm, again while a newer one has come
+            pass
+        while events & 0x04 and self.load(0x10) == 1:
+            pass
+        if events & 0x20:
+            start = self.load(0x1A + (self.load(0x0B) & 3)) * 8
+            self.outputs = bytes(self.load(start + place) for place in range(8))
+
+
+class RegisterCallTest(unittest.TestCase):
+    def test_a_program_brings_each_chip_of_the_spc3_family_to_data_exchange(self):
+        for kind in ("apc3", "spc3", "vpc3"):
+            with self.subTest(kind):
+                slave, bus = slave_of_gsd(), dsdpv1.Bus()
+                user = Spc3User(bus, bus.add_chip(kind=kind), slave)
+                master = bus.add_master(2)
+                master.add_slave(slave)
+                master.set_outputs(5, bytes(range(8)))
+                master.start()
+                user.set_inputs(b"\xAA" * 8)
+                for _ in range(200):
+                    bus.run(bus.now + 50 * US)
+                    user.serve()
+                status = master.slave(5)
+                self.assertEqual((status.state, status.inputs, user.outputs), (SlaveState.DATA_EXCHANGE, b"\xAA" * 8, bytes(range(8))))
+
+    def test_other_kinds_have_pins(self):
+        with self.assertRaises(dsdpv1.UnsupportedError):
+            dsdpv1.Chip().load(4)
+
+
 class ErrorsTest(unittest.TestCase):
     def refuses(self, kind, words, function, *arguments, **options):
         with self.assertRaisesRegex(kind, words):

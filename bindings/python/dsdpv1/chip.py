@@ -205,6 +205,14 @@ class Chip(Handle):
         """Writes a cell in the same way."""
         lib.dpsim_chip_write(self, self.now if at is None else at, cell, value, _timing(timing), ctypes.byref(ctypes.c_uint64()))
 
+    def load(self, address: int, at: typing.Optional[int] = None) -> int:
+        """Reads a register or byte of an SPC3, APC3 or VPC3+ with all effects, without pins. UnsupportedError: another kind."""
+        return int(number(lambda into: lib.dpsim_chip_load(self, self.now if at is None else at, address, into), ctypes.c_uint8))
+
+    def store(self, address: int, value: int, at: typing.Optional[int] = None) -> None:
+        """Writes one in the same way."""
+        lib.dpsim_chip_store(self, self.now if at is None else at, address, value)
+
     def peek(self, cell: int) -> int:
         """Reads a cell without pins, time or side effects."""
         return int(number(lambda into: lib.dpsim_chip_peek(self, cell, into), ctypes.c_uint8))

@@ -179,7 +179,7 @@ ROWS = [  # what, how, the function
     ("`sweep`, `regress`", "yes", campaigns),
     ("`serve`", "yes", serve),
     ("`compare`, `decode`, `gsd`", "yes: about lines and files", without_chip),
-    ("C API, Python", "scenarios; a chip with its line, `peek` and `poke`", c_api_and_python),
+    ("C API, Python", "scenarios; a chip with its line, `load`, `store`, `peek`, `poke`", c_api_and_python),
     ("`--view tlm`, SystemC modules", "refused: there is none", systemc),
     ("`--engine rtl`, `lockstep`, `cosim`", "refused: no reference RTL", rtl),
     ("`rtl-random`, `rtl-faults`, `verify-rtl`", "refused: no random users", random_rtl),
