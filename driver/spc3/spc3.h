@@ -183,8 +183,7 @@ spc3_error spc3_get_outputs(spc3_device* device, spc3_outputs* outputs);
  */
 void spc3_serve_watchdog(spc3_device* device);
 
-/* ------------------------------------------------------------------------------------------------ diagnosis, control
- */
+/* --------------------------------------------------------------------------------------------- diagnosis, control */
 
 /* Byte 0 of a diagnosis (table 5.7). */
 #define SPC3_DIAG_EXT 0x01u      /* Ext_Diag: the device has an error */

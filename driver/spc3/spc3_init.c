@@ -17,8 +17,7 @@ static spc3_error check_config(const spc3_config* config) {
   return SPC3_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------------------ layout
- */
+/* --------------------------------------------------------------------------------------------------------- layout */
 
 /* Lengths of the two Aux buffers and of all that are exchanged with them (5.1). */
 typedef struct groups {
@@ -83,8 +82,7 @@ static uint16_t place_buffers(const spc3_device* device, const spc3_config* conf
   return (uint16_t)(next << SPC3_SEGMENT_BITS);
 }
 
-/* --------------------------------------------------------------------------------------------------------- registers
- */
+/* ------------------------------------------------------------------------------------------------------ registers */
 
 static uint16_t ram_end(const spc3_config* config) { return config->vpc3 ? (uint16_t)kVpc3End : SPC3_REG_RAM_SIZE; }
 

@@ -9,7 +9,7 @@
 #include "model/profibus/uart_rx.hpp"
 #include "tb/chip/chip_view.hpp"
 #include "tb/chip/pins/pins.hpp"
-#include "tb/chip/register_port.hpp"
+#include "tb/chip/user_cpu/register_port.hpp"
 
 namespace dsdpv1::tb {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "bus/time.hpp"
-#include "tb/chip/register_port.hpp"
+#include "tb/chip/user_cpu/register_port.hpp"
 #include "tb/chip/user_cpu/user_side.hpp"
 
 namespace dsdpv1::spc3_user {
