@@ -44,9 +44,20 @@ std::vector<Input> inputs_of(const Trace& trace, std::size_t first, std::size_t 
   return inputs;
 }
 
+bool is_of_this_model(const std::string& scenario) {
+  const tb::traces::Json parameters = tb::traces::read_manifest(kFolder, scenario).at("parameters");
+  return parameters.at("kind").get<std::string>().rfind("dsdpv1", 0) == 0 && !parameters.contains("slaves");
+}
+
 }  // namespace
 
-std::vector<std::string> recorded_scenarios() { return tb::traces::golden_names(kFolder); }
+std::vector<std::string> recorded_scenarios() {
+  std::vector<std::string> names = tb::traces::golden_names(kFolder);
+  names.erase(std::remove_if(names.begin(), names.end(),
+                             [](const std::string& scenario) { return !is_of_this_model(scenario); }),
+              names.end());
+  return names;
+}
 
 std::vector<Recorded> recorded(const std::string& scenario) {
   const Golden golden = tb::traces::read_golden(kFolder, scenario);

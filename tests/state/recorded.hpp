@@ -23,7 +23,7 @@ struct Recorded {
   Tick end = 0;
 };
 
-/// Names of the scenarios that have a golden trace.
+/// Names of the scenarios that have a golden trace, and one chip of this model for all slaves.
 std::vector<std::string> recorded_scenarios();
 /// All slaves of a scenario.
 std::vector<Recorded> recorded(const std::string& scenario);
