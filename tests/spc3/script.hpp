@@ -113,7 +113,7 @@ class Script {
  private:
   void access(user_cpu::RegisterAccess access) {
     access.at = now += bus::kTicksPerUs;
-    checks.accessed(access);
+    checks.register_accessed(access);
   }
   void telegram(const bus::Telegram& telegram, Tick begin, bool answers = false) {
     bus::WireTelegram wire;

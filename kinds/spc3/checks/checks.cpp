@@ -34,7 +34,7 @@ void Checks::reset_pin(bool level) {
 
 // --- accesses --------------------------------------------------------------------------------------------------------
 
-void Checks::accessed(const user_cpu::RegisterAccess& access) {
+void Checks::register_accessed(const user_cpu::RegisterAccess& access) {
   constexpr std::uint16_t kMap = 0x7FF, kMapOfVpc3 = 0xFFF;
   has_accesses_ = true;
   if (in_reset_) return;

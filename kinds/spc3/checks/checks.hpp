@@ -4,7 +4,7 @@
 //
 //   spc3_checks::Checks checks(limits, variant, pins);
 //   checks.on_violation(...);
-//   checks.pin(at, pin, level);   checks.accessed(access);   checks.telegram(now, telegram);   // in order of time
+//   checks.pin(at, pin, level);  // and register_accessed(access), telegram(now, telegram), in order of time
 //   checks.finish(end);
 #include <functional>
 #include <utility>
@@ -32,7 +32,7 @@ class Checks : public checks::ChipChecks {
 
   void pin(Tick at, tb::PinNumber pin, tb::Level level) override;
   /// Addresses in Intel order.
-  void accessed(const user_cpu::RegisterAccess& access) override;
+  void register_accessed(const user_cpu::RegisterAccess& access) override;
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void event(const profibus::Event& event) override;
   void finish(Tick end) override;

@@ -35,7 +35,7 @@ class ChipChecks {
   virtual void looked(tb::PinNumber /*pin*/, Tick /*at*/) {}
   /// An access of the user CPU, after the pins up to its tick: for chips whose user CPU makes accesses without edges;
   /// the checks of others read them from the pins.
-  virtual void accessed(const user_cpu::RegisterAccess& /*access*/) {}
+  virtual void register_accessed(const user_cpu::RegisterAccess& /*access*/) {}
   /// A telegram of any station that has ended, at `now`.
   virtual void telegram(Tick now, const bus::WireTelegram& telegram) = 0;
   /// Once, at the end of the run.
