@@ -51,7 +51,7 @@ void InterruptRules::accessed(const RegisterAccess& access) {
 
 void InterruptRules::written(const RegisterAccess& access) {
   const bool high = (access.address & 1U) != 0;
-  const std::uint16_t half = high ? 0xFF00 : 0x00FF, value = bits(high ? access.value << 8 : access.value);
+  const std::uint16_t half = high ? 0xFF00 : 0x00FF, value = bits(high ? access.value * 0x100U : access.value);
   switch (access.address) {
     case regs::kIrr:
     case regs::kIrr + 1: return clear(access, bits(half & ~value));
