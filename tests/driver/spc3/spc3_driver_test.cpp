@@ -119,7 +119,7 @@ TEST_F(Spc3DriverTest, OrganisationIsThatOfTheConfiguration) {
   ASSERT_EQ(initialise(), SPC3_OK);
   EXPECT_EQ(chip.ram[kOrgNoAddressChange], 0);
   EXPECT_NE(chip.ram[kOrgSsaPointer], 0);
-  for (const int preset : {0x22, 0x23, 0x35, 0x36, 0x37, 0x38}) EXPECT_EQ(chip.ram.at(preset), 0);
+  for (const std::size_t preset : {0x22U, 0x23U, 0x35U, 0x36U, 0x37U, 0x38U}) EXPECT_EQ(chip.ram.at(preset), 0);
 }
 
 TEST_F(Spc3DriverTest, RegistersAreThoseOfTheConfiguration) {
