@@ -147,8 +147,8 @@ TEST_F(ComparePins, TheChipIsTheOneOfTheNamesOrThatOfTheOption) {
   EXPECT_EQ(compare(of_model(kPlain), of_rtl(all_pins()), "--chip dsdpv1").status, 0);
   EXPECT_EQ(compare(of_model(kPlain), of_rtl(kPlain), "--chip dsdpv1_r").status, 0);
   EXPECT_THAT(compare(of_model(kPlain), of_rtl(kPlain), "--chip dsdpv1_rsu").err, HasSubstr("output MISO"));
-  EXPECT_THAT(compare(of_model(kPlain), of_rtl(kPlain), "--chip spc9").err,
-              HasSubstr("--chip is spc9, expected dsdpv1"));
+  EXPECT_THAT(compare(of_model(kPlain), of_rtl(kPlain), "--chip none").err,
+              HasSubstr("--chip is none, expected dsdpv1"));
   EXPECT_THAT(compare(of_model(kPlain), of_rtl(kPlain), "--without BRR").err,
               HasSubstr("--without is BRR, which the dsdpv1 lacks (did you mean BR?)"));
 }
