@@ -29,9 +29,7 @@ void RunWatch::listen(bus::Segment& segment) {
 }
 
 std::uint16_t RunWatch::slave_of(const std::string& name) const {
-  std::uint16_t number = 0;
-  while (number < scenario_.slaves.size() && scenario_.slaves[number].name.text != name) ++number;
-  return number;
+  return static_cast<std::uint16_t>(slave_number(scenario_, name));
 }
 
 void RunWatch::begins(std::size_t slave, const tb::ChipView& chip) {

@@ -176,13 +176,6 @@ void Script::act(const Action& action, Tick now) {
   act_on_user(action, now);
 }
 
-std::size_t Script::slave_index(const std::string& name) const {
-  const auto& slaves = scenario_.slaves;
-  const auto found = std::find_if(slaves.begin(), slaves.end(),
-                                  [&name](const scenario::Slave& slave) { return slave.name.text == name; });
-  return static_cast<std::size_t>(found - slaves.begin());
-}
-
 void Script::act_on_user(const Action& action, Tick now) {
   namespace command = user_cpu::command;
   SlaveStation& slave = stations_.slave(action.slave.text);
@@ -205,7 +198,7 @@ void Script::act_on_user(const Action& action, Tick now) {
                    command::SendVerdict{action.of == scenario::Verdict::kCfg, action.refuse});
     case ActionKind::kPauseUser:
       order("pauses for " + time_text(*action.duration), command::Stop{});
-      return plan(now + *action.duration, Kind::kResumeUser, slave_index(slave.name()));
+      return plan(now + *action.duration, Kind::kResumeUser, slave_number(scenario_, slave.name()));
     case ActionKind::kReinitialise:
       journal_.log(now, slave.name(), "script", "initialises the chip again");
       return slave.reinitialise(now, action.new_address, action.cfg);
@@ -228,7 +221,7 @@ void Script::reset_chip(const Action& action, Tick now) {
   constexpr Tick kUsual = 10 * bus::kTicksPerUs;
   journal_.log(now, action.slave.text, "script", "RESET falls");
   stations_.slave(action.slave.text).hold_in_reset(now);
-  plan(now + action.duration.value_or(kUsual), Kind::kReleaseReset, slave_index(action.slave.text));
+  plan(now + action.duration.value_or(kUsual), Kind::kReleaseReset, slave_number(scenario_, action.slave.text));
 }
 
 void Script::act_on_bus(const Action& action, Tick now) {

@@ -69,7 +69,6 @@ class Script : public bus::Agent, public Observer {
   void ask_acyclic(const scenario::Action& action);
   void global_control(const scenario::Action& action);
   void send_telegram(const scenario::Action& action);
-  std::size_t slave_index(const std::string& name) const;
   std::uint8_t target(const scenario::Action& action) const;
 
   const scenario::Scenario& scenario_;
