@@ -9,7 +9,7 @@ namespace {
 
 using spc3::Pin;
 
-constexpr PinNumber number(Pin pin) { return static_cast<PinNumber>(pin); }
+static_assert(kLevelZ == spc3::kLevelZ && kLevelX == spc3::kLevelX);
 
 const char* rulings_of(Pin pin) {
   switch (pin) {
@@ -17,21 +17,23 @@ const char* rulings_of(Pin pin) {
     case Pin::kRts: return "P2, S11";
     case Pin::kXInt: return "A12, A13, A40";
     case Pin::kXDataExch: return "A24, A35";
+    case Pin::kXReady: return "A42";
+    case Pin::kDbOut: return "A16, A42";
+    case Pin::kClkOut: return "A43";
     default: return "";
   }
 }
 
 }  // namespace
 
-/// A slash in a name parts the scopes of a wave, and no HDL has it.
 const PinTable& spc3_pins() {
   static const PinTable table = [] {
     PinTable pins;
     for (int i = 0; i < spc3::kPinCount; ++i) {
       const auto pin = static_cast<Pin>(i);
-      const bool input = (spc3::mask(pin) & spc3::kOutputPins) == 0;
-      const bool line = pin == Pin::kRxd || pin == Pin::kTxd;
-      pins.push_back({pin == Pin::kXInt ? "X_INT" : spc3::name(pin), 1, input, nullptr, line, false, rulings_of(pin)});
+      const bool line = pin == Pin::kRxd || pin == Pin::kTxd, data = pin == Pin::kDbIn || pin == Pin::kDbOut;
+      pins.push_back({spc3::name(pin), spc3::width(pin), spc3::is_input(pin), data ? "DB" : nullptr, line,
+                      pin == Pin::kDbOut, rulings_of(pin)});
     }
     return pins;
   }();

@@ -25,7 +25,7 @@ class Spc3Device : public PinDevice, private RegisterPort {
   Tick now() const override { return chip_.now(); }
   Tick next_event() const override { return chip_.next_event(); }
   Level level(PinNumber pin) const override { return chip_.level(static_cast<spc3::Pin>(pin)); }
-  Level sample(Tick /*at*/) override { return kLevelZ; }  // no data bus yet
+  Level sample(Tick at) override { return chip_.sample(at); }
   void watch(const PinSink& sink, PinMask pins) override;
   void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
   profibus::Unheard unheard() const override { return chip_.unheard(); }

@@ -48,8 +48,11 @@ class Spc3Kind : public ChipKind {
   std::string describe(const profibus::Event& event) const override { return spc3::describe(event); }
   const std::vector<CodeTable>& codes() const override { return spc3_codes(); }
   const std::vector<PinGroup>& pin_groups() const override {
-    static const std::vector<PinGroup> groups = {{"line", {"RXD", "TXD", "RTS", "XCTS"}},
-                                                 {"user", {"RESET", "X_INT", "XDATAEXCH"}}};
+    static const std::vector<PinGroup> groups = {
+        {"line", {"RXD", "TXD", "RTS", "XCTS"}},
+        {"user", {"RESET", "X_INT", "XDATAEXCH", "CLKOUT2_4"}},
+        {"bus", {"XCS", "XRD_R_W", "XWR_E_CLOCK", "ALE_AS", "AB", "DB", "DB_IN", "DB_OUT", "XREADY_XDTACK"}},
+        {"straps", {"XINT_MOT", "MODE", "DIVIDER", "XTEST0", "XTEST1"}}};
     return groups;
   }
   const std::vector<InnerSignal>& inner_signals() const override { return Spc3Inside::signals(); }

@@ -19,12 +19,19 @@ constexpr bool is_high(Address address) { return (address & 1U) != 0; }
 
 void AddressMap::reset() {
   stops_ = violated_ = false;
-  user_timer_ = kNever;
+  user_timer_ = touched_ = kNever;
+}
+
+Address AddressMap::in_map(Address address) const {
+  constexpr Address kMask = 0x7FF, kMaskOfVpc3 = 0xFFF;
+  return address & (variant_.has_more_modes ? kMaskOfVpc3 : kMask);
 }
 
 // --- the read side ---------------------------------------------------------------------------------------------------
 
 std::uint8_t AddressMap::read(Cycle now, Address address) {
+  touched_ = now;
+  address = in_map(address);
   if (address < regs::kOrg) {
     store_.set_by_user(true);
     const std::uint8_t answer = command(now, address);
@@ -54,6 +61,7 @@ std::uint8_t AddressMap::command(Cycle now, Address address) {
 }
 
 std::uint8_t AddressMap::peek(Address address) const {
+  address = in_map(address);
   const bool high = is_high(address), more = variant_.has_more_modes;
   switch (address) {
     case regs::kIrr:
@@ -93,6 +101,8 @@ std::uint8_t AddressMap::mode1() const {
 // --- the write side --------------------------------------------------------------------------------------------------
 
 void AddressMap::write(Cycle now, Address address, std::uint8_t value) {
+  touched_ = now;
+  address = in_map(address);
   if (address >= regs::kOrg) return write_cell(now, address, value);
   store_.set_by_user(true);
   write_register(now, address, value);
@@ -167,6 +177,7 @@ bool AddressMap::may_write(Address address) const {
 }
 
 void AddressMap::poke(Address address, std::uint8_t value) {
+  address = in_map(address);
   if (address < regs::kOrg) return;
   store_.ram().poke(address, value);
   if (address < regs::kBuffers) store_.refresh();
@@ -205,6 +216,7 @@ void AddressMap::take_violation(Cycle now) {
 }
 
 void AddressMap::eval(Cycle now) {
+  if (now == touched_) touched_ = kNever;
   take_violation(now);
   if (stops_ && station_.quiet(now) && store_.next() == kNever) stop(now);
   if (now < user_timer_) return;

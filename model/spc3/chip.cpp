@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/spc3/address_map.hpp"
+#include "model/spc3/bus_port.hpp"
 #include "model/spc3/chip_state.hpp"
 #include "model/spc3/clear_to_send.hpp"
 #include "model/spc3/reasons.hpp"
@@ -17,7 +17,7 @@ using profibus::kTicksPerCycle;
 
 constexpr Cycle kResetSynchroniser = 2;  // A9
 
-constexpr std::uint32_t kResetLevels = mask(Pin::kTxd) | mask(Pin::kXInt) | mask(Pin::kXDataExch);
+constexpr std::uint32_t kResetLevels = mask(Pin::kTxd) | mask(Pin::kXInt) | mask(Pin::kXDataExch) | mask(Pin::kXReady);
 
 constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0; }
 
@@ -40,7 +40,8 @@ struct Chip::Impl {
         user(log, config, interrupt, station),
         station(log, station_of(given), user, nullptr),
         map(log, config, user, interrupt, station),
-        cts(log, given.cts_wait) {
+        cts(log, given.cts_wait),
+        port(log, config, map) {
     reset_blocks();
   }
 
@@ -54,10 +55,11 @@ struct Chip::Impl {
   void plan();
   std::uint8_t load(Cycle cycle, Address address);
   void store(Cycle cycle, Address address, std::uint8_t value);
+  Level sample(Tick at);
   Cycle begin_access(Cycle cycle, Address address);
-  Address in_map(Address address) const;
   std::uint32_t outputs_now() const;
   void publish(Tick at, std::uint32_t levels);
+  void publish_bus(Tick at);
   Level level(Pin pin) const;
 
   template <class Archive>
@@ -72,25 +74,32 @@ struct Chip::Impl {
   profibus::Station station;
   AddressMap map;
   ClearToSend cts;
+  BusPort port;
 
   PinSink sink;
   std::uint32_t watched = 0;
   Tick now = 0;
   Cycle done = 0;  // the last evaluated rising edge
   Tick planned_edge = kNever;
-  Cycle touched = kNever;  // the edge that takes the last access
   Cycle release_at = kNever;
   bool reset_pin = true, running = false;
-  std::uint32_t outputs = kResetLevels;
+  std::uint32_t outputs = kResetLevels;  // those of one wire
+  Level db_out = kLevelZ;
 };
 
 // --- inputs ----------------------------------------------------------------------------------------------------------
 
 void Chip::Impl::set(Tick at, Pin pin, Level value) {
   advance(at);
-  if (pin == Pin::kReset) set_reset(at, value != 0);
-  if (pin == Pin::kRxd) station.set_rxd(at, value != 0);
-  if (pin == Pin::kXCts) cts.set(at, value != 0);
+  switch (pin) {
+    case Pin::kReset: set_reset(at, value != 0); break;
+    case Pin::kRxd: station.set_rxd(at, value != 0); break;
+    case Pin::kXCts: cts.set(at, value != 0); break;
+    default:
+      if (!is_input(pin)) return;
+      port.set(at, pin, value);
+      publish_bus(at);
+  }
   plan();
 }
 
@@ -105,14 +114,16 @@ void Chip::Impl::set_reset(Tick at, bool high) {
 
 void Chip::Impl::enter_reset(Tick at) {
   running = false;
-  release_at = touched = kNever;
+  release_at = kNever;
   reset_blocks();
   publish(at, kResetLevels);
+  publish_bus(at);
 }
 
 void Chip::Impl::reset_blocks() {
   interrupt.reset();
   map.reset();
+  port.reset();
   user.reset();
 }
 
@@ -121,7 +132,7 @@ void Chip::Impl::reset_blocks() {
 // Kept because it is read far more often than changed: every caller of a block updates it.
 void Chip::Impl::plan() {
   const Cycle cycle =
-      std::min({release_at, touched, station.next(), user.next(), map.next(), interrupt.next(), cts.next()});
+      std::min({release_at, station.next(), user.next(), map.next(), interrupt.next(), cts.next(), port.next()});
   planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
 }
 
@@ -141,27 +152,25 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   if (cycle == release_at) {
     release_at = kNever;
     running = true;
+    port.release();
   }
-  if (cycle == touched) touched = kNever;
   cts.eval(cycle, station);
   station.eval(cycle);
   user.eval(cycle);
   map.eval(cycle);
   interrupt.eval(cycle);
   if (running) publish(cycle * kTicksPerCycle, outputs_now());
+  if (cycle != port.next()) return;
+  port.eval(cycle);
+  publish_bus(cycle * kTicksPerCycle);
 }
 
 // --- accesses --------------------------------------------------------------------------------------------------------
 
-Address Chip::Impl::in_map(Address address) const {
-  constexpr Address kMask = 0x7FF, kMaskOfVpc3 = 0xFFF;
-  return address & (row(config.variant).has_more_modes ? kMaskOfVpc3 : kMask);
-}
-
 // The edge that takes the access; kNever in reset.
 Cycle Chip::Impl::begin_access(Cycle cycle, Address address) {
   advance(cycle * kTicksPerCycle);
-  if (running) return touched = done + 1;
+  if (running) return done + 1;
   log.at_cycle(done, Reason::kInReset, address);
   return kNever;
 }
@@ -169,7 +178,7 @@ Cycle Chip::Impl::begin_access(Cycle cycle, Address address) {
 std::uint8_t Chip::Impl::load(Cycle cycle, Address address) {
   const Cycle edge = begin_access(cycle, address);
   if (edge == kNever) return 0;
-  const std::uint8_t value = map.read(edge, in_map(address));
+  const std::uint8_t value = map.read(edge, address);
   plan();
   return value;
 }
@@ -177,8 +186,16 @@ std::uint8_t Chip::Impl::load(Cycle cycle, Address address) {
 void Chip::Impl::store(Cycle cycle, Address address, std::uint8_t value) {
   const Cycle edge = begin_access(cycle, address);
   if (edge == kNever) return;
-  map.write(edge, in_map(address), value);
+  map.write(edge, address, value);
   plan();
+}
+
+Level Chip::Impl::sample(Tick at) {
+  advance(at);
+  const Level level = port.user_samples(at);
+  publish_bus(at);
+  plan();
+  return level;
 }
 
 // --- outputs ---------------------------------------------------------------------------------------------------------
@@ -187,7 +204,8 @@ std::uint32_t Chip::Impl::outputs_now() const {
   const bool high_active = user.modes().has0(regs::kMode0IntPol);
   return bit(Pin::kTxd, station.txd()) | bit(Pin::kRts, station.rts()) |
          bit(Pin::kXInt, interrupt.latch() == high_active) |
-         bit(Pin::kXDataExch, station.slave().state() != profibus::DpState::kDataExch);  // A35
+         bit(Pin::kXDataExch, station.slave().state() != profibus::DpState::kDataExch) |  // A35
+         (outputs & mask(Pin::kXReady));
 }
 
 void Chip::Impl::publish(Tick at, std::uint32_t levels) {
@@ -199,10 +217,19 @@ void Chip::Impl::publish(Tick at, std::uint32_t levels) {
   }
 }
 
+void Chip::Impl::publish_bus(Tick at) {
+  publish(at, (outputs & ~mask(Pin::kXReady)) | bit(Pin::kXReady, port.xready()));
+  if (std::exchange(db_out, port.db_out()) == db_out || (watched & mask(Pin::kDbOut)) == 0) return;
+  sink.call(sink.self, at, Pin::kDbOut, db_out);
+}
+
 Level Chip::Impl::level(Pin pin) const {
   if (pin == Pin::kReset) return reset_pin;
   if (pin == Pin::kRxd) return station.rxd();
   if (pin == Pin::kXCts) return cts.pin();
+  if (pin == Pin::kDbOut) return db_out;
+  if (pin == Pin::kClkOut) return kLevelX;
+  if (is_input(pin)) return port.level(pin);
   return (outputs & mask(pin)) != 0 ? Level{1} : Level{0};
 }
 
@@ -210,22 +237,23 @@ Level Chip::Impl::level(Pin pin) const {
 
 template <class Archive>
 void Chip::Impl::store(Archive& archive) {
-  auto& [its_config, its_log, its_interrupt, its_user, its_station, its_map, its_cts, its_sink, its_watched, its_now,
-         its_done, its_edge, its_touched, its_release, its_reset, runs, its_outputs] = *this;
+  auto& [its_config, its_log, its_interrupt, its_user, its_station, its_map, its_cts, its_port, its_sink, its_watched,
+         its_now, its_done, its_edge, its_release, its_reset, runs, its_outputs, its_db] = *this;
   archive.given(its_config, its_log, its_sink, its_watched, its_edge);
   archive.within(Tick{0}, Tick{1} << 62, its_now);
-  archive.cycles(its_done, its_touched, its_release);
+  archive.cycles(its_done, its_release);
   archive(its_interrupt);
   its_station.store(archive, its_user);
-  archive(its_map, its_cts, its_reset, runs);
-  archive.within(0U, (1U << kPinCount) - 1, its_outputs);
+  archive(its_map, its_cts, its_port, its_reset, runs);
+  archive.within(0U, kOutputPins, its_outputs);
+  archive.within(kLevelX, Level{0xFF}, its_db);
   if constexpr (Archive::kReads) its_user.derive();
   archive.check(is_possible());
 }
 
 // All plans lie in the future.
 bool Chip::Impl::is_possible() const {
-  const Cycle first = std::min({touched, release_at, user.next(), map.next()});
+  const Cycle first = std::min({release_at, user.next(), map.next(), port.next()});
   return done == now / kTicksPerCycle && first > done;
 }
 
@@ -251,8 +279,9 @@ void Chip::hear(Tick at, bool level) {
 }
 std::uint8_t Chip::load(Cycle cycle, Address address) { return impl_->load(cycle, address); }
 void Chip::store(Cycle cycle, Address address, std::uint8_t value) { impl_->store(cycle, address, value); }
-std::uint8_t Chip::peek(Address address) const { return impl_->map.peek(impl_->in_map(address)); }
-void Chip::poke(Address address, std::uint8_t value) { impl_->map.poke(impl_->in_map(address), value); }
+std::uint8_t Chip::peek(Address address) const { return impl_->map.peek(address); }
+void Chip::poke(Address address, std::uint8_t value) { impl_->map.poke(address, value); }
+Level Chip::sample(Tick at) { return impl_->sample(at); }
 Level Chip::level(Pin pin) const { return impl_->level(pin); }
 
 void Chip::watch(const PinSink& sink, std::uint32_t pins) {

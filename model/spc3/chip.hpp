@@ -1,5 +1,5 @@
 #pragma once
-// The SPC3 family (Config::variant): the line's pins and the CPU's register call in, pin changes out. Plain C++17, no
+// The SPC3 family (Config::variant): pin changes and the CPU's register call in, pin changes out. Plain C++17, no
 // SystemC, no I/O, no heap after construction. Rulings: docs/spc3.md.
 //
 //   Chip chip;                                    // RESET is high
@@ -46,7 +46,7 @@ class Chip {
   Chip& operator=(const Chip&) = delete;
 
   /// Changes an input pin at tick `at` (>= every earlier call's). Setting a pin to its present level does nothing.
-  /// Before the first call RESET and RXD are high, XCTS is low.
+  /// Before the first call inputs have the levels of pins.inc: RESET and RXD are high, the bus is at rest.
   void set(Tick at, Pin pin, Level level);
   /// Evaluates everything up to and including tick `to`; reports pin changes and events to the sinks on the way.
   void advance(Tick to);
@@ -59,9 +59,9 @@ class Chip {
   profibus::Unheard unheard() const;
   void hear(Tick at, bool level);
 
-  /// An access of the CPU after the edge of `cycle`, to which the chip is advanced; a read may be a command. It takes
-  /// effect at the next edge (A16). `address` in Intel order, 0 to 7FFH, of the VPC3+ to FFFH (others wrap); beyond the
-  /// RAM it is a violation (A3). In reset a read is 0 and nothing happens.
+  /// An access of the CPU beside the pins of its bus, after the edge of `cycle`, to which the chip is advanced; a read
+  /// may be a command. It takes effect at the next edge (A16). `address` in Intel order, 0 to 7FFH, of the VPC3+ to
+  /// FFFH (others wrap); beyond the RAM it is a violation (A3). In reset a read is 0 and nothing happens.
   std::uint8_t load(Cycle cycle, Address address);
   void store(Cycle cycle, Address address, std::uint8_t value);
   /// Access without time or effect, for debuggers and checks: the read side, where commands are 0; poke() leaves
@@ -69,6 +69,9 @@ class Chip {
   std::uint8_t peek(Address address) const;
   void poke(Address address, std::uint8_t value);
 
+  /// The level of DB that a user gets who samples at tick `at`; the chip is advanced to it. kLevelZ: no read. A read
+  /// that is not ready yet is reported, and acts now or is kLevelX (A42).
+  Level sample(Tick at);
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
   /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it.

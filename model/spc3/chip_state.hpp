@@ -9,7 +9,7 @@
 namespace dsdpv1::spc3 {
 
 /// Increment when the content or meaning of a block's stored state changes.
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
 
 /// Writes the head of a state; the blocks store after it.
 void begin_state(profibus::StateWriter& writer, const Config& config);

@@ -1,6 +1,5 @@
 #pragma once
-// The pins that the core has: reset, the line, the interrupt and the sign of the data exchange. The CPU's bus is the
-// register call of Chip.
+// The pins of M table 2.1, a row of pins.inc each, and how pin changes leave and enter the core.
 #include <cstdint>
 
 #include "model/profibus/time.hpp"
@@ -10,20 +9,49 @@ namespace dsdpv1::spc3 {
 using profibus::Cycle;
 using profibus::Tick;
 
-enum class Pin : std::uint8_t { kReset, kRxd, kXCts, kTxd, kRts, kXInt, kXDataExch };
-constexpr int kPinCount = 7;
+enum class Pin : std::uint8_t {
+#define SPC3_PIN(pin, ...) pin,
+#include "model/spc3/pins.inc"
+};
 
-/// 0 or 1.
+/// 0 or 1 for a single wire, the value for AB and DB.
 using Level = std::int16_t;
+constexpr Level kLevelZ = -1;           ///< released
+constexpr Level kLevelX = -2;           ///< unknown
+constexpr Level kHighestLevel = 0x7FF;  ///< of AB
 
+enum class Direction : std::uint8_t { kInput, kOutput };
+
+/// A row of pins.inc.
+struct PinRow {
+  const char* name;
+  int width;
+  Direction direction;
+  Level level;
+};
+
+constexpr PinRow kPinRows[] = {
+#define SPC3_PIN(pin, name, width, direction, ...) {name, width, Direction::direction, __VA_ARGS__},
+#include "model/spc3/pins.inc"
+};
+constexpr int kPinCount = sizeof kPinRows / sizeof(PinRow);
+
+/// Index in tables of pins.
+constexpr std::uint8_t number(Pin pin) { return static_cast<std::uint8_t>(pin); }
+constexpr const PinRow& row(Pin pin) { return kPinRows[number(pin)]; }
 constexpr std::uint32_t mask(Pin pin) { return std::uint32_t{1} << static_cast<unsigned>(pin); }
-constexpr std::uint32_t kOutputPins = mask(Pin::kTxd) | mask(Pin::kRts) | mask(Pin::kXInt) | mask(Pin::kXDataExch);
+constexpr bool is_input(Pin pin) { return row(pin).direction == Direction::kInput; }
+/// As HDL can have it: "X_INT" for X/INT.
+constexpr const char* name(Pin pin) { return row(pin).name; }
+/// Number of wires: 11 for AB, 8 for DB, else 1.
+constexpr int width(Pin pin) { return row(pin).width; }
 
-/// The manual's name of a pin (M table 2.1).
-constexpr const char* name(Pin pin) {
-  constexpr const char* kNames[kPinCount] = {"RESET", "RXD", "XCTS", "TXD", "RTS", "X/INT", "XDATAEXCH"};
-  return kNames[static_cast<unsigned>(pin)];
+constexpr std::uint32_t output_pins() {
+  std::uint32_t pins = 0;
+  for (int i = 0; i < kPinCount; ++i) pins |= is_input(static_cast<Pin>(i)) ? 0 : mask(static_cast<Pin>(i));
+  return pins;
 }
+constexpr std::uint32_t kOutputPins = output_pins();
 
 /// Receives the changes of output pins, in order of time. `call` is never null while attached.
 struct PinSink {

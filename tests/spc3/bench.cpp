@@ -82,6 +82,14 @@ void Twins::set(Tick at, Pin pin, spc3::Level level) {
   step_.set(at, pin, level);
 }
 
+spc3::Level Twins::sample(Tick at) {
+  announce();
+  hear();
+  const spc3::Level level = skip_.sample(at);
+  EXPECT_EQ(step_.sample(at), level);
+  return level;
+}
+
 void Twins::poke(Address address, std::uint8_t value) {
   skip_.poke(address, value);
   step_.poke(address, value);

@@ -41,6 +41,7 @@ class Twins : public bus::Agent, public bus::Listener {
   std::uint8_t load(Cycle cycle, Address address);
   void store(Cycle cycle, Address address, std::uint8_t value);
   void set(Tick at, Pin pin, spc3::Level level);
+  spc3::Level sample(Tick at);
   const spc3::Chip& chip() const { return skip_; }
   spc3::Chip& chip() { return skip_; }
   void poke(Address address, std::uint8_t value);

@@ -12,23 +12,33 @@ class Meddler : public bus::Agent {
  public:
   Meddler(Bench& bench, std::mt19937& random) : bench_(bench), random_(random) {}
   void begin() {
-    left_ = static_cast<int>(random_() % 6);
+    left_ = static_cast<int>(random_() % 12);
     plan();
   }
   Tick next() const override { return left_ > 0 ? at_ : bus::kNever; }
   void run(Tick now) override {
     --left_;
     bench_.twins.compare(now);  // also a saved state in the middle of a telegram
-    if (random_() % 2 == 0)
-      bench_.load(static_cast<spc3::Address>(random_() % 0x18));
-    else
-      bench_.store(regs::kMode1S, static_cast<std::uint8_t>(1U << random_() % 6));
+    switch (random_() % 4) {
+      case 0: bench_.load(static_cast<spc3::Address>(random_() % 0x18)); break;
+      case 1: bench_.store(regs::kMode1S, static_cast<std::uint8_t>(1U << random_() % 6)); break;
+      default: move_bus();
+    }
     plan();
   }
 
  private:
+  /// Any pins of the CPU's bus, also in the order of no access.
+  void move_bus() {
+    for (int i = 0; i < 4; ++i) {
+      const auto pin = static_cast<Pin>(spc3::number(Pin::kXCs) + random_() % 6);
+      const unsigned end = pin == Pin::kAb ? 0x18U : pin == Pin::kDbIn ? 0x100U : 2U;
+      bench_.twins.set(bench_.now(), pin, static_cast<spc3::Level>(random_() % end));
+    }
+    if (random_() % 4 == 0) bench_.twins.sample(bench_.now());
+  }
   void plan() {
-    at_ = bench_.now() + static_cast<Tick>(random_() % 400'000);
+    at_ = bench_.now() + static_cast<Tick>(random_() % (random_() % 2 == 0 ? 400'000 : 3'000));
     announce();
   }
   Bench& bench_;
@@ -51,6 +61,8 @@ class RandomRuns : public testing::TestWithParam<unsigned> {
     config.int_delay = seed % 5;
     config.clock = seed % 3 == 1 ? 24 : 48;
     config.ram_seed = seed;
+    config.ready = 1 + seed % 7;
+    config.ready_rule = seed / 2 % 2;
     return config;
   }
   unsigned below(unsigned end) { return static_cast<unsigned>(random() % end); }
