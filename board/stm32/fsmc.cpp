@@ -4,8 +4,9 @@ namespace dsdpv1::arm {
 namespace {
 
 constexpr std::uint32_t kBcr1 = 0x000, kBtr1 = 0x004, kBcr2 = 0x008, kBcr3 = 0x010, kBcr4 = 0x018, kBwtr1 = 0x104;
-constexpr std::uint32_t kMbken = 1U << 0U, kMuxen = 1U << 1U, kMwid = 3U << 4U, kBursten = 1U << 8U, kWren = 1U << 12U,
-                        kExtmod = 1U << 14U;
+constexpr std::uint32_t kMbken = 1U << 0U, kMuxen = 1U << 1U, kMwid = 3U << 4U, kBursten = 1U << 8U,
+                        kWaitpol = 1U << 9U, kWren = 1U << 12U, kExtmod = 1U << 14U;
+constexpr unsigned kAsyncwaitBit = 15;
 
 constexpr std::uint32_t kPcr2 = 0x060, kSr2 = 0x064, kPcr3 = 0x080, kSr3 = 0x084, kPcr4 = 0x0A0, kSr4 = 0x0A4;
 
@@ -40,11 +41,21 @@ constexpr RegisterList kFsmcRegisters = {{kBcr1, "BCR1", 0x30DB, kBcr},
                                          {0x0AC, "PATT4", kSlowest, kAll},
                                          {0x0B0, "PIO4", kSlowest, kAll}};
 constexpr TagList kFsmcTags = {  // zeros are SRAM, asynchronous, at NE1
-    {kBcr1, 2, 2, "MTYP"},       {kBcr1, 8, 1, "BURSTEN"},   {kBcr1, 13, 1, "WAITEN", 0, kBursten},
-    {kBcr1, 15, 1, "ASYNCWAIT"}, {kBcr1, 19, 1, "CBURSTRW"}, {kBtr1, 28, 2, "ACCMOD"},
-    {kBwtr1, 28, 2, "ACCMOD"},   {kBcr2, 0, 1, "MBKEN"},     {kBcr3, 0, 1, "MBKEN"},
-    {kBcr4, 0, 1, "MBKEN"},      {kPcr2, 2, 1, "PBKEN"},     {kPcr3, 2, 1, "PBKEN"},
-    {kPcr4, 2, 1, "PBKEN"},      {kSr2, 3, 3, "I[F:R]EN"},   {kSr3, 3, 3, "I[F:R]EN"},
+    {kBcr1, 2, 2, "MTYP"},
+    {kBcr1, 8, 1, "BURSTEN"},
+    {kBcr1, 13, 1, "WAITEN", 0, kBursten},
+    {kBcr1, kAsyncwaitBit, 1, "ASYNCWAIT"},
+    {kBcr1, 19, 1, "CBURSTRW"},
+    {kBtr1, 28, 2, "ACCMOD"},
+    {kBwtr1, 28, 2, "ACCMOD"},
+    {kBcr2, 0, 1, "MBKEN"},
+    {kBcr3, 0, 1, "MBKEN"},
+    {kBcr4, 0, 1, "MBKEN"},
+    {kPcr2, 2, 1, "PBKEN"},
+    {kPcr3, 2, 1, "PBKEN"},
+    {kPcr4, 2, 1, "PBKEN"},
+    {kSr2, 3, 3, "I[F:R]EN"},
+    {kSr3, 3, 3, "I[F:R]EN"},
     {kSr4, 3, 3, "I[F:R]EN"}};
 
 user_cpu::FsmcTiming fields(std::uint32_t btr) {
@@ -72,6 +83,9 @@ bool Fsmc::refuses(bool write) const {
 
 bool Fsmc::is_wide() const { return (words_[kBcr1] & kMwid) != 0; }
 bool Fsmc::is_multiplexed() const { return (words_[kBcr1] & kMuxen) != 0; }
+bool Fsmc::waits() const { return (words_[kBcr1] >> kAsyncwaitBit & 1U) != 0; }
+bool Fsmc::waits_while_high() const { return (words_[kBcr1] & kWaitpol) != 0; }
+bool Fsmc::is_wait(const Tag& tag) { return tag.offset == kBcr1 && tag.bit == kAsyncwaitBit; }
 
 user_cpu::FsmcBank Fsmc::bank(std::int64_t hclk_hz) const {
   user_cpu::FsmcBank bank;

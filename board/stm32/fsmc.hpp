@@ -25,6 +25,11 @@ class Fsmc {
   /// Other than 8 bits (MWID); the address on the data lines (MUXEN).
   bool is_wide() const;
   bool is_multiplexed() const;
+  /// An asynchronous access waits for NWAIT (ASYNCWAIT); as long as it is high (WAITPOL), else low.
+  bool waits() const;
+  bool waits_while_high() const;
+  /// The tag of ASYNCWAIT, which a board without a memory at NWAIT does not follow.
+  static bool is_wait(const Tag& tag);
 
  private:
   user_cpu::FsmcOverride given_;

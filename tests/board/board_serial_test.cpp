@@ -8,7 +8,8 @@
 #include <bitset>
 #include <map>
 
-#include "kinds/dsdpv1/board/board.hpp"
+#include "kinds/board/board.hpp"
+#include "kinds/dsdpv1/board/wiring.hpp"
 #include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
 #include "tests/kinds/quiet_device.hpp"
 
@@ -103,6 +104,7 @@ class BoardSerial : public testing::Test {
     options.firmware = firmware;
     options.fsmc.hclk_mhz = 72;
     options.card = card;
+    options.wiring = tb::dsdpv1_wiring(card);
     options.serial = serial;
     options.mode = mode;
     board = std::make_unique<arm::Board>(

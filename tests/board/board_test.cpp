@@ -1,6 +1,8 @@
 // The board's peripherals and wiring, observed at the pins: the actions are in tests/board/firmware/probe.c, the test
 // checks the host bus.
-#include "kinds/dsdpv1/board/board.hpp"
+#include "kinds/board/board.hpp"
+#include "kinds/dsdpv1/board/mailbox_link.hpp"
+#include "kinds/dsdpv1/board/wiring.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -114,6 +116,10 @@ class BoardTest : public testing::Test {
              std::optional<std::uint32_t> mailbox = {}) {
     arm::BoardOptions options;
     options.firmware = with(program, mailbox);
+    options.wiring = tb::dsdpv1_wiring();
+    options.make_mailbox = [](std::uint8_t* memory) {
+      return std::make_unique<arm::MailboxLink>(memory, user_cpu::ProgramOptions());
+    };
     options.fsmc = fsmc;
     options.switches = switches;
     board = std::make_unique<arm::Board>(
@@ -319,6 +325,7 @@ TEST_F(BoardTest, LookIsALoadOfPc8AndPc9AlsoOneThatAnUnchangedLoopLeavesOut) {
   pins.l_req = 1;
   arm::BoardOptions options;
   options.firmware = with(kAsks);
+  options.wiring = tb::dsdpv1_wiring();
   options.fsmc = at_72_mhz();
   for (Tick fall = kStart + 100 * bus::kTicksPerUs, i = 0; i < 30; ++i, fall += 100) {
     options.timing.leaves_out_polls = false;
@@ -439,6 +446,7 @@ TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
   chip.poke(0, 0x123, 0xA5);
   arm::BoardOptions options;
   options.firmware = with(kAccesses);
+  options.wiring = tb::dsdpv1_wiring();
   options.fsmc = at_72_mhz();
   Tick asked_at = -1;
   options.chip = [&](Tick now) -> const tb::ChipView& {
@@ -479,6 +487,7 @@ TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
 TEST_F(BoardTest, DebuggerSeesInEachRegisterWhatTheFirmwareReads) {
   arm::BoardOptions options;
   options.firmware = with(kRegisters);
+  options.wiring = tb::dsdpv1_wiring();
   std::vector<int> seen;
   std::size_t lamps = 0;  // of the chip, which this debugger cannot see
   const auto look = [&](arm::DebugTarget& target) {
@@ -596,13 +605,20 @@ TEST(MemoryBus, NamesThePinsThatAreWrongForThePortInUse) {
   for (const unsigned port : {3U, 4U, 5U, 6U})
     for (const std::uint32_t half : {kLow, kHigh}) ports.at(port).write(half, 0xBBBB'BBBB);
   const arm::Fsmc fsmc({});  // as after a reset
-  EXPECT_EQ(arm::memory_bus(ports, fsmc, false).wrong_pins, "");
-  EXPECT_EQ(arm::memory_bus(ports, fsmc, true).wrong_pins, "PC6 (R_REQ), PC7 (R_STA)");
+  EXPECT_EQ(arm::memory_bus(ports, fsmc, false, false).wrong_pins, "");
+  EXPECT_EQ(arm::memory_bus(ports, fsmc, true, false).wrong_pins, "PC6 (R_REQ), PC7 (R_STA)");
   ports.at(2).write(kLow, 0x3344'4444);
   ports.at(2).write(kHigh, 0x4444'4404);  // PC9 is analog
-  EXPECT_EQ(arm::memory_bus(ports, fsmc, true).wrong_pins, "PC9 (L_STA)");
+  EXPECT_EQ(arm::memory_bus(ports, fsmc, true, false).wrong_pins, "PC9 (L_STA)");
+  for (const std::uint32_t mode : {0xB, 0x3, 0x0})  // alternate function, output, analog
+    EXPECT_EQ(
+        (ports.at(3).write(kLow, 0xB0BB'BBBB | mode << 24U), arm::memory_bus(ports, fsmc, false, true).wrong_pins),
+        "PD6 (NWAIT)");
+  for (const std::uint32_t mode : {0x4, 0x8})
+    EXPECT_EQ(
+        (ports.at(3).write(kLow, 0xB0BB'BBBB | mode << 24U), arm::memory_bus(ports, fsmc, false, true).wrong_pins), "");
   ports.at(3).write(kLow, 0xFBBB'BBBB);  // NE1 is open drain
-  const arm::MemoryBus bus = arm::memory_bus(ports, fsmc, false);
+  const arm::MemoryBus bus = arm::memory_bus(ports, fsmc, false, false);
   EXPECT_EQ(bus.wrong_pins, "PD7 (NE1)");
   EXPECT_FALSE(bus.reads || bus.writes);
   EXPECT_TRUE(bus.wide && bus.multiplexed);

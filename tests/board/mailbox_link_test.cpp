@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@ class MailboxLinkTest : public testing::Test {
  protected:
   bool look() {
     return link.look(
-        7, [this](const user_cpu::DriverError& error) { errors.push_back(error); });
+        7, [this](const user_cpu::ProgramError& error) { errors.push_back(error); });
   }
   /// As in the example firmware.
   void report_error(std::uint8_t error, std::uint8_t during) {
@@ -26,12 +26,12 @@ class MailboxLinkTest : public testing::Test {
 
   dsdpv1_mailbox box{};
   arm::MailboxLink link{reinterpret_cast<std::uint8_t*>(&box), {}};
-  std::vector<user_cpu::DriverError> errors;
+  std::vector<user_cpu::ProgramError> errors;
 };
 
 TEST_F(MailboxLinkTest, EveryByteAsAnErrorIsOneOfTheDriversOrIsNamed) {
-  std::set<unsigned> failures;
-#define X(name, value, text) failures.insert(value);
+  std::map<unsigned, std::string> failures;
+#define X(name, value, text) failures[value] = #name;
   DSDPV1_ERROR_TABLE(X)
 #undef X
   failures.erase(DSDPV1_OK);
@@ -40,10 +40,10 @@ TEST_F(MailboxLinkTest, EveryByteAsAnErrorIsOneOfTheDriversOrIsNamed) {
     arm::MailboxLink each(reinterpret_cast<std::uint8_t*>(&memory), {});
     memory.report.errors[0].error = static_cast<std::uint8_t>(value);
     memory.report.error_count = 1;
-    unsigned seen = 0;
-    each.look(7, [&](const user_cpu::DriverError& error) { seen = error.error; });
+    std::string seen;
+    each.look(7, [&](const user_cpu::ProgramError& error) { seen = error.code; });
     const bool known = failures.count(value) != 0;
-    EXPECT_EQ(seen, known ? value : 0) << value;
+    EXPECT_EQ(seen, known ? failures[value] : "") << value;
     EXPECT_EQ(
         each.wrong(),
         known ? "" : "report.errors[0].error is " + std::to_string(value) + ", expected the failures of dsdpv1_error");
@@ -84,8 +84,10 @@ TEST_F(MailboxLinkTest, DoneOfACommandThatWasNeverPostedIsNamed) {
 }
 
 TEST_F(MailboxLinkTest, SpoiltTelegramsAreHandedOver) {
-  using user_cpu::TelegramFault;
-  link.post(user_cpu::command::SpoilTelegrams{TelegramFault::kWrongParity, 3});
+  user_cpu::command::OfChip order;
+  order.order = user_cpu::kWrongParity;
+  order.times = 3;
+  link.post(order);
   look();
   EXPECT_EQ(box.command.kind, DSDPV1_CMD_SPOIL);
   EXPECT_EQ(box.command.value, DSDPV1_SPOIL_PARITY);
@@ -108,8 +110,8 @@ TEST_F(MailboxLinkTest, FirmwareThatBeganAgainCountsItsErrorsAgain) {
   look();
   EXPECT_EQ(link.wrong(), "");
   ASSERT_EQ(errors.size(), 6U);
-  EXPECT_EQ(errors.back().error, DSDPV1_ERR_ANSWER_STALE);
-  EXPECT_STREQ(errors.back().during, "acyclic_poll");
+  EXPECT_EQ(errors.back().code, "DSDPV1_ERR_ANSWER_STALE");
+  EXPECT_NE(errors.back().text.find("acyclic_poll"), std::string::npos) << errors.back().text;
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "board/firmware/elf_image.hpp"
-#include "board/gdb/gdb_server.hpp"
-#include "board/gdb/history_player.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
-#include "kinds/dsdpv1/board/board.hpp"
+#include "kinds/board/board_options.hpp"
+#include "kinds/dsdpv1/board/mailbox_link.hpp"
+#include "kinds/dsdpv1/board/wiring.hpp"
 #include "kinds/dsdpv1/chip/untold.hpp"
 #include "kinds/dsdpv1/chip/user_maker.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
@@ -20,18 +20,6 @@
 
 namespace dsdpv1::tb {
 namespace {
-
-/// The values were validated when the scenario was read.
-arm::Switches switches_of(const Dsdpv1User& user) {
-  arm::Switches switches;
-  for (const Name& text : user.switches) {
-    const Switch one = *parse_switch(text.text);
-    const auto bit = static_cast<std::uint16_t>(1U << one.pin);
-    switches.held.at(one.port) |= bit;
-    if (one.high) switches.levels.at(one.port) |= bit;
-  }
-  return switches;
-}
 
 /// The straps of a DSDPV1-RSU, which the processor also reads (R13): MODE at PC10 PC11, ADR PB0 PB1, UBR PD8 to PD10,
 /// UIV PE13 to PE15, bit 0 at the lower pin (p).
@@ -56,47 +44,11 @@ void check_objects(const scenario::Scenario& scenario, const scenario::Slave& sl
                      fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
 }
 
-/// Flash with the program that the file has now; empty if that is no firmware.
-std::vector<std::uint8_t> flash_of(const std::string& elf) {
-  constexpr arm::MemoryRange kFlash = arm::FirmwareMemory().flash;
-  std::vector<std::uint8_t> flash(kFlash.size, 0xFF);
-  try {
-    for (const arm::Segment& segment : arm::load_elf(elf).segments)
-      if (kFlash.holds(segment.address, segment.bytes.size()))
-        std::copy(segment.bytes.begin(), segment.bytes.end(), flash.begin() + (segment.address - kFlash.start));
-  } catch (const InputError&) {
-    flash.clear();
-  }
-  return flash;
-}
-
-std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTarget& target, const std::string& elf) {
-  arm::HistoryPlayer::MakeDebugger server;
-  user_cpu::DebugHistory* const way_back = gdb.goes_back ? gdb.history.get() : nullptr;
-  if (gdb.port) {
-    server = [&gdb, way_back, elf](arm::DebugTarget& noted, std::uint64_t board) {
-      return std::make_unique<arm::GdbServer>(
-          noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say, way_back, board, [elf] { return flash_of(elf); }});
-    };
-  }
-  return std::make_unique<arm::HistoryPlayer>(target, *gdb.history, server);
-}
-
-/// Errors name the scenario's line as well as the file.
-std::shared_ptr<const arm::Firmware> firmware_of(const scenario::Scenario& scenario, const Name& elf) {
-  try {
-    return arm::load_firmware(scenario::resolve(scenario, elf));
-  } catch (const InputError& error) {
-    throw InputError(scenario.file, elf.line, std::string("elf ") + error.what());
-  }
-}
-
 MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
   ChipView& chip = request.chip;
   const scenario::UserCpu& user = request.slave.user_cpu;
   const Dsdpv1User& own = tb::own(user);
-  arm::BoardOptions options;
-  options.firmware = firmware_of(request.scenario, own.elf);
+  arm::BoardOptions options = board_options(request, own);
   if (!options.firmware->mailbox) {
     Untold missing = untold(request.scenario, request.slave, options.firmware->path,
                             fmt::format("has no mailbox ({})", DSDPV1_MAILBOX_SYMBOL));
@@ -104,10 +56,8 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
     request.left_out.merge(missing.left_out);
   }
   check_objects(request.scenario, request.slave, *options.firmware);
-  options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(own.cpi.value_or(0) * 1000);
-  if (own.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*own.fsmc);
+  options.carry_out = [&host](const user_cpu::Command& command) { return user_cpu::carry_out(command, host); };
   if (own.access) options.access = static_cast<const AccessTiming&>(*own.access);
-  options.switches = switches_of(own);
   const auto& settings = static_cast<const Dsdpv1Settings&>(*request.slave.chip);
   if (dsdpv1::has_serial_ports(settings.part)) {
     options.serial = true;
@@ -115,18 +65,13 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
     hold_straps(options.switches, settings);
     if (settings.mode != HostMode::kParallel) options.card = static_cast<unsigned>(settings.address);
   }
-  if (const GdbRequest* gdb = request.gdb)
-    options.make_debugger = [gdb, elf = options.firmware->path](arm::DebugTarget& target) {
-      return make_debugger(*gdb, target, elf);
-    };
+  options.wiring = dsdpv1_wiring(options.card);
   return [&user, &chip, &host, options](const user_cpu::StationConfig& station, Tick start) {
     arm::BoardOptions now = options;
-    now.program = program_options(user, station);
-    now.chip = [&chip](Tick at) -> const ChipView& {
-      chip.sync(at);
-      return chip;
+    now.make_mailbox = [settings = program_options(user, station)](std::uint8_t* memory) {
+      return std::make_unique<arm::MailboxLink>(memory, settings);
     };
-    const auto set_chip_reset = [&chip](Tick at, bool level) { chip.set_reset(at, level); };
+    const auto set_chip_reset = [&chip](Tick at, bool released) { chip.set_reset(at, released); };
     return std::make_unique<arm::Board>(host, std::move(now), set_chip_reset, start);
   };
 }

@@ -208,7 +208,7 @@ MailboxLink::MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& o
   fill(box_.settings, options);
 }
 
-bool MailboxLink::look(Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error) {
+bool MailboxLink::look(Tick now, const std::function<void(const user_cpu::ProgramError&)>& on_error) {
   if (!wrong_.empty()) return false;
   is_right("done", box_.done, done_is_right(), "`posted` and the number before it");
   const bool ready = wrong_.empty() && hand_over();
@@ -241,7 +241,7 @@ void MailboxLink::fetch_outputs() {
     outputs_.assign(report.outputs, report.outputs + length);
 }
 
-void MailboxLink::fetch_errors(Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error) {
+void MailboxLink::fetch_errors(Tick now, const std::function<void(const user_cpu::ProgramError&)>& on_error) {
   const std::uint32_t count = box_.report.error_count;
   if (count < errors_seen_) errors_seen_ = 0;  // the firmware has restarted and counts from 0
   if (count - errors_seen_ > DSDPV1_MAILBOX_ERRORS) errors_seen_ = count - DSDPV1_MAILBOX_ERRORS;
@@ -252,7 +252,8 @@ void MailboxLink::fetch_errors(Tick now, const std::function<void(const user_cpu
     if (!is_right(name + "error", each.error, is_failure(each.error), "the failures of dsdpv1_error") ||
         !is_right(name + "during", each.during, each.during < kCalls.size(), "0 to 7"))
       continue;
-    if (on_error) on_error({now, static_cast<dsdpv1_error>(each.error), kCalls.at(each.during)});
+    if (on_error)
+      on_error(user_cpu::program_error({now, static_cast<dsdpv1_error>(each.error), kCalls.at(each.during)}));
   }
 }
 

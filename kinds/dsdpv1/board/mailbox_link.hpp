@@ -1,5 +1,5 @@
 #pragma once
-// The bench's end of the mailbox (mailbox.h) in the firmware's RAM.
+// The bench's end of the mailbox (mailbox.h) in the RAM of a DSDPV1's firmware.
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -7,42 +7,39 @@
 #include <vector>
 
 #include "board/firmware/mailbox.h"
-#include "kinds/dsdpv1/user_cpu/programs.hpp"
+#include "kinds/board/mailbox.hpp"
+#include "kinds/dsdpv1/user_cpu/orders.hpp"
 
 namespace dsdpv1::arm {
 
-class MailboxLink {
+class MailboxLink : public Mailbox {
  public:
   /// `memory` is the mailbox in the processor's RAM; the constructor clears it and writes the settings. At most
   /// DSDPV1_MAILBOX_OBJECTS objects.
   MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& options);
 
-  void post(const user_cpu::DriverCommand& command) { commands_.push_back(command); }
-  /// True if look() would have an effect.
-  bool has_news() const {
+  void post(const user_cpu::Command& command) override { commands_.push_back(user_cpu::driver_command(command)); }
+  bool has_news() const override {
     return (!commands_.empty() && is_done()) || outputs_received_ != box_.report.outputs_received ||
            errors_seen_ != box_.report.error_count || !done_is_right();
   }
-  /// To be called after each step of the processor: passes the next command when the firmware has finished the last,
-  /// and fetches outputs and errors. Returns true if it passed one. Values from the firmware are validated before use,
-  /// see wrong().
-  bool look(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
+  /// Values from the firmware are validated before use, see wrong().
+  bool look(bus::Tick now, const std::function<void(const user_cpu::ProgramError&)>& on_error) override;
 
   /// The first invalid value in the mailbox: "report.output_length is 250, expected 0 to 244". Empty: none. After
   /// one, look() does nothing.
-  const std::string& wrong() const { return wrong_; }
+  const std::string& wrong() const override { return wrong_; }
 
-  /// State at the last look().
-  std::uint64_t outputs_received() const { return outputs_received_; }
-  const std::vector<std::uint8_t>& outputs() const { return outputs_; }
-  user_cpu::ProgramCounters counters() const;
+  std::uint64_t outputs_received() const override { return outputs_received_; }
+  const std::vector<std::uint8_t>& outputs() const override { return outputs_; }
+  user_cpu::ProgramCounters counters() const override;
 
  private:
   bool is_done() const { return box_.posted == box_.done; }
   bool done_is_right() const { return box_.posted - box_.done <= 1; }
   bool hand_over();
   void fetch_outputs();
-  void fetch_errors(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
+  void fetch_errors(bus::Tick now, const std::function<void(const user_cpu::ProgramError&)>& on_error);
   bool is_right(const std::string& field, unsigned value, bool right, const char* allowed);
 
   dsdpv1_mailbox& box_;

@@ -9,9 +9,9 @@
 #include "io/input/input_error.hpp"
 #include "kinds/dsdpv1/chip/untold.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
-#include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
 #include "kinds/dsdpv1/user_cpu/native_user.hpp"
 #include "kinds/dsdpv1/user_cpu/process_user.hpp"
+#include "kinds/user_cpu/fsmc_access.hpp"
 #include "tb/bench/program_options.hpp"
 
 namespace dsdpv1::tb {

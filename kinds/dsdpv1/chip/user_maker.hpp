@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kinds/dsdpv1/user_cpu/callers.hpp"
-#include "kinds/dsdpv1/user_cpu/host_bus.hpp"
+#include "kinds/user_cpu/host_bus.hpp"
 #include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::tb {

@@ -1,7 +1,7 @@
 #include "kinds/dsdpv1/keys/codes.hpp"
 
 #include "driver/dsdpv1.h"
-#include "kinds/dsdpv1/keys/board_codes.hpp"
+#include "kinds/board/board_codes.hpp"
 #include "kinds/dsdpv1/user_cpu/process_user.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/bench/record.hpp"

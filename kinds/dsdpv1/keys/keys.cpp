@@ -38,28 +38,6 @@ const ObjectOf<AccessTimes>& access_keys() {
   return keys;
 }
 
-const ObjectOf<Fsmc>& fsmc_keys() {
-  static const ObjectOf<Fsmc> keys = [] {
-    using user_cpu::FsmcMode;
-    ObjectOf<Fsmc> o(
-        "fsmc",
-        "Bus timing of an STM32F103's FSMC from its registers (bank 1, SRAM, 8 bits). Default: the values that the "
-        "firmware of an ARM board writes; for a native CPU addset 1, datast 5, busturn 0, mode 1, hclk 72.");
-    o.integer("addset", &Fsmc::addset, {0, 15}, "HCLK", "ADDSET: WR (and in mode A RD) falls one HCLK more after CSR.");
-    o.integer("datast", &Fsmc::datast, {0, 255}, "HCLK",
-              "DATAST: low time of WR; D is sampled one HCLK more after the address phase. The manual reserves 0: WR "
-              "would have no low time (Ts).");
-    o.integer("busturn", &Fsmc::busturn, {0, 15}, "HCLK", "BUSTURN: additional high time of CSR between accesses.");
-    o.integer("hclk", &Fsmc::hclk_mhz, {1, 72}, "MHz", "Frequency of HCLK (default: RCC's on an ARM board, else 72).");
-    o.word("mode", &Fsmc::mode,
-           std::vector<WordFor<FsmcMode>>{{FsmcMode::k1, "1", "RD falls with CSR"},
-                                          {FsmcMode::kA, "A", "RD falls addset + 1 HCLK after CSR"}},
-           "Access mode.");
-    return o;
-  }();
-  return keys;
-}
-
 const ObjectOf<CpuTimes>& timing_keys() {
   static const ObjectOf<CpuTimes> keys = [] {
     using T = CpuTimes;
@@ -189,15 +167,13 @@ ObjectOf<Dsdpv1User> plain_user_keys() {
   o.word("kind", &U::kind,
          std::vector<WordFor<CpuKind>>{
              {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
-             {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"},
+             {CpuKind::kArm, "arm", kArmText},
              {CpuKind::kProcess, "process",
               "`program`, compiled for this computer, in a process (docs/tutorials/c_driver_on_host.md); its accesses "
               "have the times "
               "of `timing`"}},
          "The processor.");
-  o.file("elf", &U::elf,
-         "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to the current "
-         "folder.");
+  add_elf_key(o);
   o.file("program", &U::program,
          "Program of kind: process, relative to the scenario's folder; on the command line relative to the current "
          "folder.");
@@ -213,12 +189,7 @@ ObjectOf<Dsdpv1User> plain_user_keys() {
               "actions are not carried out, expectations not judged, and each is listed at the end"}},
          "For firmware without a mailbox: the treatment of actions for the user CPU, of expectations of outputs or of "
          "errors of the driver, and of settings for its program beside `elf` (docs/arm_board.md).");
-  o.names("switches", &U::switches, {0, 112},
-          "Switches on input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 except those that the board "
-          "wires to the chip. Pins without a switch have only their pull-up or pull-down.");
-  o.number(
-      "cpi", &U::cpi, {1, 10}, "HCLK",
-      "Cycles of every instruction of the ARM board (default: each instruction's own time, with flash wait states).");
+  add_processor_keys(o);
   o.object("timing", &U::timing, timing_keys(), "Its speed.");
   o.object("access", &U::access, access_keys(),
            "Times at which it moves the pins of its bus; on an ARM board instead of the FSMC.");
@@ -248,43 +219,10 @@ dsdpv1::Config config_of(const ChipRequest& request) {
 
 // --- what does not fit together -------------------------------------------------------------------------------------
 
-std::optional<Switch> parse_switch(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals < 3 || equals > 4 || text[0] != 'P') return std::nullopt;
-  const std::string level = text.substr(equals + 1);
-  if (text[1] < 'A' || text[1] > 'G' || (level != "low" && level != "high")) return std::nullopt;
-  // 0 to 15, without a leading zero
-  const std::string number = text.substr(2, equals - 2);
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  if (!std::all_of(number.begin(), number.end(), digit) || (number.size() > 1 && number[0] == '0')) return std::nullopt;
-  const auto bit = static_cast<unsigned>(std::stoi(number));
-  if (bit > 15) return std::nullopt;
-  return Switch{static_cast<unsigned>(text[1] - 'A'), bit, level == "high"};
-}
-
 namespace {
 
 /// L_REQ, L_STA, R_REQ, R_STA; RESET; INTR0, PBF, BR, READY.
-bool is_wired(const Switch& one) {
-  static const std::map<unsigned, unsigned> wired = {{2, 0x03C0}, {4, 0x0010}, {6, 0x7040}};
-  const auto port = wired.find(one.port);
-  return port != wired.end() && (port->second >> one.pin & 1U) != 0;
-}
-
-void check_switches(const Dsdpv1User& user, const std::string& file) {
-  std::map<std::pair<unsigned, unsigned>, std::string> seen;
-  for (const Name& text : user.switches) {
-    const auto fail = [&](const std::string& why) { throw InputError(file, text.line, why); };
-    if (user.kind != CpuKind::kArm) fail("switches without kind: arm, expected those of an ARM board");
-    const std::optional<Switch> one = parse_switch(text.text);
-    if (!one) fail(fmt::format("switches holds {}, expected something like PA0=low or PG15=high", text.text));
-    if (is_wired(*one))
-      fail(fmt::format("switches holds {}, a pin that the board wires to the chip; expected the others of PA0 to PG15",
-                       text.text));
-    if (!seen.emplace(std::pair(one->port, one->pin), text.text).second)
-      fail(fmt::format("switches holds {}, a pin that is there twice, expected once", text.text));
-  }
-}
+constexpr WiredPins kWired = {0, 0, 0x03C0, 0, 0x0010, 0, 0x7040};
 
 }  // namespace
 
@@ -300,11 +238,7 @@ void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const st
   if (!process && !user.arguments.empty())
     throw InputError(file, user.arguments.front().line,
                      "arguments without kind: process, expected those of its program");
-  if (arm && user.elf.empty())
-    throw InputError(file, line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave));
-  if (!arm && !user.elf.empty())
-    throw InputError(file, user.elf.line, "elf without kind: arm, expected both (--set user_cpu.kind=arm)");
-  check_switches(user, file);
+  check_board_keys(user, arm, kWired, file, slave, line);
   if (arm && user.timing)
     throw InputError(file, user.timing->line, "timing is that of kind: native, an ARM board has cpi, fsmc and access");
 }

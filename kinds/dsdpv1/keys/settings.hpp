@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "board/stm32/fsmc_timing.hpp"
+#include "kinds/board/board_keys.hpp"
 #include "kinds/dsdpv1/port/serial_settings.hpp"
-#include "kinds/dsdpv1/user_cpu/cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_port.hpp"
+#include "kinds/user_cpu/cpu.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/scenario/scenario.hpp"
@@ -40,10 +40,6 @@ struct AccessTimes : AccessTiming {
   int line = 0;
 };
 
-struct Fsmc : user_cpu::FsmcOverride {
-  int line = 0;
-};
-
 struct CpuTimes : user_cpu::CpuTiming {
   int line = 0;
 };
@@ -67,29 +63,17 @@ struct UartKeys {
   int line = 0;
 };
 
-struct Dsdpv1User : OwnSettings {
+struct Dsdpv1User : OwnSettings, BoardKeys {  // kArm; fsmc of all
   CpuKind kind = CpuKind::kNative;
-  Name elf;                                                  ///< kArm
   Name program;                                              ///< kProcess
   std::vector<Name> arguments;                               ///< kProcess
   Tick patience = 10 * bus::kTicksPerSecond;                 ///< kProcess: of the host's time; 0: no limit
   WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
-  std::vector<Name> switches;                                ///< kArm: "PA0=low"
-  std::optional<double> cpi;                                 ///< kArm: cycles of HCLK per instruction
   std::optional<CpuTimes> timing;                            ///< not kArm; its `access` is unused: see the next member
   std::optional<AccessTimes> access;
-  std::optional<Fsmc> fsmc;
   std::optional<SpiKeys> spi;    ///< not kArm, HostMode::kSpi
   std::optional<UartKeys> uart;  ///< not kArm, HostMode::kUart
 };
-
-/// A switch of an ARM board that holds an input pin.
-struct Switch {
-  unsigned port = 0, pin = 0;  ///< port A is 0
-  bool high = false;
-};
-/// "PA0=low"; nullopt for other text, and for pins of ports beyond G.
-std::optional<Switch> parse_switch(const std::string& text);
 
 inline const Dsdpv1User& own(const scenario::UserCpu& user) { return static_cast<const Dsdpv1User&>(*user.own); }
 

@@ -10,7 +10,7 @@
 
 #include "kinds/dsdpv1/tlm/tlm_chip.hpp"
 #include "kinds/dsdpv1/tlm/tlm_serial.hpp"
-#include "kinds/dsdpv1/user_cpu/host_bus.hpp"
+#include "kinds/user_cpu/host_bus.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "driver/dsdpv1.h"
-#include "kinds/dsdpv1/user_cpu/cpu.hpp"
-#include "kinds/dsdpv1/user_cpu/handshake_counters.hpp"
+#include "kinds/user_cpu/cpu.hpp"
+#include "kinds/user_cpu/handshake_counters.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -1,8 +1,8 @@
 #pragma once
 // The standard user program on the native CPU.
-#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/orders.hpp"
 #include "kinds/dsdpv1/user_cpu/programs.hpp"
+#include "kinds/user_cpu/native_cpu.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::user_cpu {

@@ -2,7 +2,7 @@
 // The HostBus on the pins of a chip: A, D, CSR, RD, WR with exact edges.
 #include <cstddef>
 
-#include "kinds/dsdpv1/user_cpu/host_bus.hpp"
+#include "kinds/user_cpu/host_bus.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/host_access.hpp"
 #include "tb/chip/pin_device.hpp"

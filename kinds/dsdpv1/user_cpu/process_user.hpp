@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "driver/host/dsdpv1_bench_wire.h"
-#include "kinds/dsdpv1/user_cpu/act_log.hpp"
 #include "kinds/dsdpv1/user_cpu/callers.hpp"
 #include "kinds/dsdpv1/user_cpu/child_process.hpp"
-#include "kinds/dsdpv1/user_cpu/handshake_counters.hpp"
-#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_port.hpp"
+#include "kinds/user_cpu/act_log.hpp"
+#include "kinds/user_cpu/handshake_counters.hpp"
+#include "kinds/user_cpu/native_cpu.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::user_cpu {

@@ -13,8 +13,8 @@
 #include "driver/dsdpv1.h"
 #include "kinds/dsdpv1/user_cpu/acyclic_server.hpp"
 #include "kinds/dsdpv1/user_cpu/driver_port.hpp"
-#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_port.hpp"
+#include "kinds/user_cpu/native_cpu.hpp"
 #include "tb/chip/user_cpu/program.hpp"
 #include "tb/chip/user_cpu/program_inputs.hpp"
 

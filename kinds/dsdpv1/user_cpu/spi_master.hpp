@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "kinds/dsdpv1/user_cpu/serial_pins.hpp"
-#include "kinds/dsdpv1/user_cpu/transfer.hpp"
+#include "kinds/user_cpu/serial_pins.hpp"
+#include "kinds/user_cpu/transfer.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -1,5 +1,5 @@
 // Which instruction an act of the processor belongs to, and where it was while it did nothing.
-#include "kinds/dsdpv1/user_cpu/act_log.hpp"
+#include "kinds/user_cpu/act_log.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The FSMC's edges compared with the figures of the STM32F103xE datasheet and with its own HCLK counts.
-#include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
+#include "kinds/user_cpu/fsmc_access.hpp"
 
 #include "bus/time.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "driver/dsdpv1.h"
 #include "kinds/dsdpv1/user_cpu/driver_port.hpp"
-#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
+#include "kinds/user_cpu/native_cpu.hpp"
 #include "tests/kinds/dsdpv1/user_cpu/recording_bus.hpp"
 
 namespace dsdpv1 {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "kinds/dsdpv1/user_cpu/cpu.hpp"
+#include "kinds/user_cpu/cpu.hpp"
 #include "tests/kinds/quiet_device.hpp"
 
 namespace dsdpv1 {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinds/dsdpv1/user_cpu/host_bus.hpp"
+#include "kinds/user_cpu/host_bus.hpp"
 
 namespace dsdpv1 {
 

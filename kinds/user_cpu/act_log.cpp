@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/user_cpu/act_log.hpp"
+#include "kinds/user_cpu/act_log.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <optional>
 
-#include "kinds/dsdpv1/user_cpu/host_bus.hpp"
-#include "kinds/dsdpv1/user_cpu/transfer.hpp"
+#include "kinds/user_cpu/host_bus.hpp"
+#include "kinds/user_cpu/transfer.hpp"
 
 namespace dsdpv1::user_cpu {
 

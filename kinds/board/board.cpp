@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/board/board.hpp"
+#include "kinds/board/board.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "kinds/dsdpv1/user_cpu/orders.hpp"
+#include "board/firmware/mailbox.h"
 
 namespace dsdpv1::arm {
 namespace {
@@ -50,8 +50,6 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
     : options_(std::move(options)),
       bus_(bus),
       set_chip_reset_(std::move(set_chip_reset)),
-      intr0_pin_(options_.card == 2 ? PortPin{kD, 12} : PortPin{kG, 6}),
-      reset_pin_(options_.card == 2 ? PortPin{kE, 5} : PortPin{kE, 4}),
       since_(start),
       acts_(start),
       serial_(ports_, options_.serial ? options_.card : 0, acts_),
@@ -64,8 +62,8 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
   cpu_.others = this;
   for (const Segment& segment : options_.firmware->image.segments)
     core_.load(segment.address, segment.bytes.data(), segment.bytes.size());
-  if (const auto mailbox = options_.firmware->mailbox) {
-    mailbox_.emplace(core_.ram() + (*mailbox - MemoryMap().ram_base), options_.program);
+  if (const auto mailbox = options_.firmware->mailbox; mailbox && options_.make_mailbox) {
+    mailbox_ = options_.make_mailbox(core_.ram() + (*mailbox - MemoryMap().ram_base));
     core_.watch(*mailbox, sizeof(dsdpv1_mailbox));
   }
   if (options_.make_debugger) debugger_ = options_.make_debugger(core_);
@@ -94,7 +92,7 @@ void Board::run(Tick now) {
     at = device_tick();
     if (at == bus::kNever || cpu_.next() < at || !turn_goes_on(at)) break;
   }
-  if (std::exchange(chip_reset_due_, false)) set_chip_reset_(cpu_.now(), chip_reset_);
+  if (std::exchange(chip_reset_due_, false)) set_chip_reset_(cpu_.now(), released_);
 }
 
 /// Peripherals run before the processor; their interrupts end its sleep.
@@ -158,7 +156,7 @@ void Board::tell_lost(SerialSide::Block block) {
 /// left out.
 void Board::look_if_stuck() {
   constexpr Tick kMost = 100 * bus::kTicksPerMs;
-  if (std::exchange(polls_, false) || !in_service_ || !chip_reset_) touched_at_ = core_.cycles();
+  if (std::exchange(polls_, false) || !in_service_ || !released_) touched_at_ = core_.cycles();
   if (tick_of(touched_at_) + kMost <= now()) {
     come_up();
     std::optional<user_cpu::Place> place =
@@ -187,8 +185,8 @@ void Board::txd_changed(Tick at, bool level) {
 /// Firmware may sleep until an event (WFE): a command is one.
 void Board::look_at_mailbox(Tick now) {
   const bool was_right = mailbox_->wrong().empty();
-  const bool handed_over = mailbox_->look(now, [this](const user_cpu::DriverError& error) {
-    if (on_error) on_error(user_cpu::program_error(error));
+  const bool handed_over = mailbox_->look(now, [this](const user_cpu::ProgramError& error) {
+    if (on_error) on_error(error);
   });
   if (was_right && !mailbox_->wrong().empty())
     fail(now, core_.place(),
@@ -201,14 +199,14 @@ void Board::look_at_mailbox(Tick now) {
 }
 
 void Board::interrupt_changed(Tick at, bool level) {
-  intr0_edges_.push_back({at, level});
+  interrupt_edges_.push_back({at, level});
   cpu_.wake(at);
   announce();
 }
 
 void Board::command(Tick now, const user_cpu::Command& command) {
-  if (user_cpu::carry_out(command, bus_) || !mailbox_) return;
-  mailbox_->post(user_cpu::driver_command(command));
+  if ((options_.carry_out && options_.carry_out(command)) || !mailbox_) return;
+  mailbox_->post(command);
   look_at_mailbox(now);
   announce();
 }
@@ -307,7 +305,7 @@ void Board::follow_clock() {
 void Board::come_up() {
   quiet_ = 0;
   pins_->wait_until(now());
-  take_intr0_edges();
+  take_interrupt_edges();
 }
 
 /// Runs the peripherals up to the processor's time.
@@ -339,7 +337,7 @@ std::uint64_t Board::due_cycle(Tick now, Tick next) const {
 /// Up to when the processor may stay ahead. A chip that runs ahead reports its edges before their time.
 Tick Board::stays_until() {
   const Tick quiet = quiet_until();
-  return intr0_edges_.empty() ? quiet : std::min(quiet, intr0_edges_.front().at);
+  return interrupt_edges_.empty() ? quiet : std::min(quiet, interrupt_edges_.front().at);
 }
 
 /// The peripherals count as other agents.
@@ -356,7 +354,7 @@ void Board::sleep(std::uint64_t until) {
   const Tick end = until == kNever ? bus::kNever : tick_of(until);
   pins_->wait_until(now());
   bool woken = false;
-  while (!take_intr0_edges() && !woken && pins_->now() < end) woken = pins_->wait_for_wake(end);
+  while (!take_interrupt_edges() && !woken && pins_->now() < end) woken = pins_->wait_for_wake(end);
   core_.advance_to(std::max(core_.cycles(), cycle_of(pins_->now())));
   touched_at_ = core_.cycles();
   acts_.sample(now(), core_.pc() - kWfiBytes, core_.read_register(Register::kLr));
@@ -385,12 +383,12 @@ void Board::reset() {
 }
 
 /// Returns true for a new interrupt request or an event.
-bool Board::take_intr0_edges() {
+bool Board::take_interrupt_edges() {
   const unsigned before = requests_;
-  if (!devices_acted_ && intr0_edges_.empty()) return false;
-  for (; !intr0_edges_.empty() && intr0_edges_.front().at <= pins_->now(); intr0_edges_.pop_front()) {
-    intr0_ = intr0_edges_.front().level;
-    exti_.edge(intr0_pin_.port, intr0_pin_.pin, intr0_);
+  if (!devices_acted_ && interrupt_edges_.empty()) return false;
+  for (; !interrupt_edges_.empty() && interrupt_edges_.front().at <= pins_->now(); interrupt_edges_.pop_front()) {
+    interrupt_ = interrupt_edges_.front().level;
+    exti_.edge(options_.wiring.interrupt.port, options_.wiring.interrupt.pin, interrupt_);
   }
   return update_interrupts() || (requests_ & ~before) != 0;
 }
@@ -411,6 +409,18 @@ bool Board::update_interrupts() {
 }
 
 void Board::update_pins() {
+  if (!options_.wiring.handshake.empty()) update_handshake();
+  const PortPin& reset = options_.wiring.reset;
+  const bool inactive = !options_.wiring.reset_high;
+  if (const bool released = ports_.at(reset.port).level(reset.pin, inactive) == inactive;
+      std::exchange(released_, released) != released) {
+    acts_.pins(pins_->now(), core_.pc(), false);
+    chip_reset_due_ = true;
+    pins_->wait(1);  // the bench moves the pin before the firmware continues
+  }
+}
+
+void Board::update_handshake() {
   const Gpio& handshake = ports_[kRReq.port];
   if (const bool level = handshake.level(kRReq.pin, false); std::exchange(r_req_, level) != level) {
     handshake_.r_req(pins_->now(), level);
@@ -422,12 +432,6 @@ void Board::update_pins() {
     acts_.pins(pins_->now(), core_.pc(), !level);
     pins_->looked({looked_at(), looked_at()});
     pins_->set_r_sta(level);
-  }
-  if (const bool level = ports_.at(reset_pin_.port).level(reset_pin_.pin, true);
-      std::exchange(chip_reset_, level) != level) {
-    acts_.pins(pins_->now(), core_.pc(), false);
-    chip_reset_due_ = true;
-    pins_->wait(1);  // the bench moves the pin before the firmware continues
   }
 }
 

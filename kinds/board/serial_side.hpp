@@ -17,9 +17,9 @@
 #include "board/stm32/rcc.hpp"
 #include "board/stm32/spi.hpp"
 #include "board/stm32/usart.hpp"
-#include "kinds/dsdpv1/user_cpu/act_log.hpp"
-#include "kinds/dsdpv1/user_cpu/claim_counters.hpp"
-#include "kinds/dsdpv1/user_cpu/serial_pins.hpp"
+#include "kinds/user_cpu/act_log.hpp"
+#include "kinds/user_cpu/claim_counters.hpp"
+#include "kinds/user_cpu/serial_pins.hpp"
 
 namespace dsdpv1::arm {
 

@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
+#include "kinds/user_cpu/fsmc_access.hpp"
 
 #include "bus/time.hpp"
 

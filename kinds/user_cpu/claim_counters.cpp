@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/user_cpu/claim_counters.hpp"
+#include "kinds/user_cpu/claim_counters.hpp"
 
 #include <algorithm>
 #include <utility>

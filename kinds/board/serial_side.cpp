@@ -1,9 +1,9 @@
-#include "kinds/dsdpv1/board/serial_side.hpp"
+#include "kinds/board/serial_side.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "kinds/dsdpv1/board/memory_bus.hpp"
+#include "kinds/board/memory_bus.hpp"
 
 namespace dsdpv1::arm {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "kinds/dsdpv1/board/board.hpp"
-#include "kinds/dsdpv1/user_cpu/fsmc_access.hpp"
+#include "kinds/board/board.hpp"
+#include "kinds/user_cpu/fsmc_access.hpp"
 
 namespace dsdpv1::arm {
 
@@ -35,7 +35,7 @@ constexpr std::array<std::uint32_t, 3> kSerialDr = {Spi::kDr, Spi::kDr, Usart::k
 // The board's wiring.
 constexpr std::uint32_t kLookedAt = kGpioA + kC * kBlock + kGpioIdr + 1;  // the byte with PC8 and PC9, L_REQ and L_STA
 static_assert(kLReq.pin / 8 == 1 && kLSta.pin / 8 == 1);
-constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
+constexpr unsigned kLampPin = 12;  // the first
 
 constexpr std::uint64_t kApbCycles = 2;
 constexpr std::int64_t kGreatestHclk = 72'000'000, kGreatestPclk1 = 36'000'000, kSysclkWithoutWait = 24'000'000;
@@ -147,6 +147,7 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
 void Board::end_accesses(unsigned count) { core_.advance_to(cycle_of(pins_->now() - count)); }
 
 void Board::set_access_timing() {
+  bus_.set_wait({options_.wiring.wait && fsmc_.waits(), fsmc_.waits_while_high(), hclk_hz()});
   const user_cpu::FsmcAccess made = user_cpu::access_timing(fsmc_.bank(hclk_hz()));
   pins_->set_access_timing(options_.access.value_or(made.read), options_.access.value_or(made.write));
 }
@@ -162,7 +163,8 @@ bool Board::may_access(std::uint32_t address, bool write) {
 
 /// Looked at when the chip is accessed: firmware sets up many pins before that.
 bool Board::has_right_bus() {
-  if (std::exchange(bus_changed_, false)) memory_bus_ = memory_bus(ports_, fsmc_, options_.mode == HostMode::kParallel);
+  if (std::exchange(bus_changed_, false))
+    memory_bus_ = memory_bus(ports_, fsmc_, has_handshake(), options_.wiring.wait && fsmc_.waits());
   return memory_bus_.is_right();
 }
 
@@ -262,9 +264,9 @@ std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {
 /// Levels from the chip, the board's pull-up, the switches and the serial peripherals.
 Board::Levels Board::outside(unsigned port) {
   Outputs chip;
-  if (port == kC || port == kG || port == intr0_pin_.port || serial_.concerns(port)) come_up();
+  if (port == kC || port == kG || port == options_.wiring.interrupt.port || serial_.concerns(port)) come_up();
   if (port == kG) chip.lamps = pins_->lamps();
-  if (port == kC) {
+  if (port == kC && !options_.wiring.handshake.empty()) {
     chip.handshake = static_cast<unsigned>(pins_->l_req());
     chip.handshake |= static_cast<unsigned>(pins_->l_sta()) << 1U;
   }
@@ -280,11 +282,12 @@ Board::Levels Board::wired(unsigned port, const Outputs& chip) const {
     driven |= 1U << pin;
     levels |= (level & 1U) << pin;
   };
-  if (port == reset_pin_.port) add(reset_pin_.pin, 1);
-  if (port == intr0_pin_.port) add(intr0_pin_.pin, static_cast<unsigned>(intr0_));
-  if (port == kC) add(kLReq.pin, chip.handshake), add(kLSta.pin, chip.handshake >> 1U);
+  const Wiring& wiring = options_.wiring;
+  if (port == wiring.reset.port) add(wiring.reset.pin, wiring.reset_high ? 0 : 1);
+  if (port == wiring.interrupt.port) add(wiring.interrupt.pin, static_cast<unsigned>(interrupt_));
+  if (port == kC && !wiring.handshake.empty()) add(kLReq.pin, chip.handshake), add(kLSta.pin, chip.handshake >> 1U);
   if (port == kG)
-    for (unsigned i = 0; i < 3; ++i) add(kLampPin + i, chip.lamps >> i);
+    for (unsigned i = 0; i < wiring.lamps.size(); ++i) add(kLampPin + i, chip.lamps >> i);
   return {static_cast<std::uint16_t>(driven), static_cast<std::uint16_t>(levels)};
 }
 
@@ -327,12 +330,15 @@ std::uint32_t Board::peek_register(const Peripheral& of, std::uint32_t offset) c
 
 std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
   const tb::ChipView* const chip = options_.chip ? &options_.chip(pins_->now()) : nullptr;
-  const auto level = [chip](dsdpv1::Pin pin) {
-    return static_cast<unsigned>(chip != nullptr && chip->level(number(pin)) == 1);
+  const auto levels = [chip](const std::vector<tb::PinNumber>& pins) {
+    unsigned all = 0;
+    for (std::size_t i = 0; i < pins.size(); ++i)
+      all |= static_cast<unsigned>(chip != nullptr && chip->level(pins[i]) == 1) << i;
+    return all;
   };
-  const Outputs outputs = {level(Pin::kLReq) | level(Pin::kLSta) << 1U,
-                           level(Pin::kPbf) | level(Pin::kBr) << 1U | level(Pin::kReady) << 2U,
-                           chip == nullptr || chip->level(number(Pin::kMiso)) != 0};
+  const Wiring& wiring = options_.wiring;
+  const Outputs outputs = {levels(wiring.handshake), levels(wiring.lamps),
+                           chip == nullptr || !wiring.miso || chip->level(*wiring.miso) != 0};
   const Levels there = wired(port, outputs);
   return ports_.at(port).read(offset, there.driven, there.levels);
 }
@@ -453,6 +459,11 @@ void Board::store_serial(SerialSide::Block block, std::uint32_t offset, std::uin
 
 // ------------------------------------------------------------------------------------------------- registers' tags
 
+/// The FSMC waits for a chip that is wired to NWAIT.
+bool Board::is_followed(const Peripheral& of, const Tag& tag) const {
+  return options_.wiring.wait && of.kind == Peripheral::kFsmc && Fsmc::is_wait(tag);
+}
+
 void Board::look_at(const Peripheral& of, std::uint32_t offset, std::optional<std::uint32_t> written) {
   if (of.registers->is_plain(offset)) return;
   const RegisterEntry* const to = of.registers->find(offset);
@@ -461,7 +472,7 @@ void Board::look_at(const Peripheral& of, std::uint32_t offset, std::optional<st
     note(fmt::format("{} has no register at 0x{:08X} on the board", of.name, address));
   if (to == nullptr || !written) return;
   for (const Tag* tag : of.registers->asked(offset, *written))
-    if (is_new(address, tag->bit))
+    if (!is_followed(of, *tag) && is_new(address, tag->bit))
       note(fmt::format("{}_{}.{} is set to {}{:X}, which the board does not have", of.name, to->name, tag->name,
                        tag->value_in(*written) > 9 ? "0x" : "", tag->value_in(*written)));
 }
@@ -477,10 +488,12 @@ bool Board::answers(const Peripheral& of) {
 
 /// Lines that the chip drives, and those that firmware moves by a port.
 std::vector<Board::Wire> Board::wires() const {
-  std::vector<Wire> all = {{intr0_pin_, "INTR0", true}, {reset_pin_, "RESET"}};
+  std::vector<Wire> all = {{options_.wiring.interrupt, options_.wiring.interrupt_name, true},
+                           {options_.wiring.reset, "RESET"}};
   const PortPin first_of_spi = options_.card == 2 ? PortPin{kB, 12} : PortPin{kA, 4};
   switch (options_.mode) {
     case HostMode::kParallel:
+      if (!has_handshake()) break;
       all.insert(all.end(), {{kRReq, "R_REQ", false, true},
                              {kRSta, "R_STA", false, true},
                              {kLReq, "L_REQ", true},

@@ -1,14 +1,16 @@
 #pragma once
 // An evaluation board with an STM32F103 as a station's user CPU: it runs the firmware built for the real board.
 //
-//   PC6 R_REQ, PC7 R_STA  outputs; low until the firmware makes them outputs (pull-down on the board)
+//   PC6 R_REQ, PC7 R_STA  of a chip with a handshake: outputs, low until the firmware makes them so (pull-down)
 //   PC8 L_REQ, PC9 L_STA  inputs
-//   PE4 RESET             of the chip; high unless it is an output (pull-up on the board); card 2: PE5
-//   PG6 INTR0             through AFIO, EXTI line 6, IRQ 23; card 2: PD12, line 12, IRQ 40
+//   PE4 RESET             of the chip; inactive unless it is an output (pull-up or -down on the board)
+//   PG6                   the chip's interrupt, through AFIO, EXTI line 6, IRQ 23
 //   SPI1, SPI2, USART2    see serial_side.hpp
-//   PG12, PG13, PG14      inputs: PBF, BR, READY (p)
+//   PG12, PG13, PG14      inputs: the chip's lamps (p)
+//   PD6 NWAIT             the ready of a chip that has one
+//                         a kind of chip may have other pins: wiring.hpp
 //   other pins            inputs: held by BoardOptions::switches, else their own pull-up or pull-down
-//   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, RD, WR, CSR; the 2 KB repeat
+//   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, two strobes, select; the 2 KB repeat
 //   USART1                a terminal
 //
 // HCLK follows the firmware's RCC, starting at 8 MHz from the HSI. An instruction takes its own cycles, an access to a
@@ -32,13 +34,13 @@
 #include "board/stm32/terminal.hpp"
 #include "board/stm32/timer.hpp"
 #include "board/stm32/watchdog.hpp"
-#include "kinds/dsdpv1/board/mailbox_link.hpp"
-#include "kinds/dsdpv1/board/memory_bus.hpp"
-#include "kinds/dsdpv1/board/serial_side.hpp"
-#include "kinds/dsdpv1/keys/board_codes.hpp"
-#include "kinds/dsdpv1/user_cpu/act_log.hpp"
-#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
-#include "kinds/dsdpv1/user_cpu/programs.hpp"
+#include "kinds/board/board_codes.hpp"
+#include "kinds/board/mailbox.hpp"
+#include "kinds/board/memory_bus.hpp"
+#include "kinds/board/serial_side.hpp"
+#include "kinds/user_cpu/act_log.hpp"
+#include "kinds/user_cpu/handshake_counters.hpp"
+#include "kinds/user_cpu/native_cpu.hpp"
 #include "model/dsdpv1/config.hpp"
 #include "tb/chip/chip_view.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
@@ -55,12 +57,16 @@ struct Switches {
 
 struct BoardOptions {
   std::shared_ptr<const Firmware> firmware;
-  user_cpu::ProgramOptions program;  ///< for the mailbox, when the firmware has one
+  Wiring wiring;
+  /// At this place in the RAM, when the firmware has one.
+  std::function<std::unique_ptr<Mailbox>(std::uint8_t* memory)> make_mailbox;
+  /// Carries out what does not need the firmware; null: nothing. False: it is for the firmware.
+  std::function<bool(const user_cpu::Command& command)> carry_out;
   user_cpu::FsmcOverride fsmc;
   std::optional<AccessTiming> access;  ///< edges that replace those of the FSMC
   Timing timing;
   Switches switches;
-  unsigned card = 1;                                  ///< 1 or 2: selects the wiring of RESET, INTR0 and SPI
+  unsigned card = 1;                                  ///< 1 or 2: selects the wiring of SPI
   bool serial = false;                                ///< the chip has the pins of SPI and UART
   HostMode mode = HostMode::kParallel;                ///< the port in use
   std::function<const tb::ChipView&(Tick now)> chip;  ///< the chip's state at `now`, for a debugger; null: not shown
@@ -70,8 +76,9 @@ struct BoardOptions {
 
 class Board final : public user_cpu::StationCpu, private user_cpu::Others, private System {
  public:
-  /// The processor leaves reset at `start`. `set_chip_reset` sets the chip's RESET pin; both must outlive the board.
-  Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool level)> set_chip_reset,
+  /// The processor leaves reset at `start`. `set_chip_reset` puts the chip in its reset (false) or releases it; both
+  /// must outlive the board.
+  Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool released)> set_chip_reset,
         Tick start);
   ~Board() override;
 
@@ -80,14 +87,14 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void interrupt_changed(Tick at, bool level) override;
   void command(Tick now, const user_cpu::Command& command) override;
   user_cpu::UserCounters counters() const override;
-  bool tells() const override { return mailbox_.has_value(); }
+  bool tells() const override { return mailbox_ != nullptr; }
   std::uint64_t outputs_received() const override { return mailbox_ ? mailbox_->outputs_received() : 0; }
   const std::vector<std::uint8_t>& outputs() const override { return mailbox_ ? mailbox_->outputs() : no_outputs_; }
   std::optional<user_cpu::BoardReport> board() const override;
   std::optional<user_cpu::Place> where(const user_cpu::Act& act) const override;
 
  private:
-  struct Intr0Edge {
+  struct InterruptEdge {
     Tick at;
     bool level;
   };
@@ -159,9 +166,10 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void come_up();
   void come_up_for_access();
   void meet_devices();
-  bool take_intr0_edges();
+  bool take_interrupt_edges();
   bool update_interrupts();
   void update_pins();
+  void update_handshake();
   void update_serial_pins();
   void on_bus(const std::function<void(Tick)>& action);
   void store_gpio(unsigned port, std::uint32_t offset, std::uint32_t value);
@@ -180,6 +188,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void set_access_timing();
   bool may_access(std::uint32_t address, bool write);
   bool has_right_bus();
+  bool has_handshake() const { return !options_.wiring.handshake.empty() && options_.mode == HostMode::kParallel; }
   void tell_wrong_bus();
   std::uint32_t load_by_wrong_bus(std::uint32_t address, unsigned bytes);
   void store_by_wrong_bus(std::uint32_t address, unsigned bytes, std::uint32_t value);
@@ -201,6 +210,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
   /// Notes uses of a register that a real one would not support or the board does not model.
   void look_at(const Peripheral& of, std::uint32_t offset, std::optional<std::uint32_t> written);
+  bool is_followed(const Peripheral& of, const Tag& tag) const;
   /// False: it has no clock.
   bool answers(const Peripheral& of);
   void look_at_pins(unsigned port, const Gpio& before, std::uint32_t addressed);
@@ -215,8 +225,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
 
   BoardOptions options_;
   user_cpu::HostBus& bus_;
-  std::function<void(Tick at, bool level)> set_chip_reset_;
-  PortPin intr0_pin_, reset_pin_;
+  std::function<void(Tick at, bool released)> set_chip_reset_;
   // `since_` is the tick of cycle `since_cycle_`; from there a cycle takes `cycle_ticks_` / `cycle_parts_` ticks.
   Tick since_, cycle_ticks_ = 1, cycle_parts_ = 1;
   std::uint64_t since_cycle_ = 0;
@@ -246,9 +255,9 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   bool in_service_ = false;                 ///< the chip has been accessed
   bool slow_flash_ = false, fast_ = false;  ///< the clocks are wrong, and that has been told
   OtherRegisters others_;
-  std::deque<Intr0Edge> intr0_edges_;  ///< not yet reached by the processor
-  bool intr0_ = true;
-  bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
+  std::deque<InterruptEdge> interrupt_edges_;  ///< not yet reached by the processor
+  bool interrupt_ = true;                      ///< the level of the chip's interrupt
+  bool r_req_ = false, r_sta_ = false, released_ = true, chip_reset_due_ = false;
   Look look_;
   user_cpu::HandshakeCounters handshake_;
   bool devices_acted_ = false;  ///< since the last update of requests_
@@ -258,7 +267,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   std::optional<Fault> fault_;  ///< that the firmware would have handled
   CortexM3 core_;
   std::unique_ptr<Debugger> debugger_;
-  std::optional<MailboxLink> mailbox_;
+  std::unique_ptr<Mailbox> mailbox_;
   std::vector<std::uint8_t> no_outputs_;  ///< of firmware without a mailbox
   user_cpu::Cpu* pins_ = nullptr;         ///< of cpu_, while the processor runs
   user_cpu::NativeCpu cpu_;               // destroyed before everything that its fiber uses

@@ -6,23 +6,18 @@
 //   PD7 NE1, PD4 NOE, PD5 NWE         CSR, RD, WR
 //   PC6, PC7                          R_REQ, R_STA: push-pull outputs, while the chip is accessed
 //   PC8, PC9                          L_REQ, L_STA: not analog
+//   PD6                               NWAIT: an input that is not analog, while the FSMC waits for it
 #include <array>
 #include <cstdint>
 #include <string>
 
 #include "board/stm32/fsmc.hpp"
 #include "board/stm32/gpio.hpp"
+#include "kinds/board/wiring.hpp"
 
 namespace dsdpv1::arm {
 
-enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG };
-struct PortPin {
-  unsigned port, pin;
-};
 constexpr PortPin kRReq = {kC, 6}, kRSta = {kC, 7}, kLReq = {kC, 8}, kLSta = {kC, 9};
-/// "PD4".
-std::string pin_name(const PortPin& at);
-
 struct MemoryBus {
   bool wide = false, multiplexed = false;  ///< MWID is not 8 bits; MUXEN
   bool reads = true, writes = true;        ///< NE1 and NOE, NE1 and NWE are driven
@@ -38,7 +33,7 @@ struct MemoryBus {
   }
 };
 
-/// `ports`: A to G. `handshake`: R_REQ and R_STA are in use.
-MemoryBus memory_bus(const std::array<Gpio, 7>& ports, const Fsmc& fsmc, bool handshake);
+/// `ports`: A to G. `handshake`: R_REQ and R_STA are in use; `wait`: NWAIT is.
+MemoryBus memory_bus(const std::array<Gpio, 7>& ports, const Fsmc& fsmc, bool handshake, bool wait);
 
 }  // namespace dsdpv1::arm

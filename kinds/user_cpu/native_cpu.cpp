@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
+#include "kinds/user_cpu/native_cpu.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -32,7 +32,7 @@ void NativeCpu::run(Tick now) {
   refused_ = bus::kNever;
   do {
     now_ = at;
-    if (request_.op == Op::kAccess && !put_off_ && bus_.next_edge() <= now_) bus_.run_edges(now_);
+    if (request_.op == Op::kAccess && !put_off_ && bus_.next_edge() <= now_) run_edges(now_);
     if (request_.op == Op::kTransfer) go_on_transfer();
     for (at = next(); at <= now_; at = next()) go_on_program();
   } while (goes_on(at));
@@ -105,7 +105,13 @@ void NativeCpu::begin_access() {
   put_off_ = others != nullptr && !in_one_go && bus_.put_off();
   if (put_off_) return;
   const Tick until = in_one_go ? bus_.end() : now_;
-  if (in_one_go || bus_.next_edge() <= until) bus_.run_edges(until);
+  if (in_one_go || bus_.next_edge() <= until) run_edges(until);
+}
+
+/// A chip that is not ready makes the access longer.
+void NativeCpu::run_edges(Tick until) {
+  bus_.run_edges(until);
+  ready_at_ = std::max(ready_at_, bus_.end() + timing_.overhead);
 }
 
 void NativeCpu::end_access() {

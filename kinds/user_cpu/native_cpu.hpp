@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "bus/timeline.hpp"
-#include "kinds/dsdpv1/user_cpu/cpu.hpp"
+#include "kinds/user_cpu/cpu.hpp"
 #include "tb/chip/user_cpu/fiber.hpp"
 #include "tb/chip/user_cpu/others.hpp"
 #include "tb/chip/user_cpu/program.hpp"
@@ -90,6 +90,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   bool goes_on(Tick at);
   void take_request();
   void begin_access();
+  void run_edges(Tick until);
   void end_access();
   Tick break_tick() const;
 
