@@ -30,6 +30,15 @@ class Spc3Device : public PinDevice, private RegisterPort {
   void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
   profibus::Unheard unheard() const override { return chip_.unheard(); }
   void hear(Tick at, bool level) override { chip_.hear(at, level); }
+  bool hear(Tick at, const profibus::CharacterRun& run) override { return chip_.hear(at, run); }
+  void leave_run(Tick at) override { chip_.leave_run(at); }
+  bool left_run() const override { return chip_.left_run(); }
+  void advance_in_run(Tick to) override { chip_.advance_in_run(to); }
+  profibus::Unconcerned unconcerned() const override { return chip_.unconcerned(); }
+  void pass(std::uint64_t count) override { chip_.pass(count); }
+  bool begins_to_send() const override { return chip_.begins_to_send(); }
+  profibus::CharacterRun hide_txd() override { return chip_.hide_txd(); }
+  void show_txd(Tick at) override { chip_.show_txd(at); }
 
   ChipStatus status() const override { return common_status(chip_.status()); }
   std::uint8_t address() const override { return chip_.address(); }

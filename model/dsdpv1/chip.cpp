@@ -11,6 +11,7 @@
 #include "model/dsdpv1/reasons.hpp"
 #include "model/dsdpv1/serial_ports.hpp"
 #include "model/profibus/station.hpp"
+#include "model/profibus/whole_telegrams.hpp"
 
 namespace dsdpv1 {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 using profibus::first_edge_after;
 using profibus::kNever;
 using profibus::kTicksPerCycle;
+namespace whole_telegrams = profibus::whole_telegrams;
 
 constexpr Cycle kResetSynchroniser = 2;  // P9, P10
 
@@ -94,9 +96,13 @@ struct Chip::Impl {
     return edge > now ? edge : next_cycle();
   }
   [[gnu::always_inline]] inline void evaluate(Tick event, Tick to);
-  void advance_in_run(Tick to);
   void plan_edge(Cycle cycle) { planned_edge = edge_of(cycle); }
   void plan();
+  void plan_station() {
+    plans.station = station.next();
+    plan();
+  }
+  bool skips() const { return engine == Engine::kSkip; }
   bool apply(Tick at, Pin pin, Level value);
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report);
   Level read_unheld(Tick begin, const HostAccess& access);
@@ -128,7 +134,10 @@ struct Chip::Impl {
   void show_end(Cycle begin);
   void access_edge(Cycle cycle);
   void eval_station(Cycle cycle);
-  void catch_up_line(Cycle upto);
+  // The effects of telegrams for other stations.
+  void catch_up_line(Cycle upto) {
+    if (station.catch_up(upto)) plans.station = station.next();
+  }
   void doze_if_unseen(bool ended);
   bool shows_late() const { return (watched & kAccessPins) != 0 && sequencer.dozing(); }
   void wake();
@@ -140,6 +149,8 @@ struct Chip::Impl {
   std::uint32_t access_pins() const { return sequencer.owns() ? owned_pins() : 0; }
   void enter_reset(Tick at);
   std::uint32_t edge_outputs() const;
+  std::uint32_t with_txd() const { return (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd()); }
+  void take_txd() { outputs = with_txd(); }
   void publish_edge(Cycle cycle, std::uint32_t levels);
   void publish_edge_outputs(Tick at, std::uint32_t levels);
   void publish_data(Tick at);
@@ -309,14 +320,6 @@ void Chip::Impl::advance(Tick to) {
   now = std::max(now, to);
 }
 
-void Chip::Impl::advance_in_run(Tick to) {
-  for (Tick event = next_event(); event <= to; event = next_event()) {
-    evaluate(event, to);
-    if (station.left_run()) return;
-  }
-  now = std::max(now, to);
-}
-
 // Evaluates the events at tick `event`, and similar ones up to `to`.
 void Chip::Impl::evaluate(Tick event, Tick to) {
   const bool drives = event < next_edge();  // MISO may change at the tick of an edge: after it
@@ -396,7 +399,7 @@ void Chip::Impl::send_bits(Cycle cycle, Tick to) {
     now = cycle * kTicksPerCycle;
     if (shows_late()) make_up(cycle - 1);
     plans.station = station.send_bit(cycle);
-    publish_edge_outputs(now, (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd()));
+    publish_edge_outputs(now, with_txd());
     cycle = plans.station;
   } while (cycle < act);
   plan_edge(std::min(other_plans, cycle));
@@ -494,15 +497,6 @@ bool Chip::Impl::eval_sequencer(Cycle cycle) {
   doze_if_unseen(owned && !sequencer.owns());
   plans.sequencer = sequencer.next();
   return has_effect;
-}
-
-// Applies the effects of telegrams for other stations.
-void Chip::Impl::catch_up_line(Cycle upto) {
-  if (station.pass_unseen(upto)) return;
-  for (Cycle cycle = station.unseen(); cycle <= upto; cycle = station.unseen()) {
-    station.eval(cycle);
-    plans.station = station.next();
-  }
 }
 
 // The sequencer acts before the station, so accesses that it dozes through up to this edge do not depend on the
@@ -671,7 +665,7 @@ Chip::~Chip() = default;
 
 void Chip::set(Tick at, Pin pin, Level level) { impl_->set(at, pin, level); }
 void Chip::advance(Tick to) { impl_->advance(to); }
-void Chip::advance_in_run(Tick to) { impl_->advance_in_run(to); }
+void Chip::advance_in_run(Tick to) { whole_telegrams::advance_in_run(*impl_, to); }
 Level Chip::sample(Tick at) {
   impl_->advance(at);
   return impl_->host.user_samples(at);
@@ -687,43 +681,16 @@ profibus::Unheard Chip::unheard() const { return impl_->station.unheard(); }
 void Chip::hear(Tick at, bool level) {
   if (impl_->hear(at, level)) impl_->plan();
 }
-bool Chip::hear(Tick at, const profibus::CharacterRun& run) {
-  impl_->advance(at);
-  impl_->catch_up_line(impl_->done());
-  if (impl_->engine != Engine::kSkip || !impl_->station.set_run(run)) return false;
-  impl_->plans.station = impl_->station.next();
-  impl_->plan();
-  return true;
-}
-profibus::Unconcerned Chip::unconcerned() const {
-  return impl_->engine == Engine::kSkip ? impl_->station.unconcerned() : profibus::Unconcerned{};
-}
+bool Chip::hear(Tick at, const profibus::CharacterRun& run) { return whole_telegrams::hear(*impl_, at, run); }
+profibus::Unconcerned Chip::unconcerned() const { return whole_telegrams::unconcerned(*impl_); }
 void Chip::pass(std::uint64_t count) { impl_->station.pass(count); }
 void Chip::leave_run(Tick at) {
-  impl_->advance(at);
-  impl_->catch_up_line(impl_->done());
-  impl_->station.leave_run(at);
-  impl_->station.forget_run();
+  whole_telegrams::leave_run(*impl_, at);
   impl_->rxd = impl_->station.rxd();
-  impl_->plans.station = impl_->station.next();
-  impl_->plan();
 }
-bool Chip::begins_to_send() const {
-  return impl_->now % kTicksPerCycle == 0 && impl_->station.begins_to_send(impl_->done());
-}
-profibus::CharacterRun Chip::hide_txd() {
-  const profibus::CharacterRun run = impl_->station.hide_txd();
-  impl_->plans.station = impl_->station.next();
-  impl_->plan();
-  return run;
-}
-void Chip::show_txd(Tick at) {
-  impl_->advance(at);
-  impl_->station.show_txd(impl_->done());
-  impl_->outputs = (impl_->outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, impl_->station.txd());
-  impl_->plans.station = impl_->station.next();
-  impl_->plan();
-}
+bool Chip::begins_to_send() const { return whole_telegrams::begins_to_send(*impl_); }
+profibus::CharacterRun Chip::hide_txd() { return whole_telegrams::hide_txd(*impl_); }
+void Chip::show_txd(Tick at) { whole_telegrams::show_txd(*impl_, at); }
 bool Chip::left_run() const { return impl_->station.left_run(); }
 Level Chip::level(Pin pin) const {
   if ((mask(pin) & kAccessPins) != 0) impl_->catch_up();

@@ -36,6 +36,7 @@ void Station::reset() {
 
 void Station::stop(Cycle now) {
   tx_.abort();
+  for_others_ = false;  // a run may have been passed before its begin
   slave_.stop(now);
   plan_timers();
 }
@@ -77,6 +78,7 @@ Cycle Station::next_of_line() const {
   return std::min(rx_.next(), rx_.receiving(decision) ? kNever : decision);
 }
 
+// All of it at once, if it was received and decided.
 bool Station::pass_unseen(Cycle upto) {
   const bool passes = for_others_ && rx_.whole_run(upto) && TelegramRx::decided(rx_.run_end(), rx_.bit()) <= upto &&
                       telegrams_.pass_whole(rx_.run_idle(), rx_.bit());
@@ -85,6 +87,16 @@ bool Station::pass_unseen(Cycle upto) {
   rx_.take_run();
   for_others_ = false;
   return true;
+}
+
+bool Station::catch_up(Cycle upto) {
+  if (pass_unseen(upto)) return false;
+  bool evaluates = false;
+  for (Cycle cycle = unseen(); cycle <= upto; cycle = unseen()) {
+    eval(cycle);
+    evaluates = true;
+  }
+  return evaluates;
 }
 
 Unheard Station::unheard() const {

@@ -86,9 +86,8 @@ class Station {
   /// The next cycle at which eval() processes a telegram for others that was passed as a run. Only telegrams_received()
   /// shows it, so the call may come late, before anything else concerns this station. kNever: nothing.
   Cycle unseen() const { return for_others_ ? next_of_line() : kNever; }
-  /// Applies all effects of that telegram at once, replacing eval(), if it was received and decided by the edge at
-  /// `upto`.
-  bool pass_unseen(Cycle upto);
+  /// Applies the effects of that telegram up to the edge at `upto`. Returns true if next() may have changed.
+  bool catch_up(Cycle upto);
 
   /// Whether eval(now) may do more than receive a character or send a bit: change the mail to the user's side, or a
   /// state.
@@ -149,6 +148,7 @@ class Station {
   bool running() const { return slave_.state() != DpState::kOffline; }
   bool listening() const { return running() && !tx_.rts(); }
   Cycle next_of_line() const;
+  bool pass_unseen(Cycle upto);
   void make_room(Tick at);
   void listen(Cycle now);
   void select_rate(Cycle now);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/profibus/whole_telegrams.hpp"
 #include "model/spc3/bus_port.hpp"
 #include "model/spc3/chip_state.hpp"
 #include "model/spc3/clear_to_send.hpp"
@@ -14,6 +15,7 @@ namespace {
 using profibus::first_edge_after;
 using profibus::kNever;
 using profibus::kTicksPerCycle;
+namespace whole_telegrams = profibus::whole_telegrams;
 
 constexpr Cycle kResetSynchroniser = 2;  // A9
 
@@ -50,14 +52,23 @@ struct Chip::Impl {
   void enter_reset(Tick at);
   void reset_blocks();
   void advance(Tick to);
+  void evaluate(Tick event, Tick to);
+  bool only_sends(Cycle cycle) const { return skips() && cycle < std::min(other_plans, station.only_sends_until()); }
+  void send_bits(Cycle cycle, Tick to);
   void rising_edge(Cycle cycle);
-  Tick next_edge() const { return config.engine == Engine::kStep ? (done + 1) * kTicksPerCycle : planned_edge; }
+  bool skips() const { return config.engine == Engine::kSkip; }
+  Tick next_event() const { return skips() ? planned_edge : (done + 1) * kTicksPerCycle; }
   void plan();
+  void plan_station();
+  bool hear(Tick at, bool level);
+  void catch_up_line(Cycle upto) { station.catch_up(upto); }
   std::uint8_t load(Cycle cycle, Address address);
   void store(Cycle cycle, Address address, std::uint8_t value);
   Level sample(Tick at);
   Cycle begin_access(Cycle cycle, Address address);
   std::uint32_t outputs_now() const;
+  std::uint32_t with_txd() const { return (outputs & ~mask(Pin::kTxd)) | bit(Pin::kTxd, station.txd()); }
+  void take_txd() { outputs = with_txd(); }
   void publish(Tick at, std::uint32_t levels);
   void publish_bus(Tick at);
   Level level(Pin pin) const;
@@ -81,6 +92,7 @@ struct Chip::Impl {
   Tick now = 0;
   Cycle done = 0;  // the last evaluated rising edge
   Tick planned_edge = kNever;
+  Cycle other_plans = kNever;  // the earliest but the station's, when plan() ran
   Cycle release_at = kNever;
   bool reset_pin = true, running = false;
   std::uint32_t outputs = kResetLevels;  // those of one wire
@@ -93,7 +105,7 @@ void Chip::Impl::set(Tick at, Pin pin, Level value) {
   advance(at);
   switch (pin) {
     case Pin::kReset: set_reset(at, value != 0); break;
-    case Pin::kRxd: station.set_rxd(at, value != 0); break;
+    case Pin::kRxd: hear(at, value != 0); break;
     case Pin::kXCts: cts.set(at, value != 0); break;
     default:
       if (!is_input(pin)) return;
@@ -101,6 +113,12 @@ void Chip::Impl::set(Tick at, Pin pin, Level value) {
       publish_bus(at);
   }
   plan();
+}
+
+// Returns false if the station has no new plan.
+bool Chip::Impl::hear(Tick at, bool level) {
+  catch_up_line(done);
+  return station.set_rxd(at, level);
 }
 
 void Chip::Impl::set_reset(Tick at, bool high) {
@@ -115,6 +133,8 @@ void Chip::Impl::set_reset(Tick at, bool high) {
 void Chip::Impl::enter_reset(Tick at) {
   running = false;
   release_at = kNever;
+  catch_up_line(done);
+  station.leave_run(at);
   reset_blocks();
   publish(at, kResetLevels);
   publish_bus(at);
@@ -130,24 +150,48 @@ void Chip::Impl::reset_blocks() {
 // --- time ------------------------------------------------------------------------------------------------------------
 
 // Kept because it is read far more often than changed: every caller of a block updates it.
+// A55: OFFLINE waits for the end of any telegram.
 void Chip::Impl::plan() {
-  const Cycle cycle =
-      std::min({release_at, station.next(), user.next(), map.next(), interrupt.next(), cts.next(), port.next()});
+  other_plans = std::min({release_at, user.next(), map.next(), interrupt.next(), cts.next(), port.next(),
+                          map.stops() ? station.unseen() : kNever});
+  plan_station();
+}
+
+void Chip::Impl::plan_station() {
+  const Cycle cycle = std::min(other_plans, station.next());
   planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
 }
 
 void Chip::Impl::advance(Tick to) {
-  for (Tick edge = next_edge(); edge <= to; edge = next_edge()) {
-    now = edge;
-    rising_edge(edge / kTicksPerCycle);
-    plan();
-  }
+  for (Tick edge = next_event(); edge <= to; edge = next_event()) evaluate(edge, to);
   now = std::max(now, to);
   done = std::max(done, now / kTicksPerCycle);
 }
 
+// The edge at tick `event`, and similar ones up to `to`.
+void Chip::Impl::evaluate(Tick event, Tick to) {
+  now = event;
+  const Cycle cycle = event / kTicksPerCycle;
+  if (only_sends(cycle)) return send_bits(cycle, to);
+  rising_edge(cycle);
+  plan();
+}
+
+// Most edges of an answering chip change TXD only.
+void Chip::Impl::send_bits(Cycle cycle, Tick to) {
+  const Cycle act = std::min({other_plans, station.only_sends_until(), to / kTicksPerCycle + 1});
+  do {
+    done = cycle;
+    now = cycle * kTicksPerCycle;
+    cycle = station.send_bit(cycle);
+    publish(now, with_txd());
+  } while (cycle < act);
+  plan_station();
+}
+
 // The user's accesses came before; the station decides, the store carries out, the interrupt tells.
 void Chip::Impl::rising_edge(Cycle cycle) {
+  catch_up_line(cycle - 1);
   done = cycle;
   if (cycle == release_at) {
     release_at = kNever;
@@ -155,7 +199,7 @@ void Chip::Impl::rising_edge(Cycle cycle) {
     port.release();
   }
   cts.eval(cycle, station);
-  station.eval(cycle);
+  if (!skips() || std::min(station.next(), station.unseen()) <= cycle) station.eval(cycle);
   user.eval(cycle);
   map.eval(cycle);
   interrupt.eval(cycle);
@@ -238,8 +282,8 @@ Level Chip::Impl::level(Pin pin) const {
 template <class Archive>
 void Chip::Impl::store(Archive& archive) {
   auto& [its_config, its_log, its_interrupt, its_user, its_station, its_map, its_cts, its_port, its_sink, its_watched,
-         its_now, its_done, its_edge, its_release, its_reset, runs, its_outputs, its_db] = *this;
-  archive.given(its_config, its_log, its_sink, its_watched, its_edge);
+         its_now, its_done, its_edge, its_other_plans, its_release, its_reset, runs, its_outputs, its_db] = *this;
+  archive.given(its_config, its_log, its_sink, its_watched, its_edge, its_other_plans);
   archive.within(Tick{0}, Tick{1} << 62, its_now);
   archive.cycles(its_done, its_release);
   archive(its_interrupt);
@@ -271,12 +315,21 @@ Chip::~Chip() = default;
 
 void Chip::set(Tick at, Pin pin, Level level) { impl_->set(at, pin, level); }
 void Chip::advance(Tick to) { impl_->advance(to); }
-Tick Chip::next_event() const { return impl_->next_edge(); }
+void Chip::advance_in_run(Tick to) { whole_telegrams::advance_in_run(*impl_, to); }
+Tick Chip::next_event() const { return impl_->next_event(); }
 Tick Chip::now() const { return impl_->now; }
 profibus::Unheard Chip::unheard() const { return impl_->station.unheard(); }
 void Chip::hear(Tick at, bool level) {
-  if (impl_->station.set_rxd(at, level)) impl_->plan();
+  if (impl_->hear(at, level)) impl_->plan();
 }
+bool Chip::hear(Tick at, const profibus::CharacterRun& run) { return whole_telegrams::hear(*impl_, at, run); }
+profibus::Unconcerned Chip::unconcerned() const { return whole_telegrams::unconcerned(*impl_); }
+void Chip::pass(std::uint64_t count) { impl_->station.pass(count); }
+void Chip::leave_run(Tick at) { whole_telegrams::leave_run(*impl_, at); }
+bool Chip::left_run() const { return impl_->station.left_run(); }
+bool Chip::begins_to_send() const { return whole_telegrams::begins_to_send(*impl_); }
+profibus::CharacterRun Chip::hide_txd() { return whole_telegrams::hide_txd(*impl_); }
+void Chip::show_txd(Tick at) { whole_telegrams::show_txd(*impl_, at); }
 std::uint8_t Chip::load(Cycle cycle, Address address) { return impl_->load(cycle, address); }
 void Chip::store(Cycle cycle, Address address, std::uint8_t value) { impl_->store(cycle, address, value); }
 std::uint8_t Chip::peek(Address address) const { return impl_->map.peek(address); }
@@ -293,6 +346,7 @@ void Chip::on_event(const profibus::EventSink& sink) { impl_->log.attach(sink); 
 std::uint8_t Chip::address() const { return impl_->station.slave().address(); }
 
 Status Chip::status() const {
+  impl_->catch_up_line(impl_->done);
   const profibus::Station& station = impl_->station;
   Status status;
   status.dp_state = station.slave().state();

@@ -58,6 +58,16 @@ class Chip {
   /// chip is advanced to its next_event() or another call is made. For benches with many chips on a line.
   profibus::Unheard unheard() const;
   void hear(Tick at, bool level);
+  /// Telegrams as a whole: as dsdpv1::Chip's functions of these names, for RXD, TXD and RTS. Engine::kSkip only.
+  bool hear(Tick at, const profibus::CharacterRun& run);
+  void advance_in_run(Tick to);
+  profibus::Unconcerned unconcerned() const;
+  void pass(std::uint64_t count);
+  void leave_run(Tick at);
+  bool left_run() const;
+  bool begins_to_send() const;
+  profibus::CharacterRun hide_txd();
+  void show_txd(Tick at);
 
   /// An access of the CPU beside the pins of its bus, after the edge of `cycle`, to which the chip is advanced; a read
   /// may be a command. It takes effect at the next edge (A16). `address` in Intel order, 0 to 7FFH, of the VPC3+ to

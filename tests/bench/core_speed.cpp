@@ -7,6 +7,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tests/bench/programs.hpp"
 #include "tests/bench/saturated_bus.hpp"
+#include "tests/bench/saturated_spc3.hpp"
 #include "tests/bench/stopwatch.hpp"
 
 namespace {
@@ -29,20 +30,25 @@ struct EdgeChip : Chip {
   static bool hear(Tick /*at*/, const dsdpv1::profibus::CharacterRun& /*run*/) { return false; }
 };
 
-template <class Device = Chip>
-double saturated(int io, double seconds = kMeasured, std::uint32_t watched = dsdpv1::speed::PinCounter::kWatched) {
+template <class Device = Chip, class Bus = dsdpv1::speed::SaturatedBus<Device>,
+          class Counter = dsdpv1::speed::PinCounter>
+double saturated(int io, double seconds = kMeasured, std::uint32_t watched = Counter::kWatched) {
   Device chip;
-  dsdpv1::speed::SaturatedBus<Device> bus(chip, io);
+  Bus bus(chip, io);
   bus.start();
-  dsdpv1::speed::PinCounter counter;
+  Counter counter;
   chip.watch(counter.sink(), watched);
   const Tick begin = bus.now();
   const Stopwatch watch;
   while (watch.seconds() < seconds) bus.exchange_for(kSlice);
   const double taken = watch.seconds();
   if (chip.status().data_exchanges != bus.exchanges()) throw Failure("exchanges were lost");
-  if (counter.line == 0 || counter.requests == 0) throw Failure("nothing was seen at the pins");
+  if (!counter.has_seen()) throw Failure("nothing was seen at the pins");
   return static_cast<double>(bus.now() - begin) / kTicksPerSecond / taken;
+}
+
+double spc3_saturated(int io) {
+  return saturated<dsdpv1::spc3::Chip, dsdpv1::speed::SaturatedSpc3, dsdpv1::speed::Spc3PinCounter>(io);
 }
 
 /// S1: the windows from 12 Mbit/s down to 9.6 kbit/s, 50 ms or 4000 bit times each.
@@ -107,6 +113,7 @@ int main(int argc, char** argv) {
                                   {"core_16", [] { return saturated(16); }},
                                   {"core_64", [] { return saturated(64); }},
                                   {"core_244", [] { return saturated(244); }},
+                                  {"core_spc3_16", [] { return spc3_saturated(16); }},
                                   {"core_pins", [] { return saturated<EdgeChip>(16, kMeasured, dsdpv1::kOutputPins); }},
                                   {"search_9k6", search_to_9k6},
                                   {"chip", chip_kilobytes},

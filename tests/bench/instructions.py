@@ -80,6 +80,8 @@ ROWS = (
     Row("demo_full", MS, "The same with checks, log and FST wave.", DEMO, (20, 30), ("--wave", "demo.fst", "--log", "demo.log")),
     Row("spi_9m", "edge of SCK", "A user CPU that looks at a DSDPV1-RSU without a pause, over SPI at 9 MHz.", "spi_9m", (16, 26), units=sck_edges),
     Row("compare", "MB", "dsdpv1-sim compare on VCD.", "", (1, 3), command=compare_megabytes, units=lambda short, long: long["length"] - short["length"]),
+    Row("busy", MS, "One slave with 16 bytes each way, checks off.", "one_busy", (100, 200)),
+    Row("spc3_busy", MS, "The same with an APC3.", "spc3_busy", (100, 200)),
     Row("slaves_125", MS, "One master and 125 slaves in data exchange.", "slaves_125", (100, 110)),
 )
 NAMES = tuple(row.name for row in ROWS)

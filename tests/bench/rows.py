@@ -104,6 +104,10 @@ SLAVES_LIMIT = ("Each telegram reaches every station, and all user CPUs exchange
 
 ROWS = (
     core(2), core(16), core(64), core(244),
+    Row("core_spc3_16", 10, TIMES, "The core of the SPC3 family alone, on the stimulus of core_16; X/INT and TXD are watched, and the changes of TXD counted.",
+        in_program("bench_core", "core_spc3_16"), ("bench_core",)),
+    Row("spc3_vs_dsdpv1", 0.5, "times as fast", "core_spc3_16 against core_16 of the same round.",
+        lambda turn: turn.program("bench_core", "core_spc3_16") / turn.program("bench_core", "core_16"), ("bench_core",)),
     Row("core_vs_rtl", 200, "times as fast", "The core against the Verilated RTL on the stimulus of core_16, neither inside a bench: in "
         "turns, in one process, in CPU time. The RTL is built with -O3, --x-assign fast, --x-initial fast and without limits of run time.",
         in_program("bench_rtl", "core_vs_rtl"), RTL, limit="The core's limit, see core_16."),

@@ -1,5 +1,5 @@
 #pragma once
-// A saturated 12 Mbit/s bus for a single chip: data exchanges of one size, back to back at T_SYN. The edges of the
+// A saturated 12 Mbit/s bus for a single DSDPV1: data exchanges of one size, back to back at T_SYN. The edges of the
 // requests are made beforehand and the user is idle, so that a measurement contains little except the chip. The core
 // gets its requests as runs of characters, the RTL as changes of PBRXD.
 #include <algorithm>
@@ -100,20 +100,14 @@ inline int answer_and_syn_bits(int io) {
   return kTsdr + bus::kCharacterBits * (io + kFrame) + kSynBits;
 }
 
-/// `Device`: set(Tick, Pin, Level), hear(Tick, CharacterRun), advance(Tick), level(Pin), like dsdpv1::Chip.
-template <class Device>
-class SaturatedBus {
+/// The master's side. `Device`: set(Tick, Pin, Level), hear(Tick, CharacterRun), advance(Tick), like the chips.
+template <class Device, auto kRxd>
+class RequestLine {
  public:
-  SaturatedBus(Device& device, int io) : device_(device), io_(io) {
+  RequestLine(Device& device, int io) : device_(device), io_(io) {
     for (const Bytes& request : exchange_requests(io)) requests_.emplace_back(request);
   }
 
-  /// From power-on to data exchange.
-  void start() {
-    reset();
-    initialise();
-    for (const Bytes& request : bring_up(io_)) send(Request(request), kBringUpIdle);
-  }
   void exchange() {
     send(requests_[toggle_ ^= 1U], answer_and_syn_bits(io_));
     ++exchanges_;
@@ -125,6 +119,52 @@ class SaturatedBus {
 
   Tick now() const { return now_; }
   std::uint64_t exchanges() const { return exchanges_; }
+
+ protected:
+  static constexpr Tick kMillisecond = 12'000'000;
+
+  void wait(Tick ticks) { device_.advance(now_ += ticks); }
+  template <class InputPin>
+  void set(Tick after, InputPin pin, Level level) {
+    device_.set(now_ += after, pin, level);
+  }
+  /// A request, and longer than any answer of the bring-up.
+  void bring_up_by(const Bytes& request) { send(Request(request), 1000); }
+  Device& device_;
+  const int io_;
+
+ private:
+  void send(const Request& request, int idle_bits) {
+    if (!hears(request.telegram))
+      for (const LineEdge& edge : request.wave.edges) device_.set(now_ + edge.at, kRxd, edge.level ? 1 : 0);
+    wait(request.wave.length + idle_bits * kBit);
+  }
+  bool hears(const Bytes& telegram) {
+    const profibus::CharacterRun run{now_, kBit / profibus::kTicksPerCycle, telegram.data(),
+                                     static_cast<int>(telegram.size())};
+    return device_.hear(now_, run);
+  }
+
+  Tick now_ = 0;
+  std::vector<Request> requests_;
+  unsigned toggle_ = 0;
+  std::uint64_t exchanges_ = 0;
+};
+
+/// With the user of a DSDPV1. `Device`: level(Pin), too.
+template <class Device>
+class SaturatedBus : public RequestLine<Device, Pin::kPbrxd> {
+  using Line = RequestLine<Device, Pin::kPbrxd>;
+
+ public:
+  using Line::Line;
+
+  /// From power-on to data exchange.
+  void start() {
+    reset();
+    initialise();
+    for (const Bytes& request : bring_up(io_)) this->bring_up_by(request);
+  }
 
   // --- for what does not begin with data exchange
   void reset() {
@@ -141,11 +181,12 @@ class SaturatedBus {
   }
 
  private:
-  static constexpr Tick kMillisecond = 12'000'000;
-  static constexpr int kBringUpIdle = 1000;  ///< bit times: more than any answer of the bring-up
+  using Line::device_;
+  using Line::io_;
+  using Line::kMillisecond;
+  using Line::set;
+  using Line::wait;
 
-  void wait(Tick ticks) { device_.advance(now_ += ticks); }
-  void set(Tick after, Pin pin, Level level) { device_.set(now_ += after, pin, level); }
   void take() {
     set(0, Pin::kRReq, 1);
     do wait(4 * profibus::kTicksPerCycle);
@@ -164,23 +205,6 @@ class SaturatedBus {
     set(0, Pin::kDIn, dsdpv1::kLevelZ);
     wait(kHold);
   }
-  void send(const Request& request, int idle_bits) {
-    if (!hears(request.telegram))
-      for (const LineEdge& edge : request.wave.edges) device_.set(now_ + edge.at, Pin::kPbrxd, edge.level ? 1 : 0);
-    wait(request.wave.length + idle_bits * kBit);
-  }
-  bool hears(const Bytes& telegram) {
-    const profibus::CharacterRun run{now_, kBit / profibus::kTicksPerCycle, telegram.data(),
-                                     static_cast<int>(telegram.size())};
-    return device_.hear(now_, run);
-  }
-
-  Device& device_;
-  int io_;
-  Tick now_ = 0;
-  std::vector<Request> requests_;
-  unsigned toggle_ = 0;
-  std::uint64_t exchanges_ = 0;
 };
 
 /// Counts the changes of the watched pins: the minimum cost of an observer of L_REQ and PBTXD.
@@ -192,6 +216,7 @@ struct PinCounter {
     return {[](void* self, Tick, Pin pin, Level) { static_cast<PinCounter*>(self)->count(pin); }, this};
   }
   void count(Pin pin) { ++(pin == Pin::kPbtxd ? line : requests); }
+  bool has_seen() const { return line > 0 && requests > 0; }
   bool operator==(const PinCounter& other) const { return line == other.line && requests == other.requests; }
 };
 

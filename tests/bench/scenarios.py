@@ -58,7 +58,7 @@ def loop(name):
 
 
 SCENARIOS = {"1m5": slow_line(), "spi_9m": serial_port("spi", spi={"clock": 9000}), "uart_1m8": serial_port("uart"), "slaves_32": many(32, "40ms"), "slaves_125": many(125, "100ms"),
-             "one_busy": with_idle(0), "with_idle": with_idle(IDLE),
+             "one_busy": with_idle(0), "spc3_busy": {**with_idle(0), "chip": {"kind": "apc3"}}, "with_idle": with_idle(IDLE),
              **{name: loop(name) for name in ("loop_ram", "loop_gpio", "loop_dpram")}}
 
 

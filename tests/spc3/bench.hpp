@@ -33,7 +33,8 @@ struct PinChange {
   spc3::Level level;
 };
 
-/// Both chips, as one station. The one in skip hears the line as late as it may.
+/// Both chips. The one in skip takes telegrams as runs, of its own every second one, and hears the rest of the line as
+/// late as it may. The one in step gets each change of the line.
 class Twins : public bus::Agent, public bus::Listener {
  public:
   Twins(bus::Segment& segment, const spc3::Config& config);
@@ -49,6 +50,9 @@ class Twins : public bus::Agent, public bus::Listener {
   Tick next() const override { return skip_.next_event(); }
   void run(Tick now) override;
   void line_changed(Tick at, bool level) override;
+  bool run_begins(const bus::CharacterRun& run) override;
+  void run_cut(Tick at, bool level) override;
+  void runs_passed(std::uint64_t for_stations) override { skip_.pass(for_stations); }
 
   /// Both have come to `at`: their traces are equal. Each `restored`-th time one of them continues from a state.
   void compare(Tick at);
@@ -56,6 +60,7 @@ class Twins : public bus::Agent, public bus::Listener {
   std::vector<PinChange> trace;
   std::vector<profibus::Event> events;
   unsigned restored = 25;
+  int runs_taken = 0;
 
  private:
   static void on_skip_pin(void* self, Tick at, Pin pin, spc3::Level level);
@@ -63,16 +68,30 @@ class Twins : public bus::Agent, public bus::Listener {
   static void on_skip_event(void* self, const profibus::Event& event);
   static void on_step_event(void* self, const profibus::Event& event);
   void compare_traces();
+  void restore_one(Tick at);
   void hear();
+  void leave_run(Tick at);
+  void filter();
+
+  /// Hears for step_.
+  class Ear : public bus::Listener {
+   public:
+    explicit Ear(spc3::Chip& chip) : chip_(chip) {}
+    void line_changed(Tick at, bool level) override { chip_.set(at, Pin::kRxd, level ? 1 : 0); }
+
+   private:
+    spc3::Chip& chip_;
+  };
 
   bus::Segment& segment_;
   bus::StationId station_;
   spc3::Chip skip_, step_;
+  Ear ear_{step_};
   std::vector<PinChange> step_trace_;
   std::vector<PinChange> unheard_;  // of RXD, not told to skip_ yet
   std::vector<profibus::Event> step_events_;
   std::size_t compared_pins_ = 0, compared_events_ = 0;
-  unsigned comparisons_ = 0;
+  unsigned comparisons_ = 0, own_runs_ = 0;
 };
 
 /// The organisation that initialise() writes: every buffer has 64 bytes, but Len_Dout and Len_Din are short.

@@ -173,31 +173,65 @@ TEST(States, GoOfflineOnASilentLineIsAtOnce) {
   EXPECT_EQ(kind_of(bench.ask(60)), "DL");
 }
 
+/// Asks for Go_Offline at a time.
+class OfflineUser : public bus::Agent {
+ public:
+  OfflineUser(Bench& bench, Tick at) : bench_(bench), at_(at) { bench.timeline.add(*this); }
+  Tick next() const override { return at_; }
+  void run(Tick /*now*/) override {
+    bench_.set_mode1(regs::kMode1GoOffline);
+    at_ = bus::kNever;
+    announce();
+  }
+  bool asked() const { return at_ == bus::kNever; }
+
+ private:
+  Bench& bench_;
+  Tick at_;
+};
+
 TEST(States, GoOfflineWaitsForTheTelegramAndItsAnswer) {
+  for (int round = 0; round < 2; ++round) {  // as a run and as edges
+    Bench bench;
+    bench.to_data_ex();
+    for (int i = 0; i < round; ++i) bench.exchange({1, 2});
+    const Tick begin = bench.now() + 40 * bench.requester.bit();
+    const OfflineUser user(bench, begin + 30 * bench.requester.bit());
+    const bus::Exchange answer =
+        bench.requester.send(bench.timeline, bus::make_telegram(5, 2, 0x6D, {0x31, 0x32}), {.at = begin});
+    EXPECT_TRUE(user.asked());
+    EXPECT_EQ(kind_of(answer), "DL");
+    bench.run_cycles(100);
+    EXPECT_EQ(bench.state(), DpState::kOffline);
+    EXPECT_TRUE(bench.raised(regs::kEventMacReset));
+  }
+}
+
+// Its decision comes a bit time after its last stop bit (S10), and two edges later with the synchroniser.
+TEST(States, GoOfflineWaitsForATelegramToAnotherStation) {
   Bench bench;
   bench.to_data_ex();
-  const auto telegram = bus::make_telegram(5, 2, 0x6D, {0x31, 0x32});
-  const Tick begin = bench.now() + 40 * bench.requester.bit();
-  bool asked = false;
-  // the user asks in the middle of the request
-  struct User : bus::Agent {
-    Bench& bench;
-    Tick at;
-    bool& asked;
-    User(Bench& of, Tick when, bool& done) : bench(of), at(when), asked(done) {}
-    Tick next() const override { return asked ? bus::kNever : at; }
-    void run(Tick) override {
-      asked = true;
-      bench.set_mode1(regs::kMode1GoOffline);
-    }
-  } user(bench, begin + 30 * bench.requester.bit(), asked);
-  bench.timeline.add(user);
-  const bus::Exchange answer = bench.requester.send(bench.timeline, telegram, {.at = begin});
-  EXPECT_TRUE(asked);
-  EXPECT_EQ(kind_of(answer), "DL");
+  const Tick bit = bench.requester.bit(), begin = bench.now() + 40 * bit;
+  const OfflineUser user(bench, begin + 30 * bit);
+  const bus::Exchange sent = bench.requester.send(bench.timeline, bus::make_telegram(9, 2, 0x6D, {0x31, 0x32}),
+                                                  {.at = begin, .wants_answer = false});
+  EXPECT_TRUE(user.asked());
+  EXPECT_EQ(bench.state(), DpState::kDataExch);
+  const auto received = bench.twins.chip().status().telegrams_received;
   bench.run_cycles(100);
   EXPECT_EQ(bench.state(), DpState::kOffline);
-  EXPECT_TRUE(bench.raised(regs::kEventMacReset));
+  EXPECT_EQ(bench.twins.chip().status().telegrams_received, received + 1);
+  const Tick offline = bench.changes(Pin::kXDataExch).back().at;
+  EXPECT_GT(offline, sent.request_end + bit);
+  EXPECT_LE(offline, sent.request_end + bit + 4 * profibus::kTicksPerCycle);
+}
+
+TEST(States, TelegramsAreTakenAsRuns) {
+  Bench bench;
+  bench.to_data_ex();
+  const int taken = bench.twins.runs_taken;
+  for (int i = 0; i < 4; ++i) bench.exchange({1, 2});
+  EXPECT_EQ(bench.twins.runs_taken, taken + 2) << "every second one";
 }
 
 TEST(States, GoOfflineWaitsForTheEffectsOfTheLastTelegram) {
