@@ -742,20 +742,10 @@ Status Chip::status() const {
   return status;
 }
 
-std::vector<std::uint8_t> Chip::save() const {
-  profibus::StateWriter writer;
-  begin_state(writer, impl_->config);
-  impl_->store(writer);
-  return profibus::end_frame(writer.take());
-}
+std::vector<std::uint8_t> Chip::save() const { return profibus::save_chip<StateHead>(*impl_); }
 
 void Chip::restore(const std::uint8_t* bytes, std::size_t size) {
-  profibus::StateReader reader = open_state(bytes, size, impl_->config);
-  auto restored = std::make_unique<Impl>(impl_->config);
-  restored->store(reader);
-  profibus::check_frame(reader);
-  restored->take_over(*impl_);
-  impl_ = std::move(restored);
+  profibus::restore_chip<StateHead>(impl_, bytes, size);
 }
 
 Inside Chip::inside() const {

@@ -19,20 +19,13 @@ constexpr profibus::Words words_with_pins() {
   words.new_block = "INTR0";
   return words;
 }
-constexpr profibus::Words kWords = words_with_pins();
-
 }  // namespace
 
-std::vector<profibus::Reason> reasons() {
-  std::vector<profibus::Reason> all;
-  const profibus::ReasonTable own = {detail::kReasonRows, std::size(detail::kReasonRows)};
-  for (const profibus::ReasonTable& room : {own, dpram::reasons(), profibus::reasons()})
-    for (const profibus::ReasonRow& row : room) all.emplace_back(row);
-  return all;
-}
+const profibus::Words kWords = words_with_pins();
 
-std::string describe(const profibus::Event& event) { return profibus::describe(event, kWords); }
-std::string text_template(profibus::Reason reason) { return profibus::text_template(reason, kWords); }
-std::string advice(profibus::Reason reason) { return profibus::advice(reason, kWords); }
+std::vector<profibus::Reason> reasons() {
+  return profibus::reasons_of(
+      {{detail::kReasonRows, std::size(detail::kReasonRows)}, dpram::reasons(), profibus::reasons()});
+}
 
 }  // namespace dsdpv1

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "model/profibus/chip_reasons.hpp"
+
 namespace dsdpv1::profibus {
 
 const ReasonRow detail::kReasonRows[] = {
@@ -12,6 +14,13 @@ const ReasonRow detail::kReasonRows[] = {
 };
 
 ReasonTable reasons() { return {detail::kReasonRows, std::size(detail::kReasonRows)}; }
+
+std::vector<Reason> reasons_of(std::initializer_list<ReasonTable> rooms) {
+  std::vector<Reason> all;
+  for (const ReasonTable& room : rooms)
+    for (const ReasonRow& row : room) all.emplace_back(row);
+  return all;
+}
 
 namespace {
 

@@ -1,5 +1,5 @@
 #pragma once
-// The saturated bus of saturated_bus.hpp for a chip of the SPC3 family. Its user is idle, too, but for the user
+// The saturated bus of saturated_bus.hpp for a chip of the SPC3 family. Its user is idle, too, except for its
 // watchdog: inputs were given once, and outputs are not fetched.
 #include <cstdint>
 
@@ -35,7 +35,7 @@ class SaturatedSpc3 : public RequestLine<spc3::Chip, spc3::Pin::kRxd> {
   void store(int address, int value) {
     device_.store(cycle(), static_cast<spc3::Address>(address), static_cast<std::uint8_t>(value));
   }
-  /// Buffers of the same size, one behind the other, in the order of their pointers.
+  /// Buffers of the same size, one after the other, in the order of their pointers.
   void initialise() {
     namespace regs = spc3::regs;
     const conformance::Init init;

@@ -27,23 +27,23 @@ TEST(ReasonTables, NoPlaceholderIsLeftInTheWordsOfTheChipNorInTheNeutralOnes) {
   for (const Reason reason : dsdpv1::reasons()) {
     EXPECT_EQ(without_values(dsdpv1::text_template(reason)).find('{'), std::string::npos) << code(reason);
     EXPECT_EQ(dsdpv1::advice(reason).find('{'), std::string::npos) << code(reason);
-    EXPECT_EQ(without_values(text_template(reason, Words())).find('{'), std::string::npos) << code(reason);
-    EXPECT_EQ(advice(reason, Words()).find('{'), std::string::npos) << code(reason);
+    EXPECT_EQ(without_values(profibus::text_template(reason, Words())).find('{'), std::string::npos) << code(reason);
+    EXPECT_EQ(profibus::advice(reason, Words()).find('{'), std::string::npos) << code(reason);
   }
 }
 
 TEST(ReasonTables, ASlaveWithoutWordsOfItsOwnSpeaksOfNoRegister) {
   const std::regex cell("B[0-7][0-9A-F]{2}");
   for (const profibus::ReasonRow& row : profibus::reasons()) {
-    EXPECT_FALSE(std::regex_search(text_template(Reason(row), Words()), cell)) << row.code;
-    EXPECT_FALSE(std::regex_search(advice(Reason(row), Words()), cell)) << row.code;
+    EXPECT_FALSE(std::regex_search(profibus::text_template(Reason(row), Words()), cell)) << row.code;
+    EXPECT_FALSE(std::regex_search(profibus::advice(Reason(row), Words()), cell)) << row.code;
   }
 }
 
 TEST(ReasonTables, AChipsWordStandsWhereTheTextNamesIt) {
   Words words;
   words.sync = "MODE_REG0.3";
-  EXPECT_EQ(describe({0, Reason::kGcSync, 1}, words),
+  EXPECT_EQ(profibus::describe({0, Reason::kGcSync, 1}, words),
             "Sync ignored: not asked for in Set_Prm (MODE_REG0.3 = 1; 0: Not_Supported)");
   EXPECT_EQ(dsdpv1::describe({0, Reason::kGcSync, 1}),
             "Sync ignored: not asked for in Set_Prm (B024.2 = 1; 0: Not_Supported)");

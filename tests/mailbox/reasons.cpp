@@ -25,20 +25,12 @@ constexpr profibus::Words make_words() {
   words.new_block = "INT";
   return words;
 }
-constexpr profibus::Words kWords = make_words();
-
 }  // namespace
 
-std::vector<profibus::Reason> reasons() {
-  std::vector<profibus::Reason> all;
-  const profibus::ReasonTable own = {detail::kReasonRows, std::size(detail::kReasonRows)};
-  for (const profibus::ReasonTable& room : {own, profibus::reasons()})
-    for (const profibus::ReasonRow& row : room) all.emplace_back(row);
-  return all;
-}
+const profibus::Words kWords = make_words();
 
-std::string describe(const profibus::Event& event) { return profibus::describe(event, kWords); }
-std::string text_template(profibus::Reason reason) { return profibus::text_template(reason, kWords); }
-std::string advice(profibus::Reason reason) { return profibus::advice(reason, kWords); }
+std::vector<profibus::Reason> reasons() {
+  return profibus::reasons_of({{detail::kReasonRows, std::size(detail::kReasonRows)}, profibus::reasons()});
+}
 
 }  // namespace dsdpv1::mailbox

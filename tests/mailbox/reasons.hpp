@@ -1,9 +1,8 @@
 #pragma once
 // The reasons of the mailbox: those of its SPI port, and all reasons of the chip in its wording.
-#include <string>
 #include <vector>
 
-#include "model/profibus/event.hpp"
+#include "model/profibus/chip_reasons.hpp"
 
 namespace dsdpv1::mailbox {
 
@@ -27,10 +26,9 @@ struct Reason {
 
 /// All reasons of the chip: SPI port, DP slave.
 std::vector<profibus::Reason> reasons();
-/// The event in words, one line, without the time.
-std::string describe(const profibus::Event& event);
-/// The text of a reason with its placeholders, and the remedy.
-std::string text_template(profibus::Reason reason);
-std::string advice(profibus::Reason reason);
+extern const profibus::Words kWords;
+inline constexpr profibus::Describe<kWords> describe{};
+inline constexpr profibus::TextTemplate<kWords> text_template{};
+inline constexpr profibus::Advice<kWords> advice{};
 
 }  // namespace dsdpv1::mailbox

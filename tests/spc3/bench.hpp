@@ -33,8 +33,8 @@ struct PinChange {
   spc3::Level level;
 };
 
-/// Both chips. The one in skip takes telegrams as runs, of its own every second one, and hears the rest of the line as
-/// late as it may. The one in step gets each change of the line.
+/// Both chips. The one in skip takes telegrams as runs, every second one for the chip, and hears the rest of the line
+/// as late as it may. The one in step gets each change of the line.
 class Twins : public bus::Agent, public bus::Listener {
  public:
   Twins(bus::Segment& segment, const spc3::Config& config);

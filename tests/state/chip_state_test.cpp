@@ -11,7 +11,7 @@ namespace {
 using ::testing::HasSubstr;
 using State = std::vector<std::uint8_t>;
 
-constexpr std::size_t kVersionAt = 8, kPartAt = 20, kIntervalAt = 21;  // chip_state.cpp
+constexpr std::size_t kVersionAt = 8, kPartAt = 20, kIntervalAt = 21;  // chip_state.hpp
 
 void play(Chip& chip, const Recorded& slave, Tick until) {
   for (const Input& each : slave.inputs)
