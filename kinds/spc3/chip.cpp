@@ -53,6 +53,28 @@ void Spc3Device::watch(const PinSink& sink, PinMask pins) {
               sink.call == nullptr ? 0 : pins);
 }
 
+void Spc3Device::on_event(const profibus::EventSink& sink) {
+  event_sink_ = sink;
+  if (sink.call == nullptr) return chip_.on_event({});
+  chip_.on_event({[](void* self, const profibus::Event& event) { static_cast<Spc3Device*>(self)->told(event); }, this});
+}
+
+void Spc3Device::told(const profibus::Event& event) {
+  if (event.at > chip_.now()) return events_.push_back(event);
+  event_sink_.call(event_sink_.self, event);
+}
+
+/// An event of an access comes before all else of its edge.
+void Spc3Device::advance(Tick to) {
+  while (!events_.empty() && events_.front().at <= to) {
+    const profibus::Event event = events_.front();
+    events_.pop_front();
+    chip_.advance(event.at - 1);
+    event_sink_.call(event_sink_.self, event);
+  }
+  chip_.advance(to);
+}
+
 Spc3PinChip::Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, PinMask watched,
                          bus::Segment& segment, bool late)
     : PinChip(name, std::move(device), spc3_pins(), kSpc3BoardPins, watched, segment, late) {}

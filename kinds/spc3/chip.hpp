@@ -1,6 +1,8 @@
 #pragma once
 // A chip of the SPC3 family on the segment: its core as a device with numbered pins, the enumerators of spc3::Pin, its
 // wiring on a board, and its register call for the user CPU.
+#include <algorithm>
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,14 +22,22 @@ class Spc3Device : public PinDevice, private RegisterPort {
  public:
   explicit Spc3Device(const spc3::Config& config) : chip_(config) {}
 
-  void set(Tick at, PinNumber pin, Level level) override { chip_.set(at, static_cast<spc3::Pin>(pin), level); }
-  void advance(Tick to) override { chip_.advance(to); }
+  void set(Tick at, PinNumber pin, Level level) override {
+    advance(at);
+    chip_.set(at, static_cast<spc3::Pin>(pin), level);
+  }
+  void advance(Tick to) override;
   Tick now() const override { return chip_.now(); }
-  Tick next_event() const override { return chip_.next_event(); }
+  Tick next_event() const override {
+    return events_.empty() ? chip_.next_event() : std::min(events_.front().at, chip_.next_event());
+  }
   Level level(PinNumber pin) const override { return chip_.level(static_cast<spc3::Pin>(pin)); }
-  Level sample(Tick at) override { return chip_.sample(at); }
+  Level sample(Tick at) override {
+    advance(at);
+    return chip_.sample(at);
+  }
   void watch(const PinSink& sink, PinMask pins) override;
-  void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
+  void on_event(const profibus::EventSink& sink) override;
   profibus::Unheard unheard() const override { return chip_.unheard(); }
   void hear(Tick at, bool level) override { chip_.hear(at, level); }
   bool hear(Tick at, const profibus::CharacterRun& run) override { return chip_.hear(at, run); }
@@ -53,15 +63,20 @@ class Spc3Device : public PinDevice, private RegisterPort {
   void restore(const std::uint8_t* bytes, std::size_t size) override { chip_.restore(bytes, size); }
 
  private:
+  void told(const profibus::Event& event);
   std::uint8_t load(Tick at, std::uint16_t address) override {
+    advance(at);
     return chip_.load(at / profibus::kTicksPerCycle, address);
   }
   void store(Tick at, std::uint16_t address, std::uint8_t value) override {
+    advance(at);
     chip_.store(at / profibus::kTicksPerCycle, address, value);
   }
 
   spc3::Chip chip_;
   PinSink sink_;
+  profibus::EventSink event_sink_;
+  std::deque<profibus::Event> events_;  ///< of accesses, which the chip tells before the edge that takes them (A16)
   Spc3Inside inside_;
 };
 
