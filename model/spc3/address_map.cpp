@@ -22,10 +22,7 @@ void AddressMap::reset() {
   user_timer_ = touched_ = kNever;
 }
 
-Address AddressMap::in_map(Address address) const {
-  constexpr Address kMask = 0x7FF, kMaskOfVpc3 = 0xFFF;
-  return address & (variant_.has_more_modes ? kMaskOfVpc3 : kMask);
-}
+Address AddressMap::in_map(Address address) const { return static_cast<Address>(address % addresses(config_.variant)); }
 
 // --- the read side ---------------------------------------------------------------------------------------------------
 

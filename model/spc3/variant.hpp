@@ -28,6 +28,8 @@ constexpr std::array<VariantRow, 3> kVariants = {{{"apc3", "APC3", 0x600, false,
                                                   {"vpc3", "VPC3+", 0x800, true, true, true, false, true}}};
 
 constexpr const VariantRow& row(Variant variant) { return kVariants[static_cast<std::size_t>(variant)]; }
+/// Number of addresses; others wrap.
+constexpr int addresses(Variant variant) { return row(variant).has_more_modes ? 0x1000 : 0x800; }
 /// Finds a variant by its name in scenarios; nullopt: unknown.
 constexpr std::optional<Variant> variant_called(std::string_view name) {
   for (std::size_t i = 0; i < kVariants.size(); ++i)

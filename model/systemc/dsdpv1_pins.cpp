@@ -27,7 +27,7 @@ void PinModule::end_of_elaboration() {
     Out& port;
   } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kPbtxd, PBTXD}, {Pin::kIntr0, INTR0},
                {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
-  for (const auto& wire : wires) connect(wire.pin, wire.port);
+  for (const auto& wire : wires) connect(mask(wire.pin), wire.port);
   if (CLK.size() > 0) clock_ = std::make_unique<BoundClock>(clock_tolerance_ppm_);
 }
 

@@ -5,12 +5,6 @@
 #include <utility>
 
 namespace dsdpv1::systemc {
-namespace {
-
-/// The platform's initiators treat the delay returned by b_transport as elapsed time.
-bool is_decoupled() { return tlm::tlm_global_quantum::instance().get() > sc_core::SC_ZERO_TIME; }
-
-}  // namespace
 
 TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options)
     : ChipModule(name, options), timing_(options.access), observed_(options.observed) {
@@ -30,7 +24,7 @@ void TlmModule::start_of_simulation() {
   } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbrts, PBRTS},
                {Pin::kPbtxd, PBTXD}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
   for (const auto& wire : wires) {
-    connect(wire.pin, wire.port);
+    connect(mask(wire.pin), wire.port);
     if (wire.port.size() > 0) bound_ |= mask(wire.pin);
   }
   const std::uint32_t asked = heard_outputs() | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
@@ -54,7 +48,7 @@ void TlmModule::sync(const sc_core::sc_time& ahead) {
 
 void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   payload.set_dmi_allowed(false);
-  const tlm::tlm_response_status judgement = judge(payload);
+  const tlm::tlm_response_status judgement = judge(payload, kDpramSize);
   if (judgement != tlm::TLM_OK_RESPONSE) {
     payload.set_response_status(judgement);
     return;
@@ -75,12 +69,6 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     throw;
   }
   host_bus_.unlock();
-}
-
-/// The chip is in simulation time: waits until an initiator that runs ahead is in step again.
-void TlmModule::wait_for(sc_core::sc_time& delay) {
-  if (delay != sc_core::SC_ZERO_TIME) sc_core::wait(delay);
-  delay = sc_core::SC_ZERO_TIME;
 }
 
 void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
@@ -201,21 +189,7 @@ void TlmModule::wait_until(Tick tick) {
   catch_up();
 }
 
-unsigned int TlmModule::transport_dbg(Payload& payload) {
-  const sc_dt::uint64 first = payload.get_address();
-  unsigned char* data = payload.get_data_ptr();
-  if (first >= kDpramSize || data == nullptr || payload.get_command() == tlm::TLM_IGNORE_COMMAND) return 0;
-  if (sc_core::sc_is_running()) sync();
-  const auto count = static_cast<unsigned int>(std::min<sc_dt::uint64>(payload.get_data_length(), kDpramSize - first));
-  for (unsigned int i = 0; i < count; ++i) {
-    const auto address = static_cast<std::uint16_t>(first + i);
-    if (payload.is_write())
-      poke(address, data[i]);
-    else
-      data[i] = peek(address);
-  }
-  return count;
-}
+unsigned int TlmModule::transport_dbg(Payload& payload) { return transport_debug(*this, payload, kDpramSize); }
 
 // ------------------------------------------------------------------------------------------------------ pins and core
 
@@ -284,7 +258,7 @@ void TlmModule::plan(Tick now, Tick core) {
 }
 
 Tick TlmModule::next_of_line() const {
-  return std::min(to_chip_.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
+  return std::min(line_.edges.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
 }
 
 }  // namespace dsdpv1::systemc

@@ -21,21 +21,11 @@
 #include <vector>
 
 #include "model/dsdpv1/host_access.hpp"
-#include "model/systemc/character_line.hpp"
+#include "model/systemc/bus_character.hpp"
 #include "model/systemc/chip_module.hpp"
 #include "model/systemc/host_transaction.hpp"
 
 namespace dsdpv1::systemc {
-
-/// One character on the bus.
-struct BusCharacter {
-  sc_core::sc_time start;  ///< falling edge of the start bit, absolute
-  sc_core::sc_time bit;    ///< length of a bit, given by the baud rate
-  std::uint8_t data = 0;
-  bool parity_ok = true;  ///< even parity
-  bool stop_ok = true;    ///< the stop bit is high (else a framing error)
-};
-std::ostream& operator<<(std::ostream& out, const BusCharacter& character);
 
 constexpr std::uint32_t kHostPins = mask(Pin::kA) | mask(Pin::kDIn) | mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kWr);
 
@@ -45,21 +35,6 @@ struct TlmOptions : ChipOptions {
   /// R_STA are always reported. If PBRXD and PBTXD are not, a telegram of valid characters costs a few events instead
   /// of six per character; if A, D, CSR, RD and WR are not, an access of the DPRAM's owner costs one.
   std::uint32_t observed = kOutputPins | mask(Pin::kPbrxd) | kHostPins;
-};
-
-/// A port that knows whether it is bound.
-template <class T>
-class ListenedPort : public tlm::tlm_analysis_port<T> {
- public:
-  using tlm::tlm_analysis_port<T>::tlm_analysis_port;
-  void bind(tlm::tlm_analysis_if<T>& listener) override {
-    tlm::tlm_analysis_port<T>::bind(listener);
-    bound_ = true;
-  }
-  bool bound() const { return bound_; }
-
- private:
-  bool bound_ = false;
 };
 
 /// The DSDPV1 or the DSDPV1-R; RsuTlmModule is the DSDPV1-RSU.
@@ -141,8 +116,6 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   /// The first simulation tick at which a new transaction may begin: an earlier one ahead of simulation time may have
   /// advanced the core.
   Tick earliest() const;
-  /// Waits until a transaction's annotated delay has passed.
-  static void wait_for(sc_core::sc_time& delay);
   bool output_changed(Tick at, Pin pin, Level level) override;
   /// A value used by plan() has changed while the core was running.
   void others_changed() { others_ = arrivals_ = 0; }
@@ -202,15 +175,11 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void txd_changed(Tick at, bool level);
   void offer_answer();
   void end_answer(Tick at);
-  Tick bit_time() const;
   Tick next_answered() const;
   void collect_character(Tick now);
   void tell_characters(Tick now);
-  bool is_sendable(const BusCharacter& character, Tick bit);
   void put_on_line(const BusCharacter& character, Tick bit);
-  Tick tick_of_bit(const BusCharacter& character, unsigned int bit) const;
   bool put_in_run(const BusCharacter& character, Tick start, Tick bit);
-  void put_as_edges(const BusCharacter& character);
   void take_back_last_run();
 
   AccessTiming timing_;
@@ -226,12 +195,11 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   std::size_t moved_ = 0;    ///< ... how many of its edges have happened ...
   Level sampled_ = kLevelX;  ///< ... and the level of D
 
-  EdgeQueue to_chip_;
-  std::deque<LineRun> runs_;      ///< characters of `bus_in` that have not begun and are not in `to_chip_`
+  CharacterInput line_{*this};
+  std::deque<LineRun> runs_;      ///< characters of `bus_in` that have not begun and are not edges of `line_`
   LineRun run_;                   ///< the last of them that has begun, received as a run while `run_is_own_`
   bool run_is_own_ = false;       ///< else run_ comes from hear_run
   Tick run_end_ = 0;              ///< end of the core's present or last run
-  Tick line_busy_until_ = 0;      ///< chip tick of the end of the last character in `to_chip_`
   bool characters_level_ = true;  ///< present level from the characters of `bus_in`
   bool may_hide_ = false, answer_waits_ = false;
   LineRun answer_;            ///< of the chip, while PBTXD is hidden

@@ -7,88 +7,50 @@
 
 namespace dsdpv1::systemc {
 
-std::ostream& operator<<(std::ostream& out, const BusCharacter& character) {
-  const std::ios_base::fmtflags flags = out.flags();
-  out << character.start << " " << std::hex << std::uppercase << unsigned{character.data};
-  out.flags(flags);
-  return out << (character.parity_ok ? "" : " parity error") << (character.stop_ok ? "" : " framing error");
-}
-
 // --- characters to the line ------------------------------------------------------------------------------------------
 
 void TlmModule::write(const BusCharacter& character) {
   const Tick bit = to_tick(character.bit);
-  if (!is_sendable(character, bit)) return;
+  if (!line_.is_sendable(character)) return;
   const Tick before = next_of_line();
   put_on_line(character, bit);
   if (next_of_line() != before) plan();  // else it belongs to a telegram already planned
 }
 
-bool TlmModule::is_sendable(const BusCharacter& character, Tick bit) {
-  const char* fault = nullptr;
-  if (character.start < sc_core::sc_time_stamp()) fault = "begins in the past, it is not sent";
-  if (bit <= 0) fault = "has no bit time, it is not sent";
-  if (fault == nullptr) return true;
-  const std::string text = std::string(name()) + ": character at " + character.start.to_string() + " " + fault;
-  SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
-  return false;
-}
-
 void TlmModule::put_on_line(const BusCharacter& character, Tick bit) {
-  const Tick start = chip_tick(to_tick(character.start));
-  if (start < line_busy_until_) {
-    const std::string text = std::string(name()) + ": character at " + character.start.to_string() +
-                             " begins before the previous one has ended";
-    SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
-    take_back_last_run();
-  }
-  if (!put_in_run(character, start, bit)) put_as_edges(character);
-}
-
-/// The chip's tick nearest to the start of a bit, or of the position after the last bit.
-Tick TlmModule::tick_of_bit(const BusCharacter& character, unsigned int bit) const {
-  return chip_tick(to_tick(sc_core::sc_time::from_value(character.start.value() + bit * character.bit.value())));
+  const Tick start = line_.tick_of_bit(character, 0);
+  if (line_.collides(character)) take_back_last_run();
+  if (!put_in_run(character, start, bit)) line_.put(character);
 }
 
 /// A valid character whose bits are whole cycles extends the run before it, or begins one. Accumulated rounded times
 /// are some femtoseconds off the ticks; if the nearest tick is right at both ends, it is right in between.
 bool TlmModule::put_in_run(const BusCharacter& character, Tick start, Tick bit) {
-  const bool exact = tick_of_bit(character, profibus::kBitsPerCharacter) == start + profibus::kBitsPerCharacter * bit &&
-                     bit % profibus::kTicksPerCycle == 0;
-  if (!tells_runs() || !exact || !character.parity_ok || !character.stop_ok || start < line_busy_until_) return false;
+  const bool exact =
+      line_.tick_of_bit(character, profibus::kBitsPerCharacter) == start + profibus::kBitsPerCharacter * bit &&
+      bit % profibus::kTicksPerCycle == 0;
+  if (!tells_runs() || !exact || !character.parity_ok || !character.stop_ok || start < line_.busy_until) return false;
   if (runs_.empty() || runs_.back().end() != start || runs_.back().bit != bit) runs_.push_back({start, bit, {}});
   runs_.back().bytes.push_back(character.data);
-  line_busy_until_ = runs_.back().end();
+  line_.busy_until = runs_.back().end();
   return true;
 }
 
 /// Converts the last run on the line back to changes, because something interrupts it.
 void TlmModule::take_back_last_run() {
-  if (!runs_.empty() && runs_.back().end() == line_busy_until_) {
+  if (!runs_.empty() && runs_.back().end() == line_.busy_until) {
     spell_out(runs_.back(), 0);
     runs_.pop_back();
-  } else if (run_is_own_ && run_.end() == line_busy_until_) {
+  } else if (run_is_own_ && run_.end() == line_.busy_until) {
     stop_run(chip_now());
   }
-}
-
-void TlmModule::put_as_edges(const BusCharacter& character) {
-  const std::uint16_t frame = frame_of(character.data, character.parity_ok, character.stop_ok);
-  bool level = true;
-  for (unsigned int bit = 0; bit < profibus::kBitsPerCharacter; ++bit) {
-    const bool next = ((frame >> bit) & 1U) != 0;
-    if (next != level) to_chip_.push({tick_of_bit(character, bit), next});
-    level = next;
-  }
-  line_busy_until_ = tick_of_bit(character, profibus::kBitsPerCharacter);
-  if (!level) to_chip_.push({line_busy_until_, true});
 }
 
 // --- the line to the core --------------------------------------------------------------------------------------------
 
 void TlmModule::apply_line(Tick now) {
   const auto take_edges = [&] {
-    while (to_chip_.next() <= now) characters_level_ = to_chip_.take().level;
+    while (line_.edges.next() <= now) characters_level_ = line_.edges.take().level;
     if (in_run(now) && line_level()) return;
     if (in_run(now)) stop_run(now);
     set(now, Pin::kPbrxd, line_level());
@@ -118,7 +80,7 @@ void TlmModule::spell_out(const LineRun& run, Tick behind) {
     for (int bit = 0; bit < profibus::kBitsPerCharacter; ++bit) {
       const bool before = std::exchange(level, ((frame >> bit) & 1U) != 0);
       const Tick at = run.character(i) + bit * run.bit;
-      if (level != before && at > behind) to_chip_.insert({at, level});
+      if (level != before && at > behind) line_.edges.insert({at, level});
     }
   }
 }
@@ -177,13 +139,7 @@ bool TlmModule::output_changed(Tick at, Pin pin, Level level) {
 
 void TlmModule::txd_changed(Tick at, bool level) {
   collect_character(at);
-  from_chip_.edge(at, level, bit_time());
-}
-
-// Without a baud rate the chip does not send; an edge then comes from RESET cutting a character.
-Tick TlmModule::bit_time() const {
-  const BaudIndex baud = chip().status().baud_index;
-  return (baud.known() ? baud.bit_cycles() : 1) * profibus::kTicksPerCycle;
+  from_chip_.edge(at, level, bit_time_of(chip().status().baud_index));
 }
 
 void TlmModule::collect_character(Tick now) {
@@ -196,10 +152,8 @@ void TlmModule::collect_character(Tick now) {
 void TlmModule::tell_characters(Tick now) {
   collect_character(now);
   if (complete_.empty()) return;
-  while (emitted_ < complete_.size()) {  // a listener may call back and continue here
-    const LineCharacter c = complete_[emitted_++];
-    bus_out.write({to_time(c.start + phase()), to_time(c.bit), c.data, c.parity_ok, c.stop_ok});
-  }
+  while (emitted_ < complete_.size())  // a listener may call back and continue here
+    bus_out.write(on_bus(complete_[emitted_++], phase()));
   complete_.clear();
   emitted_ = 0;
 }

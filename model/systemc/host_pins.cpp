@@ -15,10 +15,9 @@ HostPins::HostPins(const sc_core::sc_module_name& name, const AccessTiming& timi
 
 void HostPins::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   payload.set_dmi_allowed(false);
-  payload.set_response_status(is_ahead(payload) ? tlm::TLM_INCOMPLETE_RESPONSE : judge(payload));
+  payload.set_response_status(is_ahead(payload) ? tlm::TLM_INCOMPLETE_RESPONSE : judge(payload, kDpramSize));
   if (!payload.is_response_ok()) return;
-  if (delay != sc_core::SC_ZERO_TIME) wait(delay);
-  delay = sc_core::SC_ZERO_TIME;
+  wait_for(delay);
   const sc_core::sc_scoped_lock turn(host_bus_);
   for (unsigned int i = 0; i < payload.get_data_length() && payload.is_response_ok(); ++i) {
     if (!is_enabled(payload, i)) continue;

@@ -1,8 +1,9 @@
 #pragma once
-// Transactions of a user CPU for the host port: requirements for their payloads, and the timing of their accesses.
+// Transactions of a user CPU for the host port: the timing of their accesses.
 #include <tlm.h>
 
 #include "model/dsdpv1/host_access.hpp"
+#include "model/systemc/transaction.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -21,12 +22,6 @@ struct AccessTimingExtension : tlm::tlm_extension<AccessTimingExtension> {
 };
 
 constexpr sc_dt::uint64 kDpramSize = 0x800;  ///< bytes, from address 0 on
-
-/// TLM_OK_RESPONSE for a valid transaction (docs/systemc.md has the others).
-tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload);
-
-/// True if byte `index` of the data is accessed.
-bool is_enabled(const tlm::tlm_generic_payload& payload, unsigned int index);
 
 /// The timing from the payload's extension, or `own` if there is none.
 const AccessTiming& timing_of(const tlm::tlm_generic_payload& payload, const AccessTiming& own);

@@ -23,7 +23,7 @@ RsuPinModule::RsuPinModule(const sc_core::sc_module_name& name, const PinOptions
 
 void RsuPinModule::end_of_elaboration() {
   PinModule::end_of_elaboration();
-  connect(Pin::kTxd, TXD);
+  connect(mask(Pin::kTxd), TXD);
 }
 
 void RsuPinModule::apply_inputs(Tick at, bool first) {

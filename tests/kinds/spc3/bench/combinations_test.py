@@ -180,7 +180,7 @@ ROWS = [  # what, how, the function
     ("`serve`", "yes", serve),
     ("`compare`, `decode`, `gsd`", "yes: about lines and files", without_chip),
     ("C API, Python", "scenarios; a chip with its line, `load`, `store`, `peek`, `poke`", c_api_and_python),
-    ("`--view tlm`, SystemC modules", "refused: there is none", systemc),
+    ("`--view tlm`", "refused: its user CPU has no pins there; the [SystemC module](systemc.md#spc3tlmmodule) has no scenario", systemc),
     ("`--engine rtl`, `lockstep`, `cosim`", "refused: no reference RTL", rtl),
     ("`rtl-random`, `rtl-faults`, `verify-rtl`", "refused: no random users", random_rtl),
     ("ARM board, host process, `--gdb`", "refused: `user_cpu` has no `kind`", board),

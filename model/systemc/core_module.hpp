@@ -1,0 +1,201 @@
+#pragma once
+// Shared by the SystemC views of all chips: a core's place in simulation time, its outputs as signals, and its reports.
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "model/profibus/event.hpp"
+#include "model/systemc/sim_time.hpp"
+
+namespace dsdpv1::systemc {
+
+struct ModuleOptions {
+  Tick phase = 0;                 ///< 0..249 ticks: the rising CLK edge of cycle n is at n * 250 + phase (CLK unbound)
+  bool report_violations = true;  ///< SC_REPORT_WARNING /dsdpv1/violation for every violated rule of the user's bus
+};
+
+/// The part that serves any kind of chip.
+class TimedModule : public sc_core::sc_module {
+ public:
+  Tick phase() const { return phase_; }
+  /// The chip's tick at simulation tick `tick`; 0 until the first rising edge.
+  Tick chip_tick(Tick tick) const { return tick > phase_ ? tick - phase_ : 0; }
+
+ protected:
+  TimedModule(const sc_core::sc_module_name& name, Tick phase);
+
+  /// The chip's tick at the present time, or `core`, that of its core, if it is ahead of simulation time.
+  Tick at_least(Tick core) const {
+    return std::max(fired_as_scheduled() ? scheduled_ : chip_tick(current_tick()), core);
+  }
+
+  /// True while the core runs, that is inside of `on_pin` and `on_event`.
+  bool is_in_core() const { return in_core_; }
+  /// Runs the core. An exception of an observer leaves when the core has returned, so that the core stays consistent.
+  template <class Call>
+  void in_core(const Call& call) {
+    {
+      const WhileTrue core(in_core_);
+      call();
+    }
+    if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+  }
+  /// Calls an observer from inside of the core.
+  template <class Call>
+  void tell(const Call& call) {
+    try {
+      call();
+    } catch (...) {
+      if (!thrown_) thrown_ = std::current_exception();
+    }
+  }
+
+  /// An output, `pin` its mask, has another level.
+  void note_output(std::uint32_t pin, bool level) {
+    changed_ |= pin;
+    high_ = level ? high_ | pin : high_ & ~pin;
+  }
+  /// All `outputs` are driven the first time.
+  void begin_outputs(std::uint32_t outputs, std::uint32_t high) {
+    changed_ = outputs;
+    high_ = high;
+  }
+  /// Outputs that changed since the last call.
+  std::uint32_t take_changed() { return std::exchange(changed_, 0); }
+  bool has_changed(std::uint32_t pins) const { return (changed_ & pins) != 0; }
+  /// Lets `drive` write this output to the port's signal, if it is bound. After elaboration.
+  template <class Port>
+  void connect(std::uint32_t pin, Port& port) {
+    if (port.size() > 0) wires_.push_back({pin, port[0]});
+  }
+  /// Writes the last reported levels of those `pins` that are connected.
+  void drive(std::uint32_t pins);
+
+  /// Makes `due_` fire at `due`, a tick of the chip, whose present one is `now`; it may fire more often.
+  void schedule(Tick now, Tick due);
+  /// `due_` has fired at scheduled() in this delta cycle. So no input has changed in it: SystemC fires timed events
+  /// when all signals have settled, and changes made at this time come in a later delta cycle.
+  bool fired_as_scheduled() const { return sc_core::sc_time_stamp() == scheduled_at_ && due_.triggered(); }
+  Tick scheduled() const { return scheduled_; }
+  /// Makes `due_` fire in the next delta cycle.
+  void schedule_now();
+  /// `due_` does not fire until it is scheduled again.
+  void unschedule();
+  sc_core::sc_event due_;
+
+ private:
+  /// Sets a flag during its lifetime.
+  class WhileTrue {
+   public:
+    explicit WhileTrue(bool& flag) : flag_(flag) { flag = true; }
+    ~WhileTrue() { flag_ = false; }
+    WhileTrue(const WhileTrue&) = delete;
+    WhileTrue& operator=(const WhileTrue&) = delete;
+
+   private:
+    bool& flag_;
+  };
+
+  Tick phase_;
+  Tick scheduled_ = 0;                                      ///< of the chip; up to now: no notification is pending
+  sc_core::sc_time scheduled_at_ = sc_core::sc_max_time();  ///< the same; never: `due_` fires in the next delta cycle
+  struct Wire {
+    std::uint32_t pin;
+    sc_core::sc_signal_inout_if<bool>* signal;
+  };
+  std::vector<Wire> wires_;
+  std::uint32_t changed_ = 0;
+  std::uint32_t high_ = 0;  ///< the reported levels
+  bool in_core_ = false;
+  std::exception_ptr thrown_;
+};
+
+/// `Core`: a chip, with its types of pins and levels, and describe() of its events.
+template <class Core>
+class CoreModule : public TimedModule {
+ public:
+  using Pin = typename Core::Pin;
+  using Level = typename Core::Level;
+
+  /// Called for every change of a pin, inputs as the core received them and outputs, in order of time. Ticks are the
+  /// chip's: simulation time less the phase. Set it before the simulation starts. It must not call the module. An
+  /// exception leaves through the call that ran the core.
+  std::function<void(Tick at, Pin pin, Level level)> on_pin;
+  /// Called for every event of the core (refusals, state changes, violations) at its time; ticks as for `on_pin`.
+  std::function<void(const profibus::Event& event)> on_event;
+
+  /// Levels and status of the core at its last evaluation; sync() of a TLM module advances it to the present time.
+  const typename Core::Chip& chip() const { return chip_; }
+  /// The memory shared with the user, without pins, time or side effects.
+  std::uint8_t peek(std::uint16_t address) const { return chip_.peek(address); }
+  void poke(std::uint16_t address, std::uint8_t value) { chip_.poke(address, value); }
+
+ protected:
+  CoreModule(const sc_core::sc_module_name& name, const typename Core::Config& config, const ModuleOptions& options)
+      : TimedModule(name, options.phase), chip_(config), report_violations_(options.report_violations) {
+    chip_.on_event(
+        {[](void* self, const profibus::Event& event) { static_cast<CoreModule*>(self)->event_happened(event); },
+         this});
+  }
+
+  /// output_changed() is called for the pins in `asked`.
+  void watch(std::uint32_t pins, std::uint32_t asked) {
+    asked_ = asked;
+    chip_.watch(
+        {[](void* self, Tick at, Pin pin, Level level) { static_cast<CoreModule*>(self)->pin_changed(at, pin, level); },
+         this},
+        pins);
+  }
+  void begin_pins(std::uint32_t outputs, int pins) {
+    std::uint32_t high = 0;
+    for (int pin = 0; pin < pins; ++pin)
+      if (chip_.level(static_cast<Pin>(pin)) == 1) high |= mask(static_cast<Pin>(pin));
+    begin_outputs(outputs, high);
+  }
+  void set(Tick at, Pin pin, Level level) {
+    if (chip_.level(pin) == level) return;
+    in_core([&] {
+      if (on_pin) {
+        chip_.advance(at);  // earlier events of the core must precede this change
+        tell([&] { on_pin(at, pin, level); });
+      }
+      chip_.set(at, pin, level);
+    });
+  }
+  void advance(Tick to) {
+    in_core([&] { chip_.advance(to); });
+  }
+  Tick chip_now() const { return at_least(chip_.now()); }
+
+  /// Called from inside the core. Return false to hide the change.
+  virtual bool output_changed(Tick /*at*/, Pin /*pin*/, Level /*level*/) { return true; }
+  /// Called from inside the core, before `on_event`.
+  virtual void heard(const profibus::Event& /*event*/) {}
+
+  typename Core::Chip chip_;
+
+ private:
+  void pin_changed(Tick at, Pin pin, Level level) {
+    if ((asked_ & mask(pin)) != 0 && !output_changed(at, pin, level)) return;
+    note_output(mask(pin), level == 1);
+    if (on_pin) tell([&] { on_pin(at, pin, level); });
+  }
+
+  void event_happened(const profibus::Event& event) {
+    heard(event);
+    if (on_event) tell([&] { on_event(event); });
+    if (!report_violations_ || profibus::severity(event.reason) != profibus::Severity::kViolation) return;
+    const std::string text = std::string(name()) + ": " + profibus::code(event.reason) + ": " + Core::describe(event);
+    tell([&] { SC_REPORT_WARNING("/dsdpv1/violation", text.c_str()); });
+  }
+
+  bool report_violations_;
+  std::uint32_t asked_ = 0;  ///< outputs for which output_changed() is called
+};
+
+}  // namespace dsdpv1::systemc
