@@ -21,7 +21,7 @@ template <const Words& kWords>
 struct TextTemplate {
   std::string operator()(Reason reason) const { return profibus::text_template(reason, kWords); }
 };
-/// What to do about it.
+/// The remedy.
 template <const Words& kWords>
 struct Advice {
   std::string operator()(Reason reason) const { return profibus::advice(reason, kWords); }

@@ -49,12 +49,14 @@ std::optional<std::uint8_t> optional_sap(int sap) {
 
 // --- both chips ------------------------------------------------------------------------------------------------------
 
-Twins::Twins(bus::Segment& segment, const spc3::Config& config)
-    : segment_(segment),
+Twins::Twins(bus::Segment& segment, const spc3::Config& config, Engines engines)
+    : twin_(engines == Engines::kStepAndSkip),
+      segment_(segment),
       station_(segment.attach("chip", this)),
       skip_(with(config, spc3::Engine::kSkip)),
       step_(with(config, spc3::Engine::kStep)) {
-  skip_.watch({&on_skip_pin, this}, spc3::kOutputPins);
+  skip_.watch({&on_skip_pin, this}, twin_ ? spc3::kOutputPins : mask(Pin::kTxd) | mask(Pin::kRts));
+  if (!twin_) return;
   step_.watch({&on_step_pin, this}, spc3::kOutputPins);
   skip_.on_event({&on_skip_event, this});
   step_.on_event({&on_step_event, this});
@@ -66,7 +68,7 @@ std::uint8_t Twins::load(Cycle cycle, Address address) {
   hear();
   const std::uint8_t value = skip_.load(cycle, address);
   leave_run(skip_.now());
-  EXPECT_EQ(step_.load(cycle, address), value) << std::hex << address;
+  if (twin_) EXPECT_EQ(step_.load(cycle, address), value) << std::hex << address;
   return value;
 }
 
@@ -75,7 +77,7 @@ void Twins::store(Cycle cycle, Address address, std::uint8_t value) {
   hear();
   skip_.store(cycle, address, value);
   leave_run(skip_.now());
-  step_.store(cycle, address, value);
+  if (twin_) step_.store(cycle, address, value);
 }
 
 void Twins::set(Tick at, Pin pin, spc3::Level level) {
@@ -83,20 +85,20 @@ void Twins::set(Tick at, Pin pin, spc3::Level level) {
   hear();
   skip_.set(at, pin, level);
   leave_run(at);
-  step_.set(at, pin, level);
+  if (twin_) step_.set(at, pin, level);
 }
 
 spc3::Level Twins::sample(Tick at) {
   announce();
   hear();
   const spc3::Level level = skip_.sample(at);
-  EXPECT_EQ(step_.sample(at), level);
+  if (twin_) EXPECT_EQ(step_.sample(at), level);
   return level;
 }
 
 void Twins::poke(Address address, std::uint8_t value) {
   skip_.poke(address, value);
-  step_.poke(address, value);
+  if (twin_) step_.poke(address, value);
 }
 
 void Twins::line_changed(Tick at, bool level) {
@@ -159,10 +161,14 @@ void Twins::compare(Tick at) {
   hear();
   skip_.advance(at);
   leave_run(at);
+  if (twin_) compare_with_step(at);
+  filter();
+}
+
+void Twins::compare_with_step(Tick at) {
   step_.advance(at);
   compare_traces();
   if (++comparisons_ % restored == 0) restore_one(at);
-  filter();
 }
 
 // In a run only its own state: that of the other expects changes of the line.
@@ -185,7 +191,7 @@ void Twins::compare_traces() {
 
 void Twins::on_skip_pin(void* self, Tick at, Pin pin, spc3::Level level) {
   auto& twins = *static_cast<Twins*>(self);
-  twins.trace.push_back({at, pin, level});
+  if (twins.twin_) twins.trace.push_back({at, pin, level});
   if (pin == Pin::kTxd || pin == Pin::kRts)
     twins.segment_.drive(twins.station_, at, twins.skip_.level(Pin::kRts) != 0, twins.skip_.level(Pin::kTxd) != 0);
 }
@@ -201,7 +207,8 @@ void Twins::on_step_event(void* self, const profibus::Event& event) {
 
 // --- the user --------------------------------------------------------------------------------------------------------
 
-Bench::Bench(Variant variant, spc3::Config config) : twins(segment, named(config, variant)), requester(segment) {
+Bench::Bench(Variant variant, spc3::Config config, Engines engines)
+    : twins(segment, named(config, variant), engines), requester(segment), variant_(variant) {
   timeline.check_announcements();
   timeline.add(twins);
   timeline.add(requester);

@@ -33,11 +33,14 @@ struct PinChange {
   spc3::Level level;
 };
 
+/// Alone, in skip, the chip keeps no trace either: for long campaigns.
+enum class Engines : std::uint8_t { kStepAndSkip, kSkipAlone };
+
 /// Both chips. The one in skip takes telegrams as runs, every second one for the chip, and hears the rest of the line
 /// as late as it may. The one in step gets each change of the line.
 class Twins : public bus::Agent, public bus::Listener {
  public:
-  Twins(bus::Segment& segment, const spc3::Config& config);
+  Twins(bus::Segment& segment, const spc3::Config& config, Engines engines);
 
   std::uint8_t load(Cycle cycle, Address address);
   void store(Cycle cycle, Address address, std::uint8_t value);
@@ -67,6 +70,7 @@ class Twins : public bus::Agent, public bus::Listener {
   static void on_step_pin(void* self, Tick at, Pin pin, spc3::Level level);
   static void on_skip_event(void* self, const profibus::Event& event);
   static void on_step_event(void* self, const profibus::Event& event);
+  void compare_with_step(Tick at);
   void compare_traces();
   void restore_one(Tick at);
   void hear();
@@ -83,6 +87,7 @@ class Twins : public bus::Agent, public bus::Listener {
     spc3::Chip& chip_;
   };
 
+  const bool twin_;
   bus::Segment& segment_;
   bus::StationId station_;
   spc3::Chip skip_, step_;
@@ -113,7 +118,7 @@ constexpr int kBufferSize = 64;
 
 class Bench {
  public:
-  explicit Bench(Variant variant = Variant::kApc3, spc3::Config config = {});
+  explicit Bench(Variant variant = Variant::kApc3, spc3::Config config = {}, Engines engines = Engines::kStepAndSkip);
 
   // --- time
   Tick now() const { return timeline.now(); }
@@ -159,6 +164,7 @@ class Bench {
   void to_wait_cfg(const Organisation& given = {}, const Bytes& user_prm = {});
   void to_data_ex(const Organisation& given = {}, const Bytes& user_prm = {});
 
+  Variant variant() const { return variant_; }
   DpState state() const { return twins.chip().status().dp_state; }
   int count(profibus::Reason reason) const;
   int count(const profibus::ReasonRow& row) const { return count(profibus::Reason(row)); }
@@ -170,6 +176,9 @@ class Bench {
   bus::Requester requester;
   Organisation organisation;
   std::uint8_t address = 5;
+
+ private:
+  const Variant variant_;
 };
 
 /// "SC", "RS", "RR", "DL", "DH", "silent" or the bytes.
