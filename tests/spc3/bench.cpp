@@ -1,7 +1,10 @@
 #include "tests/spc3/bench.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <iterator>
+#include <string_view>
 
 namespace dsdpv1::spc3_test {
 namespace {
@@ -16,6 +19,19 @@ spc3::Config with(spc3::Config config, spc3::Engine engine) {
 
 spc3::Config named(spc3::Config config, Variant variant) {
   config.variant = variant;
+  return config;
+}
+
+// SPC3_FORCED, name=value: a parameter of all chips, whatever the test says (parameters_test.cpp).
+spc3::Config forced(spc3::Config config) {
+  static const char* const text = std::getenv("SPC3_FORCED");
+  const char* const equals = text == nullptr ? nullptr : std::strchr(text, '=');
+  if (equals == nullptr) return config;
+  const std::string_view parameter(text, static_cast<std::size_t>(equals - text));
+  const auto value = static_cast<std::uint32_t>(std::strtoul(equals + 1, nullptr, 10));
+#define SPC3_PARAMETER(name, ...) \
+  if (parameter == #name) config.name = value;
+#include "model/spc3/parameters.inc"
   return config;
 }
 
@@ -208,7 +224,7 @@ void Twins::on_step_event(void* self, const profibus::Event& event) {
 // --- the user --------------------------------------------------------------------------------------------------------
 
 Bench::Bench(Variant variant, spc3::Config config, Engines engines)
-    : twins(segment, named(config, variant), engines), requester(segment), variant_(variant) {
+    : twins(segment, forced(named(config, variant)), engines), requester(segment), variant_(variant) {
   timeline.check_announcements();
   timeline.add(twins);
   timeline.add(requester);
