@@ -8,28 +8,18 @@
 #include "examples/firmware/console.h"
 #include "examples/firmware/interrupts.h"
 #include "examples/firmware/stm32f103.h"
-#include "examples/firmware/straps.h"
 
 enum {
-  kKeyPin = 0,      /* port A */
-  kSerialTxPin = 9, /* port A */
-  kRReqPin = 6,     /* port C */
-  kRStaPin = 7,
-  kLReqPin = 8,
-  kLStaPin = 9
+  kKeyPin = 0,     /* port A */
+  kSerialTxPin = 9 /* port A */
 };
 
-/* Pins of a card's INTR0 and RESET; INTR0's pin is the number of its EXTI line. */
+/* Pins of the chip's interrupt, whose pin is the number of its EXTI line, and of its RESET. */
 typedef struct card_pins {
   gpio_registers* intr0_port;
   uint32_t exti_port;
   unsigned intr0, irq, reset; /* RESET: port E */
 } card_pins;
-
-static const card_pins cards[] = {{GPIOG, AFIO_EXTICR_PORT_G, 6, kIrqExti9To5, 4},
-                                  {GPIOD, AFIO_EXTICR_PORT_D, 12, kIrqExti15To10, 5}};
-
-static const card_pins* card(void) { return &cards[straps()->card - 1u]; }
 
 /* 4 bits of priority, in the high nibble; a lower number goes first. Timekeeping continues while INTR0 is served. */
 enum { kPrioritySysTick = 0x00, kPrioritySerial = 0x20, kPriorityIntr0 = 0x40 };
@@ -74,16 +64,12 @@ static void configure_all(gpio_registers* port, uint32_t pins, uint32_t function
     if ((pins >> pin & 1u) != 0u) board_pin(port, pin, function);
 }
 
-/* R_REQ and R_STA are low outputs before the chip leaves its reset. L_REQ and L_STA of a missing chip read as high:
- * it never releases the DPRAM, and the driver reports that. */
-static void configure_handshake(void) {
-  GPIOE->BRR = 1u << card()->reset;
-  board_pin(GPIOE, card()->reset, GPIO_OUTPUT_50MHZ);
-  GPIOC->BRR = 1u << kRReqPin | 1u << kRStaPin;
-  configure_all(GPIOC, 1u << kRReqPin | 1u << kRStaPin, GPIO_OUTPUT_50MHZ);
-  GPIOC->BSRR = 1u << kLReqPin | 1u << kLStaPin; /* pull-up */
-  configure_all(GPIOC, 1u << kLReqPin | 1u << kLStaPin, GPIO_INPUT_PULL);
-}
+/* The lines of the chip: card(), its reset, kBtr and kBcr of the memory bus. */
+#ifdef BOARD_WIRING
+#include BOARD_WIRING
+#else
+#include "examples/firmware/dsdpv1_wiring.h"
+#endif
 
 static void configure_memory_bus(void) {
   configure_all(GPIOD, 0xC0B3u, GPIO_ALTERNATE_50MHZ); /* D2 D3 NOE NWE NE1 D0 D1 */
@@ -92,23 +78,19 @@ static void configure_memory_bus(void) {
   configure_all(GPIOG, 0x0001u, GPIO_ALTERNATE_50MHZ); /* A10 */
 }
 
-/*
- * Mode 1, asynchronous, 8 bits. Address phase (ADDSET + 1) 27.8 ns, WR low DATAST 69.4 ns followed by one HCLK, 13.9
- * ns, of hold, RD low one HCLK longer: keeps the limits of table 15 (Ts and Td 12.5 ns, Tw 31.25 ns) with margin.
- */
 static void start_memory_bus(void) {
   configure_memory_bus();
-  FSMC_BANK1->NE[0].BTR = 1u << FSMC_BTR_ADDSET_SHIFT | 5u << FSMC_BTR_DATAST_SHIFT;
-  FSMC_BANK1->NE[0].BCR = FSMC_BCR_MBKEN | FSMC_BCR_RESERVED_7 | FSMC_BCR_WREN;
+  FSMC_BANK1->NE[0].BTR = kBtr;
+  FSMC_BANK1->NE[0].BCR = kBcr;
 }
 
 bool board_key(void) { return (GPIOA->IDR >> kKeyPin & 1u) != 0u; }
 
-void board_release_chip(void) { GPIOE->BSRR = 1u << card()->reset; }
+void board_release_chip(void) { release_reset(); }
 
 void board_halt(void) {
   (void)board_lock();
-  GPIOE->BRR = 1u << card()->reset;
+  hold_reset();
   for (;;) {
   }
 }
@@ -171,7 +153,7 @@ void board_sleep(uint64_t until) {
 
 static void (*intr0_handler)(void);
 
-/* INTR0 is low for only 1.3 us (P7): the edge counts. */
+/* Falling edges count: an INTR0 is low for only 1.3 us (P7). */
 static void configure_intr0(void) {
   const card_pins* pins = card();
   const unsigned shift = 4u * (pins->intr0 % 4u);
@@ -232,8 +214,7 @@ void board_unlock(uint32_t before) { __asm__ volatile("msr primask, %0" ::"r"(be
 void board_start(void) {
   SCB->CCR |= SCB_CCR_DIV_0_TRP;
   start_peripherals();
-  straps_read();
-  configure_handshake();
+  configure_wiring();
   configure_intr0();
   start_memory_bus();
   start_time();

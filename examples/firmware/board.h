@@ -11,6 +11,11 @@
  *   PC9  in   L_STA            PG6  in   INTR0, falling edge, EXTI line 6
  *   PE4  out  RESET, low       PA9  USART1 TX;  PA0 in, key, high when pressed
  *
+ * The same with a chip of the SPC3 family (BOARD_WIRING is spc3/wiring.h), without a handshake:
+ *
+ *   PD6  in   XREADY at NWAIT  PD4 NOE -> XRD, PD5 NWE -> XWR, PD7 NE1 -> XCS
+ *   PE4  out  RESET, high      PG6 in  X/INT;  PG12 in XDATAEXCH
+ *
  * With a DSDPV1-RSU, whose straps select the live port (straps.h):
  *
  *   PA4..PA7    XSS (output), SCK, MISO, MOSI of SPI1         PA2, PA3  TX, RX of USART2: the chip's RXD, TXD
@@ -31,7 +36,7 @@ void board_start(void);
 /* Sets HCLK to 72 MHz: call it first after a reset, which leaves 8 MHz. Uses no variable. */
 void board_start_clocks(void);
 
-/* RESET of the chip high; it works after 4096 of its cycles, 85 us (ruling D1). */
+/* Ends RESET of the chip. A DSDPV1 works after 4096 of its cycles, 85 us (ruling D1); an SPC3 after two. */
 void board_release_chip(void);
 
 /* Stops after a fatal error: interrupts disabled, the chip back in reset, so that the master sees the station gone. */
@@ -59,7 +64,8 @@ void board_sleep(uint64_t until);
 
 /* ------------------------------------------------------------------------------------------------------- interrupts */
 
-/* Sets the function called from the INTR0 handler. Drops earlier falls of INTR0 and receives later ones. */
+/* INTR0 is the chip's interrupt, of an SPC3 X/INT. Sets the function called from its handler. Drops earlier falls and
+ * receives later ones. */
 void board_on_intr0(void (*handler)(void));
 /* Disables or enables the INTR0 handler; an INTR0 meanwhile is served when enabled. */
 void board_enable_intr0(bool enabled);

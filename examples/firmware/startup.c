@@ -44,6 +44,14 @@ typedef struct {
 #define TIM3_HANDLER unexpected
 #endif
 
+#ifdef BOARD_PARALLEL_ONLY
+#define SPI_HANDLER unexpected
+#define USART2_HANDLER unexpected
+#else
+#define SPI_HANDLER spi_handler
+#define USART2_HANDLER usart2_handler
+#endif
+
 #define FIVE_UNEXPECTED unexpected, unexpected, unexpected, unexpected, unexpected
 #define TEN_UNEXPECTED FIVE_UNEXPECTED, FIVE_UNEXPECTED
 
@@ -56,7 +64,7 @@ __attribute__((section(".vectors"), used)) const vector_table vectors = {
     {TEN_UNEXPECTED,    TEN_UNEXPECTED, /* 0 to 19 */
      unexpected,        unexpected,     unexpected,   exti9_5_handler, unexpected,     unexpected,
      unexpected,        unexpected,     TIM2_HANDLER, TIM3_HANDLER,                                /* 20 to 29 */
-     FIVE_UNEXPECTED,   spi_handler,    spi_handler,  unexpected,      usart2_handler, unexpected, /* 30 to 39 */
+     FIVE_UNEXPECTED,   SPI_HANDLER,    SPI_HANDLER,  unexpected,      USART2_HANDLER, unexpected, /* 30 to 39 */
      exti15_10_handler, unexpected,     unexpected,   unexpected,      unexpected,     FIVE_UNEXPECTED,
      TEN_UNEXPECTED}, /* 40 to 59 */
 };

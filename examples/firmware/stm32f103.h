@@ -133,7 +133,9 @@ typedef struct {
 #define FSMC_BANK1_NE1 0x60000000u
 #define FSMC_BCR_MBKEN (1u << 0)
 #define FSMC_BCR_RESERVED_7 (1u << 7) /* always 1 */
+#define FSMC_BCR_WAITPOL (1u << 9)    /* NWAIT is active while high */
 #define FSMC_BCR_WREN (1u << 12)      /* bits 0 for SRAM, width 8 */
+#define FSMC_BCR_ASYNCWAIT (1u << 15)
 #define FSMC_BTR_ADDSET_SHIFT 0u
 #define FSMC_BTR_DATAST_SHIFT 8u
 #define FSMC_BTR_BUSTURN_SHIFT 16u
