@@ -164,7 +164,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Tick tick_of(std::uint64_t cycle) const;
   std::uint64_t cycle_of(Tick tick) const;
   void come_up();
-  void come_up_for_access();
+  void come_up_for_access(bool write);
   void meet_devices();
   bool take_interrupt_edges();
   bool update_interrupts();
@@ -186,6 +186,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   void store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value);
   void end_accesses(unsigned count);
   void set_access_timing();
+  bool waits(const user_cpu::FsmcTiming& timing) const;
   bool may_access(std::uint32_t address, bool write);
   bool has_right_bus();
   bool has_handshake() const { return !options_.wiring.handshake.empty() && options_.mode == HostMode::kParallel; }
@@ -245,6 +246,7 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   Tick turn_ = 0;        ///< of run(): the time of a processor that sleeps stands still
   bool bitten_ = false;  ///< the next reset is the watchdog's
   Fsmc fsmc_;
+  user_cpu::WaitTiming read_wait_, write_wait_;
   MemoryBus memory_bus_;
   bool bus_changed_ = true;  ///< since memory_bus_ was looked at
   std::vector<Wire> wires_;

@@ -1,6 +1,7 @@
 #pragma once
 // What firmware does on the ARM board and a real board would not forgive: the codes of these violations. Numbers are
 // sections of RM0008 (rev. 21).
+#include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::tb {
 
@@ -57,5 +58,8 @@ constexpr BoardCode kBoardCodes[] = {board_code::kClockOff,  board_code::kClockF
                                      board_code::kPinMode,   board_code::kPinConflict, board_code::kFsmcMode,
                                      board_code::kNotMapped, board_code::kWatchdog,    board_code::kOverrun,
                                      board_code::kIrqStorm,  board_code::kStuck};
+
+/// For ChipKind::codes of a kind that has the board.
+CodeTable board_codes();
 
 }  // namespace dsdpv1::tb

@@ -16,8 +16,12 @@ struct Fsmc : user_cpu::FsmcOverride {
 };
 const keys::ObjectOf<Fsmc>& fsmc_keys();
 
+/// Treatment of scenario parts that need firmware with a mailbox.
+enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
+
 struct BoardKeys {
   keys::Name elf;
+  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;
   std::vector<keys::Name> switches;  ///< "PA0=low"
   std::optional<double> cpi;         ///< cycles of HCLK per instruction
   std::optional<Fsmc> fsmc;
@@ -39,6 +43,18 @@ void add_elf_key(keys::ObjectOf<U>& o) {
   o.file("elf", &U::elf,
          "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to the current "
          "folder.");
+}
+
+template <class U>
+void add_without_mailbox_key(keys::ObjectOf<U>& o) {
+  o.word("without_mailbox", &U::without_mailbox,
+         std::vector<keys::WordFor<WithoutMailbox>>{
+             {WithoutMailbox::kRefuse, "refuse",
+              "the first of them is reported in one line, and the scenario does not run"},
+             {WithoutMailbox::kLeaveOut, "leave_out",
+              "actions are not carried out, expectations not judged, and each is listed at the end"}},
+         "For firmware without a mailbox: the treatment of actions for the user CPU, of expectations of outputs or of "
+         "errors of the driver, and of settings for its program beside `elf` (docs/arm_board.md).");
 }
 
 template <class U>

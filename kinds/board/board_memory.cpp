@@ -115,7 +115,8 @@ void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
 }
 
 /// For the chip's port, which asks the others itself.
-void Board::come_up_for_access() {
+void Board::come_up_for_access(bool write) {
+  bus_.set_wait(write ? write_wait_ : read_wait_);
   if (std::exchange(quiet_, 0) > now()) return pins_->skip_to(now());
   come_up();
 }
@@ -123,7 +124,7 @@ void Board::come_up_for_access() {
 /// Wider accesses are made byte by byte, the lowest address first.
 std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
   if (!may_access(address, false)) return 0;
-  come_up_for_access();
+  come_up_for_access(false);
   acts_.access(pins_->now(), core_.pc(), address & kChipMask, bytes, false);
   if (!has_right_bus()) return load_by_wrong_bus(address, bytes);
   std::uint32_t value = 0;
@@ -135,7 +136,7 @@ std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
 
 void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   if (!may_access(address, true)) return;
-  come_up_for_access();
+  come_up_for_access(true);
   acts_.access(pins_->now(), core_.pc(), address & kChipMask, bytes, true);
   if (!has_right_bus()) return store_by_wrong_bus(address, bytes, value);
   for (unsigned i = 0; i < bytes; ++i)
@@ -147,9 +148,17 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
 void Board::end_accesses(unsigned count) { core_.advance_to(cycle_of(pins_->now() - count)); }
 
 void Board::set_access_timing() {
-  bus_.set_wait({options_.wiring.wait && fsmc_.waits(), fsmc_.waits_while_high(), hclk_hz()});
-  const user_cpu::FsmcAccess made = user_cpu::access_timing(fsmc_.bank(hclk_hz()));
+  const user_cpu::FsmcBank bank = fsmc_.bank(hclk_hz());
+  read_wait_ = {waits(bank.read), fsmc_.waits_while_high(), bank.hclk_hz};
+  write_wait_ = {waits(bank.write), fsmc_.waits_while_high(), bank.hclk_hz};
+  const user_cpu::FsmcAccess made = user_cpu::access_timing(bank);
   pins_->set_access_timing(options_.access.value_or(made.read), options_.access.value_or(made.write));
+}
+
+/// NWAIT is seen if the data phase has four HCLK for it (21.5.4); a shorter one ends without it (p).
+bool Board::waits(const user_cpu::FsmcTiming& timing) const {
+  constexpr int kSeen = 4;
+  return options_.wiring.wait && fsmc_.waits() && timing.datast >= kSeen;
 }
 
 /// RM0008 21.3.1: a bank that is not enabled answers with an error. One without its clock does not answer (p: the

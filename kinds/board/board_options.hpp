@@ -6,8 +6,8 @@
 
 namespace dsdpv1::tb {
 
-/// What keys and request say of processor, firmware and debugger. The wiring and the mailbox are the kind's. Throws
-/// InputError, with the scenario's line, for a file that is no firmware.
+/// Processor, firmware and debugger by keys and request. The wiring and the mailbox are the kind's. Throws InputError,
+/// with the scenario's line, for a file without firmware.
 arm::BoardOptions board_options(const UserRequest& request, const BoardKeys& board);
 
 }  // namespace dsdpv1::tb

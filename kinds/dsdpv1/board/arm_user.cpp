@@ -11,9 +11,9 @@
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 #include "kinds/board/board_options.hpp"
+#include "kinds/board/untold.hpp"
 #include "kinds/dsdpv1/board/mailbox_link.hpp"
 #include "kinds/dsdpv1/board/wiring.hpp"
-#include "kinds/dsdpv1/chip/untold.hpp"
 #include "kinds/dsdpv1/chip/user_maker.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "tb/bench/program_options.hpp"
@@ -50,8 +50,9 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& host) {
   const Dsdpv1User& own = tb::own(user);
   arm::BoardOptions options = board_options(request, own);
   if (!options.firmware->mailbox) {
-    Untold missing = untold(request.scenario, request.slave, options.firmware->path,
-                            fmt::format("has no mailbox ({})", DSDPV1_MAILBOX_SYMBOL));
+    Untold missing = untold(request.scenario, request.slave,
+                            {options.firmware->path, fmt::format("has no mailbox ({})", DSDPV1_MAILBOX_SYMBOL),
+                             own.without_mailbox, kDriverErrors, user_cpu::kSpoilReads});
     options.notes = std::move(missing.notes);
     request.left_out.merge(missing.left_out);
   }

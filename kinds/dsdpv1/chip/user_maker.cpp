@@ -7,9 +7,10 @@
 #include <memory>
 
 #include "io/input/input_error.hpp"
-#include "kinds/dsdpv1/chip/untold.hpp"
+#include "kinds/board/untold.hpp"
 #include "kinds/dsdpv1/keys/settings.hpp"
 #include "kinds/dsdpv1/user_cpu/native_user.hpp"
+#include "kinds/dsdpv1/user_cpu/orders.hpp"
 #include "kinds/dsdpv1/user_cpu/process_user.hpp"
 #include "kinds/user_cpu/fsmc_access.hpp"
 #include "tb/bench/program_options.hpp"
@@ -54,7 +55,8 @@ MakeUser process_user(const UserRequest& request, user_cpu::HostBus& host) {
   for (const Name& each : own.arguments) options.arguments.push_back(each.text);
   options.patience_ms = static_cast<int>((own.patience + bus::kTicksPerMs - 1) / bus::kTicksPerMs);
   if (line_reader != nullptr) options.lines_of = line_reader;
-  (void)untold(request.scenario, request.slave, options.arguments[0], "is a process of this computer");
+  (void)untold(request.scenario, request.slave,
+               {options.arguments[0], "is a process of this computer", {}, kDriverErrors, user_cpu::kSpoilReads});
   const user_cpu::HostPort port = host_port_of(own, static_cast<const Dsdpv1Settings&>(*request.slave.chip));
   return [&host, timing = timing_of(own), options, port](const user_cpu::StationConfig&, Tick start) {
     return std::make_unique<user_cpu::ProcessUser>(host, timing, options, start, port);

@@ -12,6 +12,9 @@ namespace dsdpv1::tb {
 using MakeArmUser = MakeUser (*)(const UserRequest& request, user_cpu::HostBus& host);
 using ReadLines = user_cpu::PlaceOf (*)(const std::string& program);
 
+/// What the codes of the driver begin with.
+constexpr const char* kDriverErrors = "DSDPV1_ERR_";
+
 /// Called by a program that has the ARM board, before the first scenario is read.
 void set_arm_maker(MakeArmUser make);
 /// The same for the lines of host processes. Without it their places are not known.

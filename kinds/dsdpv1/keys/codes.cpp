@@ -134,15 +134,6 @@ std::vector<CodeText> driver_codes() {
   };
 }
 
-std::vector<CodeText> board_codes() {
-  std::vector<CodeText> list = {{scenario::kFirmwareFault, "violation", "ARM board",
-                                 "the firmware of an ARM board has met a fault; the run ends",
-                                 "See the source line and the registers below the table, or run it again with --gdb."}};
-  for (const BoardCode& each : kBoardCodes)
-    list.push_back({each.code, "violation", "ARM board", each.text, each.advice});
-  return list;
-}
-
 std::vector<CodeText> process_codes() {
   return {{user_cpu::kProcessEnded, "violation", "host process",
            "a program of kind: process has ended, or does not call its port; its chip goes on without a user",
@@ -155,9 +146,7 @@ const std::vector<CodeTable>& dsdpv1_codes() {
   static const std::vector<CodeTable> tables = {
       {"The chip", "`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal, `{a:ns}` a time.", chip_codes()},
       {"The driver", "Results of the C driver's calls, with their values.", driver_codes()},
-      {"The ARM board",
-       "See [arm_board.md](arm_board.md#what-a-real-board-would-not-forgive). Numbers are sections of RM0008, rev. 21.",
-       board_codes()},
+      board_codes(),
       {"The host process", "See [C driver on the host](tutorials/c_driver_on_host.md).", process_codes()}};
   return tables;
 }

@@ -181,14 +181,7 @@ ObjectOf<Dsdpv1User> plain_user_keys() {
   o.time("patience", &U::patience, {0, 86'400 * bus::kTicksPerSecond},
          "How long it may compute between two calls of its port, in the time of this computer; 0: no limit, for a "
          "debugger.");
-  o.word("without_mailbox", &U::without_mailbox,
-         std::vector<WordFor<WithoutMailbox>>{
-             {WithoutMailbox::kRefuse, "refuse",
-              "the first of them is reported in one line, and the scenario does not run"},
-             {WithoutMailbox::kLeaveOut, "leave_out",
-              "actions are not carried out, expectations not judged, and each is listed at the end"}},
-         "For firmware without a mailbox: the treatment of actions for the user CPU, of expectations of outputs or of "
-         "errors of the driver, and of settings for its program beside `elf` (docs/arm_board.md).");
+  add_without_mailbox_key(o);
   add_processor_keys(o);
   o.object("timing", &U::timing, timing_keys(), "Its speed.");
   o.object("access", &U::access, access_keys(),

@@ -45,8 +45,6 @@ struct CpuTimes : user_cpu::CpuTiming {
 };
 
 enum class CpuKind : std::uint8_t { kNative, kArm, kProcess };
-/// Treatment of scenario parts that need firmware with a mailbox.
-enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
 
 /// The user's end of an SPI port. Times in ticks.
 struct SpiKeys {
@@ -65,11 +63,10 @@ struct UartKeys {
 
 struct Dsdpv1User : OwnSettings, BoardKeys {  // kArm; fsmc of all
   CpuKind kind = CpuKind::kNative;
-  Name program;                                              ///< kProcess
-  std::vector<Name> arguments;                               ///< kProcess
-  Tick patience = 10 * bus::kTicksPerSecond;                 ///< kProcess: of the host's time; 0: no limit
-  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
-  std::optional<CpuTimes> timing;                            ///< not kArm; its `access` is unused: see the next member
+  Name program;                               ///< kProcess
+  std::vector<Name> arguments;                ///< kProcess
+  Tick patience = 10 * bus::kTicksPerSecond;  ///< kProcess: of the host's time; 0: no limit
+  std::optional<CpuTimes> timing;             ///< not kArm; its `access` is unused: see the next member
   std::optional<AccessTimes> access;
   std::optional<SpiKeys> spi;    ///< not kArm, HostMode::kSpi
   std::optional<UartKeys> uart;  ///< not kArm, HostMode::kUart

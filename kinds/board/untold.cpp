@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/chip/untold.hpp"
+#include "kinds/board/untold.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,6 @@
 
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
-#include "kinds/dsdpv1/keys/settings.hpp"
-#include "kinds/dsdpv1/user_cpu/orders.hpp"
 
 namespace dsdpv1::tb {
 namespace {
@@ -25,8 +23,8 @@ bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
 /// Keys of user_cpu that concern the program; the others concern processor, board and bus.
 bool is_for_the_program(const std::string& key) {
   static const std::vector<std::string> keys = {
-      "behaviour",        "constant",    "overwrite_inputs", "start_delay", "cycle", "judge_delay",
-      "judge_in_handler", "retry_delay", "judge_prm",        "judge_cfg",   "dpv1"};
+      "behaviour",   "constant",  "overwrite_inputs", "start_delay", "cycle", "judge_delay", "judge_in_handler",
+      "retry_delay", "judge_prm", "judge_cfg",        "dpv1",        "mode",  "user_wd",     "wd_baud_control"};
   return is_one_of(key, keys);
 }
 
@@ -36,25 +34,23 @@ bool is_for_masters(const std::string& key) {
   return is_one_of(key, keys);
 }
 
-bool is_of_the_driver(const std::string& event) { return event.rfind("DSDPV1_ERR_", 0) == 0; }
-
 /// The part of the program's state that a condition needs; nullopt: none.
-std::optional<std::string> wanted(const Condition& condition, const std::string& slave) {
+std::optional<std::string> wanted(const Condition& condition, const std::string& slave, const char* driver_errors) {
   if (condition.slave.text != slave) return std::nullopt;
   if (condition.outputs) return fmt::format("outputs are those that the program of {} has fetched", slave);
-  if (is_of_the_driver(condition.event.text))
+  if (condition.event.text.rfind(driver_errors, 0) == 0)
     return fmt::format("event {} is counted by the driver in the program of {}", condition.event.text, slave);
   return std::nullopt;
 }
 
 class Finder {
  public:
-  Finder(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& path, std::string because)
+  Finder(const scenario::Scenario& scenario, const scenario::Slave& slave, UntoldProgram program)
       : scenario_(scenario),
         slave_(slave),
-        program_(std::filesystem::path(path).filename().string()),
-        because_(std::move(because)),
-        leave_out_(own(slave.user_cpu).without_mailbox == WithoutMailbox::kLeaveOut) {}
+        name_(std::filesystem::path(program.path).filename().string()),
+        program_(std::move(program)),
+        leave_out_(program_.how == WithoutMailbox::kLeaveOut) {}
 
   Untold find() {
     not_told_.push_back(fmt::format("address (line {})", slave_.line));
@@ -62,11 +58,12 @@ class Finder {
     for (const Given& key : slave_.user_cpu.given)
       if (is_for_the_program(key.key)) setting(key, key.key, true);
     found_.notes.push_back(
-        fmt::format("{} {}: its counters and the outputs that it has fetched are not known", program_, because_));
+        fmt::format("{} {}: its counters and the outputs that it has fetched are not known", name_, program_.because));
     found_.notes.push_back("it is not told " + join(not_told_));
     for (const scenario::Action& each : scenario_.script) action(each);
     for (const scenario::Expectation& each : scenario_.expect)
-      if (const auto what = wanted(each, slave_.name.text)) demanded(&each, each.line, *what, "tell them");
+      if (const auto what = wanted(each, slave_.name.text, program_.driver_errors))
+        demanded(&each, each.line, *what, "tell them");
     return std::move(found_);
   }
 
@@ -88,10 +85,11 @@ class Finder {
 
   void action(const scenario::Action& action) {
     const std::string& name = slave_.name.text;
-    if (action.slave.text == name && scenario::is_for_user_cpu(action.what) && action.word != user_cpu::kSpoilReads)
+    if (action.slave.text == name && scenario::is_for_user_cpu(action.what) && action.word != program_.not_for_it)
       return demanded(&action, action.line, fmt::format("{} is for the program of {}", action.word, name), "be told");
     if (!action.when) return;
-    if (const auto what = wanted(*action.when, name)) demanded(&action, action.when->line, *what, "tell them");
+    if (const auto what = wanted(*action.when, name, program_.driver_errors))
+      demanded(&action, action.when->line, *what, "tell them");
   }
 
   void demanded(const void* of, int line, const std::string& what, const char* cannot) {
@@ -101,14 +99,15 @@ class Finder {
   }
 
   std::string refusal(const std::string& what, const char* cannot) const {
-    const char* other = own(slave_.user_cpu).kind == CpuKind::kArm ? ", or user_cpu: {without_mailbox: leave_out}" : "";
-    return fmt::format("{}, and {}, which {}, cannot {}; expected what chip and bus show{}", what, program_, because_,
-                       cannot, other);
+    const char* other = program_.how ? ", or user_cpu: {without_mailbox: leave_out}" : "";
+    return fmt::format("{}, and {}, which {}, cannot {}; expected what chip and bus show{}", what, name_,
+                       program_.because, cannot, other);
   }
 
   const scenario::Scenario& scenario_;
   const scenario::Slave& slave_;
-  std::string program_, because_;
+  const std::string name_;
+  const UntoldProgram program_;
   bool leave_out_;
   std::vector<std::string> not_told_;
   Untold found_;
@@ -116,9 +115,8 @@ class Finder {
 
 }  // namespace
 
-Untold untold(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& path,
-              const std::string& because) {
-  return Finder(scenario, slave, path, because).find();
+Untold untold(const scenario::Scenario& scenario, const scenario::Slave& slave, UntoldProgram program) {
+  return Finder(scenario, slave, std::move(program)).find();
 }
 
 }  // namespace dsdpv1::tb
