@@ -64,7 +64,8 @@ enum Program {
   kCallAstray,
   kSleeps,
   kByteStores,
-  kFloats
+  kFloats,
+  kNwait
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -250,6 +251,57 @@ TEST_F(BoardTest, HalfwordIsTwoBytesTheLowerAddressFirstAndTheDpramRepeats) {
   start(kAccesses);
   run();
   EXPECT_THAT(pins.written, ElementsAre(std::pair(0x123, 0x56), std::pair(0x10, 0xFE), std::pair(0x11, 0xFF)));
+}
+
+/// Notes for each access what the FSMC does about NWAIT: 0 nothing, 1 it waits while it is high, -1 while it is low.
+struct Waits : user_cpu::PinHostBus {
+  using PinHostBus::PinHostBus;
+  void set_wait(const user_cpu::WaitTiming& timing) override { wait = timing; }
+  void begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) override {
+    seen.push_back(!wait.on ? 0 : wait.while_high ? 1 : -1);
+    EXPECT_EQ(wait.hclk_hz, 72'000'000);
+    PinHostBus::begin(at, access, timing);
+  }
+  user_cpu::WaitTiming wait;
+  std::vector<int> seen;
+};
+
+/// The waits of the program's four accesses, and its notes.
+std::pair<std::vector<int>, std::vector<std::string>> waits_of(Pins& pins, arm::BoardOptions options, bool wired) {
+  options.wiring.wait = wired;
+  Waits host(pins);
+  arm::Board board(
+      host, std::move(options), [](Tick, bool) {}, 0);
+  while (board.next() <= bus::kTicksPerMs) board.run(board.next());
+  return {host.seen, board.board()->notes};
+}
+
+TEST_F(BoardTest, AnAccessWaitsForNwaitIfItIsConnectedAndItsDataPhaseHasTheTime) {
+  arm::BoardOptions options;
+  options.firmware = with(kNwait);
+  options.wiring = tb::dsdpv1_wiring();
+  options.fsmc = at_72_mhz();
+  const auto [wired, nothing] = waits_of(pins, options, true);
+  EXPECT_THAT(wired, ElementsAre(1, 0, 0, -1));
+  EXPECT_THAT(nothing, testing::IsEmpty());
+  const auto [unwired, notes] = waits_of(pins, options, false);
+  EXPECT_THAT(unwired, ElementsAre(0, 0, 0, 0));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0], HasSubstr("FSMC_BCR1.ASYNCWAIT is set to 1"));
+}
+
+TEST_F(BoardTest, ResetIsPulledToItsInactiveLevelOfEitherPolarity) {
+  for (const bool high : {false, true}) {
+    arm::BoardOptions options;
+    options.firmware = with(kChipReset);
+    options.wiring = tb::dsdpv1_wiring();
+    options.wiring.reset_high = high;
+    std::vector<bool> released;
+    arm::Board moved(
+        host, std::move(options), [&released](Tick, bool level) { released.push_back(level); }, kStart);
+    while (moved.next() <= kStart + bus::kTicksPerMs) moved.run(moved.next());
+    EXPECT_EQ(released, high ? std::vector<bool>({false}) : std::vector<bool>({false, true}));  // low, then high
+  }
 }
 
 TEST_F(BoardTest, RegistersNeverWrittenGiveTheDefaultTiming) {

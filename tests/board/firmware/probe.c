@@ -89,6 +89,18 @@ static void accesses(void) {
   CHIP16(0x10) = CHIP16(0x7FE);
 }
 
+/* Reads with time to see NWAIT, writes without; then the other way round, while it is low. */
+static void nwait(void) {
+  REG(FSMC_BTR1) = 1u | 4u << 8;
+  REG(FSMC_BWTR1) = 1u | 3u << 8;
+  REG(FSMC_BCR1) = 0xD281; /* ASYNCWAIT, EXTMOD, WAITPOL */
+  CHIP(1) = CHIP(2);
+  REG(FSMC_BTR1) = 1u | 3u << 8;
+  REG(FSMC_BWTR1) = 1u | 4u << 8;
+  REG(FSMC_BCR1) = 0xD081;
+  CHIP(3) = CHIP(4);
+}
+
 static void unset_accesses(void) { CHIP(1) = CHIP(2); }
 
 static void wait_for_edges(void) {
@@ -500,7 +512,8 @@ void run(void) {
                                            call_astray,
                                            sleeps,
                                            byte_stores,
-                                           floats};
+                                           floats,
+                                           nwait};
   edges = 0;
   clocks();
   memory_bus();
