@@ -1,5 +1,5 @@
 #pragma once
-// The pin D between a level of the core and the four-valued wires of SystemC.
+// A data bus between a level of the core and the four-valued wires of SystemC.
 #include <systemc>
 
 #include "model/dsdpv1/pins.hpp"

@@ -1,90 +1,29 @@
 #include "model/systemc/dsdpv1_pins.hpp"
 
-#include <string>
 #include <utility>
 
 #include "model/systemc/data_wires.hpp"
 
 namespace dsdpv1::systemc {
-namespace {
 
-/// A bound CLK must have made its first window of edges by then; otherwise it is reported as dead.
-const Tick kClockStart = 2 * BoundClock::kWindow * profibus::kTicksPerCycle;
-
-}  // namespace
-
-PinModule::PinModule(const sc_core::sc_module_name& name, const PinOptions& options)
-    : ChipModule(name, options), clock_tolerance_ppm_(options.clock_tolerance_ppm) {
+PinModule::PinModule(const sc_core::sc_module_name& name, const PinOptions& options) : PinsOf(name, options) {
   watch(outputs_of(part()), 0);
   SC_HAS_PROCESS(PinModule);
-  SC_METHOD(evaluate);  // the only process: SystemC would count a second one as a second driver of D
+  SC_METHOD(evaluate);
   sensitive << due_ << CLK << RESET << R_REQ << R_STA << CSR << RD << WR << A << D << PBRXD;
 }
 
 void PinModule::end_of_elaboration() {
+  PinsOf::end_of_elaboration();
   const struct {
     Pin pin;
     Out& port;
   } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kPbtxd, PBTXD}, {Pin::kIntr0, INTR0},
                {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
   for (const auto& wire : wires) connect(mask(wire.pin), wire.port);
-  if (CLK.size() > 0) clock_ = std::make_unique<BoundClock>(clock_tolerance_ppm_);
 }
 
-void PinModule::evaluate() {
-  if (fired_as_scheduled()) return evaluate_core();
-  if (clock_) clock_edge();
-  if (sc_core::sc_time_stamp() == sc_core::SC_ZERO_TIME) {
-    begin();
-    return;
-  }
-  const Tick now = present();
-  advance(now);
-  apply_inputs(now, !std::exchange(applied_, true));
-  drive_pins(take_changed());
-  if (!clock_) return schedule(now, chip().next_event());
-  if (due_.triggered()) check_clock();
-  plan_between_edges(now);
-}
-
-/// Neither an input nor the driver of D has changed: the chip drives and releases D at the user's own edges.
-void PinModule::evaluate_core() {
-  const Tick now = scheduled();
-  advance(now);
-  drive_pins(take_changed());
-  schedule(now, chip().next_event());
-}
-
-void PinModule::begin() {
-  user_d_ = level_of(D.read());
-  drive_pins(take_changed());
-  due_.notify(sc_core::sc_time::from_value(1));  // when the delta cycles of time 0 are over
-}
-
-void PinModule::clock_edge() {
-  if (!CLK->event()) return;
-  if (CLK->read())
-    clock_->rising(sc_core::sc_time_stamp());
-  else
-    clock_->falling(sc_core::sc_time_stamp());
-  if (const auto mhz = clock_->take_wrong_frequency()) {
-    const std::string text = std::string(name()) + ": CLK is " + std::to_string(*mhz) + " MHz, expected 48 MHz +/- " +
-                             std::to_string(clock_tolerance_ppm_) + " ppm";
-    SC_REPORT_WARNING("/dsdpv1/clock", text.c_str());
-  }
-}
-
-void PinModule::check_clock() {
-  if (sc_core::sc_time_stamp() < to_time(kClockStart)) {
-    due_.notify(to_time(kClockStart) - sc_core::sc_time_stamp());
-  } else if (clock_->edges() < BoundClock::kWindow) {
-    const std::string text = std::string(name()) + ": CLK made " + std::to_string(clock_->edges()) +
-                             " rising edges in the first 20 us, 48 MHz makes 960; leave it unbound to do without";
-    SC_REPORT_WARNING("/dsdpv1/clock", text.c_str());
-  }
-}
-
-Tick PinModule::present() const { return clock_ ? clock_->chip_tick(sc_core::sc_time_stamp()) : chip_now(); }
+void PinModule::begin_inputs() { user_d_ = level_of(D.read()); }
 
 /// Applies each changed pin, those of the host together, because their order matters.
 void PinModule::apply_inputs(Tick at, bool first) {

@@ -9,13 +9,10 @@ namespace dsdpv1::systemc {
 
 using spc3::Pin;
 
-std::string Spc3Core::describe(const profibus::Event& event) { return spc3::describe(event); }
-
 Spc3TlmModule::Spc3TlmModule(const sc_core::sc_module_name& name, const Spc3TlmOptions& options)
-    : CoreModule(name, options.chip, options),
+    : Spc3Module(name, options),
       size_(static_cast<sc_dt::uint64>(spc3::addresses(options.chip.variant))),
       access_(options.access) {
-  begin_pins(spc3::kOutputPins, spc3::kPinCount);
   host_socket.register_b_transport(this, &Spc3TlmModule::b_transport);
   host_socket.register_transport_dbg(this, &Spc3TlmModule::transport_dbg);
   bus_in.bind(*this);
@@ -107,7 +104,7 @@ void Spc3TlmModule::access(Payload& payload, unsigned int index, Tick at) {
   in_reset_ = false;
   in_core([&] {
     chip_.advance(at);
-    const Cycle cycle = at / profibus::kTicksPerCycle;
+    const profibus::Cycle cycle = at / profibus::kTicksPerCycle;
     if (payload.is_write())
       chip_.store(cycle, address, byte);
     else

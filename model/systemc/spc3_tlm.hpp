@@ -16,24 +16,13 @@
 #include <string>
 #include <systemc>
 
-#include "model/spc3/chip.hpp"
 #include "model/systemc/bus_character.hpp"
-#include "model/systemc/core_module.hpp"
+#include "model/systemc/spc3_module.hpp"
 #include "model/systemc/transaction.hpp"
 
 namespace dsdpv1::systemc {
 
-/// The SPC3 family for CoreModule.
-struct Spc3Core {
-  using Chip = spc3::Chip;
-  using Config = spc3::Config;
-  using Pin = spc3::Pin;
-  using Level = spc3::Level;
-  static std::string describe(const profibus::Event& event);
-};
-
-struct Spc3TlmOptions : ModuleOptions {
-  spc3::Config chip{};
+struct Spc3TlmOptions : Spc3Options {
   /// Ticks (>= 0) that an access of one byte takes, its effect at the end (A16). No source: 166.7 ns, as the bench's
   /// user CPU.
   Tick access = 2000;
@@ -49,8 +38,7 @@ struct RegisterAccessExtension : tlm::tlm_extension<RegisterAccessExtension> {
   }
 };
 
-/// peek() and poke() are of the addresses in Intel order, 0..0x7FF (VPC3+: 0xFFF); a peek is of the read side.
-class Spc3TlmModule : public CoreModule<Spc3Core>, private tlm::tlm_analysis_if<BusCharacter> {
+class Spc3TlmModule : public Spc3Module, private tlm::tlm_analysis_if<BusCharacter> {
  public:
   using In = sc_core::sc_in<bool>;
   using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
