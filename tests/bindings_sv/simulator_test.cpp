@@ -63,7 +63,10 @@ TEST(SimulatorPins, OfEachKindAreThoseThatTheCApiLists) {
 }
 
 TEST(SimulatorPins, ALevelComesBackAsItWasPacked) {
-  for (const PinPlace& each : pins_of_kind("dsdpv1_rsu").outputs.places()) {
+  std::vector<PinPlace> all = pins_of_kind("dsdpv1_rsu").outputs.places();
+  const std::vector<PinPlace>& more = pins_of_kind("vpc3").outputs.places();
+  all.insert(all.end(), more.begin(), more.end());
+  for (const PinPlace& each : all) {
     const uint64_t others = 0x5555'5555'5555'5555U & ~each.all();
     for (const dpsim_level level : {dpsim_level{0}, dpsim_level{1}, DPSIM_X}) {
       const uint64_t pins = with_level(others | each.all(), each, level);
@@ -188,6 +191,30 @@ TEST(SimulatorScoreboard, AnUnknownOutputDiffers) {
   EXPECT_NE(std::string(dsdpv1_message(scoreboard)).find("L_REQ is X, the model's is 0"), std::string::npos);
   EXPECT_EQ(std::string(dsdpv1_message(scoreboard)), "");
   dsdpv1_close(scoreboard);
+}
+
+/// A chip that never moves an output. What the model does not know, DB and the clock output, is not compared; ready is.
+TEST(SimulatorScoreboard, ServesTheSpc3Family) {
+  for (const char* kind : {"apc3", "spc3", "vpc3"}) {
+    const KindPins& pins = pins_of_kind(kind);
+    const int32_t scoreboard = dsdpv1_scoreboard_create((std::string("kind=") + kind).c_str(), 0);
+    uint64_t inputs = pins.inputs.at_reset(), outputs = pins.outputs.at_reset();
+    int64_t next = 0;
+    for (const PinPlace& place : pins.outputs.places())
+      if (place.name == "CLKOUT2_4") outputs = with_level(outputs, place, 0);
+    int32_t found = 0;
+    for (int64_t half = 0; half < 200 && found == 0; ++half) {
+      if (half == 20) inputs &= ~pins.inputs.mask("RESET");
+      if (half == 60) inputs &= ~(pins.inputs.mask("XCS") | pins.inputs.mask("XRD_R_W"));
+      found = dsdpv1_scoreboard_step(scoreboard, half, 0, static_cast<int64_t>(inputs), static_cast<int64_t>(outputs),
+                                     &next);
+    }
+    EXPECT_EQ(found, 1) << kind;
+    const std::string text = dsdpv1_message(scoreboard);
+    EXPECT_NE(text.find("at cycle 37 (0.771 us): XREADY_XDTACK is 1, the model's is 0"), std::string::npos) << text;
+    EXPECT_NE(text.find("last input  XRD_R_W=0 at cycle 30"), std::string::npos) << text;
+    dsdpv1_close(scoreboard);
+  }
 }
 
 TEST(SimulatorChecker, AShortWriteStrobeIsAViolationWithItsClause) {

@@ -1,4 +1,4 @@
-"""Runs test_parts.py and test_pins.py in Icarus, and checks that a too coarse precision is rejected.
+"""Runs test_parts.py, test_pins.py and test_spc3.py in Icarus, and checks that a too coarse precision is rejected.
 
     parts_test.py FOLDER
 """
@@ -26,6 +26,7 @@ def run(folder, precision="1ps", top="wires", module="test_parts", **options):
 if __name__ == "__main__":
     place = pathlib.Path(sys.argv[1])
     parts, pins = run(place / "parts"), run(place / "pins", top="pins_only", module="test_pins")
+    spc3 = run(place / "spc3", top="spc3_pins_only", module="test_spc3")
     coarse = run(place / "coarse", "100ps", testcase="edges_of_the_clock_are_at_their_ticks")
-    print(f"tests and failures: parts {parts}, pins {pins}, at a precision of 100 ps {coarse}")
-    sys.exit(0 if (parts, pins, coarse) == ((5, 0), (5, 0), (1, 1)) else 1)
+    print(f"tests and failures: parts {parts}, pins {pins}, SPC3 {spc3}, at a precision of 100 ps {coarse}")
+    sys.exit(0 if (parts, pins, spc3, coarse) == ((5, 0), (5, 0), (2, 0), (1, 1)) else 1)

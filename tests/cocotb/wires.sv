@@ -34,3 +34,34 @@ module pins_only (
   assign data_en_n = cs_n || rd_n;
   assign data_out = addr[7:0];
 endmodule
+
+// A chip of the SPC3 family that never changes an output, with the port names of the rule.
+module spc3_pins_only (
+  input  logic        clk_i,
+  input  logic        reset_i,
+  input  logic        xint_mot_i,
+  input  logic        mode_i,
+  input  logic        divider_i,
+  input  logic        xtest0_i,
+  input  logic        xtest1_i,
+  input  logic        xcs_i,
+  input  logic        xrd_r_w_i,
+  input  logic        xwr_e_clock_i,
+  input  logic        ale_as_i,
+  input  logic [10:0] ab_i,
+  input  logic [7:0]  db_i,
+  input  logic        rxd_i,
+  input  logic        xcts_i,
+  output logic        xready_xdtack_o,
+  output logic [7:0]  db_o,
+  output logic        db_oe_o,
+  output logic        x_int_o,
+  output logic        xdataexch_o,
+  output logic        txd_o,
+  output logic        rts_o,
+  output logic        clkout2_4_o
+);
+  assign {xready_xdtack_o, x_int_o, xdataexch_o, txd_o} = 4'b1111;
+  assign {rts_o, clkout2_4_o, db_oe_o} = 3'b000;
+  assign db_o = 8'h00;
+endmodule

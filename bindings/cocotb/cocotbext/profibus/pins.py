@@ -21,10 +21,11 @@ def _number(handle: typing.Any) -> typing.Optional[int]:
 
 
 class ChipPins:
-    """The pins of a DUT by the names of its kind (dsdpv1.kind_of): table 1, and for a DSDPV1-RSU also straps, SPI and UART.
+    """The pins of a DUT by the names of its kind (dsdpv1.kind_of): table 1, for a DSDPV1-RSU also straps, SPI and UART; for the SPC3 family those of
+    its manual's table 2.1.
 
-    An output that can be released has a second port for its enable: D_OE beside D_OUT, MISO_OE beside MISO. Ports have rtl_ref's names unless
-    `names` gives others: {"RESET": "rst_n", "D_OE": "data_en"}. An inverted one begins with "~".
+    An output that can be released has a second port for its enable: D_OE beside D_OUT, MISO_OE beside MISO, DB_OE beside DB_OUT. Ports have
+    rtl_ref's names, those of other kinds by the same rule, unless `names` gives others: {"RESET": "rst_n", "D_OE": "data_en"}. An inverted one begins with "~".
     """
 
     def __init__(self, dut: typing.Any, names: typing.Optional[typing.Mapping[str, str]] = None, kind: str = "dsdpv1") -> None:
@@ -66,14 +67,15 @@ class ChipPins:
             handle.value = level ^ ((1 << len(handle)) - 1 if inverted else 0)
 
     async def power_on(self) -> None:
-        """Sets all inputs to the model's power-on levels, RESET low. Call it first, before the clock. RESET falls within the first step, because a
-        simulator without X would otherwise see no edge."""
+        """Sets all inputs to the model's power-on levels, so RESET is active. Call it first, before the clock. RESET becomes active within the first
+        step, because a simulator without X would otherwise see no edge."""
         for pin in self.kind.pins:
             if pin.input:
                 self.set(pin.name, max(pin.reset_level, 0))
-        self.set("RESET", 1)
+        active = self.kind.pin("RESET").reset_level
+        self.set("RESET", 1 - active)
         await Timer(1, "step")
-        self.set("RESET", 0)
+        self.set("RESET", active)
 
     def watch(self, pins: typing.Iterable[str], told: Told) -> typing.List[typing.Any]:
         """Reports (tick, pin's number, level) of each change from now on, after the present levels. Returns the tasks; to stop them is to stop the reports."""
