@@ -105,6 +105,7 @@ struct Chip::Impl {
   bool skips() const { return engine == Engine::kSkip; }
   bool apply(Tick at, Pin pin, Level value);
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report);
+  bool carry_out_ahead(Tick begin, const HostAccess& access, Level& sampled);
   Level read_unheld(Tick begin, const HostAccess& access);
   bool is_private(Tick begin, const HostAccess& access);
   bool hear(Tick at, bool level);
@@ -236,6 +237,17 @@ bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled,
   plan();
   advance(last);
   return true;
+}
+
+bool Chip::Impl::carry_out_ahead(Tick begin, const HostAccess& access, Level& sampled) {
+  const bool hidden = engine == Engine::kSkip && !live && (watched & mask(Pin::kDOut)) == 0;
+  const bool stays_away = handshake.user_holds() && handshake.next() == kNever && !sequencer.owns();
+  if (!hidden || !stays_away || !sequencer.started_up()) return false;
+  host.settle_until(begin / kTicksPerCycle, true);
+  const bool plain = host.carry_out(begin, access, sampled);
+  plans.host = host.next();
+  plan();
+  return plain;
 }
 
 // Meanwhile the dozing chip may have accesses, and D is unreadable during one.
@@ -672,6 +684,9 @@ Level Chip::sample(Tick at) {
 }
 bool Chip::carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report) {
   return impl_->carry_out(begin, access, sampled, may_report);
+}
+bool Chip::carry_out_ahead(Tick begin, const HostAccess& access, Level& sampled) {
+  return impl_->carry_out_ahead(begin, access, sampled);
 }
 bool Chip::is_private(Tick begin, const HostAccess& access) { return impl_->is_private(begin, access); }
 Tick Chip::next_event() const { return impl_->next_event(); }

@@ -80,6 +80,10 @@ class Chip {
   /// host holds the DPRAM, and D is not watched. Its edges may then be set later than other events, but in their order
   /// and before `advance` goes beyond them. The chip has advanced to `begin`.
   bool is_private(Tick begin, const HostAccess& access);
+  /// As carry_out(), with `begin` now or later, and the chip stays at now(). Returns false, and the access has no
+  /// effect, unless the host holds the DPRAM, so that only its accesses change it: the next one begins later, and the
+  /// host keeps R_REQ and R_STA until its end.
+  bool carry_out_ahead(Tick begin, const HostAccess& access, Level& sampled);
   /// The tick of the chip's next event that needs no call (a rising CLK edge, or the falling edge at which D is
   /// driven); never before `now()`. With Engine::kStep the next rising edge.
   Tick next_event() const;

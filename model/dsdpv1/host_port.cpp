@@ -251,7 +251,11 @@ void HostPort::eval(Cycle now, bool owned, bool started_up) {
     sample_at_ = profibus::kNever;
     drive_at_ = now * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2;
   }
-  while (write_count_ > 0 && write_at(0).settles <= now) {
+  settle_until(now, started_up);
+}
+
+void HostPort::settle_until(Cycle cycle, bool started_up) {
+  while (write_count_ > 0 && write_at(0).settles <= cycle) {
     settle(write_at(0), started_up);
     first_write_ = (first_write_ + 1) % kWritesInFlight;
     --write_count_;

@@ -44,6 +44,8 @@ class HostPort {
   /// The rising edge of `now`: writes that settle, the address of a read. As before the edge, `owned`: L_STA is high
   /// (P12), `started_up`: the start-up access has begun (H6).
   void eval(Cycle now, bool owned, bool started_up);
+  /// Writes up to the edge of `cycle` settle, as eval() does it, also before the present time.
+  void settle_until(Cycle cycle, bool started_up);
   Cycle next() const;
   /// As next(), without writes that settle while the user owns the DPRAM, except those that may be reported then.
   Cycle next_seen() const { return holds() ? std::min(sample_at_, next_judged()) : next(); }

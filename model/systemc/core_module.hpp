@@ -143,6 +143,8 @@ class CoreModule : public TimedModule {
          this});
   }
 
+  /// Only these are reported to `on_pin`.
+  void tell_only(std::uint32_t pins) { told_ = pins; }
   /// output_changed() is called for the pins in `asked`.
   void watch(std::uint32_t pins, std::uint32_t asked) {
     asked_ = asked;
@@ -160,7 +162,7 @@ class CoreModule : public TimedModule {
   void set(Tick at, Pin pin, Level level) {
     if (chip_.level(pin) == level) return;
     in_core([&] {
-      if (on_pin) {
+      if (on_pin && (told_ & mask(pin)) != 0) {
         chip_.advance(at);  // earlier events of the core must precede this change
         tell([&] { on_pin(at, pin, level); });
       }
@@ -183,7 +185,7 @@ class CoreModule : public TimedModule {
   void pin_changed(Tick at, Pin pin, Level level) {
     if ((asked_ & mask(pin)) != 0 && !output_changed(at, pin, level)) return;
     note_output(mask(pin), level == 1);
-    if (on_pin) tell([&] { on_pin(at, pin, level); });
+    if (on_pin && (told_ & mask(pin)) != 0) tell([&] { on_pin(at, pin, level); });
   }
 
   void event_happened(const profibus::Event& event) {
@@ -195,6 +197,7 @@ class CoreModule : public TimedModule {
   }
 
   bool report_violations_;
+  std::uint32_t told_ = ~std::uint32_t{0};
   std::uint32_t asked_ = 0;  ///< outputs for which output_changed() is called
 };
 

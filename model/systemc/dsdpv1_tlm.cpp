@@ -10,6 +10,7 @@ TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& opti
     : ChipModule(name, options), timing_(options.access), observed_(options.observed) {
   host_socket.register_b_transport(this, &TlmModule::b_transport);
   host_socket.register_transport_dbg(this, &TlmModule::transport_dbg);
+  tell_only(observed_ | mask(Pin::kReset) | mask(Pin::kRReq) | mask(Pin::kRSta));
   bus_in.bind(*this);
   SC_HAS_PROCESS(TlmModule);
   SC_METHOD(evaluate);
@@ -60,15 +61,13 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   const unsigned int first = is_decoupled() ? carry_out_bytes_ahead(payload, delay) : 0;
   if (first == payload.get_data_length()) return;
   wait_for(delay);
-  host_bus_.lock();
+  const sc_core::sc_scoped_lock turn(host_bus_);
   try {
     carry_out(payload, first);
-  } catch (const sc_core::sc_unwind_exception&) {
+  } catch (...) {  // also the reset of the initiator's process
     release_host_pins();
-    host_bus_.unlock();
     throw;
   }
-  host_bus_.unlock();
 }
 
 void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
@@ -85,17 +84,16 @@ unsigned int TlmModule::carry_out_bytes_ahead(Payload& payload, sc_core::sc_time
   return length;
 }
 
-/// Until the end of the access the kernel is idle and the user owns the DPRAM, so the time of execution is not
-/// observable; the core is then ahead of simulation time, and any later event finds it at its present tick. Returns
-/// false if nothing was done.
+/// The host holds the DPRAM, so only it reads and changes it, and the time of execution is not observable. The core
+/// stays in simulation time. Returns false if nothing was done.
 bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay) {
   unsigned char& byte = payload.get_data_ptr()[index];
   const auto address = static_cast<std::uint16_t>(payload.get_address() + index);
   const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload, timing_));
   const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
   Level sampled = kLevelX;
-  if (!is_alone(begin, end) || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return false;
-  plan(chip_now(), chip().next_seen());  // a settling write is not an event
+  if (!is_private(begin) || !chip_.carry_out_ahead(chip_tick(begin), access, sampled)) return false;
+  host_free_at_ = end;
   delay = time_until(end);
   if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
   payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE
@@ -103,15 +101,15 @@ bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_co
   return true;
 }
 
-bool TlmModule::is_alone(Tick begin, Tick end) {
-  if (hears_host() || !R_REQ.read() || !R_STA.read() || chip_tick(begin) < chip().now()) return false;
-  if (kernel_quiet_until() <= end || host_bus_.trylock() != 0) return false;
+bool TlmModule::is_private(Tick begin) {
+  if (hears_host() || !R_REQ.read() || !R_STA.read() || begin < earliest() || host_bus_.trylock() != 0) return false;
   host_bus_.unlock();
   return true;
 }
 
 Tick TlmModule::earliest() const {
-  return current_tick() + std::max<Tick>(0, chip().now() - chip_tick(current_tick()));
+  const Tick now = current_tick();
+  return std::max(now + std::max<Tick>(0, chip().now() - chip_tick(now)), host_free_at_);
 }
 
 void TlmModule::carry_out(Payload& payload, unsigned int first) {
@@ -242,7 +240,17 @@ void TlmModule::apply_inputs(Tick now) {
 void TlmModule::apply(Tick now, Pin pin, bool level) {
   if (((applied_ & mask(pin)) != 0) == level) return;
   applied_ ^= mask(pin);
+  if (const Tick present = current_tick(); present < earliest()) report_late(pin, present);
   set(now, pin, level);
+}
+
+/// Its initiator has not synchronised: it has carried out accesses that come later.
+void TlmModule::report_late(Pin pin, Tick at) {
+  if (std::exchange(late_reported_, true)) return;
+  const std::string text = std::string(name()) + ": " + dsdpv1::name(pin) + " changes at " + to_time(at).to_string() +
+                           ", but the chip's user is at " + to_time(earliest()).to_string() +
+                           " already; an initiator has to wait for its local time first";
+  SC_REPORT_WARNING("/dsdpv1/ahead", text.c_str());
 }
 
 /// Only `evaluate` writes signals (SystemC allows one writer); characters for the present time take effect in the next

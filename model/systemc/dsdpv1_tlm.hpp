@@ -51,9 +51,9 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   ///  a byte outside the DPRAM                               TLM_ADDRESS_ERROR_RESPONSE, nothing accessed
   ///   neither read nor write                                 TLM_COMMAND_ERROR_RESPONSE
   ///   X or Z read, table 15 violated by a write              TLM_GENERIC_ERROR_RESPONSE, the burst ends there
-  /// With a global quantum (tlm_global_quantum) other than zero, b_transport does not wait for an access of the DPRAM's
-  /// owner if nothing else happens in the simulation before its end: the time is added to the returned delay. An
-  /// initiator must wait for its delay before it moves R_REQ, R_STA or RESET, or samples an output.
+  /// With a global quantum (tlm_global_quantum) other than zero, b_transport does not wait for an access while R_REQ and
+  /// R_STA are high: the time is added to the returned delay. An initiator must wait for its delay before it moves
+  /// R_REQ, R_STA or RESET (warning /dsdpv1/ahead), or samples an output.
   /// Access without ownership is executed and reported (P12). Debug transport reads and writes the DPRAM without pins;
   /// direct memory access is denied.
   /// Must be bound (error /dsdpv1/binding), unless the straps of a DSDPV1-RSU choose another port.
@@ -113,8 +113,8 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   Tick catch_up();
   void plan() { plan(chip_now(), chip().next_event()); }
   void wait_until(Tick tick);
-  /// The first simulation tick at which a new transaction may begin: an earlier one ahead of simulation time may have
-  /// advanced the core.
+  /// The first simulation tick at which a new transaction may begin: an earlier one, or sync(), may be ahead of
+  /// simulation time.
   Tick earliest() const;
   bool output_changed(Tick at, Pin pin, Level level) override;
   /// A value used by plan() has changed while the core was running.
@@ -146,7 +146,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
   unsigned int carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay);
   bool carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay);
-  bool is_alone(Tick begin, Tick end);
+  bool is_private(Tick begin);
   void carry_out(Payload& payload, unsigned int first);
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
@@ -168,6 +168,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void spell_out(const LineRun& run, Tick behind);
   void apply_inputs(Tick now);
   void apply(Tick now, Pin pin, bool level);
+  void report_late(Pin pin, Tick at);
   /// `core`: the tick of the core's next evaluation.
   void plan(Tick now, Tick core);
   Tick next_of_line() const;
@@ -190,6 +191,8 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   std::uint32_t applied_ = 0;           ///< those of RESET, R_REQ, R_STA that are high for the core
   sc_core::sc_mutex host_bus_;          ///< serialises the accesses of several initiators
   HostAccessMaker maker_;
+  Tick host_free_at_ = 0;  ///< simulation tick: end of the last access carried out ahead
+  bool late_reported_ = false;
   Tick access_start_ = 0;    ///< simulation tick of the running access' first edge
   HostAccess access_;        ///< the running access, without edges if there is none ...
   std::size_t moved_ = 0;    ///< ... how many of its edges have happened ...

@@ -58,7 +58,7 @@ void RsuTlmModule::transport_spi(Payload& payload, sc_core::sc_time& delay) {
   spi_free_at_ = begin + frame.duration() + gap_of(payload, spi_timing_);
   try {
     carry_out(spi_, std::move(frame), begin);
-  } catch (const sc_core::sc_unwind_exception&) {
+  } catch (...) {
     release({Pin::kXss, Pin::kSck, Pin::kMosi});
     spi_free_at_ = 0;
     throw;
@@ -75,7 +75,7 @@ void RsuTlmModule::transport_uart(Payload& payload, sc_core::sc_time& delay) {
   const sc_core::sc_scoped_lock turn(uart_bus_);
   try {
     carry_out(uart_, telegram_of(payload, uart_timing_), earliest());
-  } catch (const sc_core::sc_unwind_exception&) {
+  } catch (...) {
     release({Pin::kRxd});
     throw;
   }
@@ -88,10 +88,20 @@ void RsuTlmModule::carry_out(Lane<Edges>& lane, Edges edges, Tick begin) {
   catch_up();  // start with the core at the present time
   wait_until(begin + lane.edges.duration());
   plan();
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+}
+
+/// The module's own process moves the pins. An exception of an observer leaves through the transaction.
+void RsuTlmModule::move_host(Tick now) {
+  try {
+    move_pins(now);
+  } catch (...) {
+    thrown_ = std::current_exception();
+  }
 }
 
 /// Each edge is an event of the kernel, so those up to `now` are at `now`, in any order of the two ports.
-void RsuTlmModule::move_host(Tick now) {
+void RsuTlmModule::move_pins(Tick now) {
   while (spi_.next() <= now) {
     const SerialEdge edge = spi_.edges[spi_.moved++];
     const Tick at = spi_.begin + edge.at;

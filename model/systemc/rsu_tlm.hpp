@@ -11,6 +11,7 @@
 // Ports, timing and examples: docs/systemc.md.
 #include <algorithm>
 #include <cstdint>
+#include <exception>
 #include <initializer_list>
 #include <vector>
 
@@ -31,7 +32,7 @@ struct RsuStraps {
 struct RsuTlmOptions : TlmOptions {
   RsuTlmOptions() {
     chip.part = Part::kRsu;
-    observed |= kRsuOutputPins;
+    observed |= kRsuOutputPins | kSerialPins;
   }
   RsuStraps straps{};
   SpiTiming spi{};    ///< of the host's frames
@@ -81,6 +82,7 @@ class RsuTlmModule : public TlmModule {
   void transport_uart(Payload& payload, sc_core::sc_time& delay);
   template <class Edges>
   void carry_out(Lane<Edges>& lane, Edges edges, Tick begin);
+  void move_pins(Tick now);
   void release(std::initializer_list<Pin> pins);
   void collect_byte(Tick now);
 
@@ -91,6 +93,7 @@ class RsuTlmModule : public TlmModule {
   Lane<SpiFrame> spi_;
   Lane<UartTelegram> uart_;
   Tick spi_free_at_ = 0;  ///< simulation tick: end of the gap after the last frame
+  std::exception_ptr thrown_;
   CharacterCollector from_uart_;
   std::vector<std::uint8_t> received_;  ///< from TXD, to be sent through `uart_out`
 };

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "model/systemc/main_stack.hpp"
@@ -26,7 +27,7 @@ std::uint64_t resolution_in_femtoseconds() {
       ", expected 1 fs to 1 ps (a tick of the chip is 83.3 ps): call sc_core::sc_set_time_resolution(1, "
       "sc_core::SC_PS) before the first sc_time is made";
   SC_REPORT_ERROR("/dsdpv1/time_resolution", text.c_str());
-  return kCoarsest;  // for reports that do not throw
+  throw std::runtime_error(text);  // if reports of errors do not throw: no time would be right
 }
 
 /// Zero, one, two and three ticks in units of the simulation's resolution, rounded; three are 250 ps, a whole number of

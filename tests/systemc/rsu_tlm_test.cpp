@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "model/systemc/rsu_tlm.hpp"
 #include "tests/systemc/bench.hpp"
@@ -36,6 +38,7 @@ struct Side : sc_core::sc_module, tlm::tlm_analysis_if<std::uint8_t> {
   tlm_utils::simple_initiator_socket<Side> socket{"socket"};
   sc_core::sc_signal<bool> reset, low;
   Changes changes;
+  bool throws = false;  ///< at the next change
   Bytes heard;
   std::vector<Tick> heard_at;
 
@@ -43,7 +46,10 @@ struct Side : sc_core::sc_module, tlm::tlm_analysis_if<std::uint8_t> {
     socket.bind(mode == HostMode::kSpi ? chip.spi_socket : chip.uart_socket);
     chip.RESET(reset), chip.R_REQ(low), chip.R_STA(low);
     chip.uart_out.bind(*this);
-    chip.on_pin = [this](Tick at, Pin pin, Level level) { changes.push_back({at, pin, level}); };
+    chip.on_pin = [this](Tick at, Pin pin, Level level) {
+      changes.push_back({at, pin, level});
+      if (std::exchange(throws, false)) throw std::runtime_error("from on_pin");
+    };
     thread([this] {
       wait_until(kUs);
       reset.write(true);
@@ -74,6 +80,16 @@ struct Side : sc_core::sc_module, tlm::tlm_analysis_if<std::uint8_t> {
     socket->b_transport(payload, local);
     return {payload.get_response_status(), begin, current_tick(), local, data};
   }
+  /// The text of the exception that leaves a transaction.
+  std::string thrown(const Bytes& data) {
+    throws = true;
+    try {
+      transport(tlm::TLM_WRITE_COMMAND, data);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
   std::vector<tlm::tlm_response_status> refusals() {
     std::uint8_t enable = 0xFF;
     std::vector<tlm::tlm_response_status> all;
@@ -103,6 +119,8 @@ struct World {
   Side spi{"spi", HostMode::kSpi}, uart{"uart", HostMode::kUart};
   std::optional<Outcome> frame, next, after_kill, telegram, read, at_the_delay, after_the_delay;
   std::vector<tlm::tlm_response_status> of_spi, of_uart;
+  std::string thrown_of_spi, thrown_of_uart;
+  std::optional<Outcome> frame_after_throw, telegram_after_throw;
   Tick refused_until = 0;
   Bytes debug = Bytes(2);
   unsigned debugged = 0;
@@ -126,6 +144,9 @@ struct World {
     after_kill = spi.transport(tlm::TLM_READ_COMMAND, with_room(kReadB014));
     at_the_delay = read_with_low(kMisoDelay);
     after_the_delay = read_with_low(kMisoDelay + 1);
+    thrown_of_spi = spi.thrown(kReadB014);
+    wait_until(current_tick() + kUs);
+    frame_after_throw = spi.transport(tlm::TLM_READ_COMMAND, with_room(kReadB014));
   }
   /// SCK is low for `low` ticks.
   Outcome read_with_low(Tick low) {
@@ -158,6 +179,10 @@ struct World {
     auto killed = sc_core::sc_spawn([this] { uart.transport(tlm::TLM_WRITE_COMMAND, Bytes(200, 0x00)); });
     wait_until(kAt + 200 * kUs + 2 * kBit);
     killed.kill();
+    wait_until(kAt + 300 * kUs);
+    thrown_of_uart = uart.thrown({0x00});
+    wait_until(kAt + 350 * kUs);
+    telegram_after_throw = uart.transport(tlm::TLM_WRITE_COMMAND, kReadB014);
   }
 };
 
@@ -173,7 +198,7 @@ void simulate() {
   set_resolution();
   collect_reports();
   world = std::make_unique<World>();
-  sc_core::sc_start(600, sc_core::SC_US);
+  sc_core::sc_start(700, sc_core::SC_US);
 }
 
 namespace {
@@ -219,17 +244,28 @@ TEST(RsuSockets, AKilledInitiatorLeavesIdlePinsAndTheNextFrameNeedNotWait) {
   EXPECT_THAT(only(world->spi.changes, Pin::kXss), testing::Contains(Change{World::kKill, Pin::kXss, 1}));
   EXPECT_THAT(only(world->spi.changes, Pin::kXss), testing::Contains(Change{World::kKill + kUs, Pin::kXss, 0}));
   EXPECT_EQ(behind(world->after_kill->data, kReadB014.size()), kReply);
-  EXPECT_EQ(only(world->uart.changes, Pin::kRxd).back(), (Change{kAt + 200 * kUs + 2 * kBit, Pin::kRxd, 1}));
+  EXPECT_THAT(only(world->uart.changes, Pin::kRxd),
+              testing::Contains(Change{kAt + 200 * kUs + 2 * kBit, Pin::kRxd, 1}));
 }
 
 TEST(RsuSockets, ATransactionIsATelegramOfTheUartAndItsReplyComesByteByByte) {
   EXPECT_EQ(world->telegram->response, tlm::TLM_OK_RESPONSE);
   EXPECT_EQ(world->telegram->end, kAt + kDelay + UartTelegram(kReadB014, UartTiming()).duration());
-  EXPECT_EQ(world->uart.heard, kReply);
+  EXPECT_EQ(Bytes(world->uart.heard.begin(), world->uart.heard.begin() + 5), kReply);
   const Tick first = only(world->uart.changes, Pin::kTxd).front().at;
-  ASSERT_EQ(world->uart.heard_at.size(), kReply.size());
+  ASSERT_GE(world->uart.heard_at.size(), kReply.size());
   for (std::size_t i = 0; i < kReply.size(); ++i)
     EXPECT_EQ(world->uart.heard_at[i], first + static_cast<Tick>(i + 1) * 11 * kBit) << i;
+}
+
+TEST(RsuSockets, AnExceptionOfAnObserverLeavesTheTransactionAndTheNextIsAsUsual) {
+  EXPECT_EQ(world->thrown_of_spi, "from on_pin");
+  EXPECT_EQ(behind(world->frame_after_throw->data, kReadB014.size()),
+            (Bytes{0x81, 0x00, 0x01, 0x28, 0xE0}));  // B014.0: an access of the chip
+  EXPECT_EQ(world->thrown_of_uart, "from on_pin");
+  EXPECT_EQ(world->telegram_after_throw->response, tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(Bytes(world->uart.heard.end() - 5, world->uart.heard.end()), kReply);
+  EXPECT_EQ(world->uart.heard.size(), 2 * kReply.size());
 }
 
 }  // namespace
