@@ -117,7 +117,8 @@ def ruled(file):
 def planted(file):
     """The tests whether the lists of faults and mutants still fit, if one alters the file or the file is one."""
     lists = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "tests/planted").glob("*.yaml")}
-    return {"Mutants.FitTheSourcesAndTheRows" if name == "mutants" else "PlantedFaults.FitTheSources" for name, text in lists.items()
+    tests = {"mutants": "Mutants.FitTheSourcesAndTheRows", "spc3_mutants": "Mutants.OfTheSpc3FitTheSourcesAndThePage"}
+    return {tests.get(name, "PlantedFaults.FitTheSources") for name, text in lists.items()
             if file == f"tests/planted/{name}.yaml" or re.search(rf"\bfile: {re.escape(file)}[,\n]", text)}
 
 

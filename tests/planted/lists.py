@@ -12,7 +12,7 @@ import mutation  # noqa: E402
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = pathlib.Path(__file__).resolve().parent
 NAMES = ("systemc", "driver", "checks", "board")
-KEYS = {"name", "block", "file", "replace", "by", "what", "rows"}
+KEYS = {"name", "block", "file", "replace", "by", "what", "rows", "test"}
 NEEDED = {"name", "file", "replace", "by", "what"}
 
 
@@ -31,6 +31,7 @@ class Fault:
     where: str    # file and line of the list
     block: str = ""
     rows: str = ""  # of docs/conformance.md, separated by commas
+    test: str = ""  # of GoogleTest, that has to find it; without: those of the rows
 
     @property
     def row_names(self):

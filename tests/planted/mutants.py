@@ -23,6 +23,7 @@ EXAMPLES = """examples:
   ./run mutants --row S3 --row T15-Tw       # the mutants of these rows
   ./run mutants --json > mutants.json
   ./run mutants --list                      # their rows and what they alter
+  ./run mutants --chip spc3                 # those of the SPC3 family, two minutes
   ./run mutants --record                    # into docs/trust/mutants.tsv, from which docs/conformance.md is made
 
 The mutants are tests/planted/mutants.yaml. All are in one build, build/mutants, each behind a switch. A line of the tab-separated table is a mutant and
@@ -54,7 +55,7 @@ def matches(case, name):
 
 def cases_of(program):
     """The cases that a program has."""
-    listed = subprocess.run([BUILD / PROGRAMS[program] / program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
+    listed = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
     suite = ""
     for line in listed.splitlines():
         name = line.split("#", 1)[0].rstrip()
@@ -70,6 +71,7 @@ class Outcome:
 
     def __init__(self):
         self.failed, self.others, self.passed = [], {}, {}
+        self.places = {}  # of the first assertion of a case that has failed
 
     def read(self, printed):
         """Returns the case that had not ended, if any. After a failure GoogleTest skips the others (--gtest_fail_fast)."""
@@ -82,6 +84,8 @@ class Outcome:
                 running, kinds = begun.group(1), set()
             elif place:
                 kinds.add(kind_of(place.group(1)))
+                if kind_of(place.group(1)) == "assertion":
+                    self.places.setdefault(running, place.group(1))
             elif "unknown file: Failure" in line:
                 kinds.add("exception")
             elif ended and ended.group(2) == running:
@@ -107,11 +111,12 @@ def kind_of(place):
 
 
 class Runner:
-    """The programs of the build with mutants."""
+    """The programs of a build with mutants: {program: its folder}."""
 
-    def __init__(self):
+    def __init__(self, build=BUILD, programs=None):
         self.running = faults.Running()
-        self.cases = {program: list(cases_of(program)) for program in PROGRAMS}
+        self.build, self.programs = build, PROGRAMS if programs is None else programs
+        self.cases = {program: list(cases_of(build / folder / program)) for program, folder in self.programs.items()}
         self.seconds = {}  # of a case, without a mutant
 
     def named(self, tests):
@@ -134,11 +139,11 @@ class Runner:
             left = [pair for pair in left if pair[1] not in outcome.ended()]
 
     def run_program(self, number, program, cases, outcome, fast):
-        flags = BUILD / f"flags_{os.getpid()}_{threading.get_ident()}"
+        flags = self.build / f"flags_{os.getpid()}_{threading.get_ident()}"
         flags.write_text("--gtest_filter=" + ":".join(cases) + ("\n--gtest_fail_fast" if fast else "") + "\n", encoding="utf-8")
         try:
             limit = SECONDS + 10 * sum(self.seconds.get(case, 100) for case in cases)
-            status, printed = self.running.call([BUILD / PROGRAMS[program] / program, f"--gtest_flagfile={flags}"], limit=limit, cwd=BUILD,
+            status, printed = self.running.call([self.build / self.programs[program] / program, f"--gtest_flagfile={flags}"], limit=limit, cwd=self.build,
                                                 env={**os.environ, "DSDPV1_MUTANT": str(number)})
         finally:
             flags.unlink()
@@ -163,13 +168,13 @@ def step(words, **options):
         raise lists.BadList("mutants: " + next((line for line in (done.stdout + done.stderr).splitlines() if "error" in line.lower()), f"{words[0]} failed"))
 
 
-def build(mutants, jobs):
+def build(mutants, jobs, tree=TREE, programs=tuple(PROGRAMS)):
     """One build with all of them."""
-    switches.write_tree(ROOT, mutants, TREE)
-    print("mutants: building them, once, into build/mutants", file=sys.stderr)
-    flags = f"-w -include {TREE / switches.HEADER}"
-    step(["cmake", "--preset", "edit", "-DDSDPV1_REFERENCE_RTL=OFF", "-DDSDPV1_TEST_PROGRAMS=OFF", "-DDSDPV1_WERROR=OFF", f"-DCMAKE_CXX_FLAGS={flags}"], cwd=TREE)
-    step(["ninja", "-C", BUILD, f"-j{jobs}", *PROGRAMS])
+    switches.write_tree(ROOT, mutants, tree)
+    print(f"mutants: building them, once, into {tree.relative_to(ROOT)}", file=sys.stderr)
+    flags = f"-w -include {tree / switches.HEADER}"
+    step(["cmake", "--preset", "edit", "-DDSDPV1_REFERENCE_RTL=OFF", "-DDSDPV1_TEST_PROGRAMS=OFF", "-DDSDPV1_WERROR=OFF", f"-DCMAKE_CXX_FLAGS={flags}"], cwd=tree)
+    step(["ninja", "-C", tree / "build" / "edit", f"-j{jobs}", *programs])
 
 
 # -------------------------------------------------------------------------------------------------------------- judging
@@ -243,6 +248,8 @@ def wrong(mutants):
 def parse(words):
     parser = faults.Parser(prog="./run mutants", description="Runs each mutant of the model against the tests that its rows of docs/conformance.md name.",
                            epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+    parser.add_argument("--chip", choices=("dsdpv1", "spc3"), default="dsdpv1", help="whose mutants; spc3: each with the test that it names, and a page, "
+                        "docs/spc3_mutants.md; default: dsdpv1")
     parser.add_argument("--only", action="append", metavar="NAME", help="this mutant; may be given several times")
     parser.add_argument("--row", action="append", metavar="ROW", help="the mutants of this row; may be given several times")
     parser.add_argument("--jobs", type=faults.some_jobs, default=os.cpu_count() or 1, metavar="N", help="mutants at a time; default: as many as processors")
@@ -277,6 +284,9 @@ def tell(lines):
 def main(words):
     arguments = parse(words)
     try:
+        if arguments.chip == "spc3":
+            import spc3_mutants  # it uses this module
+            return spc3_mutants.main(arguments)
         mutants, rows = lists.read("mutants"), lists.conformance(ROOT)
         numbered = chosen(arguments, mutants, rows)
         if arguments.list:

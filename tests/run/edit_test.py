@@ -68,6 +68,7 @@ class Concerns(unittest.TestCase):
         self.assertEqual(edit.planted("model/profibus/uart_rx.cpp"), {"Mutants.FitTheSourcesAndTheRows"})
         self.assertEqual(edit.planted("kinds/dsdpv1/checks/refusals.cpp"), {"PlantedFaults.FitTheSources"})
         self.assertEqual(edit.planted("tests/planted/mutants.yaml"), {"Mutants.FitTheSourcesAndTheRows"})
+        self.assertEqual(edit.planted("tests/planted/spc3_mutants.yaml"), {"Mutants.OfTheSpc3FitTheSourcesAndThePage"})
         self.assertEqual(edit.planted("bus/line.cpp"), set())
         self.assertEqual(self.of("tests/planted/driver.yaml"), (True, {}, {"PlantedFaults.FitTheSources"}))
 

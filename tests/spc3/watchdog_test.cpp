@@ -78,6 +78,20 @@ TEST(Spc3Watchdog, BaudControlMayBeLinearOrOff) {
   }
 }
 
+TEST(Spc3Watchdog, TheSearchEndsWithEachStartDelimiter) {
+  for (const Bytes& data : {Bytes{}, Bytes{1, 2, 3}, Bytes(8, 0)}) {  // SD1, SD2, SD3
+    Bench bench;
+    bench.power_on();
+    bench.initialise();
+    bench.start();
+    bench.run_cycles(200);  // T_SYN
+    const auto telegram = bus::prefer_sd3(bus::make_telegram(100, 2, 0x6D, data));
+    bench.requester.send(bench.timeline, telegram, {.wants_answer = false});
+    bench.run_cycles(20);
+    EXPECT_EQ(wd_state(bench), 1U) << data.size() << " (A30)";
+  }
+}
+
 // --- min_TSDR --------------------------------------------------------------------------------------------------------
 
 double tsdr(Bench& bench) { return bench.ask(60).tsdr_bits(); }
