@@ -81,9 +81,11 @@ class Regress : public Command {
     CLI::Option* engine =
         app.add_option("--engine", request_.engines,
                        "Engines of run, and cosim for RTL of your own, separated by commas (default: skip)")
-            ->delimiter(',');
-    CLI::Option* view =
-        app.add_option("--view", request_.views, "Views of run, separated by commas (default: pins)")->delimiter(',');
+            ->delimiter(',')
+            ->allow_extra_args(false);
+    CLI::Option* view = app.add_option("--view", request_.views, "Views of run, separated by commas (default: pins)")
+                            ->delimiter(',')
+                            ->allow_extra_args(false);
     CLI::Option* seed =
         app.add_option("--seed", seeds_, "Seeds of runs with RTL, such as 1..4,7 (default: the usual one)");
     CLI::Option* set =

@@ -139,9 +139,19 @@ bool takes(const cosim::PinMap& map, const std::vector<std::string>& set) {
   });
 }
 
+/// Throws tb::InputError for a key of --set that --mode sets.
+void check_without_mode(const tb::ChipKind& kind, const std::vector<std::string>& set) {
+  for (const cosim::HostPort& port : kind.random()->words().ports)
+    for (const std::string& sets : port.set)
+      for (const std::string& each : set)
+        if (each.compare(0, each.find('='), sets, 0, sets.find('=')) == 0)
+          throw tb::InputError(fmt::format("--set {}: this is the host port, expected --mode for it", each));
+}
+
 cosim::PlayOptions play_options(const RtlChip& chip, const OwnRtlArguments& own, const std::vector<std::string>& set,
                                 bool no_dpram) {
   const tb::ChipKind& kind = chip.kind();
+  check_without_mode(kind, set);
   const cosim::PinMap map = own_map(own, kind);
   const bool is_own = !own.rtl.empty(), quick = !is_own || takes(map, kind.random()->words().quick);
   cosim::PlayOptions options = quick ? cosim::quick_options(kind) : cosim::usual_options(kind);

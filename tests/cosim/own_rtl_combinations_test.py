@@ -272,6 +272,7 @@ def options_that_would_be_ignored(copy, other):
     refused(copy, "--engine cosim and --rtl go together", "regress", scenario, *own)
     refused(copy, "--engine excludes --rtl", "traces", "check", scenario, "--engine", "rtl", *own)
     refused(copy, "only the dsdpv1_rsu has that port", "rtl-random", *own, "--mode", "spi", "--cycles", 1)
+    refused(copy, "expected --mode for it", "rtl-random", *own, "--chip", "dsdpv1_rsu", "--set", "chip.mode=spi", "--cycles", 1)
     refused(copy, "unknown name MODE", "rtl-random", "--rtl", "rtl", "--top", copy.top, "--pins", other.folder / other.pins(), "--cycles", 1)
     (copy.folder / "dpram.yaml").write_text("dpram: ram\n")
     refused(copy, "dpram.yaml:1: unknown name dpram", "rtl-random", *copy.own("dpram.yaml"))
