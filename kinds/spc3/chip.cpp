@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "kinds/spc3/port/bus_reader.hpp"
+
 namespace dsdpv1::tb {
 namespace {
 
@@ -75,26 +77,46 @@ void Spc3Device::advance(Tick to) {
   chip_.advance(to);
 }
 
-Spc3PinChip::Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, PinMask watched,
+Spc3PinChip::Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, spc3::Bus bus, PinMask watched,
                          bus::Segment& segment, bool late)
-    : PinChip(name, std::move(device), spc3_pins(), kSpc3BoardPins, watched, segment, late) {}
-
-std::uint8_t Spc3PinChip::load(Tick at, std::uint16_t address) {
-  const std::uint8_t value = PinChip::load(at, address);
-  report({at, address, value, false});
-  return value;
+    : PinChip(name, std::move(device), spc3_pins(), kSpc3BoardPins, watched, segment, late), cycle_(*device_, bus) {
+  spc3_bus::strap(
+      bus,
+      [this](Pin pin, Level level) {
+        device_->set(0, number(pin), level);
+        begin_input(number(pin), level);
+      });
 }
 
-void Spc3PinChip::store(Tick at, std::uint16_t address, std::uint8_t value) {
-  PinChip::store(at, address, value);
-  report({at, address, value, true});
+void Spc3PinChip::reset_host(Tick at) {
+  device();
+  cycle_.idle(at);
+  report(at);
 }
 
-void Spc3PinChip::report(const user_cpu::RegisterAccess& access) {
-  if (wanted_.reads) listener_->accessed(number_, access);
+bool Spc3PinChip::intr0(Tick at) {
+  device().advance(at);
+  return level(number(Pin::kXInt)) != 0;
+}
+
+// Listeners act before the next edge.
+void Spc3PinChip::run_edges(Tick until) {
+  hear_line();
+  pauses_ = false;
+  for (Tick at = cycle_.next_edge(); at <= until && !pauses_; at = cycle_.next_edge()) {
+    cycle_.run_edge();
+    report(at);
+    if (cycle_.next_edge() == bus::kNever) tell_access(at);
+  }
+  plan_again();
+}
+
+void Spc3PinChip::tell_access(Tick at) {
   if (!wanted_.actions) return;
-  const char* const words = access.write ? "write {:03X} = {:02X}" : "read {:03X}: {:02X}";
-  listener_->action(number_, access.at, fmt::format(fmt::runtime(words), access.address, access.value));
+  const user_cpu::Access& access = cycle_.access();
+  listener_->action(number_, at,
+                    access.write ? fmt::format("write {:03X} = {:02X}", access.address, access.value)
+                                 : fmt::format("read {:03X}: {:02X}", access.address, cycle_.read_value()));
 }
 
 }  // namespace dsdpv1::tb

@@ -1,6 +1,6 @@
 #pragma once
 // A chip of the SPC3 family on the segment: its core as a device with numbered pins, the enumerators of spc3::Pin, its
-// wiring on a board, and its register call for the user CPU.
+// wiring on a board, and its bus for the user CPU.
 #include <algorithm>
 #include <deque>
 #include <memory>
@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "kinds/spc3/inside_watch.hpp"
-#include "kinds/spc3/user_cpu/register_call.hpp"
+#include "kinds/spc3/user_cpu/bus_cycle.hpp"
 #include "model/spc3/chip.hpp"
 #include "tb/chip/pin_chip.hpp"
-#include "tb/chip/user_cpu/register_access.hpp"
+#include "tb/chip/user_cpu/register_port.hpp"
 
 namespace dsdpv1::tb {
 
@@ -80,20 +80,35 @@ class Spc3Device : public PinDevice, private RegisterPort {
   Spc3Inside inside_;
 };
 
-class Spc3PinChip : public PinChip, private spc3_user::RegisterCall {
+class Spc3PinChip : public PinChip, private user_cpu::HostBus {
  public:
-  Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, PinMask watched, bus::Segment& segment,
-              bool late);
+  /// `bus`: the straps of the board.
+  Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, spc3::Bus bus, PinMask watched,
+              bus::Segment& segment, bool late);
 
   /// RESET is high-active.
   void set_reset(Tick at, bool released) override { PinChip::set_reset(at, !released); }
-  /// Null for RTL, which has no register call.
-  user_cpu::UserSide* user_side() override { return has_registers() ? static_cast<RegisterCall*>(this) : nullptr; }
+  void reset_host(Tick at) override;
+  user_cpu::UserSide* user_side() override { return static_cast<user_cpu::HostBus*>(this); }
 
  private:
-  std::uint8_t load(Tick at, std::uint16_t address) override;
-  void store(Tick at, std::uint16_t address, std::uint8_t value) override;
-  void report(const user_cpu::RegisterAccess& access);
+  void report(Tick at) { report_host(at, spc3::number(spc3::Pin::kXCs), spc3::number(spc3::Pin::kDbIn)); }
+  void tell_access(Tick at);
+
+  // user_cpu::HostBus
+  bool intr0(Tick at) override;
+  bool is_used_from_anywhere() const override { return true; }
+  void set_wait(const user_cpu::WaitTiming& wait) override { cycle_.set_wait(wait); }
+  void begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) override {
+    cycle_.begin(at, access, timing);
+  }
+  Tick next_edge() const override { return cycle_.next_edge(); }
+  void run_edges(Tick until) override;
+  Tick end() const override { return cycle_.end(); }
+  std::uint8_t read_value() const override { return cycle_.read_value(); }
+  bool last_read_was_bad() const override { return cycle_.last_read_was_bad(); }
+
+  spc3_user::BusCycle cycle_;
 };
 
 }  // namespace dsdpv1::tb

@@ -57,7 +57,7 @@ const WordKey* word_key(std::string_view parameter) {
        {"The six standard bytes of a diagnosis (A39).",
         {{0, "ram", "written into its buffer"}, {1, "answer", "only sent"}}}},
       {"clock",
-       {"The clock in MHz; with 24 event_delay, int_delay, ready and ready_release double (A44).",
+       {"The clock in MHz; with 24 event_delay, int_delay, ready, ready_release and strobe double (A44).",
         {{24, "24", ""}, {48, "48", ""}}}},
       {"ready_rule",
        {"An access that ends before XREADY (A42).",
@@ -92,7 +92,14 @@ void add_parameter(  // NOLINT(readability-function-size): as the macro has it
 }
 
 ChipKeys chip_keys_of(Variant variant) {
+  using spc3::Bus;
   ChipKeys o("chip", "The parameters of the chip that its rulings mark (p) (docs/spc3.md), for all slaves.");
+  o.word("bus", &Spc3Settings::bus,
+         std::vector<keys::WordFor<Bus>>{{Bus::kIntelAsync, "intel_async", "XCS, XRD, XWR; XREADY"},
+                                         {Bus::kIntelSync, "intel_sync", "80C32: ALE, XRD, XWR"},
+                                         {Bus::kMotorolaAsync, "motorola_async", "XCS, AS, R_W; XDTACK"},
+                                         {Bus::kMotorolaSync, "motorola_sync", "68HC11: XCS, E_CLOCK, R_W"}},
+         "The bus of the user CPU: the straps XINT/MOT and MODE (table 6.1).");
 #define SPC3_PARAMETER(name, initial, least, most, unit, ruling, text) \
   add_parameter(o, variant, #name, &spc3::Config::name, {least, most}, unit, text " (" ruling ").");
 #include "model/spc3/parameters.inc"
@@ -107,6 +114,33 @@ const keys::Object& spc3_chip_keys(Variant variant) {
   return all.at(static_cast<std::size_t>(variant));
 }
 
+namespace {
+
+const ObjectOf<Spc3Access>& access_keys() {
+  static const ObjectOf<Spc3Access> keys = [] {
+    using A = Spc3Access;
+    const Range time = {0, 100 * bus::kTicksPerUs}, low = {1, 100 * bus::kTicksPerUs};
+    ObjectOf<A> o(
+        "access",
+        "Times at which the user CPU moves its bus pins; the strobe is XRD, XWR, AS or E_CLOCK. No document has "
+        "the chip's limits (A42). The defaults are those of an STM32F103 at 72 MHz.");
+    o.time("address_setup", &A::address_setup, time, "AB, R_W and ALE before the strobe.");
+    o.time("cs_lead", &A::cs_lead, time, "XCS before the strobe.");
+    o.time("rd_low", &A::rd_low, low, "The strobe of a read.");
+    o.time("rd_sample", &A::rd_sample, time, "From the begin of the strobe until DB is sampled.");
+    o.time("wr_low", &A::wr_low, low, "The strobe of a write.");
+    o.time("data_setup", &A::data_setup, time, "DB before the end of the strobe.");
+    o.time("data_hold", &A::data_hold, time, "DB after the strobe.");
+    o.time("address_hold", &A::address_hold, time, "AB and R_W after the strobe.");
+    o.time("cs_trail", &A::cs_trail, time, "XCS after the strobe.");
+    o.time("recovery", &A::recovery, time, "From the last edge of one access to the first of the next.");
+    return o;
+  }();
+  return keys;
+}
+
+}  // namespace
+
 const keys::Object& spc3_user_keys() {
   using spc3_user::Mode;
   static const ObjectOf<Spc3User> keys = [] {
@@ -118,8 +152,12 @@ const keys::Object& spc3_user_keys() {
         std::vector<keys::WordFor<Mode>>{{Mode::kInterrupt, "interrupt", "X/INT calls a handler, which judges"},
                                          {Mode::kPolled, "polled", "the main loop reads the requests in each cycle"}},
         "How the program gets the chip's events.");
-    o.time("access", &U::access, {1, bus::kTicksPerMs},
-           "An access to one byte with the instructions round it. It takes effect at its end (A16).");
+    o.object("access", &U::access, access_keys(), "Its accesses.");
+    o.boolean(
+        "wait", &U::wait,
+        "XREADY is connected: the CPU looks at it each 13.9 ns and ends the strobe 55.6 ns after it has fallen. Not "
+        "with the synchronous buses.");
+    o.time("overhead", &U::overhead, short_time, "Instructions between two accesses.");
     o.time("interrupt_latency", &U::interrupt_latency, short_time,
            "From X/INT to the first instruction of its handler.");
     o.integer("wd_baud_control", &U::wd_baud_control, {1, 255}, "",

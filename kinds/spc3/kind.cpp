@@ -7,6 +7,7 @@
 #include "kinds/spc3/checks/check.hpp"
 #include "kinds/spc3/checks/checks.hpp"
 #include "kinds/spc3/chip.hpp"
+#include "kinds/spc3/port/last_access.hpp"
 #include "kinds/spc3/settings.hpp"
 #include "kinds/spc3/user_cpu/native_user.hpp"
 #include "model/spc3/reasons.hpp"
@@ -28,6 +29,7 @@ class Spc3Kind : public ChipKind {
   int cells() const override { return row(variant_).ram_size; }
 
   const keys::Object& chip_keys() const override { return spc3_chip_keys(variant_); }
+  bool is_strap(const std::string& key) const override { return key == "bus"; }
   std::unique_ptr<OwnSettings> make_chip_settings() const override {
     auto settings = std::make_unique<Spc3Settings>();
     settings->variant = variant_;
@@ -60,16 +62,20 @@ class Spc3Kind : public ChipKind {
   const checks::RuleTable& rules() const override { return spc3_checks::rules(); }
   PinMask checked_pins() const override { return spc3_checks::Checks::kPins; }
   std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
-                                                  const OwnSettings* /*chip*/) const override {
-    return std::make_unique<spc3_checks::Checks>(limits, variant_, spc3_pins());
+                                                  const OwnSettings* chip) const override {
+    const spc3::Bus bus = chip == nullptr ? spc3::Bus::kIntelAsync : static_cast<const Spc3Settings*>(chip)->bus;
+    return std::make_unique<spc3_checks::Checks>(limits, variant_, spc3_pins(), bus);
   }
 
+  std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Spc3LastAccess>(); }
   std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {
     return std::make_unique<Spc3Device>(spc3_config_of(request));
   }
   std::unique_ptr<PinChip> make_pin_chip(const ChipRequest& request, std::unique_ptr<PinDevice> device,
                                          bus::Segment& segment) const override {
-    return std::make_unique<Spc3PinChip>(request.name, std::move(device), request.watched, segment, request.late);
+    return std::make_unique<Spc3PinChip>(request.name, std::move(device),
+                                         static_cast<const Spc3Settings&>(request.settings).bus, request.watched,
+                                         segment, request.late);
   }
   MakeUser make_user(const UserRequest& request) const override;
 
@@ -109,9 +115,14 @@ MakeUser Spc3Kind::make_user(const UserRequest& request) const {
   const auto& own = static_cast<const Spc3User&>(*request.slave.user_cpu.own);
   auto firmware = static_cast<const spc3_user::FirmwareOptions&>(own);
   firmware.vpc3 = variant_ == Variant::kVpc3;
-  auto& chip = static_cast<spc3_user::RegisterCall&>(*request.chip.user_side());
-  return [&slave = request.slave, &own, firmware, &chip](const user_cpu::StationConfig& station, Tick start) {
-    return std::make_unique<spc3_user::NativeUser>(chip, own, firmware,
+  user_cpu::CpuTiming timing;
+  timing.access = own.access;
+  timing.overhead = own.overhead;
+  timing.interrupt_latency = own.interrupt_latency;
+  auto& bus = static_cast<user_cpu::HostBus&>(*request.chip.user_side());
+  bus.set_wait({own.wait, true});
+  return [&slave = request.slave, timing, firmware, &bus](const user_cpu::StationConfig& station, Tick start) {
+    return std::make_unique<spc3_user::NativeUser>(bus, timing, firmware,
                                                    program_options(slave.user_cpu, within_ram(station, slave)), start);
   };
 }

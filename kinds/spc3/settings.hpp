@@ -1,16 +1,28 @@
 #pragma once
 // Settings in a scenario for a chip of the SPC3 family: its parameters, and the user CPU.
-#include "kinds/spc3/user_cpu/native_cpu.hpp"
 #include "kinds/spc3/user_cpu/program.hpp"
+#include "kinds/user_cpu/cpu.hpp"
+#include "model/spc3/bus_lines.hpp"
 #include "model/spc3/config.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb {
 
-struct Spc3Settings : OwnSettings, spc3::Config {};
+struct Spc3Settings : OwnSettings, spc3::Config {
+  spc3::Bus bus = spc3::Bus::kIntelAsync;  ///< the straps XINT/MOT and MODE
+};
 
-struct Spc3User : OwnSettings, spc3_user::CpuTiming, spc3_user::FirmwareOptions {};
+struct Spc3Access : dsdpv1::AccessTiming {
+  int line = 0;
+};
+
+struct Spc3User : OwnSettings, spc3_user::FirmwareOptions {
+  Spc3Access access;
+  bool wait = true;  ///< XREADY is connected
+  Tick overhead = user_cpu::CpuTiming().overhead;
+  Tick interrupt_latency = 2000;
+};
 
 // The keys (ChipKind::chip_keys, user_keys).
 const keys::Object& spc3_chip_keys(spc3::Variant variant);

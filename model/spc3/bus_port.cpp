@@ -10,14 +10,9 @@ namespace {
 using profibus::first_edge_after;
 using profibus::kNever;
 
-constexpr std::uint8_t kFloating = 0xFF;  // DB that nobody drives
+constexpr std::uint8_t kFloating = 0xFF;  // DB without a driver
 
 }  // namespace
-
-BusPort::BusPort(profibus::EventLog& log, const Config& config, AddressMap& map)
-    : log_(log), config_(config), map_(map), inputs_() {
-  for (int pin = 0; pin < kPinCount; ++pin) inputs_[static_cast<std::size_t>(pin)] = kPinRows[pin].level;
-}
 
 void BusPort::reset() {
   enabled_ = false;
@@ -27,48 +22,52 @@ void BusPort::reset() {
   ready_at_ = release_at_ = kNever;
 }
 
+void BusPort::release(Cycle now) {
+  enabled_ = true;
+  if (access_ != Access::kNone) begin(now * profibus::kTicksPerCycle, access_);
+}
+
 void BusPort::set(Tick at, Pin pin, Level level) {
-  if (std::exchange(inputs_[number(pin)], level) == level) return;
-  switch (pin) {
-    case Pin::kXTest0:
-    case Pin::kXTest1:
-      if (level == 0) log_.at_tick(at, Reason::kTestPin, pin == Pin::kXTest1 ? 1 : 0);
-      return;
-    case Pin::kXCs:
-    case Pin::kXRd:
-    case Pin::kXWr: return follow_strobes(at);
-    default: return;
+  if (!lines_.set(pin, level)) return;
+  if (pin == Pin::kXTest0 || pin == Pin::kXTest1) {
+    if (level == 0) log_.at_tick(at, Reason::kTestPin, pin == Pin::kXTest1 ? 1 : 0);
+    return;
   }
+  if (pin != Pin::kDbIn) follow_strobes(at);
 }
 
 // --- strobes ---------------------------------------------------------------------------------------------------------
 
-bool BusPort::strobes(Access access) const {
-  return !is_high(Pin::kXCs) && !is_high(access == Access::kRead ? Pin::kXRd : Pin::kXWr);
-}
-
-// With both strobes low the first goes on, and the other begins when the first has ended.
+// With both strobes low the first continues, and the other begins when the first has ended.
 void BusPort::follow_strobes(Tick at) {
-  if (access_ != Access::kNone && !strobes(access_)) end(at);
-  const bool reads = strobes(Access::kRead), writes = strobes(Access::kWrite);
+  const bool reads = lines_.reads(), writes = lines_.writes();
+  if (access_ != Access::kNone && !(access_ == Access::kRead ? reads : writes)) end(at);
   if (access_ == Access::kNone && (reads || writes)) begin(at, reads ? Access::kRead : Access::kWrite);
   if (!reads || !writes || std::exchange(told_both_, true)) return;
-  log_.at_tick(at, Reason::kBothStrobes, static_cast<unsigned>(level(Pin::kAb)), access_ == Access::kRead ? 0 : 1);
+  log_.at_tick(at, Reason::kBothStrobes, shown_address(), access_ == Access::kRead ? 0 : 1);
 }
 
 void BusPort::begin(Tick at, Access access) {
   access_ = access;
   acted_ = told_early_ = told_both_ = false;
-  if (!enabled_) return log_.at_tick(at, Reason::kInReset, static_cast<unsigned>(level(Pin::kAb)));
-  const std::uint32_t early = map_.early_ready() ? 1 : 0;
-  ready_at_ = first_edge_after(at) + delay_of(config_, config_.ready - early);
+  if (!enabled_) return;
+  await_answer(at);
   if (access == Access::kRead) db_out_ = kLevelX;
+}
+
+// A16, A42.
+void BusPort::await_answer(Tick at) {
+  const Cycle seen = first_edge_after(at);
+  if (!is_synchronous(lines_.bus()))
+    ready_at_ = seen + delay_of(config_, config_.ready - (map_.early_ready() ? 1 : 0));
+  else
+    ready_at_ = access_ == Access::kRead ? seen + delay_of(config_, config_.strobe) : kNever;
 }
 
 // A16: a write acts now, and so does a read without its answer.
 void BusPort::end(Tick at) {
   const Access ended = std::exchange(access_, Access::kNone);
-  if (!enabled_) return;
+  if (!enabled_) return log_.at_tick(at, Reason::kInReset, shown_address());
   const bool lost = ready_at_ != kNever && is_early(at, ended);
   if (ended == Access::kRead) {
     if (!acted_ && !lost) read(at);
@@ -82,8 +81,9 @@ void BusPort::end(Tick at) {
 
 // A42: reports an access that is used before it is ready. Returns true if it is not served.
 bool BusPort::is_early(Tick at, Access access) {
+  if (is_synchronous(lines_.bus())) return false;
   if (!std::exchange(told_early_, true))
-    log_.at_tick(at, Reason::kBeforeReady, static_cast<unsigned>(level(Pin::kAb)),
+    log_.at_tick(at, Reason::kBeforeReady, shown_address(),
                  static_cast<unsigned>(ready_at_ - at / profibus::kTicksPerCycle), access == Access::kRead ? 0 : 1);
   return config_.ready_rule != 0;
 }
@@ -91,7 +91,7 @@ bool BusPort::is_early(Tick at, Access access) {
 // --- what an access does ---------------------------------------------------------------------------------------------
 
 bool BusPort::knows_address(Tick at) {
-  if (level(Pin::kAb) >= 0) return true;
+  if (lines_.address() >= 0) return true;
   log_.at_tick(at, Reason::kUnknownAddress);
   return false;
 }
@@ -99,12 +99,12 @@ bool BusPort::knows_address(Tick at) {
 void BusPort::read(Tick at) {
   acted_ = true;
   if (!knows_address(at)) return;
-  db_out_ = map_.read(first_edge_after(at), static_cast<Address>(level(Pin::kAb)));
+  db_out_ = map_.read(first_edge_after(at), static_cast<Address>(lines_.address()));
 }
 
 void BusPort::write(Tick at) {
   if (!knows_address(at)) return;
-  const auto address = static_cast<Address>(level(Pin::kAb));
+  const auto address = static_cast<Address>(lines_.address());
   Level value = level(Pin::kDbIn);
   if (value < 0) {
     log_.at_tick(at, Reason::kUnknownData, address);
@@ -127,7 +127,7 @@ void BusPort::eval(Cycle now) {
   }
   if (now != ready_at_) return;
   ready_at_ = release_at_ = kNever;
-  xready_ = false;
+  xready_ = is_synchronous(lines_.bus());
   if (access_ == Access::kRead && !acted_) read(now * profibus::kTicksPerCycle);
 }
 

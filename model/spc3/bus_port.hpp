@@ -1,29 +1,29 @@
 #pragma once
 // The CPU's bus at the pins (M tables 2.1 and 6.1; rulings A16, A42): strobes and DB with tick resolution, ready and
-// the answer of a read at rising edges. Asynchronous Intel: XCS with XRD or XWR, AB, DB, XREADY.
+// the answer of a read at rising edges.
 #include <algorithm>
-#include <array>
 
 #include "model/profibus/event_log.hpp"
 #include "model/spc3/address_map.hpp"
-#include "model/spc3/pins.hpp"
+#include "model/spc3/bus_lines.hpp"
 
 namespace dsdpv1::spc3 {
 
 class BusPort {
  public:
-  BusPort(profibus::EventLog& log, const Config& config, AddressMap& map);
+  BusPort(profibus::EventLog& log, const Config& config, AddressMap& map) : log_(log), config_(config), map_(map) {}
 
-  /// RESET is high: accesses are reported and do nothing until release().
+  /// RESET is high: accesses that end before release() are reported and do nothing.
   void reset();
-  void release() { enabled_ = true; }
+  /// At the edge of `now`. An access under way begins.
+  void release(Cycle now);
   /// A change of an input that is neither RESET nor of the line.
   void set(Tick at, Pin pin, Level level);
-  Level level(Pin pin) const { return inputs_[number(pin)]; }
+  Level level(Pin pin) const { return lines_.level(pin); }
   /// DB as a user gets it who samples at `at`. A read that has not been ready is served then, or X (A42).
   Level user_samples(Tick at);
 
-  /// The rising edge of `now`, after all other blocks: ready, and the answer of a read.
+  /// The rising edge of `now`, after all other blocks: XREADY, and the answer of a read.
   void eval(Cycle now);
   Cycle next() const { return std::min(ready_at_, release_at_); }
   bool xready() const { return xready_; }
@@ -32,22 +32,21 @@ class BusPort {
 
   template <class Archive>
   void store(Archive& archive) {
-    auto& [log, config, map, inputs, enabled, access, acted, early, both, xready, db_out, ready_at, release_at] = *this;
+    auto& [log, config, map, lines, enabled, access, acted, early, both, xready, db_out, ready_at, release_at] = *this;
     archive.given(log, config, map);
-    for (Level& each : inputs) archive.within(kLevelX, kHighestLevel, each);
     archive.within(kLevelX, Level{0xFF}, db_out);
     archive.within(Access::kNone, Access::kWrite, access);
-    archive(enabled, acted, early, both, xready);
+    archive(lines, enabled, acted, early, both, xready);
     archive.cycles(ready_at, release_at);
   }
 
  private:
   enum class Access : std::uint8_t { kNone, kRead, kWrite };
 
-  bool is_high(Pin pin) const { return level(pin) != 0; }
-  bool strobes(Access access) const;
   void follow_strobes(Tick at);
   void begin(Tick at, Access access);
+  void await_answer(Tick at);
+  unsigned shown_address() const { return static_cast<unsigned>(lines_.address()); }
   void end(Tick at);
   bool is_early(Tick at, Access access);
   void read(Tick at);
@@ -57,13 +56,14 @@ class BusPort {
   profibus::EventLog& log_;
   const Config& config_;
   AddressMap& map_;
-  std::array<Level, kPinCount> inputs_;
+  BusLines lines_;
   bool enabled_ = false;
   Access access_ = Access::kNone;
   bool acted_ = false;                           ///< the running read has its answer
   bool told_early_ = false, told_both_ = false;  ///< reported for the running access
   bool xready_ = true;
   Level db_out_ = kLevelZ;
+  /// Edges: the answer of a read with XREADY, if the bus has it; the rise of XREADY.
   Cycle ready_at_ = profibus::kNever, release_at_ = profibus::kNever;
 };
 

@@ -196,7 +196,8 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   if (cycle == release_at) {
     release_at = kNever;
     running = true;
-    port.release();
+    port.release(cycle);
+    publish_bus(cycle * kTicksPerCycle);
   }
   cts.eval(cycle, station);
   if (!skips() || std::min(station.next(), station.unseen()) <= cycle) station.eval(cycle);

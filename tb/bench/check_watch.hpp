@@ -37,9 +37,6 @@ class CheckWatch : public Observer {
   void looked(std::size_t slave, PinNumber pin, Tick at) override {
     if (checks::ChipChecks* own = of(slave)) own->looked(pin, at);
   }
-  void accessed(std::size_t slave, const user_cpu::RegisterAccess& access) override {
-    if (checks::ChipChecks* own = of(slave)) own->register_accessed(access);
-  }
   void event(std::size_t slave, const profibus::Event& event) override {
     if (checks::ChipChecks* own = of(slave)) own->event(event);
   }

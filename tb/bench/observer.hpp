@@ -133,9 +133,6 @@ class Observers : public ChipListener {
   void follows(std::size_t slave, PinNumber pin) override { tell(&Observer::follows, slave, pin); }
   void read(std::size_t slave, Tick sample) override { tell(&Observer::read, slave, sample); }
   void looked(std::size_t slave, PinNumber pin, Tick at) override { tell(&Observer::looked, slave, pin, at); }
-  void accessed(std::size_t slave, const user_cpu::RegisterAccess& access) override {
-    tell(&Observer::accessed, slave, access);
-  }
   void inside(std::size_t slave, Tick at, std::size_t signal, Level level, const std::string& word) override {
     tell(&Observer::inside, slave, at, signal, level, word);
   }

@@ -9,7 +9,6 @@
 #include "model/profibus/event.hpp"
 #include "model/profibus/rm_registry.hpp"
 #include "tb/chip/pins/pins.hpp"
-#include "tb/chip/user_cpu/register_access.hpp"
 #include "tb/chip/user_cpu/user_side.hpp"
 
 namespace dsdpv1::tb {
@@ -74,8 +73,6 @@ class ChipListener {
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
   /// The user CPU moves a pin as it has seen another: it looked at `pin` last at `at`, negative: never.
   virtual void looked(std::size_t /*slave*/, PinNumber /*pin*/, Tick /*at*/) {}
-  /// The user CPU has made an access that has no edges.
-  virtual void accessed(std::size_t /*slave*/, const user_cpu::RegisterAccess& /*access*/) {}
   /// An internal signal (ChipKind::inner_signals) has changed; signals of words have no level, others no word. Only
   /// with ChipRequest::inside.
   virtual void inside(std::size_t /*slave*/, Tick /*at*/, std::size_t /*signal*/, Level /*level*/,
@@ -84,7 +81,7 @@ class ChipListener {
   virtual void action(std::size_t /*slave*/, Tick /*at*/, const std::string& /*words*/) {}
 };
 
-/// Optional reports; `reads`: also looked() and accessed(). Without runs all changes are reported.
+/// Optional reports; `reads`: also looked(). Without runs all changes are reported.
 struct ChipNews {
   bool runs = false, reads = false, inside = false, actions = false;
 };

@@ -24,7 +24,8 @@ std::string text(const std::vector<PinChange>& changes, Tick from) {
 }
 
 struct BusTest : testing::Test {
-  explicit BusTest(spc3::Config config = {}, Variant variant = Variant::kApc3) : bench(variant, config) {
+  explicit BusTest(spc3::Config config = {}, Variant variant = Variant::kApc3, Bus bus = Bus::kIntelAsync)
+      : bench(variant, config), user(bench, bus) {
     bench.power_on();
   }
   /// The changes of DB and XREADY during `act`, counted from an edge of CLK; `act` begins 100 ticks after it.
@@ -41,7 +42,7 @@ struct BusTest : testing::Test {
   std::uint8_t cell(Address address) const { return bench.twins.chip().peek(address); }
 
   Bench bench;
-  BusUser user{bench};
+  BusUser user;
 };
 
 TEST_F(BusTest, AReadAnswersAtReadyAndAWriteActsAtItsEnd) {
@@ -75,24 +76,40 @@ TEST_F(BusTest, ACommandActsOnceAtReady) {
   EXPECT_EQ(cell(regs::kDinSm), after);
 }
 
-TEST_F(BusTest, TheBusAndTheRegisterCallAreOneMap) {
-  Bench other;
+struct EachBus : testing::TestWithParam<Bus> {};
+INSTANTIATE_TEST_SUITE_P(Buses, EachBus,
+                         testing::Values(Bus::kIntelAsync, Bus::kIntelSync, Bus::kMotorolaAsync, Bus::kMotorolaSync));
+
+TEST_P(EachBus, AndTheRegisterCallAreOneMap) {
+  Bench bench, other;
+  bench.power_on();
   other.power_on();
-  const std::pair<Address, int> accesses[] = {{regs::kIrr, 0x0F}, {regs::kIar, 0x03},   {regs::kImr, 0x00},
-                                              {0x16, 5},          {regs::kIrr, -1},     {regs::kNewDin, -1},
-                                              {0x700, 0x55},      {regs::kNewDiag, -1}, {regs::kStatus, -1},
-                                              {0x300, -1},        {regs::kMode0, 0x10}, {regs::kMode1S, 2}};
+  BusUser user(bench, GetParam());
+  const auto swap = [](Address address) { return is_motorola(GetParam()) ? spc3::swapped(address) : address; };
+  const std::pair<Address, int> accesses[] = {
+      {regs::kIrr, 0x0F},     {regs::kIar, 0x03},  {regs::kImr, 0x00},   {0x16, 5},  {regs::kIrr, -1},
+      {regs::kNewDin, -1},    {0x700, 0x55},       {regs::kNewDiag, -1}, {0x18, 7},  {regs::kStatus, -1},
+      {regs::kIrr + 1, 0x20}, {regs::kIr + 1, -1}, {0x300, -1},          {0x19, -1}, {regs::kMode0 + 1, 1},
+      {regs::kMode0, 0x10},   {regs::kMode1S, 2}};
   for (const auto& [address, value] : accesses) {
     if (value >= 0) {
-      user.write(address, static_cast<std::uint8_t>(value));
+      user.write(swap(address), static_cast<std::uint8_t>(value));
       other.store(address, static_cast<std::uint8_t>(value));
     } else {
-      EXPECT_EQ(user.read(address), other.load(address)) << address;
+      EXPECT_EQ(user.read(swap(address)), other.load(address)) << address;
     }
     other.run_cycles(16);
   }
-  for (Address i = 0; i < 0x600; ++i) ASSERT_EQ(cell(i), other.twins.chip().peek(i)) << i;
+  for (Address i = 0; i < 0x600; ++i) ASSERT_EQ(bench.twins.chip().peek(i), other.twins.chip().peek(i)) << i;
   EXPECT_EQ(bench.twins.chip().level(Pin::kXInt), other.twins.chip().level(Pin::kXInt));
+  EXPECT_EQ(bench.count(Reason::kBeforeReady), 0);
+}
+
+TEST(MotorolaBus, ExchangesTheBytesOfWordsOnly) {
+  std::string exchanged;
+  for (Address i = 0; i < 0x600; ++i)
+    if (spc3::swapped(i) != i) exchanged += std::to_string(i) + "-" + std::to_string(spc3::swapped(i)) + " ";
+  EXPECT_EQ(exchanged, "0-1 1-0 2-3 3-2 4-5 5-4 6-7 7-6 24-25 25-24 ");
 }
 
 TEST_F(BusTest, EarlyRdyIsOneClockSooner) {
@@ -131,7 +148,7 @@ TEST_F(BusTest, AnAccessBeforeReadyIsReportedAndServed) {
   EXPECT_EQ(user.end_read(), 3);
   EXPECT_EQ(cell(regs::kDinSm) & 0x30, 0x30);
   EXPECT_EQ(count(Reason::kBeforeReady), 3) << "once in an access";
-  // Nobody samples: the command acts at its end.
+  // Without a sample the command acts at its end.
   user.begin_read(regs::kNewDin);
   user.wait(300);
   user.end();
@@ -238,6 +255,71 @@ TEST_F(BusTest, XtestAtLowIsReported) {
   user.set(Pin::kXTest1, 0);
   EXPECT_EQ(spc3::describe(bench.twins.events.at(0)), "XTEST1 is low: no effect here");
   EXPECT_EQ(bench.twins.chip().level(Pin::kClkOut), spc3::kLevelX) << "A43";
+}
+
+// --- the other buses -------------------------------------------------------------------------------------------------
+
+struct MotorolaAsync : BusTest {
+  MotorolaAsync() : BusTest({}, Variant::kApc3, Bus::kMotorolaAsync) {}
+};
+TEST_F(MotorolaAsync, AsAndXcsAreTheStrobeAndXdtackAnswers) {
+  bench.twins.poke(kCell, 0xA5);
+  EXPECT_EQ(changes_during([&] { EXPECT_EQ(user.read(kCell, 2500), 0xA5); }),
+            "db -2 at 0.100, ready 0 at 7.0, db 165 at 7.0, db -1 at 10.100, ready 1 at 12.0");
+  EXPECT_EQ(changes_during([&] { user.write(kCell, 0x3C); }), "ready 0 at 7.0, ready 1 at 12.0");
+  EXPECT_EQ(cell(kCell), 0x3C);
+  user.write(kCell, 0x3D, 300);
+  EXPECT_EQ(count(Reason::kBeforeReady), 1);
+}
+
+struct MotorolaSync : BusTest {
+  MotorolaSync() : BusTest({}, Variant::kApc3, Bus::kMotorolaSync) {}
+};
+TEST_F(MotorolaSync, AnswersAClockAfterTheStrobeIsSeen) {
+  EXPECT_EQ(changes_during([&] { user.read(kCell); }), "db -2 at 0.100, db 0 at 2.0, db -1 at 10.100");
+}
+
+struct Synchronous : BusTest {
+  static spc3::Config config() {
+    spc3::Config config;
+    config.strobe = 3;
+    return config;
+  }
+  explicit Synchronous(Bus bus = Bus::kMotorolaSync) : BusTest(config(), Variant::kApc3, bus) {}
+};
+TEST_F(Synchronous, HasNoReadyAndAReadActsAfterStrobe) {
+  bench.twins.poke(kCell, 0xA5);
+  EXPECT_EQ(changes_during([&] { EXPECT_EQ(user.read(kCell, 2500), 0xA5); }),
+            "db -2 at 0.100, db 165 at 4.0, db -1 at 10.100");
+  EXPECT_EQ(changes_during([&] { user.write(kCell, 0x3C, 300); }), "");
+  EXPECT_EQ(cell(kCell), 0x3C);
+  user.begin_read(regs::kNewDin);  // shorter than strobe: acts at its end
+  user.wait(300);
+  EXPECT_EQ(cell(regs::kDinSm), 0xE1);
+  user.end();
+  EXPECT_NE(cell(regs::kDinSm), 0xE1);
+  EXPECT_TRUE(bench.twins.events.empty());
+}
+
+struct IntelSync : Synchronous {
+  IntelSync() : Synchronous(Bus::kIntelSync) {}
+};
+TEST_F(IntelSync, LatchesTheAddressAndSelectsItself) {
+  bench.twins.poke(kCell, 0xA5);
+  user.begin_read(kCell);
+  user.set(Pin::kDbIn, 0x44);  // after ALE: no matter
+  user.wait(2500);
+  EXPECT_EQ(bench.twins.chip().level(Pin::kDbOut), 0xA5);
+  user.end();
+  for (const unsigned line : {0x0800U, 0x1000U, 0x8000U}) {  // A15 to A11 (A45)
+    user.write(static_cast<Address>(kCell | line), 0x11);
+    EXPECT_EQ(cell(kCell), 0xA5) << line;
+    user.begin_read(static_cast<Address>(kCell | line));
+    user.wait(2500);
+    EXPECT_EQ(bench.twins.chip().level(Pin::kDbOut), spc3::kLevelZ);
+    user.end();
+  }
+  EXPECT_TRUE(bench.twins.events.empty());
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class CheckFeed {
   void released() { checks_.pin(bench_.now(), static_cast<tb::PinNumber>(Pin::kReset), 0); }
   void accessed(Address address, std::uint8_t value, bool write) {
     catch_up();
-    checks_.register_accessed({bench_.now(), address, value, write});
+    checks_.accessed({bench_.now(), address, value, write});
   }
   void finish() {
     catch_up();

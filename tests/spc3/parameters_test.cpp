@@ -173,6 +173,8 @@ constexpr Row kRows[] = {
     {"ready_release", 3, 2, "BusTimes.AreParametersThatDoubleWith24MHz"},
     {"ready_rule", 0, 1, "BusTest.AnAccessBeforeReadyIsReportedAndServed"},
     {"ready_rule", 1, 0, "StrictBus.GivesNothingBeforeReady"},
+    {"strobe", 1, 2, "MotorolaSync.AnswersAClockAfterTheStrobeIsSeen"},
+    {"strobe", 3, 2, "Synchronous.HasNoReadyAndAReadActsAfterStrobe"},
     {"clock", 48, 24, "Names/EachName.TheEventComesAfterItsDelay/spc3"},
     {"clock", 24, 48, "States.DelaysOfAnSpc3With24MhzAreTwiceAsLong"},
     {"empty_data", 0, 1, "Data.EmptyDataAreClearWithSpecClear"},

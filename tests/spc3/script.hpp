@@ -17,7 +17,8 @@ namespace regs = spc3::regs;
 inline const tb::PinTable& script_pins() {
   static const tb::PinTable pins = [] {
     tb::PinTable table;
-    for (int i = 0; i < spc3::kPinCount; ++i) table.push_back({spc3::name(static_cast<Pin>(i)), 1, i < 2});
+    for (int i = 0; i < spc3::kPinCount; ++i)
+      table.push_back({spc3::kPinRows[i].name, spc3::kPinRows[i].width, spc3::is_input(static_cast<Pin>(i))});
     return table;
   }();
   return pins;
@@ -111,9 +112,9 @@ class Script {
   Tick now = 1000;
 
  private:
-  void access(user_cpu::RegisterAccess access) {
+  void access(spc3_checks::RegisterAccess access) {
     access.at = now += bus::kTicksPerUs;
-    checks.register_accessed(access);
+    checks.accessed(access);
   }
   void telegram(const bus::Telegram& telegram, Tick begin, bool answers = false) {
     bus::WireTelegram wire;

@@ -11,6 +11,7 @@ using spc3::Pin;
 
 void Checks::pin(Tick at, tb::PinNumber pin, tb::Level level) {
   history_.add(at, pin, level);
+  reader_.pin(at, pin, level);
   switch (static_cast<Pin>(pin)) {
     case Pin::kReset: return reset_pin(level != 0);
     case Pin::kRts: return live_.rts(at, level != 0);
@@ -34,7 +35,12 @@ void Checks::reset_pin(bool level) {
 
 // --- accesses --------------------------------------------------------------------------------------------------------
 
-void Checks::register_accessed(const user_cpu::RegisterAccess& access) {
+void Checks::transferred(Tick at, const spc3_bus::BusAccess& access) {
+  if (access.address < 0 || access.data < 0) return;
+  accessed({at, static_cast<std::uint16_t>(access.address), static_cast<std::uint8_t>(access.data), access.write});
+}
+
+void Checks::accessed(const RegisterAccess& access) {
   constexpr std::uint16_t kMap = 0x7FF, kMapOfVpc3 = 0xFFF;
   has_accesses_ = true;
   if (in_reset_) return;

@@ -1,10 +1,10 @@
 #pragma once
-// The rules of the user's side of a chip of the SPC3 family, judged from its accesses, from RESET, RTS, X/INT and
+// The rules of the user's side of a chip of the SPC3 family, judged from the pins of its bus, RESET, RTS, X/INT and
 // XDATAEXCH, and from the telegrams on the line; the chip's events, if it tells them, say when a block came.
 //
 //   spc3_checks::Checks checks(limits, variant, pins);
 //   checks.on_violation(...);
-//   checks.pin(at, pin, level);  // and register_accessed(access), telegram(now, telegram), in order of time
+//   checks.pin(at, pin, level);  // and telegram(now, telegram), in order of time
 //   checks.finish(end);
 #include <functional>
 #include <utility>
@@ -14,25 +14,31 @@
 #include "kinds/spc3/checks/live_rules.hpp"
 #include "kinds/spc3/checks/seen_chip.hpp"
 #include "kinds/spc3/checks/use_rules.hpp"
+#include "kinds/spc3/port/bus_reader.hpp"
 #include "model/spc3/pins.hpp"
 #include "tb/chip/checks/chip_checks.hpp"
 
 namespace dsdpv1::spc3_checks {
 
-class Checks : public checks::ChipChecks {
+class Checks : public checks::ChipChecks, private spc3_bus::AccessSink {
  public:
-  static constexpr tb::PinMask kPins = spc3::mask(spc3::Pin::kReset) | spc3::mask(spc3::Pin::kRts) |
-                                       spc3::mask(spc3::Pin::kXInt) | spc3::mask(spc3::Pin::kXDataExch);
+  static constexpr tb::PinMask kPins =
+      spc3::mask(spc3::Pin::kReset) | spc3::mask(spc3::Pin::kRts) | spc3::mask(spc3::Pin::kXInt) |
+      spc3::mask(spc3::Pin::kXDataExch) | spc3::mask(spc3::Pin::kXIntMot) | spc3::mask(spc3::Pin::kMode) |
+      spc3::mask(spc3::Pin::kXCs) | spc3::mask(spc3::Pin::kXRd) | spc3::mask(spc3::Pin::kXWr) |
+      spc3::mask(spc3::Pin::kAle) | spc3::mask(spc3::Pin::kAb) | spc3::mask(spc3::Pin::kDbIn) |
+      spc3::mask(spc3::Pin::kDbOut) | spc3::mask(spc3::Pin::kXReady);
 
-  /// `pins`: the kind's, with the numbers of spc3::Pin; must outlive it.
-  Checks(const checks::Limits& limits, spc3::Variant variant, const tb::PinTable& pins)
-      : history_(pins), recorder_(rules(), limits, history_), chip_(variant) {}
+  /// `pins`: the kind's, with the numbers of spc3::Pin; must outlive it. `bus`: the straps, until pin() moves them.
+  Checks(const checks::Limits& limits, spc3::Variant variant, const tb::PinTable& pins,
+         spc3::Bus bus = spc3::Bus::kIntelAsync)
+      : history_(pins), recorder_(rules(), limits, history_), reader_(*this, bus), chip_(variant) {}
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
   void pin(Tick at, tb::PinNumber pin, tb::Level level) override;
-  /// Addresses in Intel order.
-  void register_accessed(const user_cpu::RegisterAccess& access) override;
+  /// An access without pins; addresses in Intel order.
+  void accessed(const RegisterAccess& access);
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void event(const profibus::Event& event) override;
   void finish(Tick end) override;
@@ -46,12 +52,19 @@ class Checks : public checks::ChipChecks {
   }
 
  private:
+  // spc3_bus::AccessSink
+  void read_answered(Tick at, const spc3_bus::BusAccess& access) override { transferred(at, access); }
+  void access_ended(Tick at, const spc3_bus::BusAccess& access) override {
+    if (access.write) transferred(at, access);
+  }
+  void transferred(Tick at, const spc3_bus::BusAccess& access);
   void reset_pin(bool level);
   void take(const RegisterAccess& access);
   void pass(Tick now);
 
   checks::PinHistory history_;
   checks::Recorder recorder_;
+  spc3_bus::BusReader reader_;
   SeenChip chip_;
   UseRules use_{recorder_, chip_};
   Blocks blocks_{recorder_, chip_};

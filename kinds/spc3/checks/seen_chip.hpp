@@ -6,16 +6,23 @@
 #include <cstdint>
 #include <optional>
 
+#include "bus/time.hpp"
 #include "model/spc3/variant.hpp"
 #include "registers/spc3_regs.hpp"
-#include "tb/chip/user_cpu/register_access.hpp"
 
 namespace dsdpv1::spc3_checks {
 
 namespace regs = spc3::regs;
 using bus::Tick;
 using regs::Address;
-using user_cpu::RegisterAccess;
+
+/// An access of the user CPU at the tick at which it acts; a read with its answer.
+struct RegisterAccess {
+  Tick at = 0;
+  std::uint16_t address = 0;
+  std::uint8_t value = 0;
+  bool write = false;
+};
 
 constexpr std::uint8_t kMaxBlock = 244;
 

@@ -3,20 +3,22 @@
 #include <utility>
 
 #include "kinds/spc3/user_cpu/program.hpp"
+#include "kinds/user_cpu/native_cpu.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::spc3_user {
 
 class NativeUser : public user_cpu::StationCpu {
  public:
-  NativeUser(RegisterCall& chip, const CpuTiming& timing, const FirmwareOptions& firmware,
+  NativeUser(user_cpu::HostBus& bus, const user_cpu::CpuTiming& timing, const FirmwareOptions& firmware,
              user_cpu::ProgramOptions options, Tick start)
       : program_(firmware, std::move(options)),
         cpu_(
-            chip, timing, [this] { program_.run(cpu_); }, start) {
+            bus, timing, [this](user_cpu::Cpu& cpu) { program_.run(cpu); }, start) {
     program_.on_error = [this](const user_cpu::ProgramError& error) {
       if (on_error) on_error(error);
     };
+    cpu_.on_announce = [this] { announce(); };
   }
 
   Tick next() const override { return cpu_.next(); }
@@ -24,7 +26,7 @@ class NativeUser : public user_cpu::StationCpu {
   void set_others(user_cpu::Others* others) override { cpu_.others = others; }
   /// The program leaves INT_Pol 0: X/INT is low-active.
   void interrupt_changed(Tick at, bool level) override {
-    if (!level) cpu_.interrupt(at);
+    cpu_.intr0_changed(at, level);
     announce();
   }
   void command(Tick now, const user_cpu::Command& command) override {
@@ -38,7 +40,7 @@ class NativeUser : public user_cpu::StationCpu {
 
  private:
   UserProgram program_;
-  NativeCpu cpu_;  // destroyed before the program that it runs
+  user_cpu::NativeCpu cpu_;  // destroyed before the program that it runs
 };
 
 }  // namespace dsdpv1::spc3_user

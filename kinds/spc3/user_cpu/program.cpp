@@ -29,7 +29,7 @@ const char* error_code(spc3_error error) {
 
 }  // namespace
 
-void UserProgram::run(NativeCpu& cpu) {
+void UserProgram::run(user_cpu::Cpu& cpu) {
   cpu_ = &cpu;
   open();
   cpu.wait_until(cpu.now() + options_.start_delay);
@@ -61,11 +61,11 @@ void UserProgram::open() {
 // --- bring-up --------------------------------------------------------------------------------------------------------
 
 void UserProgram::bring_up() {
-  cpu_->on_interrupt(nullptr);
+  cpu_->on_intr0(nullptr);
   while (!initialise()) cpu_->wait_until(cpu_->now() + options_.retry_delay);
   offline_ = interrupted_ = false;
   give_inputs();
-  if (firmware_.mode == Mode::kInterrupt) cpu_->on_interrupt([this] { handler(); });
+  if (firmware_.mode == Mode::kInterrupt) cpu_->on_intr0([this] { handler(); });
   spc3_start(&device_);
 }
 

@@ -9,14 +9,16 @@
 #include <optional>
 #include <vector>
 
+#include "bus/time.hpp"
 #include "driver/spc3/spc3.h"
-#include "kinds/spc3/user_cpu/native_cpu.hpp"
+#include "kinds/user_cpu/cpu.hpp"
 #include "tb/chip/user_cpu/program.hpp"
 #include "tb/chip/user_cpu/program_inputs.hpp"
 
 namespace dsdpv1::spc3_user {
 
 namespace command = user_cpu::command;
+using bus::Tick;
 
 enum class Mode : std::uint8_t { kInterrupt, kPolled };
 
@@ -43,7 +45,7 @@ class UserProgram {
   UserProgram& operator=(const UserProgram&) = delete;
 
   /// The CPU's program, on its stack.
-  void run(NativeCpu& cpu);
+  void run(user_cpu::Cpu& cpu);
   /// Executed in order, each as soon as the program has finished its present work; then wake the CPU.
   void post(const user_cpu::Command& command) { commands_.push_back(command); }
 
@@ -86,7 +88,7 @@ class UserProgram {
   user_cpu::ProgramOptions options_;
   user_cpu::ProgramInputs inputs_{options_};
   std::deque<user_cpu::Command> commands_;
-  NativeCpu* cpu_ = nullptr;
+  user_cpu::Cpu* cpu_ = nullptr;
   spc3_device device_{};
   user_cpu::ProgramCounters counters_;
   std::vector<std::uint8_t> outputs_;

@@ -7,7 +7,6 @@
 #include "bus/monitor/monitor.hpp"
 #include "tb/chip/checks/recorder.hpp"
 #include "tb/chip/pins/pins.hpp"
-#include "tb/chip/user_cpu/register_access.hpp"
 
 namespace dsdpv1::profibus {
 struct Event;
@@ -33,9 +32,6 @@ class ChipChecks {
   virtual void hears_looks() {}
   /// Announces, before the user acts on it, that it looked at `pin` last at `at`; negative: never.
   virtual void looked(tb::PinNumber /*pin*/, Tick /*at*/) {}
-  /// An access of the user CPU, after the pins up to its tick: for chips whose user CPU makes accesses without edges;
-  /// the checks of others read them from the pins.
-  virtual void register_accessed(const user_cpu::RegisterAccess& /*access*/) {}
   /// A telegram of any station that has ended, at `now`.
   virtual void telegram(Tick now, const bus::WireTelegram& telegram) = 0;
   /// Once, at the end of the run.

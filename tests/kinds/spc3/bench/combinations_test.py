@@ -179,7 +179,7 @@ ROWS = [  # what, how, the function
     ("`sweep`, `regress`", "yes", campaigns),
     ("`serve`", "yes", serve),
     ("`compare`, `decode`, `gsd`", "yes: about lines and files", without_chip),
-    ("C API, Python", "scenarios; a chip with its line, `load`, `store`, `peek`, `poke`", c_api_and_python),
+    ("C API, Python", "scenarios; a chip with its pins, `load`, `store`, `peek`, `poke`", c_api_and_python),
     ("`--view tlm`", "refused: its user CPU has no pins there; the [SystemC module](systemc.md#spc3tlmmodule) has no scenario", systemc),
     ("`--engine rtl`, `lockstep`, `cosim`", "refused: no reference RTL", rtl),
     ("`rtl-random`, `rtl-faults`, `verify-rtl`", "refused: no random users", random_rtl),

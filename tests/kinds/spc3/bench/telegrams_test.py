@@ -24,6 +24,7 @@ masters:
   - {name: plc, address: 2, start: 2ms, slaves: [{slave: io, user_prm: "00 01 02", outputs: "01 02"}]}
 """
 KINDS = ("apc3", "spc3", "vpc3")
+OTHER_BUSES = ("intel_sync", "motorola_async", "motorola_sync")
 FAILURES = []
 
 
@@ -55,6 +56,13 @@ def power_on(simulator):
         expect(f"{kind}: what differs", differ, [("00 00 00 00 00 00 00 00", "C0 C1 C2 C3 C4 C5 C6 C7")])
 
 
+def other_buses(simulator):
+    """The line does not show which bus the user CPU has."""
+    usual = telegrams(simulator, POWER_ON)
+    for bus in OTHER_BUSES:
+        expect(f"{bus}: telegrams", telegrams(simulator, POWER_ON, f"chip.bus={bus}") == usual, True)
+
+
 def slow_judge(simulator, scenario):
     """A49: a Set_Prm is taken when it is received, so a Chk_Cfg is served before the user's verdict. S15 has it the DSDPV1's way."""
     usual = telegrams(simulator, scenario, "chip.kind=dsdpv1")
@@ -80,6 +88,7 @@ def long_parameters(simulator, scenario):
 def main():
     simulator = sys.argv[1]
     power_on(simulator)
+    other_buses(simulator)
     with tempfile.TemporaryDirectory() as folder:
         scenario = pathlib.Path(folder, "x.yaml")
         scenario.write_text(SLOW_JUDGE, encoding="utf-8")

@@ -1,0 +1,118 @@
+#include "kinds/spc3/user_cpu/bus_cycle.hpp"
+
+#include <algorithm>
+
+namespace dsdpv1::spc3_user {
+namespace {
+
+using spc3::Bus;
+using spc3::Level;
+using Role = dsdpv1::Pin;  ///< of a pin in HostAccess
+
+constexpr Level kIdleAddress = dsdpv1::HostAccess::kIdleAddress;
+constexpr Level kIdleHigh = 0xFF;  ///< A15 to A8 of an 80C32: not this chip (A45)
+constexpr int kBeforeEnd = 4;      ///< HCLK
+
+Tick clocks(const user_cpu::WaitTiming& wait, Tick count) { return count * bus::kTicksPerSecond / wait.hclk_hz; }
+
+}  // namespace
+
+void BusCycle::idle(Tick at) {
+  set(at, spc3::Pin::kXCs, 1);
+  set(at, spc3::Pin::kXWr, bus_ == Bus::kMotorolaSync ? 0 : 1);
+  set(at, spc3::Pin::kAle, bus_ == Bus::kMotorolaAsync ? 1 : 0);
+  set(at, spc3::Pin::kXRd, 1);
+  set(at, spc3::Pin::kAb, bus_ == Bus::kIntelSync ? kIdleHigh : kIdleAddress);
+  set(at, spc3::Pin::kDbIn, spc3::kLevelZ);
+  edge_ = access_->size();
+}
+
+void BusCycle::begin(Tick at, const Access& access, const dsdpv1::AccessTiming& timing) {
+  dsdpv1::AccessTiming own = timing;
+  if (bus_ == Bus::kIntelSync) own.cs_lead = std::min(own.cs_lead, own.address_setup / 2);
+  access_ = &maker_.make(access.write, access.address, access.value, own);
+  asked_ = access;
+  begin_ = at;
+  shift_ = 0;
+  edge_ = 0;
+  looks_ = 0;
+  waits_ = wait_.on && !spc3::is_synchronous(bus_);
+}
+
+// --- edges -----------------------------------------------------------------------------------------------------------
+
+Tick BusCycle::next_edge() const {
+  if (edge_ == access_->size()) return bus::kNever;
+  return must_look() ? begin_ + first_look() + clocks(wait_, looks_) : begin_ + shift_ + (*access_)[edge_].at;
+}
+
+/// The first look at XREADY, before the sample of a read or the end of the strobe of a write; from the first edge on.
+Tick BusCycle::first_look() const {
+  const dsdpv1::HostAccess::Times& times = access_->times();
+  const Tick end = asked_.write ? times.strobe_end : times.data;
+  return std::max(end - clocks(wait_, kBeforeEnd), times.strobe + 1);
+}
+
+bool BusCycle::must_look() const { return waits_ && (*access_)[edge_].at >= first_look(); }
+
+void BusCycle::run_edge() {
+  const Tick at = next_edge();
+  if (must_look()) return look(at);
+  const Edge& edge = (*access_)[edge_++];
+  switch (edge.pin) {
+    case Role::kA: return address_moves(at, edge.at != access_->times().address_end);
+    case Role::kCsr: return select(at, edge.level == 0);
+    case Role::kDIn: return set(at, spc3::Pin::kDbIn, edge.level);
+    case Role::kDOut: return sample(at);
+    default: return strobe(at, edge.level == 0);
+  }
+}
+
+void BusCycle::look(Tick at) {
+  pins_.advance(at);
+  const bool active = pins_.level(spc3::number(spc3::Pin::kXReady)) == (wait_.while_high ? 0 : 1);
+  waits_ = !active;
+  if (!active) ++looks_;
+  shift_ = clocks(wait_, looks_);
+}
+
+// --- pins ------------------------------------------------------------------------------------------------------------
+
+void BusCycle::address_moves(Tick at, bool begins) {
+  if (!begins) {
+    if (spc3::is_motorola(bus_)) set(at, spc3::Pin::kXRd, 1);
+    return set(at, spc3::Pin::kAb, bus_ == Bus::kIntelSync ? kIdleHigh : kIdleAddress);
+  }
+  if (bus_ == Bus::kIntelSync) {
+    set(at, spc3::Pin::kAle, 1);
+    set(at, spc3::Pin::kAb, static_cast<Level>(asked_.address >> 8));
+    return set(at, spc3::Pin::kDbIn, static_cast<Level>(asked_.address & 0xFF));
+  }
+  if (spc3::is_motorola(bus_)) set(at, spc3::Pin::kXRd, asked_.write ? 0 : 1);
+  const auto address = static_cast<spc3::Address>(asked_.address);
+  set(at, spc3::Pin::kAb, static_cast<Level>(spc3::is_motorola(bus_) ? spc3::swapped(address) : address));
+}
+
+void BusCycle::select(Tick at, bool begins) {
+  if (bus_ != Bus::kIntelSync) return set(at, spc3::Pin::kXCs, begins ? 0 : 1);
+  if (!begins) return;
+  set(at, spc3::Pin::kAle, 0);
+  set(at, spc3::Pin::kDbIn, spc3::kLevelZ);
+}
+
+void BusCycle::strobe(Tick at, bool begins) {
+  switch (bus_) {
+    case Bus::kMotorolaSync: return set(at, spc3::Pin::kXWr, begins ? 1 : 0);
+    case Bus::kMotorolaAsync: return set(at, spc3::Pin::kAle, begins ? 0 : 1);
+    default: return set(at, asked_.write ? spc3::Pin::kXWr : spc3::Pin::kXRd, begins ? 0 : 1);
+  }
+}
+
+void BusCycle::sample(Tick at) {
+  pins_.advance(at);
+  const Level level = pins_.sample(at);
+  bad_ = level < 0;
+  value_ = bad_ ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(level);
+}
+
+}  // namespace dsdpv1::spc3_user

@@ -1,0 +1,61 @@
+#pragma once
+// The user CPU's accesses at the pins of a chip of the SPC3 family, edge by edge, on each of its parallel buses.
+#include <cstddef>
+
+#include "kinds/user_cpu/host_bus.hpp"
+#include "model/dsdpv1/host_access.hpp"
+#include "model/spc3/bus_lines.hpp"
+#include "tb/chip/pin_device.hpp"
+
+namespace dsdpv1::spc3_user {
+
+using bus::Tick;
+using user_cpu::Access;
+
+/// The times are those of dsdpv1::AccessTiming, with the strobe of the bus instead of RD and WR: XRD and XWR, AS or
+/// E_CLOCK. AB and R_W move with A, XCS with CSR; with the latch of the 80C32 ALE falls between A and CSR.
+class BusCycle {
+ public:
+  /// `pins` must outlive it.
+  BusCycle(tb::PinDevice& pins, spc3::Bus bus) : pins_(pins), bus_(bus) {}
+
+  /// The bus at rest.
+  void idle(Tick at);
+  /// The CPU looks at XREADY once in an HCLK, for the first time four before the end of the strobe, and ends it four
+  /// after XREADY has become active (an STM32F103's FSMC, RM0008).
+  void set_wait(const user_cpu::WaitTiming& wait) { wait_ = wait; }
+  void begin(Tick at, const Access& access, const dsdpv1::AccessTiming& timing);
+  Tick next_edge() const;
+  /// The edge due at next_edge().
+  void run_edge();
+  Tick end() const { return begin_ + shift_ + access_->duration(); }
+  std::uint8_t read_value() const { return value_; }
+  bool last_read_was_bad() const { return bad_; }
+  const Access& access() const { return asked_; }
+
+ private:
+  using Edge = dsdpv1::HostAccess::Edge;
+  Tick first_look() const;
+  bool must_look() const;
+  void look(Tick at);
+  void address_moves(Tick at, bool begins);
+  void select(Tick at, bool begins);
+  void strobe(Tick at, bool begins);
+  void sample(Tick at);
+  void set(Tick at, spc3::Pin pin, spc3::Level level) { pins_.set(at, spc3::number(pin), level); }
+
+  tb::PinDevice& pins_;
+  const spc3::Bus bus_;
+  user_cpu::WaitTiming wait_;
+  dsdpv1::HostAccessMaker maker_;
+  const dsdpv1::HostAccess* access_ = &maker_.make(false, 0, 0, {});  ///< the present or last one
+  Access asked_;
+  Tick begin_ = 0, shift_ = 0;
+  std::size_t edge_ = access_->size();
+  Tick looks_ = 0;      ///< at XREADY
+  bool waits_ = false;  ///< XREADY has not been seen active yet
+  std::uint8_t value_ = 0xFF;
+  bool bad_ = false;
+};
+
+}  // namespace dsdpv1::spc3_user
