@@ -174,7 +174,7 @@ void Chip::Impl::evaluate(Tick event, Tick to) {
   const Cycle cycle = event / kTicksPerCycle;
   if (only_sends(cycle)) return send_bits(cycle, to);
   rising_edge(cycle);
-  plan();
+  if (skips()) plan();  // step evaluates each edge
 }
 
 // Most edges of an answering chip change TXD only.

@@ -183,9 +183,9 @@ constexpr Row kRows[] = {
 
 /// The result of a test of this program in which all chips have this value.
 bool passes(const Row& row, std::uint32_t value) {
-  const std::string command = "SPC3_FORCED=" + std::string(row.parameter) + "=" + std::to_string(value) + " '" +
-                              testing::internal::GetArgvs()[0] + "' --gtest_output= --gtest_filter=" + row.test +
-                              " >/dev/null 2>&1";
+  const std::string command = "GTEST_TOTAL_SHARDS=1 SPC3_FORCED=" + std::string(row.parameter) + "=" +
+                              std::to_string(value) + " '" + testing::internal::GetArgvs()[0] +
+                              "' --gtest_output= --gtest_filter=" + row.test + " >/dev/null 2>&1";
   const int status = std::system(command.c_str());  // NOLINT(cert-env33-c,concurrency-mt-unsafe)
   EXPECT_TRUE(WIFEXITED(status)) << command;
   return WEXITSTATUS(status) == 0;

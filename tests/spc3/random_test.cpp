@@ -10,7 +10,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RandomRuns, testing::Range(0U, 12U));
 
 TEST_P(RandomRuns, StepAndSkipAgreeAndStatesContinue) {
   RandomUser user(GetParam(), Engines::kStepAndSkip);
-  user.play(1500);
+  user.play(1000);
   EXPECT_TRUE(user.has_exchanged());
 }
 

@@ -170,7 +170,7 @@ void RandomUser::act() {
   const unsigned what = below(400);
   if (what == 0) return reset();
   if (what < 8) return bench_.run_until(bench_.now() + static_cast<Tick>(below(3'000'000)));
-  if (what < 10) return bench_.run_ms(below(60));
+  if (what < 10) return bench_.run_ms(below(twin_ ? 13 : 60));  // a cycle of step each; BAUD_CONTROL has 10 or 40 ms
   if (bench_.state() != DpState::kDataExch && below(30) == 0) return begin();
   if (what < (twin_ ? 200U : 40U)) return telegram();
   access();

@@ -17,11 +17,11 @@ TEST(Spc3Watchdog, DpControlEndsTheExchangeOfASilentMaster) {
   bench.check_cfg();
   bench.give_inputs({1, 2, 3});
   bench.load(regs::kCfgOk);
-  bench.exchange({7, 7});
+  const Tick request_end = bench.exchange({7, 7}).request_end;
   bench.acknowledge(0xFFFF);
-  bench.run_ms(5);
+  bench.run_until(request_end + 6 * kMs * profibus::kTicksPerCycle);
   EXPECT_EQ(bench.state(), DpState::kDataExch);
-  for (Cycle i = 0; i < 2 * kMs && bench.state() == DpState::kDataExch; ++i) bench.run_cycles(1);
+  for (int i = 0; i < 20 && bench.state() == DpState::kDataExch; ++i) bench.run_cycles(1);
   EXPECT_EQ(bench.state(), DpState::kWaitPrm);
   EXPECT_EQ(wd_state(bench), 1U);
   EXPECT_TRUE(bench.raised(regs::kEventWdTimeout | regs::kEventDataEx | regs::kEventDxOut)) << "at the same edge";
