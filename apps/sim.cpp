@@ -19,6 +19,7 @@
 #include "io/input/input_error.hpp"
 #include "io/output/standard_output.hpp"
 #include "kinds/dsdpv1/board/arm_user.hpp"
+#include "kinds/spc3/board/arm_user.hpp"
 
 namespace dsdpv1 {
 namespace {
@@ -101,6 +102,7 @@ int program(int argc, char** argv) {
   tell_former_name(argv[0]);
 #ifdef DSDPV1_WITH_ARM_BOARD
   tb::add_arm_board();
+  tb::add_spc3_arm_board();
 #endif
   tb::StandardOutput output;
   const int status = carry_out(argc, argv);

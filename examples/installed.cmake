@@ -27,6 +27,8 @@ needs(there firmware arm-none-eabi-gcc)
 if(there)
   shown(firmware ${sim} run ${DSDPV1_TREE}/scenarios/arm_board_12m.yaml --no-progress --set
         user_cpu.elf=${CMAKE_CURRENT_BINARY_DIR}/firmware/device_O2.elf PRINTS "PASSED")
+  shown(firmware_spc3 ${sim} run ${DSDPV1_TREE}/scenarios/spc3_arm.yaml --no-progress --set
+        user_cpu.elf=${CMAKE_CURRENT_BINARY_DIR}/firmware/device_spc3.elf PRINTS "PASSED")
 endif()
 
 # Your RTL compared with the model: it contains two faults, of which the first is found here (docs/tutorials/own_rtl.md).

@@ -94,9 +94,9 @@ void Spc3PinChip::reset_host(Tick at) {
   report(at);
 }
 
-bool Spc3PinChip::intr0(Tick at) {
+bool Spc3PinChip::is_high(Tick at, Pin pin) {
   device().advance(at);
-  return level(number(Pin::kXInt)) != 0;
+  return level(number(pin)) != 0;
 }
 
 // Listeners act before the next edge.

@@ -94,9 +94,11 @@ class Spc3PinChip : public PinChip, private user_cpu::HostBus {
  private:
   void report(Tick at) { report_host(at, spc3::number(spc3::Pin::kXCs), spc3::number(spc3::Pin::kDbIn)); }
   void tell_access(Tick at);
+  bool is_high(Tick at, spc3::Pin pin);
 
   // user_cpu::HostBus
-  bool intr0(Tick at) override;
+  bool intr0(Tick at) override { return is_high(at, spc3::Pin::kXInt); }
+  unsigned lamps(Tick at) override { return is_high(at, spc3::Pin::kXDataExch) ? 1 : 0; }
   bool is_used_from_anywhere() const override { return true; }
   void set_wait(const user_cpu::WaitTiming& wait) override { cycle_.set_wait(wait); }
   void begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) override {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "driver/spc3/spc3.h"
+#include "kinds/board/board_codes.hpp"
 #include "kinds/spc3/settings.hpp"
 #include "model/spc3/reasons.hpp"
 #include "tb/bench/record.hpp"
@@ -60,7 +61,8 @@ std::vector<CodeText> driver_codes() {
 const std::vector<CodeTable>& spc3_codes() {
   static const std::vector<CodeTable> tables = {
       {"The chips of the SPC3 family", "Codes besides those of every DP slave.", chip_codes()},
-      {"The driver of the SPC3 family", "Results of its calls.", driver_codes()}};
+      {"The driver of the SPC3 family", "Results of its calls.", driver_codes()},
+      board_codes()};
   return tables;
 }
 

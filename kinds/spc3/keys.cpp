@@ -1,7 +1,9 @@
 // The keys of the SPC3 family in a scenario, and what a scenario with these chips must not ask for.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -147,16 +149,24 @@ const keys::Object& spc3_user_keys() {
     using U = Spc3User;
     const Range short_time = {0, bus::kTicksPerMs};
     ObjectOf<U> o("user_cpu", "The processor that runs the user program, and its bus to the chip.");
+    o.word("kind", &U::kind,
+           std::vector<keys::WordFor<Spc3Cpu>>{
+               {Spc3Cpu::kNative, "native", "a program of the bench on a CPU whose times are `access` and `overhead`"},
+               {Spc3Cpu::kArm, "arm", kArmText}},
+           "The processor.");
+    add_elf_key(o);
+    add_without_mailbox_key(o);
+    add_processor_keys(o);
+    o.object("fsmc", &U::fsmc, fsmc_keys(), "The times of the ARM board's bus, as registers of its FSMC.");
     o.word(
         "mode", &U::mode,
         std::vector<keys::WordFor<Mode>>{{Mode::kInterrupt, "interrupt", "X/INT calls a handler, which judges"},
                                          {Mode::kPolled, "polled", "the main loop reads the requests in each cycle"}},
         "How the program gets the chip's events.");
     o.object("access", &U::access, access_keys(), "Its accesses.");
-    o.boolean(
-        "wait", &U::wait,
-        "XREADY is connected: the CPU looks at it each 13.9 ns and ends the strobe 55.6 ns after it has fallen. Not "
-        "with the synchronous buses.");
+    o.boolean("wait", &U::wait,
+              "XREADY is connected: the CPU looks at it each 13.9 ns and samples a read 55.6 ns, ends a write 41.7 ns "
+              "after its fall. Not with the synchronous buses.");
     o.time("overhead", &U::overhead, short_time, "Instructions between two accesses.");
     o.time("interrupt_latency", &U::interrupt_latency, short_time,
            "From X/INT to the first instruction of its handler.");
@@ -221,6 +231,29 @@ struct At {
   throw InputError(at.file, line, fmt::format("{}, but a {} {}", what, at.chip, instead));
 }
 
+bool is_one_of(const std::string& key, std::initializer_list<const char*> keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// RESET PE4; X/INT PG6, XDATAEXCH PG12.
+constexpr WiredPins kWired = {0, 0, 0, 0, 0x0010, 0, 0x1040};
+
+/// Keys that only an ARM board has, or only the other CPU.
+void check_cpu(const At& at, const scenario::Slave& slave) {
+  const bool arm = spc3_user_of(slave.user_cpu).kind == Spc3Cpu::kArm;
+  for (const keys::Given& key : slave.user_cpu.given) {
+    if (arm && is_one_of(key.key, {"access", "wait", "overhead", "interrupt_latency"}))
+      throw InputError(at.file, key.line,
+                       fmt::format("{} is that of kind: native, an ARM board has cpi and fsmc", key.key));
+    if (!arm && is_one_of(key.key, {"cpi", "fsmc", "without_mailbox"}))
+      throw InputError(at.file, key.line, fmt::format("{} without kind: arm, expected access", key.key));
+  }
+  if (arm && static_cast<const Spc3Settings&>(*slave.chip).bus != spc3::Bus::kIntelAsync)
+    throw InputError(
+        at.file, slave.user_cpu.line,
+        fmt::format("kind is arm and bus of the chip not intel_async, expected both at slave {}", slave.name.text));
+}
+
 void check_settings(const At& at, const scenario::Slave& slave) {
   constexpr const char* kNoDpv1 = "has no DPV1, expected none of it";
   if (slave.init.prm_mode > 2 || slave.init.cfg_mode > 2)
@@ -248,9 +281,14 @@ void check_action(const At& at, const scenario::Action& action) {
 
 }  // namespace
 
+void check_spc3_user(const Spc3User& user, const std::string& file, const std::string& slave, int line) {
+  check_board_keys(user, user.kind == Spc3Cpu::kArm, kWired, file, slave, line);
+}
+
 void check_spc3_slave(const scenario::Scenario& scenario, const scenario::Slave& slave) {
   const At at{scenario.file, slave.kind->name()};
   check_settings(at, slave);
+  check_cpu(at, slave);
   for (const scenario::Action& action : scenario.script)
     if (action.slave.text == slave.name.text) check_action(at, action);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "io/input/input_error.hpp"
 #include "kinds/spc3/checks/check.hpp"
 #include "kinds/spc3/checks/checks.hpp"
 #include "kinds/spc3/chip.hpp"
@@ -77,7 +78,14 @@ class Spc3Kind : public ChipKind {
                                          static_cast<const Spc3Settings&>(request.settings).bus, request.watched,
                                          segment, request.late);
   }
+  void check_user(const OwnSettings& settings, const OwnSettings& /*chip*/, const keys::Source& source,
+                  const std::string& slave, int where) const override {
+    check_spc3_user(static_cast<const Spc3User&>(settings), source.file, slave, where);
+  }
   MakeUser make_user(const UserRequest& request) const override;
+  bool has_debugger(const scenario::Slave& slave) const override {
+    return spc3_user_of(slave.user_cpu).kind == Spc3Cpu::kArm;
+  }
 
  private:
   const Variant variant_;
@@ -111,15 +119,22 @@ user_cpu::StationConfig within_ram(user_cpu::StationConfig station, const scenar
   return station;
 }
 
+MakeSpc3ArmUser arm_maker = nullptr;
+
 MakeUser Spc3Kind::make_user(const UserRequest& request) const {
-  const auto& own = static_cast<const Spc3User&>(*request.slave.user_cpu.own);
+  const Spc3User& own = spc3_user_of(request.slave.user_cpu);
+  auto& bus = static_cast<user_cpu::HostBus&>(*request.chip.user_side());
+  if (own.kind == Spc3Cpu::kArm) {
+    if (arm_maker != nullptr) return arm_maker(request, bus);
+    throw InputError(request.scenario.file, request.slave.user_cpu.line,
+                     "kind is arm, but this program has no ARM board, allowed without it is native");
+  }
   auto firmware = static_cast<const spc3_user::FirmwareOptions&>(own);
   firmware.vpc3 = variant_ == Variant::kVpc3;
   user_cpu::CpuTiming timing;
   timing.access = own.access;
   timing.overhead = own.overhead;
   timing.interrupt_latency = own.interrupt_latency;
-  auto& bus = static_cast<user_cpu::HostBus&>(*request.chip.user_side());
   bus.set_wait({own.wait, true});
   return [&slave = request.slave, timing, firmware, &bus](const user_cpu::StationConfig& station, Tick start) {
     return std::make_unique<spc3_user::NativeUser>(bus, timing, firmware,
@@ -128,6 +143,8 @@ MakeUser Spc3Kind::make_user(const UserRequest& request) const {
 }
 
 }  // namespace
+
+void set_spc3_arm_maker(MakeSpc3ArmUser make) { arm_maker = make; }
 
 const ChipKind& kind_of(Variant variant) {
   static const std::array<Spc3Kind, spc3::kVariants.size()> kinds = {Spc3Kind(Variant::kApc3), Spc3Kind(Variant::kSpc3),

@@ -10,8 +10,8 @@ using spc3::Level;
 using Role = dsdpv1::Pin;  ///< of a pin in HostAccess
 
 constexpr Level kIdleAddress = dsdpv1::HostAccess::kIdleAddress;
-constexpr Level kIdleHigh = 0xFF;  ///< A15 to A8 of an 80C32: not this chip (A45)
-constexpr int kBeforeEnd = 4;      ///< HCLK
+constexpr Level kIdleHigh = 0xFF;                        ///< A15 to A8 of an 80C32: not this chip (A45)
+constexpr int kBeforeSample = 4, kBeforeEndOfWrite = 3;  ///< HCLK
 
 Tick clocks(const user_cpu::WaitTiming& wait, Tick count) { return count * bus::kTicksPerSecond / wait.hclk_hz; }
 
@@ -49,8 +49,9 @@ Tick BusCycle::next_edge() const {
 /// The first look at XREADY, before the sample of a read or the end of the strobe of a write; from the first edge on.
 Tick BusCycle::first_look() const {
   const dsdpv1::HostAccess::Times& times = access_->times();
-  const Tick end = asked_.write ? times.strobe_end : times.data;
-  return std::max(end - clocks(wait_, kBeforeEnd), times.strobe + 1);
+  const Tick first =
+      asked_.write ? times.strobe_end - clocks(wait_, kBeforeEndOfWrite) : times.data - clocks(wait_, kBeforeSample);
+  return std::max(first, times.strobe + 1);
 }
 
 bool BusCycle::must_look() const { return waits_ && (*access_)[edge_].at >= first_look(); }

@@ -21,8 +21,8 @@ class BusCycle {
 
   /// The bus at rest.
   void idle(Tick at);
-  /// The CPU looks at XREADY once in an HCLK, for the first time four before the end of the strobe, and ends it four
-  /// after XREADY has become active (an STM32F103's FSMC, RM0008).
+  /// As the FSMC of an STM32F103 (RM0008 21.5.4, figures of the asynchronous wait): a read is sampled four HCLK after
+  /// XREADY is active, the strobe of a write ends three after it. The CPU looks once in an HCLK (p).
   void set_wait(const user_cpu::WaitTiming& wait) { wait_ = wait; }
   void begin(Tick at, const Access& access, const dsdpv1::AccessTiming& timing);
   Tick next_edge() const;

@@ -144,8 +144,13 @@ def random_rtl(cell):
 
 
 def board(cell):
-    cell.is_refused("unknown key kind", "run", "x.yaml", "--set", "user_cpu.kind=arm")
+    """More of it: tests/kinds/spc3/board."""
     cell.is_refused("--gdb needs a slave whose user_cpu has kind: arm", "run", "x.yaml", "--gdb", "0")
+    cell.is_refused("is not an ELF file", "run", "x.yaml", "--set", "user_cpu.kind=arm", "--set", "user_cpu.elf=x.yaml")
+
+
+def process(cell):
+    cell.is_refused("kind is \"process\", expected native, arm", "run", "x.yaml", "--set", "user_cpu.kind=process")
 
 
 def accept(cell):
@@ -183,7 +188,8 @@ ROWS = [  # what, how, the function
     ("`--view tlm`", "refused: its user CPU has no pins there; the [SystemC module](systemc.md#spc3tlmmodule) has no scenario", systemc),
     ("`--engine rtl`, `lockstep`, `cosim`", "refused: no reference RTL", rtl),
     ("`rtl-random`, `rtl-faults`, `verify-rtl`", "refused: no random users", random_rtl),
-    ("ARM board, host process, `--gdb`", "refused: `user_cpu` has no `kind`", board),
+    ("ARM board, `--gdb`", "[yes](arm_board.md#a-chip-of-the-spc3-family), on the asynchronous Intel bus", board),
+    ("host process", "refused: `user_cpu` has not this `kind`", process),
     ("`accept`", "refused: its stimuli are for firmware of a DSDPV1", accept),
     ("`calibrate`", "refused: the pins are not those of a DSDPV1", calibrate),
     ("DPV1, `wrong_length`, `overwrite_inputs: false`, `hold_dpram`", "refused: the chips have none of it", not_there),
