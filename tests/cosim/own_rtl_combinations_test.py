@@ -82,7 +82,7 @@ def by_scenario(cell, parameters, pins):
 
 
 def at_random(cell, parameters, pins):
-    done, result = cell.copy.result("rtl-random", "--chip", cell.kind, "--mode", cell.mode, "--cycles", 1000, *settings(parameters), pins=pins)
+    done, result = cell.copy.result("rtl-random", "--chip", cell.kind, "--mode", cell.mode, "--cycles", 1000, "--jobs", 1, *settings(parameters), pins=pins)
     if done.returncode != 0:
         return done, False
     right = result["chip"] == cell.kind and result["cycles"] >= 1000
@@ -212,8 +212,8 @@ def faults_are_found(cell):
     (copy.folder / cell.empty("played")).mkdir()
     shutil.copy2(cell.stimulus, copy.folder / "played")
     (copy.folder / "faults.txt").write_text(f"46 interrupt {name} INTR0 is short\n{SWAPPED_CRC} dpram_move {name} CRC bytes are swapped\n255 nothing - none\n")
-    done = copy.call("rtl-faults", "--chip", cell.kind, "--mode", cell.mode, "--list", "faults.txt", "--directed", "played", "--cycles", 10000, "--tsv", "kills.tsv",
-                     pins="faults_pins.yaml")
+    done = copy.call("rtl-faults", "--chip", cell.kind, "--mode", cell.mode, "--list", "faults.txt", "--directed", "played", "--cycles", 10000,
+                     "--tsv", "kills.tsv", pins="faults_pins.yaml")
     rows = [line.split("\t") for line in (copy.folder / "kills.tsv").read_text().splitlines()[1:]]
     check(done.returncode == 1 and [row[3] for row in rows] == ["yes", "yes", "no"] and rows[0][6:] == [name, "pin INTR0: model 0, RTL 1"] and
           rows[1][6] == name and rows[1][7].startswith(f"pin {cell.pin}: "), f"rtl-faults, {cell.kind}, {cell.mode}", said(done))
