@@ -125,8 +125,9 @@ static void write_organisation(const spc3_device* device, const spc3_config* con
 
 /* Events of an earlier operation, and its interrupt. OFFLINE, an answer does no more than clear its event (A14). */
 static void drop_events(const spc3_device* device) {
-  (void)spc3_get(device, SPC3_REG_PRM_NOT_OK);
-  (void)spc3_get(device, SPC3_REG_CFG_NOT_OK);
+  const uint16_t events = spc3_get_word(device, SPC3_REG_IRR);
+  if ((events & SPC3_REG_EVENT_NEW_PRM) != 0u) (void)spc3_get(device, SPC3_REG_PRM_NOT_OK);
+  if ((events & SPC3_REG_EVENT_NEW_CFG) != 0u) (void)spc3_get(device, SPC3_REG_CFG_NOT_OK);
   spc3_put_word(device, SPC3_REG_IAR, 0xFFFF);
   spc3_put(device, SPC3_REG_MODE_1_S, SPC3_REG_MODE_1_EOI);
 }

@@ -181,6 +181,8 @@ TEST_F(Spc3DriverTest, InterruptsAreMaskedUntilTheOrganisationIsWritten) {
 }
 
 TEST_F(Spc3DriverTest, EventsOfAnEarlierOperationAreDropped) {
+  ASSERT_EQ(initialise(), SPC3_OK);
+  EXPECT_THAT(chip.commands, ElementsAre()) << "no answer without its event";
   chip.events = 0x3F0F;
   ASSERT_EQ(initialise(), SPC3_OK);
   EXPECT_EQ(chip.events, 0);
