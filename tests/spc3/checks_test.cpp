@@ -30,7 +30,69 @@ void start_with(Script& user) {
   user.start();
 }
 
+/// An access at the pins of the asynchronous Intel bus up to XREADY.
+void begin_access(Script& user, Pin strobe) {
+  user.pin(Pin::kAb, 0x300);
+  user.pin(Pin::kDbIn, 0x55);
+  user.pin(Pin::kXCs, 0);
+  user.pin(strobe, 0);
+  user.now += 1000;
+}
+
 const Planted kPlanted[] = {
+    {"BUS_READY", "TooShort",
+     [](Script& user) {
+       begin_access(user, Pin::kXWr);
+       user.pin(Pin::kXWr, 1);
+     },
+     "write of 300H"},
+    {"BUS_SETUP", "AddressMovesInTheStrobe",
+     [](Script& user) {
+       begin_access(user, Pin::kXRd);
+       user.pin(Pin::kAb, 0x301);
+       user.pin(Pin::kXReady, 0);
+       user.pin(Pin::kXRd, 1);
+     },
+     "-84.333 ns"},
+    {"BUS_DATA", "Late",
+     [](Script& user) {
+       begin_access(user, Pin::kXWr);
+       user.pin(Pin::kXReady, 0);
+       user.pin(Pin::kDbIn, 0x56);
+       user.pin(Pin::kXWr, 1);
+     },
+     "1.000 ns of at least 20.833 ns"},
+    {"BUS_HOLD", "NoDataAfterTheStrobe",
+     [](Script& user) {
+       begin_access(user, Pin::kXWr);
+       user.pin(Pin::kXReady, 0);
+       user.pin(Pin::kXWr, 1);
+       user.checks.pin(user.now, spc3::number(Pin::kDbIn), tb::kLevelZ);
+     },
+     "0.000 ns of at least 1.000 ns"},
+    {"BUS_LEVELS", "NoData",
+     [](Script& user) {
+       user.pin(Pin::kDbIn, 1);
+       begin_access(user, Pin::kXWr);
+       user.pin(Pin::kDbIn, tb::kLevelZ);
+       user.now += 1000;
+       user.pin(Pin::kXReady, 0);
+       user.pin(Pin::kXWr, 1);
+     },
+     "DB without levels"},
+    {"BUS_STROBES", "Both",
+     [](Script& user) {
+       begin_access(user, Pin::kXRd);
+       user.pin(Pin::kXReady, 0);
+       user.pin(Pin::kXWr, 0);
+       user.pin(Pin::kXRd, 1);
+       user.pin(Pin::kXReady, 1);
+       user.pin(Pin::kXReady, 0);
+       user.now += 1000;
+       user.pin(Pin::kXWr, 1);
+     },
+     "at once"},
+
     {"START_MODE", "NoDpMode", start_with<regs::kMode0 + 1, 0>, "mode register 0 is 0000"},
     {"START_MODE", "WdTest", start_with<regs::kMode0 + 1, 9>, "mode register 0 is 0900"},
     {"START_STATION", "Address127", start_with<regs::kOrgAddress, 127>, "address 127"},

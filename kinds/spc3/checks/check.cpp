@@ -10,7 +10,9 @@ using checks::kNoLimit;
 using spc3::Pin;
 
 constexpr std::uint32_t kResetPin = mask(Pin::kReset), kInterruptPin = mask(Pin::kXInt),
-                        kExchangePin = mask(Pin::kXDataExch);
+                        kExchangePin = mask(Pin::kXDataExch),
+                        kBusPins = mask(Pin::kXCs) | mask(Pin::kXRd) | mask(Pin::kXWr) | mask(Pin::kAle) |
+                                   mask(Pin::kAb) | mask(Pin::kDbIn) | mask(Pin::kXReady);
 
 }  // namespace
 

@@ -11,6 +11,7 @@ using spc3::Pin;
 
 void Checks::pin(Tick at, tb::PinNumber pin, tb::Level level) {
   history_.add(at, pin, level);
+  bus_.pin(at, static_cast<Pin>(pin), level, reader_.lines());
   reader_.pin(at, pin, level);
   switch (static_cast<Pin>(pin)) {
     case Pin::kReset: return reset_pin(level != 0);
@@ -27,6 +28,7 @@ void Checks::pin(Tick at, tb::PinNumber pin, tb::Level level) {
 
 void Checks::reset_pin(bool level) {
   in_reset_ = level;
+  bus_.reset();
   chip_.reset();
   blocks_.drop();
   interrupt_.reset();

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinds/spc3/checks/blocks.hpp"
+#include "kinds/spc3/checks/bus_rules.hpp"
 #include "kinds/spc3/checks/interrupt_rules.hpp"
 #include "kinds/spc3/checks/live_rules.hpp"
 #include "kinds/spc3/checks/seen_chip.hpp"
@@ -54,7 +55,9 @@ class Checks : public checks::ChipChecks, private spc3_bus::AccessSink {
  private:
   // spc3_bus::AccessSink
   void read_answered(Tick at, const spc3_bus::BusAccess& access) override { transferred(at, access); }
+  void access_began(const spc3_bus::BusAccess& access) override { bus_.began(access, reader_.lines()); }
   void access_ended(Tick at, const spc3_bus::BusAccess& access) override {
+    bus_.ended(at, access, reader_.lines());
     if (access.write) transferred(at, access);
   }
   void transferred(Tick at, const spc3_bus::BusAccess& access);
@@ -65,6 +68,7 @@ class Checks : public checks::ChipChecks, private spc3_bus::AccessSink {
   checks::PinHistory history_;
   checks::Recorder recorder_;
   spc3_bus::BusReader reader_;
+  BusRules bus_{recorder_};
   SeenChip chip_;
   UseRules use_{recorder_, chip_};
   Blocks blocks_{recorder_, chip_};

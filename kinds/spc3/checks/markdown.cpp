@@ -12,7 +12,7 @@ namespace {
 const char* const kIntroduction = R"(
 ## The checks of the SPC3 family
 
-The checks of `apc3`, `spc3` and `vpc3` (`kinds/spc3/checks/`) see the user's accesses, each a byte with its address and tick; RESET, RTS, X/INT and
+The checks of `apc3`, `spc3` and `vpc3` (`kinds/spc3/checks/`) see the pins of the user's bus, and from them its accesses; RESET, RTS, X/INT and
 XDATAEXCH; and the telegrams on the line. So they judge every user CPU in the same way. Modes, limits and records are those above. Clauses and tables are those of the APC3
 manual, rulings those of [spc3.md](spc3.md). Addresses are in Intel order.
 
@@ -22,9 +22,10 @@ manual, rulings those of [spc3.md](spc3.md). Addresses are in Intel order.
 | `USE_...` | each access: owner of the buffer, cells that must not change online, the RAM's end |
 | `ACK_...` | the answers to Set_Prm, Chk_Cfg and Set_Slave_Address |
 | `IRQ_...` | IRR, IAR, IMR and EOI |
+| `BUS_...` | the pins of each access; no document has the times, so the limits are those of this project |
 | `LIVE_...` | in DATA_EX: outputs, inputs, user watchdog |
 
-These find the same as events of the chip ([reasons.md](reasons.md)), for each access: `USE_RAM` and `RAM_VIOLATION`; `USE_ORGANISATION` and `MODE0_ONLINE`, `ORGANISATION_ONLINE`.
+These find the same as events of the chip ([reasons.md](reasons.md)), for each access: `BUS_READY` and `BEFORE_READY`; `BUS_LEVELS` and `UNKNOWN_ADDRESS`, `UNKNOWN_DATA`; `BUS_STROBES` and `BOTH_STROBES`; `USE_RAM` and `RAM_VIOLATION`; `USE_ORGANISATION` and `MODE0_ONLINE`, `ORGANISATION_ONLINE`.
 A write of the value that a cell has already does not violate `USE_ORGANISATION`. `NOT_ALLOWED` (answer 11) violates `ACK_FOUNDED` only without an event that the user has seen:
 the master may have left meanwhile.
 

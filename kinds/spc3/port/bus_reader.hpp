@@ -26,11 +26,13 @@ class AccessSink {
   virtual void access_ended(Tick /*at*/, const BusAccess& /*access*/) {}
 };
 
-/// The levels of a board's straps; `set(pin, level)`.
+/// The straps of a board and its strobes at rest, from power-on; `set(pin, level)`.
 template <class Set>
 void strap(spc3::Bus bus, const Set& set) {
   set(spc3::Pin::kXIntMot, Level{spc3::is_motorola(bus)});
   set(spc3::Pin::kMode, Level{spc3::is_synchronous(bus)});
+  set(spc3::Pin::kXWr, Level{bus != spc3::Bus::kMotorolaSync});
+  set(spc3::Pin::kAle, Level{bus == spc3::Bus::kMotorolaAsync});
 }
 
 class BusReader {
