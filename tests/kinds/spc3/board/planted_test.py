@@ -57,7 +57,7 @@ def violated(result):
 def main():
     simulator, elf = sys.argv[1:3]
     ids = dict(CHECKS)
-    faults = [f"{name} is planted, and no check has that name" for name in MISTAKES if name not in ids and not name.startswith("Bus")]
+    faults = [f"{name} is planted, and no check has that name" for name in MISTAKES if name not in ids]
     faults += [f"{check} has no mistake in planted.c" for name, check in CHECKS if (name in MISTAKES) == (check in NOT_OF_FIRMWARE)]
     checks = {number: ids[name] for number, name in enumerate(MISTAKES, 1) if name in ids}
     checks[0] = "NONE"
