@@ -126,6 +126,17 @@ def c_api_and_python(cell):
     chip.poke(0x50, 0xA5)
     cell.expect("peek", chip.peek(0x50), 0xA5)
     cell.expect("buffers after RESET", (chip.peek(0x08), chip.peek(0x0A), chip.peek(0x0C)), (0xE1, 0xE1, 0x09))
+    read_at_the_pins(cell, chip)
+
+
+def read_at_the_pins(cell, chip):
+    """An access to 50H on the asynchronous Intel bus."""
+    chip.set("RESET", 0)
+    for tick, pin, level in ((2000, "AB", 0x50), (2000, "XCS", 0), (2300, "XRD_R_W", 0)):
+        chip.set(pin, level, tick)
+    cell.expect("DB at XREADY", (chip.sample(4600), chip.level("XREADY_XDTACK")), (0xA5, 0))
+    chip.set("XRD_R_W", 1, 4700)
+    cell.expect("DB after it", chip.level("DB_OUT"), -1)
 
 
 def systemc(cell):
