@@ -179,12 +179,15 @@ TEST(CapiError, WhatAMessageQuotesIsPrintable) {
 }
 
 TEST(CapiError, ABoardIsNotInThisLibrary) {
-  auto options = sized<dpsim_run_options>();
-  options.path = DSDPV1_SOURCE_DIR "/scenarios/arm_board_12m.yaml";
-  dpsim_run* run = nullptr;
-  EXPECT_EQ(dpsim_run_create(&options, &run), DPSIM_ERR_UNSUPPORTED);
-  EXPECT_NE(std::string(dpsim_error_message()).find("has an ARM board"), std::string::npos) << dpsim_error_message();
-  EXPECT_NE(std::string(dpsim_error_message()).find("arm_board_12m.yaml:"), std::string::npos);
+  for (const std::string name : {"arm_board_12m.yaml", "spc3_arm.yaml"}) {
+    const std::string path = std::string(DSDPV1_SOURCE_DIR "/scenarios/") + name;
+    auto options = sized<dpsim_run_options>();
+    options.path = path.c_str();
+    dpsim_run* run = nullptr;
+    EXPECT_EQ(dpsim_run_create(&options, &run), DPSIM_ERR_UNSUPPORTED);
+    EXPECT_NE(std::string(dpsim_error_message()).find("has an ARM board"), std::string::npos) << dpsim_error_message();
+    EXPECT_NE(std::string(dpsim_error_message()).find(name + ":"), std::string::npos);
+  }
 }
 
 TEST(CapiError, ABufferThatIsTooSmallIsToldTheSize) {

@@ -46,6 +46,7 @@ CASES = (
     run("UART port", "rsu_uart"),
     run("ARM program", "arm_board_12m"),
     run("ARM program at the SPI port", "arm_spi"),
+    run("ARM program at an APC3", "spc3_arm"),
     Case("replay of a capture", ("replay", "c.pcapng", "--as", "5", "--scenario", "{scenarios}/power_on_12m.yaml", "--wave", "again.vcd"), (0, 1)),
     Case("decode", ("decode", "c.pcapng", "--table", "d.tsv")),
     Case("compare of two waves", ("compare", "w.vcd", "again.vcd"), (0, 1)),
