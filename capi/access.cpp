@@ -1,5 +1,7 @@
 // Complete accesses of the host bus: the same edges as those of tb's user CPUs.
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 #include "capi/chip.hpp"
 #include "capi/names.hpp"
@@ -16,8 +18,72 @@ using dsdpv1::HostAccess;
 
 constexpr Tick kMostTime = 100 * bus::kTicksPerUs;
 
-AccessTiming timing_of(const dpsim_access_timing* given) {
-  if (given == nullptr) return {};
+/// A parallel host bus: a kind's names of the pins of HostAccess, of straps that are low for it, its default times.
+struct HostBusRow {
+  const char *a, *csr, *rd, *wr, *d_in;
+  std::array<const char*, 2> straps;
+  AccessTiming timing;
+};
+
+/// Long enough for XREADY (A42).
+constexpr AccessTiming for_xready() {
+  AccessTiming timing;
+  timing.rd_low = timing.wr_low = 2500;
+  timing.rd_sample = 2333;
+  return timing;
+}
+
+constexpr std::array<HostBusRow, 2> kHostBuses = {
+    {{"A", "CSR", "RD", "WR", "D_IN", {}, {}},
+     {"AB", "XCS", "XRD_R_W", "XWR_E_CLOCK", "DB_IN", {"XINT_MOT", "MODE"}, for_xready()}}};
+
+/// That bus at the pins of a kind.
+class HostBus {
+ public:
+  /// Throws for a kind without one, and for a chip that is strapped to another.
+  explicit HostBus(const dpsim_chip& chip) : pins_(chip.kind.chip.pins()) {
+    const auto row = std::find_if(kHostBuses.begin(), kHostBuses.end(),
+                                  [this](const HostBusRow& each) { return find(each.csr) != kNone; });
+    if (row == kHostBuses.end()) capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
+    for (const char* strap : row->straps)
+      if (strap != nullptr && chip.level(find(strap)) != 0)
+        capi::fail(DPSIM_ERR_UNSUPPORTED, "the straps choose another bus than the asynchronous one of Intel");
+    a_ = find(row->a);
+    csr_ = find(row->csr);
+    rd_ = find(row->rd);
+    wr_ = find(row->wr);
+    d_in_ = find(row->d_in);
+    timing_ = &row->timing;
+  }
+
+  tb::PinNumber pin(dsdpv1::Pin role) const {
+    using dsdpv1::Pin;
+    switch (role) {
+      case Pin::kA: return a_;
+      case Pin::kCsr: return csr_;
+      case Pin::kRd: return rd_;
+      case Pin::kWr: return wr_;
+      default: return d_in_;
+    }
+  }
+  const AccessTiming& timing() const { return *timing_; }
+
+ private:
+  static constexpr tb::PinNumber kNone = tb::kMostPins;
+  tb::PinNumber find(const char* name) const {
+    for (std::size_t i = 0; i < pins_.size(); ++i)
+      if (std::strcmp(pins_[i].name, name) == 0) return static_cast<tb::PinNumber>(i);
+    return kNone;
+  }
+
+  const tb::PinTable& pins_;
+  tb::PinNumber a_ = kNone, csr_ = kNone, rd_ = kNone, wr_ = kNone, d_in_ = kNone;
+  const AccessTiming* timing_ = nullptr;
+};
+
+/// Those of `usual` without given ones.
+AccessTiming timing_of(const dpsim_access_timing* given, const AccessTiming& usual) {
+  if (given == nullptr) return usual;
   const dpsim_access_timing own = capi::options_of(given, "timing");
   const auto need_time = [](const char* name, std::int64_t time, Tick least) {
     capi::need_range(name, time, least, kMostTime);
@@ -36,19 +102,9 @@ AccessTiming timing_of(const dpsim_access_timing* given) {
           own.data_setup,    own.data_hold, own.address_hold, own.cs_trail,  own.recovery};
 }
 
-/// Whether the chip has the pins of HostAccess, with the same numbers.
-bool has_host_bus(const tb::PinTable& pins) {
-  const auto is = [&pins](dsdpv1::Pin pin) {
-    return number(pin) < pins.size() && std::string(pins[number(pin)].name) == name(pin);
-  };
-  using dsdpv1::Pin;
-  return is(Pin::kCsr) && is(Pin::kRd) && is(Pin::kWr) && is(Pin::kA) && is(Pin::kDIn) && is(Pin::kDOut);
-}
-
 /// Returns the sampled value; for a write, none.
-tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& access, std::uint64_t* end) {
-  if (!has_host_bus(chip.kind.chip.pins()))
-    capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
+tb::Level carry_out(dpsim_chip& chip, const HostBus& bus, std::uint64_t tick, const HostAccess& access,
+                    std::uint64_t* end) {
   const Tick begin = capi::tick_from(tick, chip.clock.now);
   const capi::Running running(chip.clock);
   tb::Level sampled = DPSIM_X;
@@ -56,7 +112,7 @@ tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& acce
     if (edge.pin == dsdpv1::Pin::kDOut)
       sampled = chip.device().sample(begin + edge.at);
     else
-      chip.set(begin + edge.at, static_cast<tb::PinNumber>(edge.pin), edge.level);
+      chip.set(begin + edge.at, bus.pin(edge.pin), edge.level);
   chip.advance(begin + access.duration());
   chip.clock.now = begin + access.duration();
   chip.changes.check();
@@ -103,8 +159,9 @@ dpsim_status dpsim_chip_read(dpsim_chip* chip, uint64_t tick, uint16_t address, 
       [&] {
         need(chip, "chip");
         need(value, "value");
-        capi::need_range("address", address, 0, chip->kind.chip.cells() - 1);
-        *value = carry_out(*chip, tick, HostAccess::read(address, timing_of(timing)), end);
+        capi::need_range("address", address, 0, HostAccess::kIdleAddress);
+        const HostBus bus(*chip);
+        *value = carry_out(*chip, bus, tick, HostAccess::read(address, timing_of(timing, bus.timing())), end);
       });
 }
 
@@ -114,8 +171,9 @@ dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_t address,
       __func__,
       [&] {
         need(chip, "chip");
-        capi::need_range("address", address, 0, chip->kind.chip.cells() - 1);
-        carry_out(*chip, tick, HostAccess::write(address, value, timing_of(timing)), end);
+        capi::need_range("address", address, 0, HostAccess::kIdleAddress);
+        const HostBus bus(*chip);
+        carry_out(*chip, bus, tick, HostAccess::write(address, value, timing_of(timing, bus.timing())), end);
       });
 }
 

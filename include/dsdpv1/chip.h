@@ -181,9 +181,11 @@ typedef struct dpsim_access_timing {
 DPSIM_API dpsim_status dpsim_access_timing_default(dpsim_access_timing* timing);
 
 /** Reads or writes one cell through the pins with all edges of the access, the first at `tick`. Returns at `end`,
- * where the next access may begin. The caller must own the DPRAM (H2): set R_REQ and R_STA as pins. `timing` NULL:
- * the default. A value read is DPSIM_X if the chip does not define it. DPSIM_ERR_UNSUPPORTED: a kind without a
- * parallel host bus. DPSIM_ERR_ARGUMENT: `address` > 0x7FF; rd_low or wr_low < 1, another time beyond +-100 us.
+ * where the next access may begin. The caller must own the DPRAM of a DSDPV1 (H2): set R_REQ and R_STA as pins.
+ * SPC3 family: the asynchronous Intel bus, XCS, XRD, XWR, AB, DB; the access does not wait for XREADY (A42). `timing`
+ * NULL: the default; of the SPC3 family with strobes of 2500 and rd_sample of 2333, for its usual XREADY. A value read
+ * is DPSIM_X if the chip does not define it. DPSIM_ERR_UNSUPPORTED: a kind without a parallel host bus, a chip that is
+ * strapped to another bus. DPSIM_ERR_ARGUMENT: `address` > 0x7FF; rd_low or wr_low < 1, another time beyond +-100 us.
  * DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_read(dpsim_chip* chip, uint64_t tick, uint16_t address,
                                        const dpsim_access_timing* timing, dpsim_level* value, uint64_t* end);
@@ -191,8 +193,8 @@ DPSIM_API dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_
                                         const dpsim_access_timing* timing, uint64_t* end);
 
 /** Reads or writes one byte of the registers and memory of an SPC3, APC3 or VPC3+ at `tick`, to which the chip runs,
- * with all effects (A16: a read may be a command) and without pins; an output moves at the next cycle.
- * `address`: 0 to 0x7FF, VPC3+ 0xFFF, higher ones wrap. DPSIM_ERR_UNSUPPORTED: a kind whose user has pins.
+ * with all effects (A16: a read may be a command) and without the pins of its bus; an output moves at the next cycle.
+ * `address`: 0 to 0x7FF, VPC3+ 0xFFF, higher ones wrap. DPSIM_ERR_UNSUPPORTED: a kind whose user has pins only.
  * DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_load(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t* value);
 DPSIM_API dpsim_status dpsim_chip_store(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t value);

@@ -416,6 +416,37 @@ TEST(CapiChip, RegistersWithoutABusAreReadAndWrittenWithTheirEffects) {
   EXPECT_EQ(load(0x04) & 0x09, 0x08) << "a violation, and OFFLINE (A3)";
 }
 
+TEST(CapiChip, AChipOfTheSpc3FamilyHasTheSameAccessesAtItsPins) {
+  const auto chip = make_apc3();
+  uint64_t now = 30 * kCycle;
+  const auto read = [&](uint16_t address) {
+    dpsim_level value = DPSIM_X;
+    ok(dpsim_chip_read(chip.get(), now, address, nullptr, &value, &now));
+    return value;
+  };
+  const auto write = [&](uint16_t address, uint8_t value) {
+    ok(dpsim_chip_write(chip.get(), now, address, value, nullptr, &now));
+  };
+  int events = 0;
+  ok(dpsim_chip_on_event(
+      chip.get(), [](void* user, const dpsim_chip_event*) { ++*static_cast<int*>(user); }, &events));
+  EXPECT_EQ(read(0x09), 3);
+  EXPECT_EQ(read(0x08), 0x39) << "New_Din, once";
+  write(0x120, 0xA5);
+  EXPECT_EQ(read(0x120), 0xA5);
+  EXPECT_EQ(events, 0) << "the default waits for XREADY";
+  auto timing = sized<dpsim_access_timing>();
+  ok(dpsim_access_timing_default(&timing));
+  dpsim_level value = 0;
+  ok(dpsim_chip_read(chip.get(), now, 0x120, &timing, &value, &now));
+  EXPECT_EQ(value, 0xA5);
+  EXPECT_EQ(events, 1) << "too soon (A42)";
+  uint16_t mode = 0;
+  ok(dpsim_pin_find("apc3", "MODE", &mode));
+  ok(dpsim_chip_set(chip.get(), now, mode, 1));
+  EXPECT_EQ(dpsim_chip_read(chip.get(), now, 0x120, nullptr, &value, &now), DPSIM_ERR_UNSUPPORTED);
+}
+
 TEST(CapiChip, RegistersAreOnlyCalledInTimeAndOfAKindWithoutPinsForThem) {
   uint8_t value = 0;
   const auto apc3 = make_apc3();

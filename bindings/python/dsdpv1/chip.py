@@ -196,7 +196,7 @@ class Chip(Handle):
     # ---- accesses
     def read(self, cell: int, at: typing.Optional[int] = None, timing: typing.Optional[AccessTiming] = None) -> int:
         """Reads a cell, 0 to 0x7FF, through the pins; the present tick is then the end of the access. X if the chip does not define it. The caller
-        must own the DPRAM (H2)."""
+        must own the DPRAM of a DSDPV1 (H2). SPC3 family: the asynchronous Intel bus, without a look at XREADY (A42)."""
         value, end = ctypes.c_int16(), ctypes.c_uint64()
         lib.dpsim_chip_read(self, self.now if at is None else at, cell, _timing(timing), ctypes.byref(value), ctypes.byref(end))
         return value.value
@@ -206,7 +206,7 @@ class Chip(Handle):
         lib.dpsim_chip_write(self, self.now if at is None else at, cell, value, _timing(timing), ctypes.byref(ctypes.c_uint64()))
 
     def load(self, address: int, at: typing.Optional[int] = None) -> int:
-        """Reads a register or byte of an SPC3, APC3 or VPC3+ with all effects, without pins. UnsupportedError: another kind."""
+        """Reads a register or byte of an SPC3, APC3 or VPC3+ with all effects, without the pins of its bus. UnsupportedError: another kind."""
         return int(number(lambda into: lib.dpsim_chip_load(self, self.now if at is None else at, address, into), ctypes.c_uint8))
 
     def store(self, address: int, value: int, at: typing.Optional[int] = None) -> None:

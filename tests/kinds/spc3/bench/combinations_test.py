@@ -137,6 +137,8 @@ def read_at_the_pins(cell, chip):
     cell.expect("DB at XREADY", (chip.sample(4600), chip.level("XREADY_XDTACK")), (0xA5, 0))
     chip.set("XRD_R_W", 1, 4700)
     cell.expect("DB after it", chip.level("DB_OUT"), -1)
+    chip.set("XCS", 1)
+    cell.expect("read", chip.read(0x50), 0xA5)
 
 
 def systemc(cell):
@@ -195,7 +197,7 @@ ROWS = [  # what, how, the function
     ("`sweep`, `regress`", "yes", campaigns),
     ("`serve`", "yes", serve),
     ("`compare`, `decode`, `gsd`", "yes: about lines and files", without_chip),
-    ("C API, Python", "scenarios; a chip with its pins, `load`, `store`, `peek`, `poke`", c_api_and_python),
+    ("C API, Python", "scenarios; a chip with its pins, `read`, `write`, `load`, `store`, `peek`, `poke`", c_api_and_python),
     ("`--view tlm`", "refused: its user CPU has no pins there; the [SystemC module](systemc.md#spc3tlmmodule) has no scenario", systemc),
     ("`--engine rtl`, `lockstep`, `cosim`", "refused: no reference RTL", rtl),
     ("`rtl-random`, `rtl-faults`, `verify-rtl`", "refused: no random users", random_rtl),
