@@ -69,7 +69,10 @@ class Station {
   void leave_master(Cycle now);
   /// The cells of the configuration, changed while the station runs.
   void configure(const SlaveConfig& config) { slave_.configure(config); }
-  void set_address(std::uint8_t address) { slave_.set_address(address); }
+  void set_address(std::uint8_t address) {
+    for_others_ = for_others_ && address == slave_.address();  // the telegram in progress may be for this station now
+    slave_.set_address(address);
+  }
   /// In bit times: until the next Set_Prm with one.
   void set_min_tsdr(int bits) { slave_.set_min_tsdr(bits); }
   void set_baud_control(Cycle time) { watchdog_.set_baud_control(time); }  ///< see Watchdog

@@ -173,21 +173,25 @@ TEST(States, GoOfflineOnASilentLineIsAtOnce) {
   EXPECT_EQ(kind_of(bench.ask(60)), "DL");
 }
 
-/// Asks for Go_Offline at a time.
-class OfflineUser : public bus::Agent {
+/// Writes a cell at a time.
+class UserAt : public bus::Agent {
  public:
-  OfflineUser(Bench& bench, Tick at) : bench_(bench), at_(at) { bench.timeline.add(*this); }
+  UserAt(Bench& bench, Tick at, Address cell, std::uint8_t value) : bench_(bench), at_(at), cell_(cell), value_(value) {
+    bench.timeline.add(*this);
+  }
   Tick next() const override { return at_; }
   void run(Tick /*now*/) override {
-    bench_.set_mode1(regs::kMode1GoOffline);
+    bench_.store(cell_, value_);
     at_ = bus::kNever;
     announce();
   }
-  bool asked() const { return at_ == bus::kNever; }
+  bool has_written() const { return at_ == bus::kNever; }
 
  private:
   Bench& bench_;
   Tick at_;
+  const Address cell_;
+  const std::uint8_t value_;
 };
 
 TEST(States, GoOfflineWaitsForTheTelegramAndItsAnswer) {
@@ -196,10 +200,10 @@ TEST(States, GoOfflineWaitsForTheTelegramAndItsAnswer) {
     bench.to_data_ex();
     for (int i = 0; i < round; ++i) bench.exchange({1, 2});
     const Tick begin = bench.now() + 40 * bench.requester.bit();
-    const OfflineUser user(bench, begin + 30 * bench.requester.bit());
+    const UserAt user(bench, begin + 30 * bench.requester.bit(), regs::kMode1S, regs::kMode1GoOffline);
     const bus::Exchange answer =
         bench.requester.send(bench.timeline, bus::make_telegram(5, 2, 0x6D, {0x31, 0x32}), {.at = begin});
-    EXPECT_TRUE(user.asked());
+    EXPECT_TRUE(user.has_written());
     EXPECT_EQ(kind_of(answer), "DL");
     bench.run_cycles(100);
     EXPECT_EQ(bench.state(), DpState::kOffline);
@@ -212,10 +216,10 @@ TEST(States, GoOfflineWaitsForATelegramToAnotherStation) {
   Bench bench;
   bench.to_data_ex();
   const Tick bit = bench.requester.bit(), begin = bench.now() + 40 * bit;
-  const OfflineUser user(bench, begin + 30 * bit);
+  const UserAt user(bench, begin + 30 * bit, regs::kMode1S, regs::kMode1GoOffline);
   const bus::Exchange sent = bench.requester.send(bench.timeline, bus::make_telegram(9, 2, 0x6D, {0x31, 0x32}),
                                                   {.at = begin, .wants_answer = false});
-  EXPECT_TRUE(user.asked());
+  EXPECT_TRUE(user.has_written());
   EXPECT_EQ(bench.state(), DpState::kDataExch);
   const auto received = bench.twins.chip().status().telegrams_received;
   bench.run_cycles(100);
@@ -224,6 +228,22 @@ TEST(States, GoOfflineWaitsForATelegramToAnotherStation) {
   const Tick offline = bench.changes(Pin::kXDataExch).back().at;
   EXPECT_GT(offline, sent.request_end + bit);
   EXPECT_LE(offline, sent.request_end + bit + 4 * profibus::kTicksPerCycle);
+}
+
+// The request began for another station.
+TEST(States, AnAddressThatChangesInARequestIsThatOfItsDecision) {
+  spc3::Config config;
+  config.address_cells = 1;
+  Bench bench(Variant::kApc3, config);
+  bench.to_wait_prm();
+  bench.ask(60);
+  const Tick bit = bench.requester.bit(), begin = bench.now() + 40 * bit;
+  const UserAt user(bench, begin + 30 * bit, regs::kOrgAddress, 9);
+  const bus::Exchange answer =
+      bench.requester.send(bench.timeline, bus::make_telegram(9, 2, 0x6D, {}, 60, 62), {.at = begin});
+  EXPECT_TRUE(user.has_written());
+  EXPECT_EQ(kind_of(answer), "DL");
+  bench.run_cycles(100);
 }
 
 TEST(States, TelegramsAreTakenAsRuns) {
