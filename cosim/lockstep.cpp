@@ -54,7 +54,7 @@ Lockstep::Lockstep(std::unique_ptr<tb::PinDevice> model, std::unique_ptr<Rtl> rt
       model_(std::move(model)),
       rtl_(std::move(rtl), kind, chip, *model_, TickEnds::kLater),
       options_(options),
-      comparator_(kind.pins(), options.tolerances),
+      comparator_(options.tolerances),
       history_(options.history_cycles, kind),
       watch_(kind.rtl()->watch_memory()),
       image_(static_cast<std::size_t>(kind.cells())) {

@@ -56,7 +56,7 @@ std::optional<PinDifference> PinComparator::compare(Tick at) {
 
 std::optional<PinDifference> PinComparator::compare_exact(Tick at, PinNumber pin) {
   State& now = states_.at(pin);
-  if (!matches(pin, now.model, now.rtl)) return PinDifference{at, pin, now.model, now.rtl};
+  if (!matches(now.model, now.rtl)) return PinDifference{at, pin, now.model, now.rtl};
   if (now.model_touched && now.model != tb::kLevelX) ++matched_;
   now.model_touched = now.rtl_touched = false;
   return std::nullopt;
@@ -70,7 +70,7 @@ std::optional<PinDifference> PinComparator::compare_tolerant(Tick at, PinNumber 
   now.model_touched = now.rtl_touched = false;
   while (!now.model_ahead.empty() && !now.rtl_ahead.empty()) {
     const Late model = now.model_ahead.front(), rtl = now.rtl_ahead.front();
-    if (!matches(pin, model.level, rtl.level) || std::abs(model.at - rtl.at) > tolerance(pin))
+    if (!matches(model.level, rtl.level) || std::abs(model.at - rtl.at) > tolerance(pin))
       return PinDifference{std::max(model.at, rtl.at), pin, model.level, rtl.level};
     now.model_ahead.pop_front();
     now.rtl_ahead.pop_front();

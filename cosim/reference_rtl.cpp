@@ -99,6 +99,10 @@ std::unique_ptr<Rtl> make_design(const RtlLibrary& library, const RtlStart& star
 
 MakeRtl reference_rtl(unsigned fault, std::uint32_t seed) {
   return [fault, seed](const std::string&, const tb::ChipKind& kind, const tb::OwnSettings& chip) {
+    if (!kind.has_reference_rtl())
+      throw tb::InputError(fmt::format(
+          "the scenario has {}, and that kind has no reference RTL, expected RTL of yours: cosim, traces check --rtl",
+          kind.name()));
     return kind.rtl()->make_reference(chip, fault, seed);
   };
 }

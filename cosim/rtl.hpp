@@ -115,9 +115,12 @@ class RtlOf {
   virtual RtlTiming timing(const tb::OwnSettings& chip) const = 0;
   virtual std::unique_ptr<MemoryWatch> watch_memory() const = 0;
   /// The reference RTL with the parameters of `chip` and, if `fault` is not 0, a single fault of its list. Registers
-  /// without reset begin with values that depend on `seed`. Throws tb::InputError if it was not built.
-  virtual std::unique_ptr<Rtl> make_reference(const tb::OwnSettings& chip, unsigned fault,
-                                              std::uint32_t seed) const = 0;
+  /// without reset begin with values that depend on `seed`. Throws tb::InputError if it was not built. Only with
+  /// ChipKind::has_reference_rtl().
+  virtual std::unique_ptr<Rtl> make_reference(const tb::OwnSettings& /*chip*/, unsigned /*fault*/,
+                                              std::uint32_t /*seed*/) const {
+    return nullptr;
+  }
 };
 
 /// Makes the RTL of the chip with this name and these parameters; may throw tb::InputError.

@@ -27,8 +27,9 @@ RtlChip::RtlChip(std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind, const tb::O
 /// Before time begins: some cycles out of reset and some in it, so that every asynchronous reset has had its edge.
 void RtlChip::power_up(PinNumber reset) {
   constexpr int kCyclesOut = 4, kCyclesIn = 4;
+  const Level in = levels_.at(reset), out = in == 0 ? 1 : 0;
   for (int cycle = 0; cycle < kCyclesOut + kCyclesIn; ++cycle) {
-    levels_.at(reset) = cycle < kCyclesOut ? 1 : 0;
+    levels_.at(reset) = cycle < kCyclesOut ? out : in;
     for (const bool clk : {false, true}) rtl_->eval(clk, levels_.data());
   }
   rtl_->eval(false, levels_.data());

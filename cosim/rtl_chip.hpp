@@ -24,7 +24,7 @@ enum class TickEnds : std::uint8_t {
 
 class RtlChip {
  public:
-  /// RESET is low, the other inputs have the levels of `fresh`, a device before its first call. Without a second clock
+  /// The inputs have the levels of `fresh`, a device before its first call, which is in reset. Without a second clock
   /// ticks are evaluated at once.
   RtlChip(std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind, const tb::OwnSettings& chip, const tb::PinDevice& fresh,
           TickEnds ends = TickEnds::kAtOnce);

@@ -14,6 +14,8 @@ PinNumber data_output(const tb::PinTable& pins) {
 RtlDevice::RtlDevice(std::unique_ptr<tb::PinDevice> core, std::unique_ptr<Rtl> rtl, const tb::ChipKind& kind,
                      const tb::OwnSettings& chip)
     : core_(std::move(core)), rtl_(std::move(rtl), kind, chip, *core_), data_(data_output(kind.pins())) {
+  for (PinNumber pin = 0; pin < end_of(kind.pins()); ++pin)
+    if (!kind.pins()[pin].input && pin != data_ && core_->level(pin) == tb::kLevelX) unknown_ |= tb::mask_of(pin);
   core_->watch({[](void* self, Tick at, PinNumber pin, Level level) {
                   static_cast<RtlDevice*>(self)->core_changes_.push_back({at, pin, level});
                 },
@@ -28,7 +30,7 @@ RtlDevice::RtlDevice(std::unique_ptr<tb::PinDevice> core, std::unique_ptr<Rtl> r
 
 void RtlDevice::watch(const tb::PinSink& sink, tb::PinMask pins) {
   sink_ = sink;
-  watched_ = pins;
+  watched_ = pins & ~unknown_;
 }
 
 void RtlDevice::set(Tick at, PinNumber pin, Level level) {

@@ -19,7 +19,9 @@ class RtlDevice : public tb::PinDevice {
   void set(Tick at, PinNumber pin, Level level) override;
   void advance(Tick to) override;
   Tick now() const override { return rtl_.now(); }
-  Level level(PinNumber pin) const override { return pin == data_ ? d_ : rtl_.level(pin); }
+  Level level(PinNumber pin) const override {
+    return pin == data_ ? d_ : is_unknown(pin) ? tb::kLevelX : rtl_.level(pin);
+  }
   Level sample(Tick at) override;
   Tick next_event() const override { return std::min(rtl_.next_event(), core_->next_event()); }
   void watch(const tb::PinSink& sink, tb::PinMask pins) override;
@@ -35,13 +37,15 @@ class RtlDevice : public tb::PinDevice {
     PinNumber pin;
     Level level;
   };
+  bool is_unknown(PinNumber pin) const { return (unknown_ & tb::mask_of(pin)) != 0; }
   void pass_on();
   void pass_on_tick(Tick at);
   void tell(Tick at, PinNumber pin, Level level);
 
   std::unique_ptr<tb::PinDevice> core_;
   RtlChip rtl_;
-  const PinNumber data_;  ///< the output on a bus of data; kNoPin: none
+  const PinNumber data_;     ///< the output on a bus of data; kNoPin: none
+  tb::PinMask unknown_ = 0;  ///< other outputs that the model does not know: they are X
   tb::PinSink sink_;
   tb::PinMask watched_ = 0;
   std::vector<Change> core_changes_, rtl_changes_;  ///< since pass_on; from the core only data

@@ -136,6 +136,11 @@ class Cosim : public Command {
   void write_stimulus(const RunRequest& request, LockstepOutcome&& outcome, const OwnRtl& own) const {
     if (stimulus_.empty() || !outcome.difference) return;
     const tb::scenario::Scenario& scenario = request.scenario;
+    if (scenario.kind->random() == nullptr) {
+      std::cout << "no stimulus       there is no player of stimuli for chips of the kind " << scenario.kind->name()
+                << '\n';
+      return;
+    }
     RtlRandomArguments arguments;
     arguments.chip.chip = scenario.kind->name();
     arguments.own = own_;

@@ -190,8 +190,8 @@ namespace {
 
 void check_view(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
   if (arguments.view == "tlm" && tb::scenario::needs_pins(scenario))
-    throw tb::InputError("dsdpv1-sim run: --view tlm has whole frames and telegrams at the chip's serial ports, and " +
-                         scenario.file + " an ARM board that moves their pins, or spoil_reads, expected --view pins");
+    throw tb::InputError("dsdpv1-sim run: --view tlm has transactions at the chips' ports, and in " + scenario.file +
+                         " a user CPU moves their pins, expected --view pins");
 }
 
 void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {

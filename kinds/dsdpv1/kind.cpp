@@ -125,6 +125,7 @@ class Dsdpv1Kind : public ChipKind {
   const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }
 
   const cosim::RtlOf* rtl() const override { return rtl_.get(); }
+  bool has_reference_rtl() const override { return true; }
   const calibrate::Claims* claims() const override { return &calibrate::dsdpv1_claims(); }
   const cosim::RandomCases* random() const override { return random_.get(); }
   std::unique_ptr<PinDevice> make_device(const ChipRequest& request) const override {

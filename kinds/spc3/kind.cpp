@@ -9,6 +9,7 @@
 #include "kinds/spc3/checks/checks.hpp"
 #include "kinds/spc3/chip.hpp"
 #include "kinds/spc3/port/last_access.hpp"
+#include "kinds/spc3/rtl_of.hpp"
 #include "kinds/spc3/settings.hpp"
 #include "kinds/spc3/user_cpu/native_user.hpp"
 #include "model/spc3/reasons.hpp"
@@ -86,6 +87,10 @@ class Spc3Kind : public ChipKind {
   bool has_debugger(const scenario::Slave& slave) const override {
     return spc3_user_of(slave.user_cpu).kind == Spc3Cpu::kArm;
   }
+  bool needs_pins(const scenario::Scenario& /*scenario*/, const scenario::Slave& /*slave*/) const override {
+    return true;
+  }
+  const cosim::RtlOf* rtl() const override { return &cosim::spc3_rtl(); }
 
  private:
   const Variant variant_;

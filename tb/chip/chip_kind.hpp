@@ -175,14 +175,16 @@ class ChipKind {
   virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
   /// Whether the slave's user CPU is a process of its own, which a copy of this one does not have.
   virtual bool has_process(const scenario::Slave& /*slave*/) const { return false; }
-  /// True if the slave's user CPU sets pins in this scenario for which --view tlm only has transactions.
+  /// True if --view tlm cannot have the slave's user CPU: it sets pins in this scenario for which that view only has
+  /// transactions.
   virtual bool needs_pins(const scenario::Scenario& /*scenario*/, const scenario::Slave& /*slave*/) const {
     return false;
   }
 
   // --- Optional features: null if missing.
-  // For co-simulation with RTL: --engine rtl and lockstep, cosim.
+  // For co-simulation with RTL: the user's own, and --engine rtl and lockstep with the reference RTL.
   virtual const cosim::RtlOf* rtl() const { return nullptr; }
+  virtual bool has_reference_rtl() const { return false; }
   /// For rtl-random and rtl-faults; requires rtl().
   virtual const cosim::RandomCases* random() const { return nullptr; }
   /// Evidence for its rulings in captures of its pins, for calibrate.

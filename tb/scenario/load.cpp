@@ -145,7 +145,8 @@ ChipKinds kinds(const Scenario& scenario) {
 
 bool has_rtl(const Scenario& scenario) {
   return std::all_of(
-      scenario.slaves.begin(), scenario.slaves.end(), [](const Slave& slave) { return slave.kind->rtl() != nullptr; });
+      scenario.slaves.begin(), scenario.slaves.end(),
+      [](const Slave& slave) { return slave.kind->has_reference_rtl(); });
 }
 
 bool needs_pins(const Scenario& scenario) {

@@ -468,8 +468,8 @@ TEST(ArmBoard, ViewTlmHasNoSerialPinsForIt) {
       call("run scenarios/arm_spi.yaml --view tlm --result " + folder.file("r.json"), DSDPV1_SOURCE_DIR);
   EXPECT_EQ(called.status, 2);
   EXPECT_EQ(called.err,
-            "dsdpv1-sim run: --view tlm has whole frames and telegrams at the chip's serial ports, and "
-            "scenarios/arm_spi.yaml an ARM board that moves their pins, or spoil_reads, expected --view pins\n");
+            "dsdpv1-sim run: --view tlm has transactions at the chips' ports, and in scenarios/arm_spi.yaml a user CPU "
+            "moves their pins, expected --view pins\n");
   EXPECT_FALSE(std::filesystem::exists(folder.file("r.json")));
   const std::string folder_of = "'" DSDPV1_SOURCE_DIR "/scenarios/";
   const Called regressed =

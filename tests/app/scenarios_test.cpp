@@ -1,6 +1,6 @@
 // Every shipped scenario passes, including the checks, with the pins of its golden trace in step and skip. Step, skip
 // and TLM give the same bytes: log and result, and in TLM the trace of the outputs; and log and result without a trace,
-// when the line's changes are not needed. The results match the schema. An ARM board on a serial port has no TLM.
+// when the line's changes are not needed. The results match the schema. User CPUs that move pins have no TLM.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tb/scenario/scenario.hpp"
 #include "tests/app/program.hpp"
 
 namespace dsdpv1 {
@@ -57,13 +58,9 @@ class Scenarios : public testing::TestWithParam<std::string> {
   app_test::Folder folder_;
 };
 
-/// The SPC3 family has no TLM, and neither has an ARM board on a serial port.
 std::vector<std::string> views(const std::string& scenario) {
-  if (scenario.rfind("spc3_", 0) == 0 || scenario == "mixed_chips") return {"pins"};
-  const std::string text = read(DSDPV1_SOURCE_DIR "/scenarios/" + scenario + ".yaml");
-  if (text.find("kind: arm") != std::string::npos && text.find("kind: dsdpv1_rsu") != std::string::npos)
-    return {"pins"};
-  return {"pins", "tlm"};
+  const auto loaded = tb::scenario::load(DSDPV1_SOURCE_DIR "/scenarios/" + scenario + ".yaml");
+  return needs_pins(loaded) ? std::vector<std::string>{"pins"} : std::vector<std::string>{"pins", "tlm"};
 }
 
 TEST_P(Scenarios, PassesAndStepSkipAndTlmAreTheSame) {

@@ -8,8 +8,7 @@ namespace dsdpv1 {
 namespace {
 
 struct PinComparator : cosim::PinComparator {
-  explicit PinComparator(const cosim::Tolerances& tolerances = {})
-      : cosim::PinComparator(tb::pins_of(Part::kDsdpv1), tolerances) {}
+  using cosim::PinComparator::PinComparator;
   void begin(Pin pin, Level model, Level rtl) { cosim::PinComparator::begin(number(pin), model, rtl); }
   void model_changed(Tick at, Pin pin, Level level) { cosim::PinComparator::model_changed(at, number(pin), level); }
   void rtl_changed(Tick at, Pin pin, Level level) { cosim::PinComparator::rtl_changed(at, number(pin), level); }

@@ -569,6 +569,29 @@ class ChecksTest(unittest.TestCase):
         self.assertEqual(set(self.strobe(150, limits={"TIMING_TS": 151})[1]), {"TIMING_TS"})
         self.assertEqual(self.strobe(149, limits={"TIMING_TS": None})[1], [])
 
+    def started(self, *writes):
+        """Rules that a CPU at the asynchronous Intel bus of an APC3 violates: it writes these registers, and START."""
+        chip, checker, violations = dsdpv1.Chip("apc3"), dsdpv1.Checker("apc3"), []
+        checker.on_violation(violations.append)
+        chip.watch(checker.wants)
+        now = 20 * CYCLE
+        chip.set("RESET", 0, at=now)
+        for register, value in (*writes, (0x08, 0x01)):
+            now += 400 * NS
+            for pin, level in (("AB", register), ("XCS", 0), ("DB_IN", value), ("XWR_E_CLOCK", 0)):
+                chip.set(pin, level, at=now)
+            for pin, level in (("XWR_E_CLOCK", 1), ("XCS", 1), ("DB_IN", dsdpv1.Z)):
+                chip.set(pin, level, at=now + 250 * NS)
+        chip.advance(now + 400 * NS)
+        checker.pins(chip.changes())
+        checker.finish(chip.now)
+        return {each.rule for each in violations}
+
+    def test_misuse_at_the_bus_of_the_spc3_family_is_found(self):
+        without = self.started((0x06, 0x00), (0x07, 0x00))
+        self.assertIn("START_MODE", without)
+        self.assertEqual(without - self.started((0x06, 0x00), (0x07, 0x01)), {"START_MODE"})
+
     def test_rules_say_what_must_hold(self):
         rule = next(each for each in dsdpv1.rules() if each.name == "TIMING_TS")
         self.assertEqual((rule.bound, rule.limit), ("min", 150))

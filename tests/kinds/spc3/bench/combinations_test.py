@@ -9,6 +9,7 @@ Needs DSDPV1_LIBRARY for the C API and Python.
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -142,13 +143,42 @@ def read_at_the_pins(cell, chip):
 
 
 def systemc(cell):
-    cell.is_refused(f"--view tlm is not for chips of the kind {cell.kind}", "run", "x.yaml", "--view", "tlm")
+    cell.is_refused("a user CPU moves their pins, expected --view pins", "run", "x.yaml", "--view", "tlm")
 
 
-def rtl(cell):
+def reference_rtl(cell):
     for engine in ("rtl", "lockstep"):
-        cell.is_refused(f"the scenario has {cell.kind}", "run", "x.yaml", "--engine", engine)
-    cell.is_refused(f"the scenario has {cell.kind}", "cosim", "x.yaml", "--rtl", ".", "--top", "x")
+        cell.is_refused(f"the scenario has {cell.kind}, and that kind has no reference RTL", "run", "x.yaml", "--engine", engine)
+
+
+def first_change(vcd, pin):
+    """The time in ps at which it falls."""
+    short = re.search(rf"\$var \w+ \d+ (\S+) {pin} ", vcd).group(1)
+    fall = re.search(rf"^0{re.escape(short)}$", vcd, re.M)
+    return int(vcd[:fall.start()].rpartition("\n#")[2].split()[0])
+
+
+def own_rtl(cell):
+    """RTL that never moves an output differs at the model's first change. Verilator compiles it once."""
+    if cell.kind != "apc3" or not shutil.which("verilator"):
+        return
+    (cell.folder / "rtl").mkdir()
+    wires = (ROOT / "tests/cocotb/wires.sv").read_text(encoding="utf-8")
+    (cell.folder / "rtl/dead.sv").write_text("/* verilator lint_off UNUSED */\n" + wires[wires.index("module spc3_pins_only"):], encoding="utf-8")
+    own = ("--rtl", "rtl", "--top", "spc3_pins_only")
+    cell.passes("run", "x.yaml", "-q", "--wave", "x.vcd")
+    fell = first_change(cell.read("x.vcd").decode(), "XREADY_XDTACK")
+    (cell.folder / "goldens").mkdir()
+    cell.passes("traces", "regenerate", "x.yaml", "--folder", "goldens", "--no-progress")
+    for command in (("cosim", "x.yaml", "--stimulus", "x.stimulus"), ("traces", "check", "x.yaml", "--folder", "goldens", "--no-progress")):
+        done = cell.sim(*command, *own)
+        said = done.stdout + done.stderr
+        found = re.search(r"cycle (\d+) \(.*\n.*XREADY_XDTACK.*: (?:model|golden) 0, (?:RTL|here still) 1", said)
+        cell.expect(command, (done.returncode, found is not None), (1, True), said[-1500:])
+        if found:
+            cell.expect("the cycle", int(found.group(1)), round(fell / 1e6 * 48), said[-1500:])
+        if command[0] == "cosim":
+            cell.expect("no stimulus", "no stimulus " in said and not (cell.folder / "x.stimulus").exists(), True, said[-1500:])
 
 
 def random_rtl(cell):
@@ -199,7 +229,8 @@ ROWS = [  # what, how, the function
     ("`compare`, `decode`, `gsd`", "yes: about lines and files", without_chip),
     ("C API, Python", "scenarios; a chip with its pins, `read`, `write`, `load`, `store`, `peek`, `poke`", c_api_and_python),
     ("`--view tlm`", "refused: its user CPU has no pins there; the [SystemC module](systemc.md#spc3tlmmodule) has no scenario", systemc),
-    ("`--engine rtl`, `lockstep`, `cosim`", "refused: no reference RTL", rtl),
+    ("`--engine rtl`, `lockstep`", "refused: no reference RTL", reference_rtl),
+    ("`cosim --rtl`, `traces check --rtl`", "[RTL of yours](cosim.md#rtl-of-the-spc3-family), by its pins", own_rtl),
     ("`rtl-random`, `rtl-faults`, `verify-rtl`", "refused: no random users", random_rtl),
     ("ARM board, `--gdb`", "[yes](arm_board.md#a-chip-of-the-spc3-family), on the asynchronous Intel bus", board),
     ("host process", "refused: `user_cpu` has not this `kind`", process),
