@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tb/scenario/scenario.hpp"
 #include "tests/app/program.hpp"
 
 namespace dsdpv1 {
@@ -55,11 +56,22 @@ TEST_P(ArmScenarios, EndOnTheBusAsWithTheNativeCpu) {
     EXPECT_EQ(on_the_bus(arm_result.at("slaves").at(i), counts), on_the_bus(native_result.at("slaves").at(i), counts));
 }
 
-/// Scenarios whose names begin otherwise.
+/// The firmware is for chips with the handshake of the DPRAM.
+bool has_another_chip(const std::string& name) {
+  const tb::ChipKinds kinds = tb::scenario::kinds(tb::scenario::load(DSDPV1_SOURCE_DIR "/scenarios/" + name + ".yaml"));
+  return std::any_of(kinds.begin(), kinds.end(), [](const tb::ChipKind* kind) {
+    const tb::PinTable& pins = kind->pins();
+    return std::none_of(pins.begin(), pins.end(),
+                        [](const tb::PinInfo& pin) { return pin.name == std::string("R_REQ"); });
+  });
+}
+
+/// Scenarios of chips for the firmware whose names begin otherwise.
 std::vector<std::string> shipped_but(const std::vector<std::string>& beginnings) {
   std::vector<std::string> names = shipped_scenarios();
   const auto is_left_out = [&](const std::string& name) {
-    return std::any_of(beginnings.begin(), beginnings.end(),
+    return has_another_chip(name) ||
+           std::any_of(beginnings.begin(), beginnings.end(),
                        [&](const std::string& beginning) { return name.rfind(beginning, 0) == 0; });
   };
   names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
@@ -67,13 +79,11 @@ std::vector<std::string> shipped_but(const std::vector<std::string>& beginnings)
 }
 
 /// foreign.c only supports the parallel port.
-std::vector<std::string> parallel_scenarios() {
-  return shipped_but({"rsu_spi", "rsu_uart", "arm_spi", "arm_uart", "spc3_", "mixed_"});
-}
+std::vector<std::string> parallel_scenarios() { return shipped_but({"rsu_spi", "rsu_uart", "arm_spi", "arm_uart"}); }
 
 /// Scenarios over SPI, and those over the UART with own times or telegrams, need a native CPU; a board rejects them.
 std::vector<std::string> native_scenarios() {
-  return shipped_but({"rsu_spi", "rsu_uart_", "arm_board_12m", "arm_spi", "arm_uart", "spc3_", "mixed_"});
+  return shipped_but({"rsu_spi", "rsu_uart_", "arm_board_12m", "arm_spi", "arm_uart"});
 }
 INSTANTIATE_TEST_SUITE_P(All, ArmScenarios, testing::ValuesIn(native_scenarios()),
                          [](const auto& each) { return each.param; });
