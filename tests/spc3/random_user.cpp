@@ -107,8 +107,11 @@ void RandomUser::play(int acts) {
 void RandomUser::run(Tick now) {
   --left_;
   bench_.twins.compare(now);  // also a saved state in the middle of a telegram
-  if (random_() % 2 == 0)
+  const unsigned what = below(8);
+  if (what < 3)
     load(below(0x18));
+  else if (what == 3)
+    store(regs::kOrgAddress, 9);
   else
     store(regs::kMode1S, static_cast<std::uint8_t>(1U << below(6)));
   plan();
@@ -182,6 +185,7 @@ void RandomUser::telegram() {
   const auto master = static_cast<std::uint8_t>(below(20) == 0 ? 7 : 2);
   left_ = static_cast<int>(below(6));
   plan();
+  if (below(6) == 0) return telegram_for_others();
   const auto wd = static_cast<std::uint8_t>(below(8) == 0 ? 0x08 : 0x00);
   switch (sap) {
     case 58:
@@ -197,6 +201,15 @@ void RandomUser::telegram() {
     case kDefaultSap: bench_.repeat(sap, Bytes(bench_.organisation.outputs, byte()), master, below(2) == 0); return;
     default: bench_.repeat(sap, below(9) == 0 ? bytes(3) : Bytes{}, master, below(2) == 0); return;
   }
+}
+
+// With live address cells it may become one for this chip.
+void RandomUser::telegram_for_others() {
+  const auto other = static_cast<std::uint8_t>(below(4) == 0 ? below(126) : 9);
+  if (below(4) == 0) bench_.store(regs::kOrgAddress, other);
+  bench_.requester.send(bench_.timeline, bus::make_telegram(other, 2, 0x6D, bytes(20)), {.wants_answer = false});
+  bench_.run_cycles(2000);
+  bench_.store(regs::kOrgAddress, bench_.address);
 }
 
 void RandomUser::access() {

@@ -63,6 +63,7 @@ class RandomUser : private bus::Agent {
   void begin();
   void act();
   void telegram();
+  void telegram_for_others();
   void access();
   void write();
   void exchange_pointers();
