@@ -27,24 +27,27 @@ void BusPort::release(Cycle now) {
   if (access_ != Access::kNone) begin(now * profibus::kTicksPerCycle, access_);
 }
 
-void BusPort::set(Tick at, Pin pin, Level level) {
-  if (!lines_.set(pin, level)) return;
+bool BusPort::set(Tick at, Pin pin, Level level) {
+  if (!lines_.set(pin, level) || pin == Pin::kDbIn) return false;
   if (pin == Pin::kXTest0 || pin == Pin::kXTest1) {
     if (level == 0) log_.at_tick(at, Reason::kTestPin, pin == Pin::kXTest1 ? 1 : 0);
-    return;
+    return false;
   }
-  if (pin != Pin::kDbIn) follow_strobes(at);
+  return follow_strobes(at);
 }
 
 // --- strobes ---------------------------------------------------------------------------------------------------------
 
 // With both strobes low the first continues, and the other begins when the first has ended.
-void BusPort::follow_strobes(Tick at) {
+bool BusPort::follow_strobes(Tick at) {
   const bool reads = lines_.reads(), writes = lines_.writes();
-  if (access_ != Access::kNone && !(access_ == Access::kRead ? reads : writes)) end(at);
-  if (access_ == Access::kNone && (reads || writes)) begin(at, reads ? Access::kRead : Access::kWrite);
-  if (!reads || !writes || std::exchange(told_both_, true)) return;
-  log_.at_tick(at, Reason::kBothStrobes, shown_address(), access_ == Access::kRead ? 0 : 1);
+  const bool ends = access_ != Access::kNone && !(access_ == Access::kRead ? reads : writes);
+  if (ends) end(at);
+  const bool begins = access_ == Access::kNone && (reads || writes);
+  if (begins) begin(at, reads ? Access::kRead : Access::kWrite);
+  if (reads && writes && !std::exchange(told_both_, true))
+    log_.at_tick(at, Reason::kBothStrobes, shown_address(), access_ == Access::kRead ? 0 : 1);
+  return begins || ends;
 }
 
 void BusPort::begin(Tick at, Access access) {

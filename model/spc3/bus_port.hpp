@@ -17,8 +17,9 @@ class BusPort {
   void reset();
   /// At the edge of `now`. An access under way begins.
   void release(Cycle now);
-  /// A change of an input that is neither RESET nor of the line.
-  void set(Tick at, Pin pin, Level level);
+  /// A change of an input that is neither RESET nor of the line. Returns false if no access begins or ends by it:
+  /// outputs and plans are as before.
+  bool set(Tick at, Pin pin, Level level);
   Level level(Pin pin) const { return lines_.level(pin); }
   /// DB as a user gets it who samples at `at`. A read that has not been ready is served then, or X (A42).
   Level user_samples(Tick at);
@@ -43,7 +44,7 @@ class BusPort {
  private:
   enum class Access : std::uint8_t { kNone, kRead, kWrite };
 
-  void follow_strobes(Tick at);
+  bool follow_strobes(Tick at);
   void begin(Tick at, Access access);
   void await_answer(Tick at);
   unsigned shown_address() const { return static_cast<unsigned>(lines_.address()); }

@@ -108,8 +108,7 @@ void Chip::Impl::set(Tick at, Pin pin, Level value) {
     case Pin::kRxd: hear(at, value != 0); break;
     case Pin::kXCts: cts.set(at, value != 0); break;
     default:
-      if (!is_input(pin)) return;
-      port.set(at, pin, value);
+      if (!is_input(pin) || !port.set(at, pin, value)) return;
       publish_bus(at);
   }
   plan();

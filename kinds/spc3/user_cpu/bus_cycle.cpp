@@ -73,8 +73,17 @@ void BusCycle::look(Tick at) {
   pins_.advance(at);
   const bool active = pins_.level(spc3::number(spc3::Pin::kXReady)) == (wait_.while_high ? 0 : 1);
   waits_ = !active;
-  if (!active) ++looks_;
+  if (!active) looks_ += looks_without_event(at);
   shift_ = clocks(wait_, looks_);
+}
+
+/// From the look at `at` to the first that may find XREADY moved; in reset the chip has no event of its own.
+Tick BusCycle::looks_without_event(Tick at) const {
+  const Tick event = pins_.level(spc3::number(spc3::Pin::kReset)) != 0 ? at : pins_.next_event();
+  if (event <= at || event == bus::kNever) return 1;
+  Tick looks = std::max<Tick>(1, (event - at) * wait_.hclk_hz / bus::kTicksPerSecond);
+  while (begin_ + first_look() + clocks(wait_, looks_ + looks) < event) ++looks;
+  return looks;
 }
 
 // --- pins ------------------------------------------------------------------------------------------------------------

@@ -38,6 +38,7 @@ class BusCycle {
   Tick first_look() const;
   bool must_look() const;
   void look(Tick at);
+  Tick looks_without_event(Tick at) const;
   void address_moves(Tick at, bool begins);
   void select(Tick at, bool begins);
   void strobe(Tick at, bool begins);
