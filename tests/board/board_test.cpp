@@ -662,11 +662,11 @@ TEST(MemoryBus, NamesThePinsThatAreWrongForThePortInUse) {
   ports.at(2).write(kLow, 0x3344'4444);
   ports.at(2).write(kHigh, 0x4444'4404);  // PC9 is analog
   EXPECT_EQ(arm::memory_bus(ports, fsmc, true, false).wrong_pins, "PC9 (L_STA)");
-  for (const std::uint32_t mode : {0xB, 0x3, 0x0})  // alternate function, output, analog
+  for (const std::uint32_t mode : {0xBU, 0x3U, 0x0U})  // alternate function, output, analog
     EXPECT_EQ(
         (ports.at(3).write(kLow, 0xB0BB'BBBB | mode << 24U), arm::memory_bus(ports, fsmc, false, true).wrong_pins),
         "PD6 (NWAIT)");
-  for (const std::uint32_t mode : {0x4, 0x8})
+  for (const std::uint32_t mode : {0x4U, 0x8U})
     EXPECT_EQ(
         (ports.at(3).write(kLow, 0xB0BB'BBBB | mode << 24U), arm::memory_bus(ports, fsmc, false, true).wrong_pins), "");
   ports.at(3).write(kLow, 0xFBBB'BBBB);  // NE1 is open drain
