@@ -229,7 +229,17 @@ TEST(Spc3Pins, SignalsChangeAtTheirTicks) {
   EXPECT_EQ(single(world->later.seen, kEnd - kUs, kPhase), wanted);
 }
 
+/// The inputs of the core at DB_IN.
+Events user_data(const Events& all) {
+  Events some;
+  for (const Event& each : all)
+    if (each.pin == spc3::Pin::kDbIn && (some.empty() ? spc3::kLevelZ : some.back().level) != each.level)
+      some.push_back(each);
+  return some;
+}
+
 TEST(Spc3Pins, DbIsDrivenByUserAndChipInTurn) {
+  EXPECT_EQ(user_data(world->unbound.inputs), user_data(stimulus()));  // not what the chip drives
   // 09 of the first write, and again as the read of that cell gives it; 00 of the read of IR's low byte is 04.
   const std::vector<std::string>& bus = world->unbound.bus;
   EXPECT_EQ(std::count(bus.begin(), bus.end(), "00001001"), 2);

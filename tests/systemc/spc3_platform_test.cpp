@@ -50,6 +50,7 @@ struct Platform : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
       (spc3::is_input(pin) ? inputs : outputs) << at << " " << int{spc3::number(pin)} << " " << level << "\n";
     };
     thread([this] { run(); });
+    thread([this] { send_others(); });
     method_on(x_int.value_changed_event(), [this] { signals << current_tick() << " " << x_int.read() << "\n"; });
     for (int i = 0; i < kTelegrams; ++i) ask(to_time((200 + 60 * i) * kUs));
   }
@@ -59,8 +60,15 @@ struct Platform : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
     for (unsigned i = 0; i < sizeof telegram; ++i)
       requests.push_back({to_time(to_tick(start) + i * 11 * kBit), to_time(kBit), telegram[i]});
   }
+  /// Half of them are known in advance; of the others each character when it begins.
   void start_of_simulation() override {
-    for (const BusCharacter& character : requests) chip.bus_in->write(character);
+    for (std::size_t i = 0; i < requests.size() / 2; ++i) chip.bus_in->write(requests[i]);
+  }
+  void send_others() {
+    for (std::size_t i = requests.size() / 2; i < requests.size(); ++i) {
+      wait_until(to_tick(requests[i].start));
+      chip.bus_in->write(requests[i]);
+    }
   }
   void write(const BusCharacter& character) override {
     bus << current_tick() << " " << to_tick(character.start) << " " << int{character.data} << "\n";

@@ -20,8 +20,8 @@ std::unique_ptr<systemc::Spc3TlmOptions> vpc3() {
 }
 
 struct World : sc_core::sc_module {
-  Spc3TlmModule chip{"chip"}, large{"large", *vpc3()}, thrown{"thrown"};
-  Initiator cpu{"cpu"}, of_large{"of_large"}, of_thrown{"of_thrown"};
+  Spc3TlmModule chip{"chip"}, large{"large", *vpc3()}, thrown{"thrown"}, twin{"twin"};
+  Initiator cpu{"cpu"}, of_large{"of_large"}, of_thrown{"of_thrown"}, of_twin{"of_twin"};
   sc_core::sc_signal<bool> reset{"reset", true};
   std::vector<Tick> changed;  ///< of X_INT
   Tick opened = 0;
@@ -31,13 +31,14 @@ struct World : sc_core::sc_module {
       top_of_large, outside_large, ignored, by_extension, after_kill, after_throw;
   std::vector<std::uint8_t> cells, commands_peeked;
   std::string failure;
-  bool stored = false;
+  bool stored = false, is_whole = false;
   unsigned debug_read = 0, debug_outside = 0, debug_written = 0;
 
   explicit World(const sc_core::sc_module_name& name) : sc_module(name) {
     cpu.socket.bind(chip.host_socket);
     of_large.socket.bind(large.host_socket), of_thrown.socket.bind(thrown.host_socket);
-    for (Spc3TlmModule* each : {&chip, &large, &thrown}) each->RESET(reset);
+    of_twin.socket.bind(twin.host_socket);
+    for (Spc3TlmModule* each : {&chip, &large, &thrown, &twin}) each->RESET(reset);
     chip.on_pin = [this](Tick at, spc3::Pin pin, spc3::Level) {
       if (pin == spc3::Pin::kXInt) changed.push_back(at);
     };
@@ -119,15 +120,23 @@ struct World : sc_core::sc_module {
     after_kill = cpu.write(0x64, {6});
   }
 
+  /// The same accesses at the same time: an observer of one chip throws.
   void throw_in_an_access() {
+    sc_core::sc_spawn([this] {
+      of_twin.write(0x600, {1});
+      sc_core::wait(to_time(kUs));
+      of_twin.write(0x66, {7});
+    });
     try {
       of_thrown.write(0x600, {1});
-      sc_core::wait(to_time(kUs));
-      of_thrown.read(0x16, 1);
     } catch (const std::runtime_error& error) {
       failure = error.what();
     }
+    sc_core::wait(to_time(kUs));
     after_throw = of_thrown.write(0x66, {7});
+    sc_core::wait(to_time(kUs));
+    for (Spc3TlmModule* each : {&thrown, &twin}) each->sync();
+    is_whole = thrown.chip().save() == twin.chip().save();
   }
 };
 
@@ -192,6 +201,7 @@ TEST(Spc3Socket, AKilledInitiatorAndAnExceptionLeaveThePortWhole) {
   EXPECT_EQ(world->failure, "from on_event");
   expect(world->after_throw, tlm::TLM_OK_RESPONSE, kAccess);
   EXPECT_EQ(world->thrown.peek(0x66), 7);
+  EXPECT_TRUE(world->is_whole);
 }
 
 TEST(Spc3Socket, TheEffectIsAtTheEndOfTheAccess) {
