@@ -25,6 +25,7 @@ void BusCycle::idle(Tick at) {
   set(at, spc3::Pin::kAb, bus_ == Bus::kIntelSync ? kIdleHigh : kIdleAddress);
   set(at, spc3::Pin::kDbIn, spc3::kLevelZ);
   edge_ = access_->size();
+  next_ = bus::kNever;
 }
 
 void BusCycle::begin(Tick at, const Access& access, const dsdpv1::AccessTiming& timing) {
@@ -37,11 +38,12 @@ void BusCycle::begin(Tick at, const Access& access, const dsdpv1::AccessTiming& 
   edge_ = 0;
   looks_ = 0;
   waits_ = wait_.on && !spc3::is_synchronous(bus_);
+  next_ = planned();
 }
 
 // --- edges -----------------------------------------------------------------------------------------------------------
 
-Tick BusCycle::next_edge() const {
+Tick BusCycle::planned() const {
   if (edge_ == access_->size()) return bus::kNever;
   return must_look() ? begin_ + first_look() + clocks(wait_, looks_) : begin_ + shift_ + (*access_)[edge_].at;
 }
@@ -57,7 +59,11 @@ Tick BusCycle::first_look() const {
 bool BusCycle::must_look() const { return waits_ && (*access_)[edge_].at >= first_look(); }
 
 void BusCycle::run_edge() {
-  const Tick at = next_edge();
+  act(next_);
+  next_ = planned();
+}
+
+void BusCycle::act(Tick at) {
   if (must_look()) return look(at);
   const Edge& edge = (*access_)[edge_++];
   switch (edge.pin) {

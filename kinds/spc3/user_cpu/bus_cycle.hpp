@@ -25,7 +25,7 @@ class BusCycle {
   /// XREADY is active, the strobe of a write ends three after it. The CPU looks once in an HCLK (p).
   void set_wait(const user_cpu::WaitTiming& wait) { wait_ = wait; }
   void begin(Tick at, const Access& access, const dsdpv1::AccessTiming& timing);
-  Tick next_edge() const;
+  Tick next_edge() const { return next_; }
   /// The edge due at next_edge().
   void run_edge();
   Tick end() const { return begin_ + shift_ + access_->duration(); }
@@ -35,6 +35,8 @@ class BusCycle {
 
  private:
   using Edge = dsdpv1::HostAccess::Edge;
+  Tick planned() const;
+  void act(Tick at);
   Tick first_look() const;
   bool must_look() const;
   void look(Tick at);
@@ -53,8 +55,9 @@ class BusCycle {
   Access asked_;
   Tick begin_ = 0, shift_ = 0;
   std::size_t edge_ = access_->size();
-  Tick looks_ = 0;      ///< at XREADY
-  bool waits_ = false;  ///< XREADY has not been seen active yet
+  Tick next_ = bus::kNever;  ///< kept, because it is read far more often than changed
+  Tick looks_ = 0;           ///< at XREADY
+  bool waits_ = false;       ///< XREADY has not been seen active yet
   std::uint8_t value_ = 0xFF;
   bool bad_ = false;
 };
