@@ -62,7 +62,7 @@ const WordKey* word_key(std::string_view parameter) {
        {"The clock in MHz; with 24 event_delay, int_delay, ready, ready_release and strobe double (A44).",
         {{24, "24", ""}, {48, "48", ""}}}},
       {"ready_rule",
-       {"An access that ends before XREADY (A42).",
+       {"An access that ends before it is ready (A42).",
         {{0, "report", "reported and served"}, {1, "strict", "a read is X, a write is lost"}}}},
       {"empty_data",
        {"Empty data with Spec_Clear_Mode (A46).",
@@ -124,8 +124,8 @@ const ObjectOf<Spc3Access>& access_keys() {
     const Range time = {0, 100 * bus::kTicksPerUs}, low = {1, 100 * bus::kTicksPerUs};
     ObjectOf<A> o(
         "access",
-        "Times at which the user CPU moves its bus pins; the strobe is XRD, XWR, AS or E_CLOCK. No document has "
-        "the chip's limits (A42). The defaults are those of an STM32F103 at 72 MHz.");
+        "Times at which the user CPU moves its bus pins; the strobe is XRD, XWR, AS or E_CLOCK. No document at hand "
+        "has the chip's limits (A42). The defaults are those of an STM32F103 at 72 MHz.");
     o.time("address_setup", &A::address_setup, time, "AB, R_W and ALE before the strobe.");
     o.time("cs_lead", &A::cs_lead, time, "XCS before the strobe.");
     o.time("rd_low", &A::rd_low, low, "The strobe of a read.");

@@ -59,10 +59,8 @@ class BusLines {
   }
 
  private:
-  /// Intel: XCS, or the address itself (A45).
-  bool selected() const {
-    return bus() == Bus::kIntelSync ? level(Pin::kAb) >= 0 && level(Pin::kAb) < 8 : !is_high(Pin::kXCs);
-  }
+  /// Intel: XCS, or the address itself (A45), also without levels (A58).
+  bool selected() const { return bus() == Bus::kIntelSync ? level(Pin::kAb) < 8 : !is_high(Pin::kXCs); }
   /// Motorola.
   bool strobes() const {
     return !is_high(Pin::kXCs) && (bus() == Bus::kMotorolaSync ? is_high(Pin::kXWr) : !is_high(Pin::kAle));

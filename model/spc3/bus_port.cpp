@@ -19,7 +19,7 @@ void BusPort::reset() {
   access_ = Access::kNone;
   xready_ = true;
   db_out_ = kLevelZ;
-  ready_at_ = release_at_ = kNever;
+  ready_at_ = fall_at_ = release_at_ = kNever;
 }
 
 void BusPort::release(Cycle now) {
@@ -61,10 +61,12 @@ void BusPort::begin(Tick at, Access access) {
 // A16, A42.
 void BusPort::await_answer(Tick at) {
   const Cycle seen = first_edge_after(at);
-  if (!is_synchronous(lines_.bus()))
-    ready_at_ = seen + delay_of(config_, config_.ready - (map_.early_ready() ? 1 : 0));
-  else
+  if (is_synchronous(lines_.bus())) {
     ready_at_ = access_ == Access::kRead ? seen + delay_of(config_, config_.strobe) : kNever;
+    return;
+  }
+  ready_at_ = seen + delay_of(config_, config_.ready);
+  fall_at_ = seen + delay_of(config_, config_.ready - (map_.early_ready() ? 1 : 0));
 }
 
 // A16: a write acts now, and so does a read without its answer.
@@ -78,7 +80,7 @@ void BusPort::end(Tick at) {
   } else if (!lost) {
     write(at);
   }
-  ready_at_ = kNever;
+  ready_at_ = fall_at_ = kNever;
   if (!xready_) release_at_ = first_edge_after(at) + delay_of(config_, config_.ready_release);
 }
 
@@ -128,9 +130,12 @@ void BusPort::eval(Cycle now) {
     release_at_ = kNever;
     xready_ = true;
   }
+  if (now == fall_at_) {
+    fall_at_ = release_at_ = kNever;
+    xready_ = false;
+  }
   if (now != ready_at_) return;
-  ready_at_ = release_at_ = kNever;
-  xready_ = is_synchronous(lines_.bus());
+  ready_at_ = kNever;
   if (access_ == Access::kRead && !acted_) read(now * profibus::kTicksPerCycle);
 }
 

@@ -26,19 +26,20 @@ class BusPort {
 
   /// The rising edge of `now`, after all other blocks: XREADY, and the answer of a read.
   void eval(Cycle now);
-  Cycle next() const { return std::min(ready_at_, release_at_); }
+  Cycle next() const { return std::min({ready_at_, fall_at_, release_at_}); }
   bool xready() const { return xready_; }
   /// DB as the chip drives it.
   Level db_out() const { return db_out_; }
 
   template <class Archive>
   void store(Archive& archive) {
-    auto& [log, config, map, lines, enabled, access, acted, early, both, xready, db_out, ready_at, release_at] = *this;
+    auto& [log, config, map, lines, enabled, access, acted, early, both, xready, db_out, ready_at, fall_at,
+           release_at] = *this;
     archive.given(log, config, map);
     archive.within(kLevelX, Level{0xFF}, db_out);
     archive.within(Access::kNone, Access::kWrite, access);
     archive(lines, enabled, acted, early, both, xready);
-    archive.cycles(ready_at, release_at);
+    archive.cycles(ready_at, fall_at, release_at);
   }
 
  private:
@@ -64,8 +65,8 @@ class BusPort {
   bool told_early_ = false, told_both_ = false;  ///< reported for the running access
   bool xready_ = true;
   Level db_out_ = kLevelZ;
-  /// Edges: the answer of a read with XREADY, if the bus has it; the rise of XREADY.
-  Cycle ready_at_ = profibus::kNever, release_at_ = profibus::kNever;
+  Cycle ready_at_ = profibus::kNever;  ///< the edge at which a read has its answer, and a write may end
+  Cycle fall_at_ = profibus::kNever, release_at_ = profibus::kNever;  ///< edges of XREADY, if the bus has it
 };
 
 }  // namespace dsdpv1::spc3

@@ -115,6 +115,22 @@ TEST(MotorolaBus, ExchangesTheBytesOfWordsOnly) {
 TEST_F(BusTest, EarlyRdyIsOneClockSooner) {
   user.write(regs::kMode0, 0x20);
   EXPECT_EQ(changes_during([&] { user.write(kCell, 1); }), "ready 0 at 6.0, ready 1 at 12.0");
+  EXPECT_EQ(changes_during([&] { user.read(kCell); }),
+            "db -2 at 0.100, ready 0 at 6.0, db 1 at 7.0, db -1 at 10.100, ready 1 at 12.0");
+  // A command acts with the data (A16).
+  changes_during([&] {
+    user.begin_read(regs::kNewDin);
+    user.wait(6 * profibus::kTicksPerCycle - 100);
+    EXPECT_EQ(bench.twins.chip().level(Pin::kXReady), 0);
+    EXPECT_EQ(cell(regs::kDinSm), 0xE1);
+    user.wait(profibus::kTicksPerCycle);
+    EXPECT_NE(cell(regs::kDinSm), 0xE1);
+    user.end();
+  });
+  EXPECT_EQ(count(Reason::kBeforeReady), 0);
+  changes_during([&] { user.write(kCell, 2, 6 * profibus::kTicksPerCycle); });  // after XREADY, before ready
+  EXPECT_EQ(count(Reason::kBeforeReady), 1);
+  EXPECT_EQ(cell(kCell), 2);
 }
 
 struct BusTimes : BusTest {
@@ -154,7 +170,7 @@ TEST_F(BusTest, AnAccessBeforeReadyIsReportedAndServed) {
   user.end();
   EXPECT_EQ(cell(regs::kDinSm) & 0x30, 0x20);
   const profibus::Event& event = bench.twins.events.front();
-  EXPECT_EQ(spc3::describe(event), "the access to 123H ends 6 clocks before XREADY (write 0)");
+  EXPECT_EQ(spc3::describe(event), "the access to 123H ends 6 clocks before it is ready (write 0)");
 }
 
 struct StrictBus : BusTest {
@@ -320,6 +336,14 @@ TEST_F(IntelSync, LatchesTheAddressAndSelectsItself) {
     user.end();
   }
   EXPECT_TRUE(bench.twins.events.empty());
+  user.begin_read(kCell);
+  user.end();
+  user.set(Pin::kAb, spc3::kLevelZ);
+  user.set(Pin::kXRd, 0);
+  user.wait(2500);
+  EXPECT_EQ(bench.twins.chip().level(Pin::kDbOut), spc3::kLevelX) << "A58";
+  user.end();
+  EXPECT_EQ(count(Reason::kUnknownAddress), 1);
 }
 
 }  // namespace
