@@ -46,6 +46,14 @@ const Planted kPlanted[] = {
        user.pin(Pin::kXWr, 1);
      },
      "write of 300H"},
+    {"BUS_READY", "ReadyOfTheAccessBeforeHasRisen",
+     [](Script& user) {
+       user.pin(Pin::kXReady, 0);
+       begin_access(user, Pin::kXWr);
+       user.pin(Pin::kXReady, 1);
+       user.pin(Pin::kXWr, 1);
+     },
+     "write of 300H"},
     {"BUS_SETUP", "AddressMovesInTheStrobe",
      [](Script& user) {
        begin_access(user, Pin::kXRd);
@@ -80,6 +88,14 @@ const Planted kPlanted[] = {
        user.pin(Pin::kXWr, 1);
      },
      "DB without levels"},
+    {"BUS_LEVELS", "NoAddressOfAn80C32",
+     [](Script& user) {
+       user.pin(Pin::kMode, 1);
+       user.pin(Pin::kAb, tb::kLevelZ);
+       user.pin(Pin::kXRd, 0);
+       user.pin(Pin::kXRd, 1);
+     },
+     "AB without levels"},
     {"BUS_STROBES", "Both",
      [](Script& user) {
        begin_access(user, Pin::kXRd);
@@ -316,6 +332,19 @@ TEST(ListOfPlantedFaults, HasEachRuleWithALimit) {
 
 // --- what is right
 // -----------------------------------------------------------------------------------------------------
+
+/// A long `ready_release`: the next access has no fall of its own.
+TEST(RightUserOfAnSpc3, MeetsXreadyStillLow) {
+  Script user;
+  begin_access(user, Pin::kXWr);
+  user.pin(Pin::kXReady, 0);
+  user.pin(Pin::kXWr, 1);
+  begin_access(user, Pin::kXWr);
+  user.pin(Pin::kXWr, 1);
+  EXPECT_THAT(user.ids(), IsEmpty());
+  EXPECT_EQ(user.checks.record(Check::kBusReady).count, 2U);
+  EXPECT_EQ(user.checks.record(Check::kBusReady).worst_value, 12);
+}
 
 TEST(RightUserOfAnSpc3, BeginsAndJudges) {
   Script user;

@@ -31,7 +31,10 @@ void BusRules::pin(Tick at, Pin pin, tb::Level level, const spc3::BusLines& line
       if (is_motorola) address_moves(at);
       break;
     case Pin::kXReady:
-      if (running_ && level == 0) ready_ = at;
+      if (level == 0)
+        ready_ = at;
+      else
+        ready_.reset();
       break;
     default: break;
   }
@@ -56,7 +59,7 @@ void BusRules::moves(Tick at) {
 
 void BusRules::began(const BusAccess& access, const spc3::BusLines& lines) {
   running_ = access;
-  ready_.reset();
+  if (ready_) ready_ = access.began;
   recorder_.value(
       Check::kBusSetup, access.began, access.began - address_moved_, [&] { return cell_text(access); });
   recorder_.kept(Check::kBusLevels, access.began, lines.address() >= 0, [&] { return cell_text(access); });

@@ -1,6 +1,6 @@
 #pragma once
-// The rules of the bus at the pins: set-up, hold, levels, ready. No document has the chip's times, so each default is
-// this project's (A42).
+// The rules of the bus at the pins: set-up, hold, levels, ready. No document at hand has the chip's times, so each
+// default is this project's (A42).
 #include <optional>
 
 #include "kinds/spc3/checks/check.hpp"
@@ -30,7 +30,7 @@ class BusRules {
   checks::Recorder& recorder_;
   Tick address_moved_ = 0, data_moved_ = 0;
   std::optional<BusAccess> running_;
-  std::optional<Tick> ready_;  ///< XREADY fell in the running access
+  std::optional<Tick> ready_;  ///< XREADY is low since
   std::optional<Tick> hold_;   ///< a write ended, AB and DB have not moved since
 };
 
