@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Mistakes; the numbers are those of tests/app/spc3_planted_test.py. */
+/* Mistakes; the numbers are those of tests/kinds/spc3/board/planted_test.py. */
 #include "examples/firmware/spc3/planted.h"
 
 #ifdef SPC3_PLANTED
