@@ -50,6 +50,8 @@ std::uint8_t DriverCpu::access(tlm::tlm_command command, std::uint16_t address, 
   payload_.set_command(command);
   payload_.set_address(address);
   payload_.set_data_ptr(&value);
+  payload_.set_dmi_allowed(false);
+  payload_.set_gp_option(tlm::TLM_MIN_PAYLOAD);
   payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
   socket->b_transport(payload_, local);
   ++accesses_;

@@ -21,6 +21,8 @@ void aim(tlm::tlm_generic_payload& payload, tlm::tlm_command command, std::uint8
   payload.set_data_ptr(bytes);
   payload.set_data_length(n);
   payload.set_streaming_width(n);
+  payload.set_dmi_allowed(false);
+  payload.set_gp_option(tlm::TLM_MIN_PAYLOAD);
   payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
 }
 

@@ -51,8 +51,8 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   ///  a byte outside the DPRAM                               TLM_ADDRESS_ERROR_RESPONSE, nothing accessed
   ///   neither read nor write                                 TLM_COMMAND_ERROR_RESPONSE
   ///   X or Z read, table 15 violated by a write              TLM_GENERIC_ERROR_RESPONSE, the burst ends there
-  /// With a global quantum (tlm_global_quantum) other than zero, b_transport does not wait for an access while R_REQ and
-  /// R_STA are high: the time is added to the returned delay. An initiator must wait for its delay before it moves
+  /// With a global quantum (tlm_global_quantum) other than zero, b_transport does not wait for an access while R_REQ
+  /// and R_STA are high: the time is added to the returned delay. An initiator must wait for its delay before it moves
   /// R_REQ, R_STA or RESET (warning /dsdpv1/ahead), or samples an output.
   /// Access without ownership is executed and reported (P12). Debug transport reads and writes the DPRAM without pins;
   /// direct memory access is denied.
@@ -187,9 +187,9 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   // As found by plan(); 0: must be found again.
   Tick arrivals_ = 0;  ///< the next arrival at the chip, from the line or the host ...
   Tick others_ = 0;    ///< ... and the next event outside the core, which may be the end of a character of the chip
-  std::uint32_t observed_, bound_ = 0;  ///< pins
-  std::uint32_t applied_ = 0;           ///< those of RESET, R_REQ, R_STA that are high for the core
-  sc_core::sc_mutex host_bus_;          ///< serialises the accesses of several initiators
+  std::uint32_t observed_, bound_ = 0;      ///< pins
+  std::uint32_t applied_ = 0;               ///< those of RESET, R_REQ, R_STA that are high for the core
+  sc_core::sc_mutex host_bus_{"host_bus"};  ///< serialises the accesses of several initiators
   HostAccessMaker maker_;
   Tick host_free_at_ = 0;  ///< simulation tick: end of the last access carried out ahead
   bool late_reported_ = false;

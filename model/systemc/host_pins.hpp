@@ -36,7 +36,7 @@ class HostPins : public sc_core::sc_module {
   void move(const HostAccess::Edge& edge);
 
   AccessTiming timing_;
-  sc_core::sc_mutex host_bus_;  ///< serialises the accesses of several initiators
+  sc_core::sc_mutex host_bus_{"host_bus"};  ///< serialises the accesses of several initiators
   HostAccessMaker maker_;
   HostAccess access_;        ///< the running one
   bool busy_ = false;        ///< ... while there is one

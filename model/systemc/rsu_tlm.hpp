@@ -89,7 +89,7 @@ class RsuTlmModule : public TlmModule {
   RsuStraps straps_;
   SpiTiming spi_timing_;
   UartTiming uart_timing_;
-  sc_core::sc_mutex spi_bus_, uart_bus_;  ///< serialise the transactions of several initiators
+  sc_core::sc_mutex spi_bus_{"spi_bus"}, uart_bus_{"uart_bus"};  ///< serialise the transactions of several initiators
   Lane<SpiFrame> spi_;
   Lane<UartTelegram> uart_;
   Tick spi_free_at_ = 0;  ///< simulation tick: end of the gap after the last frame

@@ -98,11 +98,11 @@ class Spc3TlmModule : public Spc3Module, private tlm::tlm_analysis_if<BusCharact
 
   sc_dt::uint64 size_;  ///< addresses
   Tick access_;
-  sc_core::sc_mutex host_bus_;  ///< serialises the accesses of several initiators
-  std::uint32_t bound_ = 0;     ///< outputs
-  bool in_reset_ = false;       ///< an access has met RESET
-  Tick taken_ = 0;              ///< the edge that takes the last access
-  bool seen_ = false;           ///< an output has changed, or an event happened
+  sc_core::sc_mutex host_bus_{"host_bus"};  ///< serialises the accesses of several initiators
+  std::uint32_t bound_ = 0;                 ///< outputs
+  bool in_reset_ = false;                   ///< an access has met RESET
+  Tick taken_ = 0;                          ///< the edge that takes the last access
+  bool seen_ = false;                       ///< an output has changed, or an event happened
   CharacterInput line_{*this};
   bool characters_level_ = true;  ///< present level from the characters of `bus_in`
   CharacterCollector from_chip_;

@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/systemc/host_pins.hpp"
 #include "model/systemc/rsu_pins.hpp"
 #include "model/systemc/rsu_tlm.hpp"
+#include "model/systemc/spc3_pins.hpp"
+#include "model/systemc/spc3_tlm.hpp"
 #include "tests/systemc/bench.hpp"
 #include "tests/systemc/own_process.hpp"
 
@@ -66,6 +69,29 @@ TEST(Binding, AStrapThatThereIsNotIsNamed) {
 TEST(Binding, APinOfTheRsuThatIsNotBoundIsNamed) {
   EXPECT_THAT(start([] { return std::make_unique<systemc::RsuPinModule>("chip"); }),
               HasSubstr("port not bound: port 'chip.UIV'"));  // SystemC checks the last port first
+}
+
+/// Names that SystemC has made up, as it does for an object without a name: its kind and a number.
+void add_made_up(const sc_core::sc_object& parent, std::string& names) {
+  for (const sc_core::sc_object* child : parent.get_child_objects()) {
+    const std::string kind = std::string(child->kind()).substr(3) + "_";  // "sc_mutex"
+    if (std::string(child->basename()).rfind(kind, 0) == 0) names += child->name() + std::string("\n");
+    add_made_up(*child, names);
+  }
+}
+
+TEST(Binding, EachObjectOfAModuleHasItsName) {
+  EXPECT_EQ(in_a_process_of_its_own([] {
+              const RsuTlmModule rsu("rsu");
+              const systemc::RsuPinModule pins("pins");
+              const systemc::HostPins host("host");
+              const systemc::Spc3TlmModule spc3("spc3");
+              const systemc::Spc3PinModule spc3_pins("spc3_pins");
+              std::string names;
+              for (const sc_core::sc_object* top : sc_core::sc_get_top_level_objects()) add_made_up(*top, names);
+              return names;
+            }),
+            "");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // An initiator with a quantum that uses plain TLM-2.0: tests how b_transport treats its delay.
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
+#include <tlm_utils/simple_target_socket.h>
 
 #include <memory>
 
@@ -25,11 +26,32 @@ struct Outcome {
   std::vector<std::uint8_t> data;
 };
 
+/// A target of somebody else: allows DMI, and takes the full payload.
+struct ForeignTarget : sc_core::sc_module {
+  tlm_utils::simple_target_socket<ForeignTarget> socket{"socket"};
+  int accesses = 0, used = 0;  ///< with attributes that an earlier one has set
+
+  explicit ForeignTarget(const sc_core::sc_module_name& name) : sc_module(name) {
+    socket.register_b_transport(this, &ForeignTarget::b_transport);
+  }
+  void b_transport(tlm::tlm_generic_payload& payload, sc_time& /*delay*/) {
+    ++accesses;
+    used += payload.is_dmi_allowed() || payload.get_gp_option() != tlm::TLM_MIN_PAYLOAD ? 1 : 0;
+    payload.set_dmi_allowed(true);
+    payload.set_gp_option(tlm::TLM_FULL_PAYLOAD_ACCEPTED);
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  }
+};
+
 struct World : sc_core::sc_module {
   dsdpv1::systemc::TlmModule chip{"chip", options()}, in_reset{"in_reset", options()};
   tlm_utils::simple_initiator_socket<World> socket{"socket"};
   sc_core::sc_signal<bool> reset, r_req, r_sta, low;
   DriverCpu cpu{"cpu", [this](DriverCpu& itself) { misuse(itself); }};
+  ForeignTarget target{"target"};
+  DriverCpu visitor{"visitor", [](DriverCpu& itself) {
+                      for (int i = 0; i < 2; ++i) itself.port().read(itself.port().ctx, 0x004);
+                    }};
   sc_core::sc_event other;
   Outcome unowned, written, read, interrupted, enabled, refused;
   std::uint8_t unheard = 0;
@@ -42,6 +64,8 @@ struct World : sc_core::sc_module {
     cpu.socket.bind(in_reset.host_socket);
     in_reset.RESET(low), in_reset.R_REQ(cpu_r_req_), in_reset.R_STA(cpu_r_sta_);
     cpu.R_REQ(cpu_r_req_), cpu.R_STA(cpu_r_sta_), cpu.L_REQ(low), cpu.L_STA(low);
+    visitor.socket.bind(target.socket);
+    visitor.R_REQ(visitor_r_req_), visitor.R_STA(visitor_r_sta_), visitor.L_REQ(low), visitor.L_STA(low);
     thread([this] { run(); });
   }
   static dsdpv1::systemc::TlmOptions options() {
@@ -100,7 +124,7 @@ struct World : sc_core::sc_module {
   }
 
  private:
-  sc_core::sc_signal<bool> cpu_r_req_, cpu_r_sta_;
+  sc_core::sc_signal<bool> cpu_r_req_, cpu_r_sta_, visitor_r_req_, visitor_r_sta_;
 };
 
 std::unique_ptr<World> world;
@@ -145,6 +169,11 @@ TEST(Quantum, BytesThatAreNotEnabledTakeNoTime) {
 
 TEST(Quantum, ARefusedTransactionLeavesTheDelayAsItWas) {
   expect(world->refused, tlm::TLM_ADDRESS_ERROR_RESPONSE, 0, 70);
+}
+
+TEST(DriverCpu, SendsAFreshPayloadEachTime) {
+  EXPECT_EQ(world->target.accesses, 2);
+  EXPECT_EQ(world->target.used, 0);
 }
 
 TEST(DriverCpuMisused, AFailedAccessIsReportedAndReadsAsAPulledUpBus) {
