@@ -162,7 +162,7 @@ function(dsdpv1_install_bus_and_checks)
   foreach(header host_telegram serial_settings spi_frame_reader)  # the readers that the checks share
     install(FILES kinds/dsdpv1/port/${header}.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/kinds/dsdpv1/port COMPONENT checks)
   endforeach()
-  install(FILES tb/chip/user_cpu/place.hpp tb/chip/user_cpu/register_access.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/tb/chip/user_cpu COMPONENT checks)  # of a violation
+  install(FILES tb/chip/user_cpu/place.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/tb/chip/user_cpu COMPONENT checks)  # of a violation
   dsdpv1_install_pc(checks dsdpv1-checks "checks of handshake, bus timing and use of the DSDPV1's DPRAM"
                     LIBS dsdpv1_checks dsdpv1_check_recorder dsdpv1_pins REQUIRES dsdpv1-core dsdpv1-bus fmt)
 endfunction()
