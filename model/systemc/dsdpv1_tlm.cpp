@@ -10,7 +10,7 @@ TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& opti
     : ChipModule(name, options), timing_(options.access), observed_(options.observed) {
   host_socket.register_b_transport(this, &TlmModule::b_transport);
   host_socket.register_transport_dbg(this, &TlmModule::transport_dbg);
-  tell_only(observed_ | mask(Pin::kReset) | mask(Pin::kRReq) | mask(Pin::kRSta));
+  tell_only(observed_ | ~kHostPins);  // an access ahead of simulation time moves none of them
   bus_in.bind(*this);
   SC_HAS_PROCESS(TlmModule);
   SC_METHOD(evaluate);
@@ -72,7 +72,7 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
 
 void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
   payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-  if (payload.get_data_length() == 1 && is_enabled(payload, 0)) carry_out_byte_ahead(payload, 0, delay);
+  if (payload.get_data_length() == 1 && is_enabled(payload, 0)) carry_out_byte_ahead(payload, 0, delay, true);
 }
 
 /// Returns the index of the first byte that must wait for simulation time; the length if the transaction is complete.
@@ -80,24 +80,38 @@ unsigned int TlmModule::carry_out_bytes_ahead(Payload& payload, sc_core::sc_time
   const unsigned int length = payload.get_data_length();
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   for (unsigned int i = 0; i < length && payload.is_response_ok(); ++i)
-    if (is_enabled(payload, i) && !carry_out_byte_ahead(payload, i, delay)) return i;
+    if (is_enabled(payload, i) && !carry_out_byte_ahead(payload, i, delay, false)) return i;
   return length;
 }
 
 /// The host holds the DPRAM, so only it reads and changes it, and the time of execution is not observable. The core
-/// stays in simulation time. Returns false if nothing was done.
-bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay) {
+/// stays in simulation time, or comes `with` its user, if nothing else happens before the end of the access; any later
+/// event then finds it at its present tick. Returns false if nothing was done.
+bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay, bool with) {
   unsigned char& byte = payload.get_data_ptr()[index];
   const auto address = static_cast<std::uint16_t>(payload.get_address() + index);
   const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload, timing_));
   const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
   Level sampled = kLevelX;
-  if (!is_private(begin) || !chip_.carry_out_ahead(chip_tick(begin), access, sampled)) return false;
-  host_free_at_ = end;
+  if (!is_private(begin)) return false;
+  if (with ? !carry_out_with_core(begin, end, access, sampled) : !carry_out_alone(begin, end, access, sampled))
+    return false;
   delay = time_until(end);
   if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
   payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE
                                                                  : tlm::TLM_GENERIC_ERROR_RESPONSE);
+  return true;
+}
+
+bool TlmModule::carry_out_with_core(Tick begin, Tick end, const HostAccess& access, Level& sampled) {
+  if (kernel_quiet_until() <= end || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return false;
+  plan(chip_now(), chip().next_seen());  // a settling write is not an event
+  return true;
+}
+
+bool TlmModule::carry_out_alone(Tick begin, Tick end, const HostAccess& access, Level& sampled) {
+  if (!chip_.carry_out_ahead(chip_tick(begin), access, sampled)) return false;
+  host_free_at_ = end;
   return true;
 }
 
@@ -240,7 +254,7 @@ void TlmModule::apply_inputs(Tick now) {
 void TlmModule::apply(Tick now, Pin pin, bool level) {
   if (((applied_ & mask(pin)) != 0) == level) return;
   applied_ ^= mask(pin);
-  if (const Tick present = current_tick(); present < earliest()) report_late(pin, present);
+  if (const Tick present = current_tick(); present < host_free_at_) report_late(pin, present);
   set(now, pin, level);
 }
 
@@ -248,7 +262,7 @@ void TlmModule::apply(Tick now, Pin pin, bool level) {
 void TlmModule::report_late(Pin pin, Tick at) {
   if (std::exchange(late_reported_, true)) return;
   const std::string text = std::string(name()) + ": " + dsdpv1::name(pin) + " changes at " + to_time(at).to_string() +
-                           ", but the chip's user is at " + to_time(earliest()).to_string() +
+                           ", but the chip's user is at " + to_time(host_free_at_).to_string() +
                            " already; an initiator has to wait for its local time first";
   SC_REPORT_WARNING("/dsdpv1/ahead", text.c_str());
 }

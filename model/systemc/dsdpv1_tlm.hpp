@@ -145,7 +145,9 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
 
   void carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
   unsigned int carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay);
-  bool carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay);
+  bool carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay, bool with);
+  bool carry_out_with_core(Tick begin, Tick end, const HostAccess& access, Level& sampled);
+  bool carry_out_alone(Tick begin, Tick end, const HostAccess& access, Level& sampled);
   bool is_private(Tick begin);
   void carry_out(Payload& payload, unsigned int first);
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);

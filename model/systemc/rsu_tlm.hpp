@@ -32,7 +32,7 @@ struct RsuStraps {
 struct RsuTlmOptions : TlmOptions {
   RsuTlmOptions() {
     chip.part = Part::kRsu;
-    observed |= kRsuOutputPins | kSerialPins;
+    observed |= kRsuOutputPins;
   }
   RsuStraps straps{};
   SpiTiming spi{};    ///< of the host's frames

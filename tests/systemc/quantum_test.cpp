@@ -53,7 +53,7 @@ struct World : sc_core::sc_module {
                       for (int i = 0; i < 2; ++i) itself.port().read(itself.port().ctx, 0x004);
                     }};
   sc_core::sc_event other;
-  Outcome unowned, written, read, interrupted, enabled, refused;
+  Outcome unowned, written, read, too_early, interrupted, enabled, refused;
   std::uint8_t unheard = 0;
   Tick waited = 0;
   bool intr0 = true;
@@ -91,6 +91,8 @@ struct World : sc_core::sc_module {
     refused = transport(tlm::TLM_READ_COMMAND, 0x800, {0}, 70);
     enabled = transport(tlm::TLM_WRITE_COMMAND, 0x140, {1, 2, 3, 4}, 0, true);
     sc_core::wait(to_time(enabled.delay_left));
+    transport(tlm::TLM_READ_COMMAND, 0x130, {0}, 0);
+    too_early = transport(tlm::TLM_READ_COMMAND, 0x130, {0}, 0);
     other.notify(to_time(2 * kRead + kRead / 2));
     interrupted = transport(tlm::TLM_READ_COMMAND, 0x130, {0, 0, 0, 0}, 0);
   }
@@ -158,6 +160,10 @@ TEST(Quantum, WithoutOwnershipAnAccessWaits) { expect(world->unowned, tlm::TLM_O
 TEST(Quantum, AnotherProcessDoesNotStopATransaction) {
   expect(world->interrupted, tlm::TLM_OK_RESPONSE, 0, 4 * kRead);
   EXPECT_EQ(world->interrupted.data, (std::vector<std::uint8_t>{4, 0x11, 0x22, 0x33}));
+}
+
+TEST(Quantum, AnAccessBeginsNotBeforeTheEndOfThoseAhead) {
+  expect(world->too_early, tlm::TLM_OK_RESPONSE, 2 * kRead, 0);
 }
 
 TEST(Quantum, BytesThatAreNotEnabledTakeNoTime) {
