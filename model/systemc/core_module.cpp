@@ -34,15 +34,18 @@ void TimedModule::schedule(Tick now, Tick due) {
 }
 
 void TimedModule::schedule_now() {
-  scheduled_ = 0;
-  scheduled_at_ = sc_core::sc_max_time();
+  forget_schedule();
   due_.notify(sc_core::SC_ZERO_TIME);
 }
 
 void TimedModule::unschedule() {
+  forget_schedule();
+  due_.cancel();
+}
+
+void TimedModule::forget_schedule() {
   scheduled_ = 0;
   scheduled_at_ = sc_core::sc_max_time();
-  due_.cancel();
 }
 
 }  // namespace dsdpv1::systemc

@@ -101,6 +101,8 @@ class TimedModule : public sc_core::sc_module {
     bool& flag_;
   };
 
+  void forget_schedule();
+
   Tick phase_;
   Tick scheduled_ = 0;                                      ///< of the chip; up to now: no notification is pending
   sc_core::sc_time scheduled_at_ = sc_core::sc_max_time();  ///< the same; never: `due_` fires in the next delta cycle

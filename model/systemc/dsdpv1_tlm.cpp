@@ -93,9 +93,8 @@ bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_co
   const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload, timing_));
   const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
   Level sampled = kLevelX;
-  if (!is_private(begin)) return false;
-  if (with ? !carry_out_with_core(begin, end, access, sampled) : !carry_out_alone(begin, end, access, sampled))
-    return false;
+  const auto carry_out = with ? &TlmModule::carry_out_with_core : &TlmModule::carry_out_alone;
+  if (!is_private(begin) || !(this->*carry_out)(begin, end, access, sampled)) return false;
   delay = time_until(end);
   if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
   payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE

@@ -85,7 +85,8 @@ template <class Edges>
 void RsuTlmModule::carry_out(Lane<Edges>& lane, Edges edges, Tick begin) {
   wait_until(begin);
   lane = {std::move(edges), 0, chip_tick(begin)};
-  catch_up();  // start with the core at the present time
+  thrown_ = nullptr;  // of one that was killed
+  catch_up();         // start with the core at the present time
   wait_until(begin + lane.edges.duration());
   plan();
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));

@@ -181,7 +181,11 @@ struct World {
     killed.kill();
     wait_until(kAt + 300 * kUs);
     thrown_of_uart = uart.thrown({0x00});
-    wait_until(kAt + 350 * kUs);
+    uart.throws = true;  // in a telegram that is killed: the exception goes with it
+    killed = sc_core::sc_spawn([this] { uart.transport(tlm::TLM_WRITE_COMMAND, Bytes(200, 0x00)); });
+    wait_until(kAt + 300 * kUs + 14 * kBit);
+    killed.kill();
+    wait_until(kAt + 400 * kUs);
     telegram_after_throw = uart.transport(tlm::TLM_WRITE_COMMAND, kReadB014);
   }
 };
