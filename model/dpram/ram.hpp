@@ -15,6 +15,8 @@ class Ram {
     cells_[index(address)] = value;
     unknown_.reset(index(address));
   }
+  /// All cells, for the owner of the RAM; a write of theirs leaves the marks.
+  std::uint8_t* cells() { return cells_.data(); }
   void mark_unknown(regs::Address address) { unknown_.set(index(address)); }
   bool unknown(regs::Address address) const { return unknown_.test(index(address)); }
 

@@ -106,6 +106,11 @@ struct Chip::Impl {
   bool apply(Tick at, Pin pin, Level value);
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled, bool may_report);
   bool carry_out_ahead(Tick begin, const HostAccess& access, Level& sampled);
+  bool stays_away() const {
+    return !live && handshake.user_holds() && handshake.next() == kNever && !sequencer.owns() && sequencer.started_up();
+  }
+  bool host_holds() const { return r_req && r_sta && stays_away(); }
+  std::uint8_t* direct();
   Level read_unheld(Tick begin, const HostAccess& access);
   bool is_private(Tick begin, const HostAccess& access);
   bool hear(Tick at, bool level);
@@ -240,14 +245,21 @@ bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled,
 }
 
 bool Chip::Impl::carry_out_ahead(Tick begin, const HostAccess& access, Level& sampled) {
-  const bool hidden = engine == Engine::kSkip && !live && (watched & mask(Pin::kDOut)) == 0;
-  const bool stays_away = handshake.user_holds() && handshake.next() == kNever && !sequencer.owns();
-  if (!hidden || !stays_away || !sequencer.started_up()) return false;
+  const bool hidden = engine == Engine::kSkip && (watched & mask(Pin::kDOut)) == 0;
+  if (!hidden || !stays_away()) return false;
   host.settle_until(begin / kTicksPerCycle, true);
   const bool plain = host.carry_out(begin, access, sampled);
   plans.host = host.next();
   plan();
   return plain;
+}
+
+std::uint8_t* Chip::Impl::direct() {
+  if (!host_holds()) return nullptr;
+  host.settle_until(kNever, true);
+  plans.host = host.next();
+  plan();
+  return ram.cells();
 }
 
 // Meanwhile the dozing chip may have accesses, and D is unreadable during one.
@@ -688,6 +700,8 @@ bool Chip::carry_out(Tick begin, const HostAccess& access, Level& sampled, bool 
 bool Chip::carry_out_ahead(Tick begin, const HostAccess& access, Level& sampled) {
   return impl_->carry_out_ahead(begin, access, sampled);
 }
+bool Chip::host_holds() const { return impl_->host_holds(); }
+std::uint8_t* Chip::direct() { return impl_->direct(); }
 bool Chip::is_private(Tick begin, const HostAccess& access) { return impl_->is_private(begin, access); }
 Tick Chip::next_event() const { return impl_->next_event(); }
 Tick Chip::next_seen() const { return impl_->next_seen(); }

@@ -84,6 +84,12 @@ class Chip {
   /// effect, unless the host holds the DPRAM, so that only its accesses change it: the next one begins later, and the
   /// host keeps R_REQ and R_STA until its end.
   bool carry_out_ahead(Tick begin, const HostAccess& access, Level& sampled);
+  /// True if the chip stays away from the DPRAM until the host lowers R_REQ or R_STA, or RESET falls: both are high and
+  /// seen, and no access of the chip is running.
+  bool host_holds() const;
+  /// The 0x800 cells of the DPRAM, null unless host_holds(). The host may read and write them until it lets go; no
+  /// access is seen or judged then. Writes in flight settle, so call it after carry_out() and carry_out_ahead(), too.
+  std::uint8_t* direct();
   /// The tick of the chip's next event that needs no call (a rising CLK edge, or the falling edge at which D is
   /// driven); never before `now()`. With Engine::kStep the next rising edge.
   Tick next_event() const;

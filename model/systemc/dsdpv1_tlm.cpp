@@ -7,14 +7,27 @@
 namespace dsdpv1::systemc {
 
 TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options)
-    : ChipModule(name, options), timing_(options.access), observed_(options.observed) {
-  host_socket.register_b_transport(this, &TlmModule::b_transport);
-  host_socket.register_transport_dbg(this, &TlmModule::transport_dbg);
+    : ChipModule(name, options),
+      timing_(options.access),
+      ownership_(options.ownership),
+      hold_within_(options.hold_within),
+      gives_dmi_(options.dmi),
+      observed_(options.observed) {
+  serve(host_socket);
+  serve(host_socket_64);
+  serve(host_socket_8);
   tell_only(observed_ | ~kHostPins);  // an access ahead of simulation time moves none of them
   bus_in.bind(*this);
   SC_HAS_PROCESS(TlmModule);
   SC_METHOD(evaluate);
   sensitive << due_ << RESET << R_REQ << R_STA << PBRXD;
+}
+
+template <class Socket>
+void TlmModule::serve(Socket& socket) {
+  socket.register_b_transport(this, &TlmModule::b_transport);
+  socket.register_transport_dbg(this, &TlmModule::transport_dbg);
+  socket.register_get_direct_mem_ptr(this, &TlmModule::direct_mem_ptr);
 }
 
 void TlmModule::start_of_simulation() {
@@ -58,16 +71,19 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     carry_out_ahead(payload, delay);
     return;
   }
-  const unsigned int first = is_decoupled() ? carry_out_bytes_ahead(payload, delay) : 0;
-  if (first == payload.get_data_length()) return;
-  wait_for(delay);
-  const sc_core::sc_scoped_lock turn(host_bus_);
-  try {
-    carry_out(payload, first);
-  } catch (...) {  // also the reset of the initiator's process
-    release_host_pins();
-    throw;
+  if (const unsigned int first = is_decoupled() ? carry_out_bytes_ahead(payload, delay) : 0;
+      first < payload.get_data_length()) {
+    wait_for(delay);
+    const sc_core::sc_scoped_lock turn(host_bus_);
+    try {
+      carry_out(payload, first);
+    } catch (...) {  // also the reset of the initiator's process
+      release_host_pins();
+      throw;
+    }
   }
+  if (dmi_given_) chip_.direct();  // the payload's writes settle, before direct ones
+  payload.set_dmi_allowed(gives_dmi());
 }
 
 void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
@@ -132,7 +148,8 @@ void TlmModule::carry_out(Payload& payload, unsigned int first) {
   for (unsigned int i = first; i < payload.get_data_length(); ++i) {
     if (!is_enabled(payload, i)) continue;
     const auto address = static_cast<std::uint16_t>(payload.get_address() + i);
-    if (payload.is_write() ? !write_byte(address, timing, data[i]) : !read_byte(address, timing, data[i])) {
+    if (!may_access(address) ||
+        !(payload.is_write() ? write_byte(address, timing, data[i]) : read_byte(address, timing, data[i]))) {
       payload.set_response_status(tlm::TLM_GENERIC_ERROR_RESPONSE);
       return;
     }
@@ -253,6 +270,7 @@ void TlmModule::apply_inputs(Tick now) {
 void TlmModule::apply(Tick now, Pin pin, bool level) {
   if (((applied_ & mask(pin)) != 0) == level) return;
   applied_ ^= mask(pin);
+  if (dmi_given_ && !level) end_dmi();
   if (const Tick present = current_tick(); present < host_free_at_) report_late(pin, present);
   set(now, pin, level);
 }

@@ -29,8 +29,20 @@ namespace dsdpv1::systemc {
 
 constexpr std::uint32_t kHostPins = mask(Pin::kA) | mask(Pin::kDIn) | mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kWr);
 
+/// An access while the user does not hold the DPRAM (R_REQ and R_STA high, seen by the chip, and L_STA low) is:
+enum class Ownership : std::uint8_t {
+  kReport,  ///< carried out, and reported by the core (P12)
+  kWait,    ///< late: it waits for the hold; without one in TlmOptions::hold_within, an error and /dsdpv1/ownership
+  kRefuse   ///< answered by TLM_GENERIC_ERROR_RESPONSE; no pin moves
+};
+
 struct TlmOptions : ChipOptions {
   AccessTiming access{};
+  Ownership ownership = Ownership::kReport;
+  /// Ticks that kWait waits at most. No source: 1 ms, the start-up of the chip and far more than its longest access.
+  Tick hold_within = 12'000'000;
+  /// Direct memory access for the holder of the DPRAM: nothing shows or checks its accesses.
+  bool dmi = false;
   /// The pins reported to `on_pin` (dsdpv1::mask). Each change of a reported output costs an event. RESET, R_REQ and
   /// R_STA are always reported. If PBRXD and PBTXD are not, a telegram of valid characters costs a few events instead
   /// of six per character; if A, D, CSR, RD and WR are not, an access of the DPRAM's owner costs one.
@@ -54,10 +66,13 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   /// With a global quantum (tlm_global_quantum) other than zero, b_transport does not wait for an access while R_REQ
   /// and R_STA are high: the time is added to the returned delay. An initiator must wait for its delay before it moves
   /// R_REQ, R_STA or RESET (warning /dsdpv1/ahead), or samples an output.
-  /// Access without ownership is executed and reported (P12). Debug transport reads and writes the DPRAM without pins;
-  /// direct memory access is denied.
+  /// TlmOptions::ownership is for accesses without the DPRAM. Debug transport reads and writes the DPRAM without pins;
+  /// direct memory access is denied, or given with TlmOptions::dmi while user_holds().
   /// Must be bound (error /dsdpv1/binding), unless the straps of a DSDPV1-RSU choose another port.
   tlm_utils::simple_target_socket_optional<TlmModule> host_socket{"host_socket"};
+  /// The same for initiators of another BUSWIDTH.
+  tlm_utils::simple_target_socket_optional<TlmModule, 64> host_socket_64{"host_socket_64"};
+  tlm_utils::simple_target_socket_optional<TlmModule, 8> host_socket_8{"host_socket_8"};
 
   In RESET{"RESET"};                           ///< low-active
   In R_REQ{"R_REQ"}, R_STA{"R_STA"};           ///< the user's side of the handshake
@@ -104,6 +119,16 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   /// called from `on_pin` or `on_event`, because the core is running then.
   void sync(const sc_core::sc_time& ahead = sc_core::SC_ZERO_TIME);
 
+  /// The chip stays away from the DPRAM until R_REQ, R_STA or RESET falls.
+  bool user_holds();
+  /// Up to when an initiator with a quantum is not stopped: each of its accesses is ahead of simulation time until it
+  /// synchronises. sc_max_time() while the user holds the DPRAM and nobody observes the pins of accesses, else the
+  /// present time.
+  sc_core::sc_time ahead_until();
+  /// When the chip next does something that its outputs, its reports or the DPRAM may show, if no input changes: up to
+  /// then they stay as they are. sc_max_time(): never.
+  sc_core::sc_time next_action();
+
  protected:
   using Payload = tlm::tlm_generic_payload;
 
@@ -124,13 +149,16 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   /// The live host port's socket is bound.
   template <class Socket>
   void require_bound(Socket& socket, const char* why) {
-    if (socket.get_base_port().size() == 0) report_unbound(socket.name(), why);
+    if (!is_bound(socket)) report_unbound(socket.name(), why);
+  }
+  void require_host_bound(const char* why) {
+    if (!is_bound(host_socket_64) && !is_bound(host_socket_8)) require_bound(host_socket, why);
   }
 
  private:
   // For a host on another port.
   /// Reports a socket that must be bound.
-  virtual void check_binding() { require_bound(host_socket, "it is the host port"); }
+  virtual void check_binding() { require_host_bound("it is the host port"); }
   /// Outputs that this port needs (output_changed), independent of other observers.
   virtual std::uint32_t heard_outputs() const { return 0; }
   /// Applies its edges up to the chip's tick `now`.
@@ -146,6 +174,22 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
   unsigned int carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay);
   bool carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay, bool with);
+  template <class Socket>
+  static bool is_bound(Socket& socket) {
+    return socket.get_base_port().size() > 0;
+  }
+  template <class Socket>
+  void serve(Socket& socket);
+  template <class Socket>
+  static void withdraw_dmi(Socket& socket);
+  bool direct_mem_ptr(Payload& payload, tlm::tlm_dmi& dmi);
+  /// In the middle of catch_up, or right after it.
+  bool holds() const { return R_REQ.read() && R_STA.read() && chip().host_holds(); }
+  bool gives_dmi() const { return gives_dmi_ && !hears_host() && !in_access() && holds(); }
+  void end_dmi();
+  bool may_access(std::uint16_t address);
+  bool wait_for_hold(std::uint16_t address);
+  void report_no_hold(std::uint16_t address) const;
   bool carry_out_with_core(Tick begin, Tick end, const HostAccess& access, Level& sampled);
   bool carry_out_alone(Tick begin, Tick end, const HostAccess& access, Level& sampled);
   bool is_private(Tick begin);
@@ -186,6 +230,9 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void take_back_last_run();
 
   AccessTiming timing_;
+  Ownership ownership_;
+  Tick hold_within_;
+  bool gives_dmi_, dmi_given_ = false;
   // As found by plan(); 0: must be found again.
   Tick arrivals_ = 0;  ///< the next arrival at the chip, from the line or the host ...
   Tick others_ = 0;    ///< ... and the next event outside the core, which may be the end of a character of the chip

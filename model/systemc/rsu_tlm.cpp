@@ -39,7 +39,7 @@ RsuTlmModule::RsuTlmModule(const sc_core::sc_module_name& name, const RsuTlmOpti
 
 void RsuTlmModule::check_binding() {
   switch (straps_.mode) {
-    case HostMode::kParallel: return require_bound(host_socket, "the straps choose the parallel port");
+    case HostMode::kParallel: return require_host_bound("the straps choose the parallel port");
     case HostMode::kSpi: return require_bound(spi_socket, "the straps choose SPI");
     case HostMode::kUart: return require_bound(uart_socket, "the straps choose the UART");
   }

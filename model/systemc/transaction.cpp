@@ -21,11 +21,12 @@ bool is_enabled(const tlm::tlm_generic_payload& payload, unsigned int index) {
   return enables == nullptr || enables[index % payload.get_byte_enable_length()] == TLM_BYTE_ENABLED;
 }
 
-tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload, sc_dt::uint64 size) {
+tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload, sc_dt::uint64 size, sc_dt::uint64 first) {
   const unsigned int length = payload.get_data_length();
   if (!payload.is_read() && !payload.is_write()) return tlm::TLM_COMMAND_ERROR_RESPONSE;
   if (length == 0 || payload.get_streaming_width() < length) return tlm::TLM_BURST_ERROR_RESPONSE;
-  if (payload.get_address() >= size || length > size - payload.get_address()) return tlm::TLM_ADDRESS_ERROR_RESPONSE;
+  const sc_dt::uint64 offset = payload.get_address() - first;
+  if (payload.get_address() < first || offset >= size || length > size - offset) return tlm::TLM_ADDRESS_ERROR_RESPONSE;
   if (!enables_are_valid(payload)) return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
   return payload.get_data_ptr() != nullptr ? tlm::TLM_OK_RESPONSE : tlm::TLM_GENERIC_ERROR_RESPONSE;
 }

@@ -7,8 +7,8 @@
 
 namespace dsdpv1::systemc {
 
-/// TLM_OK_RESPONSE for a valid transaction at the addresses from 0 on, below `size` (docs/systemc.md has the others).
-tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload, sc_dt::uint64 size);
+/// TLM_OK_RESPONSE for a valid transaction at the `size` addresses from `first` on (docs/systemc.md has the others).
+tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload, sc_dt::uint64 size, sc_dt::uint64 first = 0);
 
 /// True if byte `index` of the data is accessed.
 bool is_enabled(const tlm::tlm_generic_payload& payload, unsigned int index);

@@ -26,7 +26,7 @@ struct Outcome {
   std::vector<std::uint8_t> data;
 };
 
-/// A target of somebody else: allows DMI, and takes the full payload.
+/// A target of another project: allows DMI, and takes the full payload.
 struct ForeignTarget : sc_core::sc_module {
   tlm_utils::simple_target_socket<ForeignTarget> socket{"socket"};
   int accesses = 0, used = 0;  ///< with attributes that an earlier one has set
