@@ -67,6 +67,7 @@ class Completion {
     gsd_.c2_read_write = flag("c2_read_write_supp");
     gsd_.wd_base_1ms = flag("wd_base_1ms_supp");
     gsd_.modular = flag("modular_station");
+    gsd_.fix_preset_modules = flag("fixpresetmodules");
   }
 
   void fill_numbers() {
@@ -92,6 +93,7 @@ class Completion {
       const std::string rate = lower(gsd_baud_name(i));
       gsd_.bauds[static_cast<std::size_t>(i)] = {flag(rate + "_supp"), number("maxtsdr_" + rate)};
     }
+    gsd_.pa = {flag("31.25_supp"), number("maxtsdr_31.25")};
   }
 
   /// User_Prm_Data counts only without Ext_User_Prm_Data keywords: files contain both, for old and new masters.
@@ -230,7 +232,10 @@ class Completion {
       if (rate.supported && !rate.max_tsdr)
         diagnostics_.warning(0, fmt::format("MaxTsdr_{} is missing", gsd_baud_name(i)));
     }
-    if (!any) diagnostics_.warning(0, "no baud rate is supported");
+    if (!any && gsd_.pa.supported)
+      diagnostics_.warning(0, "31.25 kbit/s (PROFIBUS PA) is the only rate, a DP line needs a coupler for it");
+    else if (!any)
+      diagnostics_.warning(0, "no baud rate is supported");
   }
 
   void check_modules() {

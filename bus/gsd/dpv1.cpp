@@ -3,6 +3,11 @@
 
 namespace dsdpv1::bus {
 
+bool enables_dpv1(const Gsd& gsd, const Bytes& user_prm) {
+  constexpr unsigned kEnable = 0x80;  // DPV1_Status_1.7
+  return gsd.dpv1 && !user_prm.empty() && (user_prm.front() & kEnable) != 0;
+}
+
 std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters) {
   if (!gsd.dpv1) return "the GSD file does not say DPV1_Slave = 1";
   if (!gsd.c1_read_write) return "the GSD file does not say C1_Read_Write_supp = 1";

@@ -134,6 +134,7 @@ struct Gsd {
   std::uint16_t ident = 0;
   bool is_master = false;  ///< Station_Type 1
   std::array<GsdBaud, kBaudCount> bauds{};
+  GsdBaud pa;  ///< 31.25 kbit/s, PROFIBUS PA: no rate of a DP line
 
   bool auto_baud = false, freeze = false, sync = false, fail_safe = false, set_slave_add = false;
   bool dpv1 = false;           ///< DPV1_Slave
@@ -144,11 +145,12 @@ struct Gsd {
   std::optional<int> c1_response_timeout, c2_response_timeout;  ///< units of 10 ms
 
   bool modular = false;
+  bool fix_preset_modules = false;  ///< modules with Preset = 1 are in every station, before those chosen
   std::optional<int> max_modules;
   std::optional<int> max_input, max_output, max_data;  ///< bytes
   std::optional<int> max_diag;                         ///< bytes with the six standard ones
   std::optional<int> max_user_prm;                     ///< Max_User_Prm_Data_Len, bytes
-  std::optional<int> module_offset;                    ///< number of the first slot in diagnosis and acyclic access
+  std::optional<int> module_offset;                    ///< number of the first slot
   std::optional<int> min_slave_interval;               ///< units of 100 us
 
   GsdPrmBlock prm;

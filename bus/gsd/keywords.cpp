@@ -54,6 +54,7 @@ const Keyword kKeywords[] = {
     number("Min_Slave_Intervall", kU16),
     flag("Modular_Station"),
     number("Max_Module", kU8),
+    flag("FixPresetModules"),  // of Siemens
     number("Modul_Offset", kU8),
     number("Max_Input_Len", 244),
     number("Max_Output_Len", 244),
@@ -122,7 +123,7 @@ const Keyword kKeywords[] = {
     flag("X_Prm_SAP_supp"),
     number("X_Max_User_Prm_Data_Len", 244),
     flag("Time_Sync_supp"),
-    flag("Slave_Redundancy_supp"),
+    number("Slave_Redundancy_supp", kU8),
     number("Slave_Max_Switch_Over_Time", kU16),  // revision 5
     // DP master class 1
     flag("Master_Freeze_Mode_supp"),
@@ -176,9 +177,11 @@ const Table& table() {
   return keywords;
 }
 
-std::string without_underscores(std::string_view name) {
+/// In lower case, without underscores and blanks.
+std::string bare_name(std::string_view name) {
+  const auto joins = [](char c) { return c == '_' || c == ' ' || c == '\t'; };
   std::string result = lower(name);
-  result.erase(std::remove(result.begin(), result.end(), '_'), result.end());
+  result.erase(std::remove_if(result.begin(), result.end(), joins), result.end());
   return result;
 }
 
@@ -222,8 +225,8 @@ const Keyword* find_keyword(std::string_view name) {
 
 const Keyword* guess_keyword(std::string_view name) {
   if (const Keyword* mended = find_keyword(mend(name))) return mended;
-  const std::string bare = without_underscores(name);
-  const auto same = [&](const auto& entry) { return without_underscores(entry.first) == bare; };
+  const std::string bare = bare_name(name);
+  const auto same = [&](const auto& entry) { return bare_name(entry.first) == bare; };
   const auto found = std::find_if(table().begin(), table().end(), same);
   return found == table().end() ? nullptr : &found->second;
 }

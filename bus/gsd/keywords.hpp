@@ -24,8 +24,8 @@ struct Keyword {
 /// The keyword with this name, ignoring case; nullptr without one.
 const Keyword* find_keyword(std::string_view name);
 
-/// The keyword meant by a misspelt name: known slips of real files, missing or extra underscores. nullptr if none
-/// matches.
+/// The keyword meant by a misspelt name: known slips of real files, missing or extra underscores, blanks. nullptr if
+/// none matches.
 const Keyword* guess_keyword(std::string_view name);
 
 /// Vendor and profile keywords (F_, X_, Unit_Diag...), kept without a remark.

@@ -24,6 +24,9 @@ constexpr BlockKind kBlocks[] = {
     {"UnitDiagType", "EndUnitDiagType", "unitdiagtype", "endunitdiagtype", Scope::kKept, false},
     {"Unit_Diag_Area", "Unit_Diag_Area_End", "unitdiagarea", "unitdiagareaend", Scope::kKept, true},
     {"X_Unit_Diag_Area", "X_Unit_Diag_Area_End", "xunitdiagarea", "xunitdiagareaend", Scope::kKept, true},
+    {"Data_Area_Beg", "Data_Area_End", "dataareabeg", "dataareaend", Scope::kKept, true},
+    {"Version_Firmware_Download", "End_Version_Firmware_Download", "versionfirmwaredownload",
+     "endversionfirmwaredownload", Scope::kKept, false},
     {"Physical_Interface", "End_Physical_Interface", "physicalinterface", "endphysicalinterface", Scope::kKept, false},
 };
 
@@ -106,7 +109,7 @@ bool Parser::begin(Scope kind, const Statement& statement) {
   if (kind == Scope::kModule) return begin_module(statement);
   if (kind == Scope::kPrmText) return begin_prm_text(statement);
   if (kind == Scope::kParameter) return begin_parameter(statement);
-  if (kind == Scope::kKept) keep(gsd.keywords, statement);
+  if (kind == Scope::kKept && statement.equals) keep(gsd.keywords, statement);
   return true;
 }
 

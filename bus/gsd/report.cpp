@@ -58,8 +58,13 @@ class TextReport {
     line("Baud rates (kbit/s, M: Mbit/s) and MaxTsdr in bit times");
     for (int i = kBaudCount - 1; i >= 0; --i) {
       const GsdBaud& rate = gsd_.bauds[static_cast<std::size_t>(i)];
-      if (rate.supported) entry(gsd_baud_name(i), rate.max_tsdr ? fmt::format("{}", *rate.max_tsdr) : "not given");
+      print_rate(gsd_baud_name(i), rate);
     }
+    print_rate("31.25 (PROFIBUS PA)", gsd_.pa);
+  }
+
+  void print_rate(std::string_view rate, const GsdBaud& baud) {
+    if (baud.supported) entry(rate, baud.max_tsdr ? fmt::format("{}", *baud.max_tsdr) : "not given");
   }
 
   void print_limits() {
@@ -95,7 +100,7 @@ class TextReport {
                            : setup.lengths.error);
     entry("  Set_Prm with it alone", hex(set_prm_bytes(gsd_.ident, {}, setup.user_prm)));
     for (const GsdPrmField& field : setup.fields)
-      if (field.module) entry("", fmt::format("byte {}: {}", 7 + field.position, gsd::describe(field)));
+      entry("", fmt::format("byte {}: {}", 7 + field.position, gsd::describe(field)));
   }
 
   void print_setup(const GsdSetup& setup) {

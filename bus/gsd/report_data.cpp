@@ -91,11 +91,15 @@ std::vector<Explained> explain_chk_cfg(const Bytes& chk_cfg) {
 
 GsdSetup alone(const Gsd& gsd, std::size_t module) {
   GsdSetup setup;
-  setup.modules = {module};
+  setup.modules = modules_of_station(gsd, {module});
   GsdUserPrm prm = set_prm_user_bytes(gsd, setup.modules, {});
   setup.user_prm = std::move(prm.bytes);
   setup.fields = std::move(prm.fields);
-  setup.chk_cfg = chk_cfg_bytes(gsd, setup.modules);
+  const auto others = [&](const GsdPrmField& field) {
+    return !field.module || setup.modules.at(*field.module) != module;
+  };
+  setup.fields.erase(std::remove_if(setup.fields.begin(), setup.fields.end(), others), setup.fields.end());
+  setup.chk_cfg = chk_cfg_bytes(gsd, {module});
   setup.lengths = cfg_lengths(setup.chk_cfg);
   return setup;
 }

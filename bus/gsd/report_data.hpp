@@ -28,7 +28,8 @@ std::string describe(const GsdPrmField& field);
 std::vector<Explained> explain_set_prm(const Gsd& gsd, const Bytes& set_prm, const GsdSetup& setup);
 std::vector<Explained> explain_chk_cfg(const Bytes& chk_cfg);
 
-/// The setup of a single module, without limit checks.
+/// The Set_Prm of a station with one chosen module, without limit checks. Chk_Cfg, lengths and fields are those of the
+/// module alone.
 GsdSetup alone(const Gsd& gsd, std::size_t module);
 
 void print_text(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks, std::ostream& out);

@@ -31,11 +31,12 @@ Json identity(const Gsd& gsd) {
 
 Json rates(const Gsd& gsd) {
   Json list = Json::array();
-  for (int i = kBaudCount - 1; i >= 0; --i) {
-    const GsdBaud& rate = gsd.bauds[static_cast<std::size_t>(i)];
-    if (!rate.supported) continue;
-    list.push_back({{"baud", gsd_baud_name(i)}, {"max_tsdr_bits", rate.max_tsdr ? Json(*rate.max_tsdr) : Json()}});
-  }
+  const auto add = [&](std::string_view name, const GsdBaud& rate) {
+    if (rate.supported)
+      list.push_back({{"baud", name}, {"max_tsdr_bits", rate.max_tsdr ? Json(*rate.max_tsdr) : Json()}});
+  };
+  for (int i = kBaudCount - 1; i >= 0; --i) add(gsd_baud_name(i), gsd.bauds[static_cast<std::size_t>(i)]);
+  add("31.25", gsd.pa);
   return list;
 }
 
@@ -72,11 +73,10 @@ Json parameter(const GsdPrmField& field) {
           {"changeable", known.changeable}, {"visible", known.visible}};
 }
 
-/// `module`: only the parameters at this position of the choice, nullopt those of the station.
-Json parameters(const GsdSetup& setup, std::optional<std::size_t> module) {
+Json parameters(const GsdSetup& setup) {
   Json list = Json::array();
   for (const GsdPrmField& field : setup.fields)
-    if (field.module == module && field.parameter != nullptr) list.push_back(parameter(field));
+    if (field.parameter != nullptr) list.push_back(parameter(field));
   return list;
 }
 
@@ -92,7 +92,7 @@ Json module_json(const Gsd& gsd, std::size_t index) {
           {"output_bytes", setup.lengths.output},
           {"identifiers", identifiers(setup.lengths)},
           {"set_prm", detail::hex(set_prm_bytes(gsd.ident, {}, setup.user_prm))},
-          {"parameters", parameters(setup, 0)}};
+          {"parameters", parameters(setup)}};
 }
 
 Json modules(const Gsd& gsd) {

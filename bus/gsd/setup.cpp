@@ -57,7 +57,8 @@ std::string some_modules(const Gsd& gsd) {
 /// Writes parameters into bytes and records the field at each place.
 class PrmBuilder {
  public:
-  PrmBuilder(const Gsd& gsd, const std::vector<GsdOverride>& overrides) : gsd_(gsd), overrides_(overrides) {}
+  PrmBuilder(const Gsd& gsd, const Modules& modules, const std::vector<GsdOverride>& overrides)
+      : gsd_(gsd), modules_(modules), overrides_(overrides) {}
 
   void add(const GsdPrmBlock& block, std::optional<std::size_t> module) {
     const std::size_t base = result_.bytes.size();
@@ -82,7 +83,8 @@ class PrmBuilder {
 
  private:
   void add_parameter(const GsdParameter& parameter, std::size_t at, std::optional<std::size_t> module) {
-    std::int64_t value = parameter.preset;
+    std::int64_t value =
+        module && gsd::lower(parameter.name) == "[slotnumber]" ? slot(parameter, *module) : parameter.preset;
     for (std::size_t i = 0; i < overrides_.size(); ++i) {
       if (overrides_[i].module != module || !names(overrides_[i], parameter)) continue;
       used_.insert(i);
@@ -91,6 +93,17 @@ class PrmBuilder {
     store(parameter, at, value);
     result_.fields.push_back(
         {at, static_cast<std::size_t>(size_of(parameter.type)), module, &parameter, value, text(parameter, value)});
+  }
+
+  /// The slot of a module, or the default after a reported error.
+  std::int64_t slot(const GsdParameter& parameter, std::size_t module) {
+    const std::int64_t number = module < gsd_.slots.size()
+                                    ? gsd_.slots[module].number
+                                    : gsd_.module_offset.value_or(1) + static_cast<std::int64_t>(module);
+    if (takes(parameter, number)) return number;
+    fail(parameter.line, fmt::format("{} is in slot {}, \"{}\" allows {}", owner(module), number, parameter.name,
+                                     allowed_words(parameter)));
+    return parameter.preset;
   }
 
   static bool names(const GsdOverride& change, const GsdParameter& parameter) {
@@ -118,19 +131,27 @@ class PrmBuilder {
 
   /// The changed value, or the default after a reported error.
   std::int64_t overridden(const GsdOverride& change, const GsdParameter& parameter) {
-    const GsdRange whole = range_of(parameter.type, parameter.last_bit - parameter.first_bit + 1);
     const auto value = value_of(change, parameter);
-    const auto holds = [&](const GsdRange& range) { return value && *value >= range.low && *value <= range.high; };
-    const auto& allowed = parameter.allowed;
-    if (holds(whole) && (allowed.empty() || std::any_of(allowed.begin(), allowed.end(), holds))) return *value;
+    if (value && takes(parameter, *value)) return *value;
     fail(parameter.line, fmt::format(R"("{}" is no value for "{}", {} is allowed)", change.value, parameter.name,
-                                     allowed_words(parameter, whole)));
+                                     allowed_words(parameter)));
     return parameter.preset;
   }
 
-  static std::string allowed_words(const GsdParameter& parameter, const GsdRange& whole) {
+  static GsdRange whole(const GsdParameter& parameter) {
+    return range_of(parameter.type, parameter.last_bit - parameter.first_bit + 1);
+  }
+
+  static bool takes(const GsdParameter& parameter, std::int64_t value) {
+    const auto holds = [&](const GsdRange& range) { return value >= range.low && value <= range.high; };
+    const auto& allowed = parameter.allowed;
+    return holds(whole(parameter)) && (allowed.empty() || std::any_of(allowed.begin(), allowed.end(), holds));
+  }
+
+  static std::string allowed_words(const GsdParameter& parameter) {
     std::string list;
-    for (const GsdRange& range : parameter.allowed.empty() ? std::vector<GsdRange>{whole} : parameter.allowed) {
+    for (const GsdRange& range :
+         parameter.allowed.empty() ? std::vector<GsdRange>{whole(parameter)} : parameter.allowed) {
       if (!list.empty()) list += ", ";
       list += range.low == range.high ? fmt::format("{}", range.low) : fmt::format("{} to {}", range.low, range.high);
     }
@@ -154,8 +175,10 @@ class PrmBuilder {
     }
   }
 
-  static std::string owner(std::optional<std::size_t> module) {
-    return module ? fmt::format("module {} of the choice", *module + 1) : "the station";
+  std::string owner(std::optional<std::size_t> module) const {
+    if (!module) return "the station";
+    if (*module >= modules_.size()) return fmt::format("module {}", *module + 1);
+    return fmt::format("module {} \"{}\"", *module + 1, gsd_.modules.at(modules_[*module]).name);
   }
 
   std::string offered(std::optional<std::size_t> module) const {
@@ -170,6 +193,7 @@ class PrmBuilder {
   }
 
   const Gsd& gsd_;
+  const Modules& modules_;
   const std::vector<GsdOverride>& overrides_;
   std::set<std::size_t> used_;
   GsdUserPrm result_;
@@ -273,6 +297,37 @@ Modules chosen_modules(const Gsd& gsd, const std::vector<std::string>& names, st
   return modules;
 }
 
+/// A station's modules, and where those of the choice stand among them.
+struct Station {
+  Modules modules;
+  std::vector<std::size_t> places;
+};
+
+Station station_of(const Gsd& gsd, const Modules& chosen) {
+  Station station;
+  if (gsd.fix_preset_modules) station.modules = matching(gsd, [&](std::size_t i) { return gsd.modules[i].preset; });
+  Modules fixed = station.modules;
+  for (const std::size_t module : chosen) {
+    const auto at = std::find(fixed.begin(), fixed.end(), module);
+    if (at != fixed.end()) {
+      station.places.push_back(static_cast<std::size_t>(at - fixed.begin()));
+      *at = gsd.modules.size();  // once: another one is added
+    } else {
+      station.places.push_back(station.modules.size());
+      station.modules.push_back(module);
+    }
+  }
+  return station;
+}
+
+/// The overrides with positions in the station. A position beyond the choice stays one.
+std::vector<GsdOverride> in_station(std::vector<GsdOverride> overrides, const Station& station) {
+  for (GsdOverride& change : overrides)
+    if (change.module)
+      change.module = *change.module < station.places.size() ? station.places[*change.module] : station.modules.size();
+  return overrides;
+}
+
 }  // namespace
 
 bool GsdSetup::ok() const {
@@ -304,6 +359,8 @@ std::optional<std::size_t> find_module(const Gsd& gsd, const std::string& name, 
   return std::nullopt;
 }
 
+Modules modules_of_station(const Gsd& gsd, const Modules& chosen) { return station_of(gsd, chosen).modules; }
+
 std::size_t prm_length(const Gsd& gsd, const GsdPrmBlock& block) {
   if (block.length) return static_cast<std::size_t>(*block.length);
   std::size_t end = 0;
@@ -315,7 +372,7 @@ std::size_t prm_length(const Gsd& gsd, const GsdPrmBlock& block) {
 }
 
 GsdUserPrm set_prm_user_bytes(const Gsd& gsd, const Modules& modules, const std::vector<GsdOverride>& overrides) {
-  PrmBuilder builder(gsd, overrides);
+  PrmBuilder builder(gsd, modules, overrides);
   builder.add(gsd.prm, std::nullopt);
   for (std::size_t i = 0; i < modules.size(); ++i) builder.add(gsd.modules.at(modules[i]).prm, i);
   for (std::size_t i = 0; i < modules.size(); ++i) builder.add(gsd.modules.at(modules[i]).f_prm, i);
@@ -349,9 +406,11 @@ Bytes set_prm_bytes(std::uint16_t ident, const SetPrmHead& head, const Bytes& us
 GsdSetup set_up(const Gsd& gsd, const GsdChoice& choice) {
   GsdSetup setup;
   const bool chosen = !choice.modules.empty();
-  setup.modules = chosen ? chosen_modules(gsd, choice.modules, setup.diagnostics) : preset_modules(gsd);
+  const Station station =
+      station_of(gsd, chosen ? chosen_modules(gsd, choice.modules, setup.diagnostics) : preset_modules(gsd));
+  setup.modules = station.modules;
   if (!setup.ok()) return setup;
-  GsdUserPrm prm = set_prm_user_bytes(gsd, setup.modules, choice.overrides);
+  GsdUserPrm prm = set_prm_user_bytes(gsd, setup.modules, in_station(choice.overrides, station));
   setup.user_prm = std::move(prm.bytes);
   setup.fields = std::move(prm.fields);
   setup.diagnostics.insert(setup.diagnostics.end(), prm.diagnostics.begin(), prm.diagnostics.end());

@@ -36,7 +36,7 @@ struct GsdChoice {
 struct GsdPrmField {
   std::size_t position = 0;                 ///< byte in the user parameters
   std::size_t size = 1;                     ///< bytes
-  std::optional<std::size_t> module;        ///< position in the choice; nullopt: the station
+  std::optional<std::size_t> module;        ///< position in the station; nullopt: the station itself
   const GsdParameter* parameter = nullptr;  ///< in the Gsd; nullptr: constant bytes
   std::int64_t value = 0;                   ///< of the parameter
   std::string text;                         ///< the PrmText of the value, empty without one
@@ -49,7 +49,7 @@ struct GsdUserPrm {
 };
 
 struct GsdSetup {
-  std::vector<std::size_t> modules;  ///< indices into Gsd::modules
+  std::vector<std::size_t> modules;  ///< of the station, as indices into Gsd::modules: fixed presets, then the choice
   Bytes user_prm;                    ///< Set_Prm after its first seven bytes, including DPV1 bytes as given by the file
   std::vector<GsdPrmField> fields;
   Bytes chk_cfg;
@@ -78,7 +78,12 @@ std::optional<std::size_t> find_module(const Gsd& gsd, const std::string& name, 
 /// Size of a block of parameters in bytes: the length given by the file, else the end of its last byte.
 std::size_t prm_length(const Gsd& gsd, const GsdPrmBlock& block);
 
-/// User parameters of the station, followed by those of the modules.
+/// The modules of a station: with FixPresetModules the presets first, each once, then those chosen.
+std::vector<std::size_t> modules_of_station(const Gsd& gsd, const std::vector<std::size_t>& chosen);
+
+/// User parameters of the station, followed by those of its modules. A parameter named "[SlotNumber]" gets the slot of
+/// its module (GSD revision 5): the file's Slot, else counted from Modul_Offset, else from 1. GsdOverride::module
+/// counts in `modules`.
 GsdUserPrm set_prm_user_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules,
                               const std::vector<GsdOverride>& overrides);
 
@@ -87,6 +92,9 @@ Bytes chk_cfg_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules);
 
 /// A complete Set_Prm: 7 bytes and the user parameters.
 Bytes set_prm_bytes(std::uint16_t ident, const SetPrmHead& head, const Bytes& user_prm);
+
+/// True if these user parameters switch DPV1 on: DPV1_Slave, and DPV1_Enable in their first byte (table 25).
+bool enables_dpv1(const Gsd& gsd, const Bytes& user_prm);
 
 /// Requests DPV1 from a slave: sets DPV1_Enable in its Set_Prm (three more bytes, table 25) and the C1 response timeout
 /// of the file. Returns why the file does not allow it, leaving `parameters` unchanged, or an empty text.

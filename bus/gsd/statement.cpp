@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "bus/gsd/keywords.hpp"
+
 namespace dsdpv1::bus::gsd {
 namespace {
 
@@ -16,6 +18,26 @@ std::string_view take_keyword(std::string_view& rest) {
   const std::string_view keyword = rest.substr(0, size);
   rest = trim(rest.substr(size));
   return keyword;
+}
+
+/// "Unit_Diag_ !Bit": some files have blanks after an underscore, and a '!' for the text of a bit that is 0.
+void take_rest_of_keyword(std::string& keyword, std::string_view& rest) {
+  if (keyword.empty() || keyword.back() != '_') return;
+  if (!rest.empty() && rest.front() == '!') {
+    keyword += '!';
+    rest = trim(rest.substr(1));
+  }
+  keyword += take_keyword(rest);
+}
+
+/// "24V Pins = 0": a known keyword with blanks for underscores.
+void take_words(std::string& keyword, std::string_view& rest) {
+  const std::size_t equals = rest.find('=');
+  if (equals == 0 || equals == std::string_view::npos) return;
+  const std::string words = fmt::format("{} {}", keyword, trim(rest.substr(0, equals)));
+  if (guess_keyword(words) == nullptr) return;
+  keyword = words;
+  rest = rest.substr(equals);
 }
 
 std::optional<std::string> take_index(std::string_view& rest) {
@@ -55,6 +77,8 @@ Statement split_statement(const Line& line) {
   }
   std::string_view rest = line.text;
   statement.keyword = std::string(take_keyword(rest));
+  take_rest_of_keyword(statement.keyword, rest);
+  take_words(statement.keyword, rest);
   statement.key = lower(statement.keyword);
   statement.index = take_index(rest);
   statement.equals = !rest.empty() && rest.front() == '=';

@@ -258,7 +258,7 @@ void check_settings(const At& at, const scenario::Slave& slave) {
   constexpr const char* kNoDpv1 = "has no DPV1, expected none of it";
   if (slave.init.prm_mode > 2 || slave.init.cfg_mode > 2)
     throw InputError(at.file, slave.init.line, "prm_mode or cfg_mode is above 2, expected 0, 1 or 2");
-  if (slave.init.dpv1) refuse(at, slave.init.line, "dpv1 is true", kNoDpv1);
+  if (slave.init.dpv1.value_or(false)) refuse(at, slave.init.line, "dpv1 is true", kNoDpv1);
   for (const keys::Given& key : slave.user_cpu.given) {
     if (key.key == "dpv1") refuse(at, key.line, "user_cpu has dpv1", kNoDpv1);
     if (key.key == "overwrite_inputs" && !slave.user_cpu.overwrite_inputs)

@@ -38,6 +38,7 @@ user_cpu::StationConfig from_gsd(const bus::Gsd& gsd, const bus::GsdSetup& setup
   station.freeze = gsd.freeze;
   station.sync = gsd.sync;
   station.fail_safe = gsd.fail_safe;
+  station.dpv1 = bus::enables_dpv1(gsd, setup.user_prm);
   station.max_input = limited(gsd.max_input.value_or(setup.lengths.input), 244);
   station.max_output = limited(gsd.max_output.value_or(setup.lengths.output), 244);
   station.max_diag = limited(gsd.max_diag.value_or(kStandardDiag) - kStandardDiag, 238);
@@ -103,7 +104,6 @@ user_cpu::StationConfig Setup::station(const scenario::Slave& slave) {
   station.address = static_cast<std::uint8_t>(slave.address);
   station.prm_mode = static_cast<std::uint8_t>(init.prm_mode);
   station.cfg_mode = static_cast<std::uint8_t>(init.cfg_mode);
-  station.dpv1 = init.dpv1;
   override_with(station.ident, init.ident);
   override_with(station.max_input, init.max_inputs);
   override_with(station.max_output, init.max_outputs);
@@ -114,6 +114,7 @@ user_cpu::StationConfig Setup::station(const scenario::Slave& slave) {
   override_with(station.freeze, init.freeze);
   override_with(station.sync, init.sync);
   override_with(station.fail_safe, init.fail_safe);
+  override_with(station.dpv1, init.dpv1);
   override_with(station.cfg, init.cfg);
   if (station.cfg.empty())
     fail(slave.line, fmt::format("slave {} has no configuration, modules or init cfg are needed", slave.name.text));

@@ -37,7 +37,8 @@ ObjectOf<InitData> describe_init(const ChipKind& kind) {
   o.boolean("freeze", &I::freeze, "true: Freeze is supported.");
   o.boolean("sync", &I::sync, "true: Sync is supported.");
   o.boolean("fail_safe", &I::fail_safe, "true: fail-safe is supported.");
-  o.boolean("dpv1", &I::dpv1, "true: DPV1 is switched on.");
+  o.boolean("dpv1", &I::dpv1,
+            "true: DPV1 is switched on (default: DPV1_Slave of the GSD file, if its Set_Prm has DPV1_Enable).");
   for (keys::Field& field : o.fields)
     if (const std::string place = kind.place_of(field.name); !place.empty())
       field.doc += std::string(" ") + kind.title() + ": " + place + ".";

@@ -93,8 +93,7 @@ struct InitData {
   std::optional<int> ident, max_inputs, max_outputs, max_diag, max_prm, max_cfg;
   std::optional<bus::Bytes> cfg;
   int prm_mode = 0, cfg_mode = 0;
-  std::optional<bool> set_slave_address, freeze, sync, fail_safe;
-  bool dpv1 = false;
+  std::optional<bool> set_slave_address, freeze, sync, fail_safe, dpv1;
   std::vector<keys::Given> given;
   int line = 0;
 };

@@ -41,6 +41,17 @@ TEST(Setup, InitOverridesTheGsd) {
   EXPECT_EQ(station.cfg, bus::Bytes{0x30});
 }
 
+TEST(Setup, Dpv1FollowsTheGsdsSlaveAndItsEnable) {
+  const auto dpv1 = [](const std::string& slave) {
+    const auto scenario = parse(slave, "slave: demo");
+    return tb::Setup(scenario).station(scenario.slaves[0]).dpv1;
+  };
+  EXPECT_FALSE(dpv1("gsd: dsdpv1.gsd, modules: [\"1 byte in\"]")) << "its DPV1_Enable is 0";
+  EXPECT_TRUE(dpv1("gsd: ../tests/gsd/samples/rev3_slots.gsd"));
+  EXPECT_FALSE(dpv1("gsd: ../tests/gsd/samples/rev3_slots.gsd, init: {dpv1: false}"));
+  EXPECT_TRUE(dpv1("gsd: dsdpv1.gsd, modules: [\"1 byte in\"], init: {dpv1: true}"));
+}
+
 TEST(Setup, MasterTakesTheModulesOfItsSlave) {
   const auto scenario = parse(R"(gsd: dsdpv1.gsd, modules: ["2 bytes in", "4 bytes out"])",
                               "slave: demo, groups: [1, 3], watchdog: 100ms");

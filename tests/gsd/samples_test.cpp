@@ -138,6 +138,21 @@ TEST(GsdSamples, SlipsAreReadAsWhatTheyMean) {
   EXPECT_THAT(remarks("slips_and_vendor_keywords"), testing::SizeIs(14));
 }
 
+TEST(GsdSamples, KeywordsOfPeripheryDevicesAreKnown) {
+  const bus::Gsd gsd = sample("pa_redundant");
+  EXPECT_TRUE(gsd.pa.supported);
+  EXPECT_EQ(gsd.pa.max_tsdr, 100);
+  ASSERT_EQ(gsd.modules.size(), 1U);
+  EXPECT_EQ(gsd.modules[0].cfg, (Bytes{0x94})) << "Data_Area_Beg .. End belongs to its module";
+  EXPECT_EQ(gsd.keywords.at(0).keyword, "Unit_Diag_!Bit(3)");
+  EXPECT_EQ(gsd.keywords.at(1).keyword, "Unit_Diag_Bit(4)");
+  EXPECT_THAT(
+      remarks("pa_redundant"),
+      ElementsAre("pa_redundant: warning: 31.25 kbit/s (PROFIBUS PA) is the only rate, a DP line needs a coupler "
+                  "for it",
+                  "pa_redundant:8: warning: 24V Pins is read as 24V_Pins"));
+}
+
 TEST(GsdSamples, ValuesWrappedWithoutBackslashAreJoined) {
   const bus::Gsd gsd = sample("wrapped_without_backslash");
   ASSERT_EQ(gsd.prm.constants.size(), 4U);

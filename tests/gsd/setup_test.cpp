@@ -47,9 +47,9 @@ TEST(GsdSetup, RefusesOverridesOutsideTheAllowedValues) {
 TEST(GsdSetup, RefusesOverridesOfUnknownParameters) {
   const bus::Gsd gsd = sample("rev2_modular");
   EXPECT_EQ(only_error(set_up(gsd, {{"2 AI"}, {{0, "Gain", "1"}}})),
-            "rev2_modular.gsd: module 1 of the choice has no parameter \"Gain\", it has \"Mains\", \"Range\"");
+            "rev2_modular.gsd: module 1 \"2 AI\" has no parameter \"Gain\", it has \"Mains\", \"Range\"");
   EXPECT_EQ(only_error(set_up(gsd, {{"8 DO"}, {{1, "Mains", "1"}}})),
-            "rev2_modular.gsd: module 2 of the choice has no parameter \"Mains\", it has none");
+            "rev2_modular.gsd: module 2 has no parameter \"Mains\", it has none");
 }
 
 TEST(GsdSetup, AppendsTheModulesParametersInTheOrderOfTheChoice) {
@@ -136,6 +136,86 @@ TEST(GsdSetup, RefusesAChosenModuleWithACutOffIdentifier) {
   const auto file = parse(file_with("Module = \"a\" 0xC2, 0x00\nEndModule\n"));
   EXPECT_THAT(lines(file), testing::ElementsAre("test.gsd:8: warning: identifier 0xC2 wants 4 more bytes, 1 follow"));
   EXPECT_EQ(only_error(set_up(file.gsd.value(), {})), "test.gsd: identifier 0xC2 wants 4 more bytes, 1 follow");
+}
+
+constexpr const char* kPresetStation = R"(Modular_Station = 1
+Max_Module = 5
+Max_Input_Len = 8
+Max_Output_Len = 8
+FixPresetModules = 1
+ExtUserPrmData = 7 "[SlotNumber]"
+Unsigned8 1 1-4
+EndExtUserPrmData
+ExtUserPrmData = 8 "Filter"
+Unsigned8 0 0-9
+EndExtUserPrmData
+Module = "head" 0x04, 0x00, 0x00, 0xAD, 0xC4
+Preset = 1
+Ext_Module_Prm_Data_Len = 1
+Ext_User_Prm_Data_Ref(0) = 8
+EndModule
+Module = "in" 0x10
+Ext_Module_Prm_Data_Len = 2
+Ext_User_Prm_Data_Const(0) = 0xAA, 0
+Ext_User_Prm_Data_Ref(1) = 7
+EndModule
+Module = "power" 0x01, 0x55
+Preset = 1
+EndModule
+)";
+
+TEST(GsdSetup, PutsFixedPresetsInFrontOnceEach) {
+  const auto file = parse(file_with(kPresetStation));
+  ASSERT_TRUE(file.gsd.has_value());
+  const Bytes presets{0x04, 0x00, 0x00, 0xAD, 0xC4, 0x01, 0x55};
+  EXPECT_EQ(set_up(*file.gsd, {}).chk_cfg, presets);
+  const Bytes station{0x04, 0x00, 0x00, 0xAD, 0xC4, 0x01, 0x55, 0x10};
+  EXPECT_EQ(set_up(*file.gsd, {{"in"}, {}}).chk_cfg, station);
+  EXPECT_EQ(set_up(*file.gsd, {{"in", "power"}, {}}).chk_cfg, station);
+  EXPECT_EQ(set_up(*file.gsd, {{"power", "in", "power"}, {}}).chk_cfg,
+            (Bytes{0x04, 0x00, 0x00, 0xAD, 0xC4, 0x01, 0x55, 0x10, 0x01, 0x55}));
+}
+
+TEST(GsdSetup, OverridesFollowTheirModulesBehindThePresets) {
+  const auto file = parse(file_with(kPresetStation));
+  ASSERT_TRUE(file.gsd.has_value());
+  EXPECT_EQ(set_up(*file.gsd, {{"in", "head"}, {{1, "Filter", "5"}}}).user_prm, (Bytes{5, 0xAA, 3}));
+  EXPECT_EQ(only_error(set_up(*file.gsd, {{"in"}, {{0, "Filter", "5"}}})),
+            "test.gsd: module 3 \"in\" has no parameter \"Filter\", it has \"[SlotNumber]\"");
+}
+
+TEST(GsdSetup, EachModuleGetsItsSlotNumber) {
+  const auto file = parse(file_with(kPresetStation));
+  ASSERT_TRUE(file.gsd.has_value());
+  EXPECT_EQ(set_up(*file.gsd, {{"in", "in"}, {}}).user_prm, (Bytes{0, 0xAA, 3, 0xAA, 4}));
+  EXPECT_EQ(set_up(*file.gsd, {{"in"}, {{0, "7", "2"}}}).user_prm, (Bytes{0, 0xAA, 2})) << "a user may choose";
+  EXPECT_EQ(only_error(set_up(*file.gsd, {{"in", "in", "in"}, {}})),
+            "test.gsd:13: module 5 \"in\" is in slot 5, \"[SlotNumber]\" allows 1 to 4");
+}
+
+TEST(GsdSetup, SlotNumbersBeginWhereTheFileSays) {
+  const std::string module =
+      "Modular_Station = 1\nMax_Module = 2\nMax_Input_Len = 2\nMax_Output_Len = 0\n"
+      "ExtUserPrmData = 1 \"[SlotNumber]  \"\nUnsigned8 9 0-9\nEndExtUserPrmData\n"
+      "Module = \"in\" 0x10\n1\nExt_Module_Prm_Data_Len = 1\nExt_User_Prm_Data_Ref(0) = 1\nEndModule\n";
+  const auto prm = [](const std::string& text) {
+    return set_up(parse(file_with(text)).gsd.value(), {{"in", "in"}, {}}).user_prm;
+  };
+  EXPECT_EQ(prm(module), (Bytes{1, 2}));
+  EXPECT_EQ(prm(module + "Modul_Offset = 4\n"), (Bytes{4, 5}));
+  EXPECT_EQ(prm(module + "Modul_Offset = 4\nSlotDefinition\nSlot(7) = \"a\" 1 1\nSlot(3) = \"b\" 1 1\n"
+                         "EndSlotDefinition\n"),
+            (Bytes{7, 3}));
+}
+
+TEST(GsdSetPrm, EnablesDpv1WhereTheFileHasIt) {
+  const bus::Gsd gsd = sample("rev3_slots");
+  ASSERT_TRUE(gsd.dpv1);
+  EXPECT_TRUE(bus::enables_dpv1(gsd, {0x80}));
+  EXPECT_FALSE(bus::enables_dpv1(gsd, {0x7F}));
+  EXPECT_FALSE(bus::enables_dpv1(gsd, {}));
+  EXPECT_FALSE(bus::enables_dpv1(sample("rev0_fixed_station"), {0x80}))
+      << "without DPV1_Slave the byte is the vendor's";
 }
 
 TEST(GsdSetPrm, HasIdentAndWatchdogInItsSevenBytes) {

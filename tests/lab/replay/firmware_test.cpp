@@ -50,7 +50,7 @@ TEST(Firmware, IdentAndConfigurationAreThoseOfTheExchange) {
   EXPECT_EQ(firmware.init.ident, 0x1234);
   EXPECT_EQ(firmware.init.cfg, Bytes{0x11});
   EXPECT_EQ(firmware.init.cfg_mode, 0);
-  EXPECT_FALSE(firmware.init.dpv1);
+  EXPECT_FALSE(firmware.init.dpv1.value_or(false));
   EXPECT_EQ(firmware.inputs, (Bytes{1, 2}));
 }
 
@@ -119,7 +119,7 @@ TEST(Firmware, ObjectsAreWhatWasReadAndWritten) {
   talk({0x5F, 1, 4, 5});
   talk({0xDE, 0x80, 0xB2, 0});  // refused
   const Firmware firmware = firmware_of(capture.finish());
-  EXPECT_TRUE(firmware.init.dpv1);
+  EXPECT_TRUE(firmware.init.dpv1.value_or(false));
   ASSERT_THAT(firmware.objects, SizeIs(2));
   EXPECT_EQ(firmware.objects[0].data, (Bytes{7, 8, 9}));
   EXPECT_EQ(firmware.objects[1].index, 4);
