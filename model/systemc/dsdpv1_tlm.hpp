@@ -122,7 +122,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   /// The chip stays away from the DPRAM until R_REQ, R_STA or RESET falls.
   bool user_holds();
   /// Up to when an initiator with a quantum is not stopped: each of its accesses is ahead of simulation time until it
-  /// synchronises. sc_max_time() while the user holds the DPRAM and nobody observes the pins of accesses, else the
+  /// synchronises. sc_max_time() while the user holds the DPRAM and the pins of accesses have no observer, else the
   /// present time.
   sc_core::sc_time ahead_until();
   /// When the chip next does something that its outputs, its reports or the DPRAM may show, if no input changes: up to
