@@ -40,19 +40,16 @@ class DriverCpu : public ProgramCpu {
   DriverCpu(const sc_core::sc_module_name& name, Program program, DriverCpuOptions options = {});
 
   const dsdpv1_port& port() const { return port_; }
-  std::uint64_t accesses() const { return accesses_; }
+  std::uint64_t accesses() const { return accesses_.count(); }
   /// The accesses that ended ahead of simulation time (temporal decoupling).
-  std::uint64_t accesses_ahead() const { return accesses_ahead_; }
+  std::uint64_t accesses_ahead() const { return accesses_.ahead(); }
 
  private:
   dsdpv1_port make_port();
   bool get_pin(const sc_core::sc_in<bool>& pin);
-  std::uint8_t access(tlm::tlm_command command, std::uint16_t address, std::uint8_t value);
-  void report_failed_access() const;
 
   dsdpv1_port port_;
-  tlm::tlm_generic_payload payload_;
-  std::uint64_t accesses_ = 0, accesses_ahead_ = 0;
+  ByteAccesses accesses_{*this};
 };
 
 }  // namespace dsdpv1::systemc

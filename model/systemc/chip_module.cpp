@@ -44,26 +44,6 @@ bool ChipModule::carry_out(Tick begin, const HostAccess& access, Level& sampled)
   return done;
 }
 
-bool ChipModule::hear(Tick at, const profibus::CharacterRun& run) {
-  bool taken = false;
-  in_core([&] { taken = chip_.hear(at, run); });
-  return taken;
-}
-
-void ChipModule::leave_run(Tick at) {
-  in_core([&] { chip_.leave_run(at); });
-}
-
-profibus::CharacterRun ChipModule::hide_txd() {
-  profibus::CharacterRun run;
-  in_core([&] { run = chip_.hide_txd(); });
-  return run;
-}
-
-void ChipModule::show_txd(Tick at) {
-  in_core([&] { chip_.show_txd(at); });
-}
-
 bool ChipModule::take_broken_timing() { return std::exchange(broken_timing_, false); }
 
 void ChipModule::heard(const profibus::Event& event) { broken_timing_ = broken_timing_ || spoils_data(event.reason); }

@@ -36,12 +36,6 @@ class ChipModule : public CoreModule<Dsdpv1Core> {
   /// True if an access of the user has violated the timing of table 15 or P8 since the last call.
   bool take_broken_timing();
 
-  /// See Chip.
-  bool hear(Tick at, const profibus::CharacterRun& run);
-  void leave_run(Tick at);
-  profibus::CharacterRun hide_txd();
-  void show_txd(Tick at);
-
  private:
   void heard(const profibus::Event& event) override;
 

@@ -2,8 +2,7 @@
 
 namespace dsdpv1::systemc {
 
-TimedModule::TimedModule(const sc_core::sc_module_name& name, Tick phase)
-    : sc_core::sc_module(name), due_("due"), phase_(phase) {
+TimedModule::TimedModule(const sc_core::sc_module_name& name, Tick phase) : sc_core::sc_module(name), phase_(phase) {
   require_resolution();
   if (phase < 0 || phase >= profibus::kTicksPerCycle) {
     const std::string text = "phase is " + std::to_string(phase) + " ticks, expected 0 to 249";
@@ -33,19 +32,10 @@ void TimedModule::schedule(Tick now, Tick due) {
   due_.notify(scheduled_at_ - sc_core::sc_time_stamp());
 }
 
-void TimedModule::schedule_now() {
-  forget_schedule();
-  due_.notify(sc_core::SC_ZERO_TIME);
-}
-
 void TimedModule::unschedule() {
-  forget_schedule();
-  due_.cancel();
-}
-
-void TimedModule::forget_schedule() {
   scheduled_ = 0;
   scheduled_at_ = sc_core::sc_max_time();
+  due_.cancel();
 }
 
 }  // namespace dsdpv1::systemc

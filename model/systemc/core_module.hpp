@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/profibus/character_run.hpp"
 #include "model/profibus/event.hpp"
 #include "model/systemc/sim_time.hpp"
 
@@ -82,11 +83,12 @@ class TimedModule : public sc_core::sc_module {
   /// when all signals have settled, and changes made at this time come in a later delta cycle.
   bool fired_as_scheduled() const { return sc_core::sc_time_stamp() == scheduled_at_ && due_.triggered(); }
   Tick scheduled() const { return scheduled_; }
-  /// Makes `due_` fire in the next delta cycle.
-  void schedule_now();
+  /// Makes `soon_` fire in the next delta cycle. Two events: a notification of one for a later time would be dropped
+  /// while one for the next delta cycle is pending.
+  void schedule_now() { soon_.notify(sc_core::SC_ZERO_TIME); }
   /// `due_` does not fire until it is scheduled again.
   void unschedule();
-  sc_core::sc_event due_;
+  sc_core::sc_event due_{"due"}, soon_{"soon"};
 
  private:
   /// Sets a flag during its lifetime.
@@ -101,11 +103,9 @@ class TimedModule : public sc_core::sc_module {
     bool& flag_;
   };
 
-  void forget_schedule();
-
   Tick phase_;
   Tick scheduled_ = 0;                                      ///< of the chip; up to now: no notification is pending
-  sc_core::sc_time scheduled_at_ = sc_core::sc_max_time();  ///< the same; never: `due_` fires in the next delta cycle
+  sc_core::sc_time scheduled_at_ = sc_core::sc_max_time();  ///< the same
   struct Wire {
     std::uint32_t pin;
     sc_core::sc_signal_inout_if<bool>* signal;
@@ -175,6 +175,24 @@ class CoreModule : public TimedModule {
     in_core([&] { chip_.advance(to); });
   }
   Tick chip_now() const { return at_least(chip_.now()); }
+
+  // Telegrams as a whole; see the chip's functions of these names.
+  bool core_hears(Tick at, const profibus::CharacterRun& run) {
+    bool taken = false;
+    in_core([&] { taken = chip_.hear(at, run); });
+    return taken;
+  }
+  void core_leaves_run(Tick at) {
+    in_core([&] { chip_.leave_run(at); });
+  }
+  profibus::CharacterRun hide_core_txd() {
+    profibus::CharacterRun run;
+    in_core([&] { run = chip_.hide_txd(); });
+    return run;
+  }
+  void show_core_txd(Tick at) {
+    in_core([&] { chip_.show_txd(at); });
+  }
 
   /// Called from inside the core. Return false to hide the change.
   virtual bool output_changed(Tick /*at*/, Pin /*pin*/, Level /*level*/) { return true; }

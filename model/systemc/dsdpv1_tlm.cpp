@@ -20,7 +20,7 @@ TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& opti
   bus_in.bind(*this);
   SC_HAS_PROCESS(TlmModule);
   SC_METHOD(evaluate);
-  sensitive << due_ << RESET << R_REQ << R_STA << PBRXD;
+  sensitive << due_ << soon_ << RESET << R_REQ << R_STA << PBRXD;
 }
 
 template <class Socket>
@@ -42,7 +42,7 @@ void TlmModule::start_of_simulation() {
     if (wire.port.size() > 0) bound_ |= mask(wire.pin);
   }
   const std::uint32_t asked = heard_outputs() | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
-  const bool told = on_pin && (observed_ & mask(Pin::kPbtxd)) != 0 && !on_answer;
+  const bool told = on_pin && (observed_ & mask(Pin::kPbtxd)) != 0;
   may_hide_ = PBTXD.size() == 0 && !told;
   watch(bound_ | asked | (on_pin ? observed_ : 0), asked);
 }

@@ -24,6 +24,7 @@
 #include "model/systemc/bus_character.hpp"
 #include "model/systemc/chip_module.hpp"
 #include "model/systemc/host_transaction.hpp"
+#include "model/systemc/line_station.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -50,7 +51,7 @@ struct TlmOptions : ChipOptions {
 };
 
 /// The DSDPV1 or the DSDPV1-R; RsuTlmModule is the DSDPV1-RSU.
-class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter> {
+class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_analysis_if<BusCharacter> {
  public:
   using In = sc_core::sc_in<bool>;
   using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
@@ -94,17 +95,11 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
 
   explicit TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options = {});
 
-  /// Replaces the changes of PBRXD that the characters of `run` cause, from the present time on, which is the run's
-  /// start. False: the changes are needed. True: PBRXD stays high until the run ends or is left. leave_run at the
-  /// present time leaves it, and PBRXD carries the rest; if the module leaves it, it calls `on_left_run`.
-  bool hear_run(const profibus::CharacterRun& run);
-  void leave_run();
-  std::function<void(Tick at)> on_left_run;
-  /// Called at the begin of an answer, instead of changes of PBTXD. Return true to hide PBTXD until PBRTS falls, or
-  /// until show_txd is called before the run's end: PBTXD then takes its present level without a report. Not called if
-  /// PBTXD is bound. Set it before the simulation starts.
-  std::function<bool(const profibus::CharacterRun& run)> on_answer;
-  void show_txd();
+  // As a station of a line; PBRTS is its enable, PBTXD its input.
+  void set_line(bool level) override;
+  bool hear_run(const profibus::CharacterRun& run) override;
+  void leave_run() override;
+  void show_txd() override;
 
   /// An access of the host is in progress. Its edges are applied later than their ticks, at the next other event or at
   /// its end; sync() applies those up to now.
@@ -207,7 +202,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
   bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
   bool in_run(Tick now) const { return now < run_end_; }
-  bool line_level() const { return characters_level_ && (PBRXD.size() == 0 || PBRXD->read()); }
+  bool line_level() const { return characters_level_ && far_level_ && (PBRXD.size() == 0 || PBRXD->read()); }
   bool line_is_stale(Tick now) const;
   void begin_run(Tick now);
   void stop_run(Tick now);
@@ -253,6 +248,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   bool run_is_own_ = false;       ///< else run_ comes from hear_run
   Tick run_end_ = 0;              ///< end of the core's present or last run
   bool characters_level_ = true;  ///< present level from the characters of `bus_in`
+  bool far_level_ = true;         ///< of set_line
   bool may_hide_ = false, answer_waits_ = false;
   LineRun answer_;            ///< of the chip, while PBTXD is hidden
   std::size_t answered_ = 0;  ///< number of its completed characters

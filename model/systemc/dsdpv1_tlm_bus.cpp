@@ -65,7 +65,7 @@ void TlmModule::begin_run(Tick now) {
   run_ = std::move(runs_.front());
   runs_.pop_front();
   const bool idle = !in_run(now) && chip().level(Pin::kPbrxd) == 1;
-  run_is_own_ = idle && run_.start == now && hear(now, run_.told());
+  run_is_own_ = idle && run_.start == now && core_hears(now, run_.told());
   if (run_is_own_)
     run_end_ = run_.end();
   else
@@ -87,7 +87,7 @@ void TlmModule::spell_out(const LineRun& run, Tick behind) {
 
 /// The core receives changes again from `now` on; later ones of a run of `bus_in` are queued.
 void TlmModule::stop_run(Tick now) {
-  ChipModule::leave_run(now);
+  core_leaves_run(now);
   if (!in_run(now)) return;
   run_end_ = now;
   if (!run_is_own_) {
@@ -98,10 +98,15 @@ void TlmModule::stop_run(Tick now) {
   spell_out(run_, now);
 }
 
+void TlmModule::set_line(bool level) {
+  far_level_ = level;
+  schedule_now();
+}
+
 bool TlmModule::hear_run(const profibus::CharacterRun& run) {
   catch_up();
   const Tick now = chip_now();
-  const bool hears = tells_runs() && !in_run(now) && chip().level(Pin::kPbrxd) == 1 && hear(now, run);
+  const bool hears = tells_runs() && !in_run(now) && chip().level(Pin::kPbrxd) == 1 && core_hears(now, run);
   if (hears) {
     run_is_own_ = false;
     run_end_ = now + static_cast<Tick>(run.size) * profibus::kBitsPerCharacter * run.bit * profibus::kTicksPerCycle;
@@ -114,7 +119,7 @@ void TlmModule::leave_run() {
   catch_up();
   const Tick now = chip_now();
   if (in_run(now) && !run_is_own_) {
-    ChipModule::leave_run(now);
+    core_leaves_run(now);
     run_end_ = now;
   }
   plan();
@@ -128,12 +133,14 @@ bool TlmModule::output_changed(Tick at, Pin pin, Level level) {
     end_answer(at);
     txd_changed(at, true);  // RESET ends both
   }
+  if (pin == Pin::kPbrts && on_rts) tell([&] { on_rts(at, level != 0); });
   if (pin == Pin::kPbrts) return ((bound_ | observed_) & mask(pin)) != 0;
   if (may_hide_ && chip().begins_to_send()) {
     answer_waits_ = true;  // until the core is idle
     return false;
   }
   txd_changed(at, level != 0);
+  if (on_txd) tell([&] { on_txd(at, level != 0); });
   return true;
 }
 
@@ -169,11 +176,12 @@ Tick TlmModule::next_answered() const {
 /// PBTXD has fallen, not reported yet.
 void TlmModule::offer_answer() {
   if (!std::exchange(answer_waits_, false)) return;
-  const profibus::CharacterRun run = hide_txd();
+  const profibus::CharacterRun run = hide_core_txd();
   if (on_answer && !on_answer(run)) {
-    ChipModule::show_txd(run.start);
+    show_core_txd(run.start);
     if (on_pin) on_pin(run.start, Pin::kPbtxd, 0);
     txd_changed(run.start, false);
+    if (on_txd) on_txd(run.start, false);
     return;
   }
   answer_.start = run.start;
@@ -197,7 +205,7 @@ void TlmModule::end_answer(Tick at) {
 
 void TlmModule::show_txd() {
   catch_up();
-  ChipModule::show_txd(chip_now());
+  show_core_txd(chip_now());
   end_answer(chip_now());
   plan();
 }

@@ -18,7 +18,7 @@ Spc3TlmModule::Spc3TlmModule(const sc_core::sc_module_name& name, const Spc3TlmO
   bus_in.bind(*this);
   SC_HAS_PROCESS(Spc3TlmModule);
   SC_METHOD(evaluate);
-  sensitive << due_ << RESET << XCTS << RXD;
+  sensitive << due_ << soon_ << RESET << XCTS << RXD;
 }
 
 void Spc3TlmModule::start_of_simulation() {
@@ -72,7 +72,7 @@ unsigned int Spc3TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& 
 /// reports nothing; the core has then passed it.
 bool Spc3TlmModule::is_unseen(Tick end) {
   const Tick at = chip_tick(end);
-  if (at < chip().now() || has_changed(bound_) || host_bus_.trylock() != 0) return false;
+  if (at < chip().now() || has_changed(bound_) || !driven_.empty() || host_bus_.trylock() != 0) return false;
   host_bus_.unlock();
   unschedule();  // the kernel is asked about others
   bool unseen = kernel_quiet_until() > end && std::min(line_.edges.next(), from_chip_.next()) > at;
@@ -132,8 +132,9 @@ void Spc3TlmModule::evaluate() {
 Tick Spc3TlmModule::catch_up() {
   const Tick now = chip_now();
   advance(now);
-  while (line_.edges.next() <= now) characters_level_ = line_.edges.take().level;
-  set(now, Pin::kRxd, line_level());
+  offer_answer();
+  drive_line();
+  apply_line(now);
   set(now, Pin::kXCts, XCTS.size() > 0 && XCTS->read());
   set(now, Pin::kReset, RESET.read());
   tell_characters(now);
@@ -145,8 +146,8 @@ Tick Spc3TlmModule::catch_up() {
 void Spc3TlmModule::plan() {
   const Tick now = chip_now(), present = chip_tick(current_tick());
   const Tick line = line_.edges.next();
-  if (has_changed(bound_) && now > present)
-    schedule(present, now);
+  if ((has_changed(bound_) || !driven_.empty()) && now > present)
+    schedule(present, std::min(now, next_driven()));
   else if (has_changed(bound_) || line <= now)
     schedule_now();
   else
@@ -155,6 +156,11 @@ void Spc3TlmModule::plan() {
 
 bool Spc3TlmModule::output_changed(Tick at, spc3::Pin pin, spc3::Level level) {
   seen_ = true;
+  if (pin == Pin::kTxd && chip().begins_to_send() && hides_answers()) {
+    answer_waits_ = true;
+    return false;
+  }
+  if ((pin == Pin::kTxd && on_txd) || (pin == Pin::kRts && on_rts)) driven_.push_back({at, pin, level != 0});
   if (pin != Pin::kTxd || !bus_out.bound()) return true;
   if (const auto character = from_chip_.take(at)) complete_.push_back(*character);
   from_chip_.edge(at, level != 0, bit_time_of(chip().status().baud_index));
@@ -164,6 +170,75 @@ bool Spc3TlmModule::output_changed(Tick at, spc3::Pin pin, spc3::Level level) {
 void Spc3TlmModule::heard(const profibus::Event& event) {
   seen_ = true;
   in_reset_ = in_reset_ || event.reason == spc3::Reason::kInReset;
+}
+
+// --- a station of a line ---------------------------------------------------------------------------------------------
+
+void Spc3TlmModule::set_line(bool level) {
+  far_level_ = level;
+  schedule_now();
+}
+
+/// The line reacts to a change, so it gets it when the core is idle, and never ahead of simulation time.
+void Spc3TlmModule::drive_line() {
+  const Tick present = chip_tick(current_tick());
+  while (next_driven() <= present) {
+    const Driven change = driven_.front();
+    driven_.pop_front();
+    (change.pin == Pin::kTxd ? on_txd : on_rts)(change.at, change.level);
+  }
+}
+
+void Spc3TlmModule::apply_line(Tick now) {
+  while (line_.edges.next() <= now) characters_level_ = line_.edges.take().level;
+  if (in_run(now) && chip().left_run()) {
+    leave_run(now);
+    if (on_left_run) on_left_run(now);
+  }
+  if (in_run(now) && line_level()) return;
+  if (in_run(now)) leave_run(now);
+  set(now, Pin::kRxd, line_level());
+}
+
+bool Spc3TlmModule::hear_run(const profibus::CharacterRun& run) {
+  catch_up();
+  const Tick now = chip_now();
+  profibus::CharacterRun heard = run;
+  heard.start = now;
+  const bool hears = !on_pin && !in_run(now) && chip().level(Pin::kRxd) == 1 && core_hears(now, heard);
+  if (hears)
+    run_end_ = now + static_cast<Tick>(run.size) * profibus::kBitsPerCharacter * run.bit * profibus::kTicksPerCycle;
+  plan();
+  return hears;
+}
+
+void Spc3TlmModule::leave_run() {
+  catch_up();
+  if (in_run(chip_now())) leave_run(chip_now());
+  plan();
+}
+
+void Spc3TlmModule::leave_run(Tick now) {
+  run_end_ = now;
+  core_leaves_run(now);
+}
+
+/// TXD has fallen, not reported yet. The change of RTS before it goes first.
+void Spc3TlmModule::offer_answer() {
+  if (!answer_waits_) return;
+  answer_waits_ = false;
+  drive_line();
+  const profibus::CharacterRun run = hide_core_txd();
+  if (on_answer(run)) return;
+  show_core_txd(run.start);
+  note_output(mask(Pin::kTxd), false);
+  on_txd(run.start, false);
+}
+
+void Spc3TlmModule::show_txd() {
+  catch_up();
+  show_core_txd(chip_now());
+  plan();
 }
 
 // --- characters ------------------------------------------------------------------------------------------------------

@@ -17,6 +17,7 @@
 #include <systemc>
 
 #include "model/systemc/bus_character.hpp"
+#include "model/systemc/line_station.hpp"
 #include "model/systemc/spc3_module.hpp"
 #include "model/systemc/transaction.hpp"
 
@@ -38,7 +39,7 @@ struct RegisterAccessExtension : tlm::tlm_extension<RegisterAccessExtension> {
   }
 };
 
-class Spc3TlmModule : public Spc3Module, private tlm::tlm_analysis_if<BusCharacter> {
+class Spc3TlmModule : public Spc3Module, public LineStation, private tlm::tlm_analysis_if<BusCharacter> {
  public:
   using In = sc_core::sc_in<bool>;
   using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
@@ -75,6 +76,12 @@ class Spc3TlmModule : public Spc3Module, private tlm::tlm_analysis_if<BusCharact
   /// As TlmModule::sync.
   void sync(const sc_core::sc_time& ahead = sc_core::SC_ZERO_TIME);
 
+  // As a station of a line; RTS is its enable, TXD its input. Runs are refused while `on_pin` is set.
+  void set_line(bool level) override;
+  bool hear_run(const profibus::CharacterRun& run) override;
+  void leave_run() override;
+  void show_txd() override;
+
  private:
   using Payload = tlm::tlm_generic_payload;
 
@@ -91,7 +98,14 @@ class Spc3TlmModule : public Spc3Module, private tlm::tlm_analysis_if<BusCharact
   void evaluate();
   Tick catch_up();
   void plan();
-  bool line_level() const { return characters_level_ && (RXD.size() == 0 || RXD->read()); }
+  bool line_level() const { return characters_level_ && far_level_ && (RXD.size() == 0 || RXD->read()); }
+  bool in_run(Tick now) const { return now < run_end_; }
+  void apply_line(Tick now);
+  void leave_run(Tick now);
+  bool hides_answers() const { return on_answer && !on_pin && TXD.size() == 0 && !bus_out.bound(); }
+  void offer_answer();
+  void drive_line();
+  Tick next_driven() const { return driven_.empty() ? profibus::kNever : driven_.front().at; }
   bool output_changed(Tick at, spc3::Pin pin, spc3::Level level) override;
   void heard(const profibus::Event& event) override;
   void tell_characters(Tick now);
@@ -107,6 +121,16 @@ class Spc3TlmModule : public Spc3Module, private tlm::tlm_analysis_if<BusCharact
   bool characters_level_ = true;  ///< present level from the characters of `bus_in`
   CharacterCollector from_chip_;
   std::deque<LineCharacter> complete_;  ///< collected, to be sent through `bus_out`
+
+  struct Driven {
+    Tick at;
+    Pin pin;
+    bool level;
+  };
+  bool far_level_ = true;      ///< of set_line
+  Tick run_end_ = 0;           ///< of the run of hear_run
+  bool answer_waits_ = false;  ///< until the core is idle
+  std::deque<Driven> driven_;  ///< of TXD and RTS, for on_txd and on_rts; may be ahead of simulation time
 };
 
 }  // namespace dsdpv1::systemc

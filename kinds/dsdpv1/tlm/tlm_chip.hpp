@@ -8,6 +8,7 @@
 
 #include "bus/wire/segment.hpp"
 #include "model/systemc/rsu_tlm.hpp"
+#include "tb/systemc/chip_port.hpp"
 #include "tb/systemc/timeline_module.hpp"
 
 namespace dsdpv1::systemc_bench {
@@ -36,10 +37,9 @@ class PromptPin : public sc_core::sc_prim_channel, public sc_core::sc_signal_in_
   sc_core::sc_event never_;
 };
 
-/// The module and its wiring. The segment receives PBTXD and PBRTS at their exact ticks, also from inside the core; the
-/// line arrives at PBRXD at its tick (one delta cycle later, which no rule of the chip can distinguish: P9). The phase
-/// of the chip must be 0: the bench counts the chip's ticks.
-class TlmChip : public sc_core::sc_module, private bus::Listener {
+/// The module and its wiring. The segment receives PBTXD and PBRTS at their exact ticks, also from inside the core. The
+/// phase of the chip must be 0: the bench counts the chip's ticks.
+class TlmChip : public sc_core::sc_module {
  public:
   /// Telegrams are passed as runs in the direction whose pin is not in `options.observed`.
   TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,
@@ -51,7 +51,7 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   const dsdpv1::systemc::TlmModule& module() const { return *module_; }
   /// The module of a DSDPV1-RSU; null for other chips.
   dsdpv1::systemc::RsuTlmModule* rsu() { return rsu_; }
-  bus::StationId station() const { return station_; }
+  bus::StationId station() const { return port_->station(); }
 
   /// Pins driven by the bench, only at the timeline's present time.
   void set_reset(bool level);
@@ -64,26 +64,17 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
  private:
   TlmChip(const sc_core::sc_module_name& name, bus::Segment& segment, TimelineModule& timeline);
   /// Takes ownership of `module`.
-  void take(dsdpv1::systemc::TlmModule* module, const dsdpv1::systemc::TlmOptions& options);
-
-  using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process
+  void take(dsdpv1::systemc::TlmModule* module);
 
   void move(PromptPin& pin, bool level);
-  void line_changed(bus::Tick at, bool level) override;
-  bool run_begins(const bus::CharacterRun& run) override;
-  void run_cut(bus::Tick at, bool level) override;
-  bool answer_begins(const profibus::CharacterRun& run);
   void pin_changed(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
 
   bus::Segment& segment_;
   TimelineModule& timeline_;
   dsdpv1::systemc::RsuTlmModule* rsu_ = nullptr;
   std::unique_ptr<dsdpv1::systemc::TlmModule> module_;
-  Signal rxd_{"rxd", true};
   PromptPin reset_{"reset"}, r_req_{"r_req"}, r_sta_{"r_sta"};
-  bus::StationId station_;
-  bool enabled_ = false, drives_ = true;
-  bool own_run_ = false, hides_txd_ = false;
+  std::unique_ptr<ChipPort> port_;
 };
 
 }  // namespace dsdpv1::systemc_bench
