@@ -19,6 +19,10 @@ class Collector {
   void skipped(const ReceivedCharacter& character, int baud);
   /// Passes on the last telegram.
   void finish();
+  /// Passes on the last telegram if it ended before `at`.
+  void finish_before(Tick at) {
+    if (open_ && open_->end < at) finish();
+  }
 
   static constexpr std::size_t kMostRemarks = 16;  ///< per telegram; further ones are dropped
   static constexpr std::size_t kMostBytes = 4096;  ///< per telegram: endless noise is split into several

@@ -227,6 +227,7 @@ RunResult Bench::run(const std::function<bool(Tick)>& poll) {
   const auto begin = std::chrono::steady_clock::now();
   periodic_poll_.poll = [&](Tick at) {
     if (journal_.run_log() != nullptr) journal_.run_log()->flush(at - 1);
+    if (capture_ && options_.open_ended) capture_->follow(at);
     digest_.before(at);
     return keep_outputs(at) && poll(at);
   };

@@ -26,6 +26,8 @@ class CaptureRecorder : public Observer {
   void flag(const bus::Flag& flag) override { collector_.flagged(flag); }
   void skipped(const bus::ReceivedCharacter& character) override { collector_.skipped(character, baud_); }
   void save() { file_.flush(); }
+  /// For a run in real time: the file gets all telegrams that are certainly complete at `now`.
+  void follow(Tick now);
   void mute() { file_.mute(); }
   bool failed() const { return file_.failed(); }
   void check() const { file_.check(); }
@@ -37,6 +39,7 @@ class CaptureRecorder : public Observer {
   bus::capture::PcapngWriter writer_;
   bus::capture::Collector collector_;
   int baud_;
+  bool anything_ = true;  ///< written since the last flush
 };
 
 }  // namespace dsdpv1::tb

@@ -159,6 +159,30 @@ def broken_off_telegram(program):
             serve.kill()
 
 
+def live_capture(program):
+    """A telegram can be read from the FIFO within 50 ms of its end, although no other one follows."""
+    with Folder() as folder:
+        fifo = os.path.join(folder, "fifo")
+        os.mkfifo(fifo)
+        capture = os.open(fifo, os.O_RDONLY | os.O_NONBLOCK)  # so that serve need not wait for a reader
+        serve = Serve(program, folder, SCENARIO, "--capture", "fifo")
+        try:
+            check(read_some(capture, 4) == b"\x0a\x0d\x0d\x0a", "no header of a pcapng file")
+            with open_host(serve, "--pty") as host:
+                ask(host.fileno())
+                for _ in range(5):
+                    read_some(capture, 65536, 0.1)
+                    os.write(host.fileno(), STATUS_REQUEST)
+                    check(read_some(host.fileno(), 6) == STATUS_ANSWER, "not answered")
+                    answered = time.monotonic()
+                    got = read_some(capture, 65536, 0.05)
+                    talks(answered, 0.06)  # a reader that was kept from running
+                    check(STATUS_REQUEST in got and STATUS_ANSWER in got, "not in the FIFO: %r" % got)
+        finally:
+            serve.kill()
+            os.close(capture)
+
+
 def wrong_speed_is_said(program):
     def body(serve):
         fd = open_raw(serve.port)  # a fresh pseudo-terminal stands at 38400
@@ -270,7 +294,7 @@ def too_slow_is_said(program):
     check("of real time" in serve.said() and serve.result["pacing"]["times_too_slow"] >= 1, serve.said())
 
 
-CASES = [pty_hang_up_and_next_opener, one_shot_hosts, telegram_in_pieces, requests_in_one_write, broken_off_telegram, wrong_speed_is_said,
+CASES = [pty_hang_up_and_next_opener, one_shot_hosts, telegram_in_pieces, requests_in_one_write, broken_off_telegram, live_capture, wrong_speed_is_said,
          tcp_one_after_the_other, serial_port, bad_ports, link_of_a_killed_run, ends_after_its_time, shipped_scenario, too_slow_is_said]
 
 
