@@ -22,6 +22,10 @@ struct BusCharacter {
   bool stop_ok = true;    ///< the stop bit is high (else a framing error)
 };
 std::ostream& operator<<(std::ostream& out, const BusCharacter& character);
+/// The line is low for the whole character.
+inline bool is_break(const BusCharacter& character) {
+  return character.data == 0 && character.parity_ok && !character.stop_ok;
+}
 
 /// A character of a chip with this phase, as its port `bus_out` carries it.
 BusCharacter on_bus(const LineCharacter& character, Tick phase);

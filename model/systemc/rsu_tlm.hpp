@@ -10,14 +10,16 @@
 //
 // Ports, timing and examples: docs/systemc.md.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <initializer_list>
-#include <vector>
 
 #include "model/dsdpv1/serial_host.hpp"
 #include "model/systemc/dsdpv1_tlm.hpp"
 #include "model/systemc/serial_transaction.hpp"
+#include "model/systemc/spi_select.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -56,8 +58,26 @@ class RsuTlmModule : public TlmModule {
   /// end of the last stop bit. A read gets TLM_COMMAND_ERROR_RESPONSE; the other responses, and debug transport, are as
   /// for `spi_socket`.
   tlm_utils::simple_target_socket_optional<RsuTlmModule> uart_socket{"uart_socket"};
-  /// The bytes that the chip sends on TXD, each at the end of its stop bit.
+  /// The right bytes that the chip sends on TXD, each at the end of its stop bit.
   ListenedPort<std::uint8_t> uart_out{"uart_out"};
+
+  /// For SPI controllers that transfer byte by byte. With XSS bound, or once set_xss is called, a transaction moves
+  /// only SCK and MOSI, for any number of bytes, and XSS follows this line, low-active: at its time, but not earlier
+  /// than `SpiTiming::lag` after SCK's last fall, `gap` high; the first clock is `lead` after its fall (SpiSelect).
+  /// Initialise a signal to 1. A transfer while XSS is high receives FF.
+  OptionalIn XSS{"XSS"};
+  /// The same as a call, for lines that are functions: each change counts, also at one time.
+  void set_xss(bool level);
+
+  /// For UARTs that send byte by byte: characters to RXD, each at its start or after the one before. `bit` 0: the rate
+  /// of `RsuTlmOptions::uart`. A wrong parity, a missing stop bit and a break (is_break) go out as they are.
+  sc_core::sc_export<tlm::tlm_analysis_if<BusCharacter>> uart_in{"uart_in"};
+  /// Characters of `uart_in` that have not begun.
+  std::size_t uart_waiting() const;
+  /// The last character of `uart_in` has ended.
+  const sc_core::sc_event& uart_idle_event() const { return uart_idle_; }
+  /// Every character that the chip sends on TXD, with its errors, at the end of its stop bit.
+  ListenedPort<BusCharacter> uart_characters{"uart_characters"};
 
   explicit RsuTlmModule(const sc_core::sc_module_name& name, const RsuTlmOptions& options = {});
 
@@ -68,21 +88,43 @@ class RsuTlmModule : public TlmModule {
     Edges edges = {};
     std::size_t moved = 0;  ///< number of applied edges; all of them: idle
     Tick begin = 0;         ///< the chip's tick
-    Tick next() const { return moved < edges.size() ? begin + edges[moved].at : profibus::kNever; }
+    bool is_busy() const { return moved < edges.size(); }
+    Tick next() const { return is_busy() ? begin + edges[moved].at : profibus::kNever; }
   };
 
   void check_binding() override;
-  std::uint32_t heard_outputs() const override { return uart_out.bound() ? mask(Pin::kTxd) : 0; }
+  std::uint32_t heard_outputs() const override {
+    return uart_out.bound() || uart_characters.bound() ? mask(Pin::kTxd) : 0;
+  }
   bool output_changed(Tick at, Pin pin, Level level) override;
   void move_host(Tick now) override;
   void tell_host(Tick now) override;
-  Tick next_of_host() const override { return std::min({spi_.next(), uart_.next(), from_uart_.next()}); }
+  Tick next_of_host() const override {
+    return std::min({spi_.next(), uart_.next(), select_.next(), to_uart_.next(), from_uart_.next()});
+  }
 
+  /// uart_in, which needs an own interface beside that of bus_in.
+  class UartInput : public tlm::tlm_analysis_if<BusCharacter> {
+   public:
+    explicit UartInput(RsuTlmModule& module) : module_(module) {}
+    void write(const BusCharacter& character) override { module_.send(character); }
+
+   private:
+    RsuTlmModule& module_;
+  };
+
+  void send(const BusCharacter& character);
+  bool selects_by_line() const { return by_line_ || XSS.size() > 0; }
+  void select();
+  void move_xss(bool level);
   void transport_spi(Payload& payload, sc_core::sc_time& delay);
+  void transfer_frame(Payload& payload);
+  void transfer_bytes(Payload& payload);
   void transport_uart(Payload& payload, sc_core::sc_time& delay);
   template <class Edges>
   void carry_out(Lane<Edges>& lane, Edges edges, Tick begin);
   void move_pins(Tick now);
+  void set_rxd(Tick at);
   void release(std::initializer_list<Pin> pins);
   void collect_byte(Tick now);
 
@@ -94,8 +136,23 @@ class RsuTlmModule : public TlmModule {
   Lane<UartTelegram> uart_;
   Tick spi_free_at_ = 0;  ///< simulation tick: end of the gap after the last frame
   std::exception_ptr thrown_;
+  SpiSelect select_;
+  bool by_line_ = false;  ///< set_xss has been called
+  UartInput uart_input_{*this};
+  EdgeQueue to_uart_;  ///< of the characters of uart_in ...
+  /// Characters of uart_in without a gap; their bits are counted from the first, so that nothing drifts.
+  struct Series {
+    Tick begin = 0;
+    int bits = 0;
+    sc_core::sc_time bit;
+  };
+  Series series_;
+  Tick to_uart_end_ = 0;                         ///< ... whose last one ends here
+  std::deque<Tick> begins_;                      ///< of those that may not have begun
+  bool rxd_lane_ = true, rxd_character_ = true;  ///< levels of the telegram and of the characters
+  sc_core::sc_event uart_idle_{"uart_idle"};
   CharacterCollector from_uart_;
-  std::vector<std::uint8_t> received_;  ///< from TXD, to be sent through `uart_out`
+  std::deque<LineCharacter> received_;  ///< from TXD, to be sent through `uart_out` and `uart_characters`
 };
 
 }  // namespace dsdpv1::systemc

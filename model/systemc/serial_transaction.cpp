@@ -27,6 +27,18 @@ SpiFrame frame_of(const tlm::tlm_generic_payload& payload, const SpiTiming& own)
                             : SpiFrame(bytes_of(payload), own);
 }
 
+SpiFrame clocks_of(const tlm::tlm_generic_payload& payload, const SpiTiming& own) {
+  const auto* special = payload.get_extension<SpiFrameExtension>();
+  SpiFrameExtension bare;
+  if (special != nullptr)
+    bare = *special;
+  else
+    bare.timing = own;
+  bare.timing.lead = bare.timing.low;
+  bare.timing.lag = 0;
+  return SpiFrame(bytes_of(payload), bare.timing, bare.bits);
+}
+
 Tick gap_of(const tlm::tlm_generic_payload& payload, const SpiTiming& own) {
   const auto* special = payload.get_extension<SpiFrameExtension>();
   return special != nullptr ? special->timing.gap : own.gap;

@@ -35,6 +35,8 @@ tlm::tlm_response_status judge_stream(const tlm::tlm_generic_payload& payload);
 
 /// The payload's data on the pins, with the timing of its extension, or `own`. The payload must be a valid stream.
 SpiFrame frame_of(const tlm::tlm_generic_payload& payload, const SpiTiming& own);
+/// The same without XSS's times: the first clock is half a bit after the begin, and nothing follows the last.
+SpiFrame clocks_of(const tlm::tlm_generic_payload& payload, const SpiTiming& own);
 Tick gap_of(const tlm::tlm_generic_payload& payload, const SpiTiming& own);
 UartTelegram telegram_of(const tlm::tlm_generic_payload& payload, const UartTiming& own);
 
