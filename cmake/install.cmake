@@ -3,7 +3,7 @@
 #   driver    the C drivers: dsdpv1::driver, dsdpv1::driver_spc3; needs nothing
 #   bus       segment, masters, monitor, GSD files: dsdpv1::bus
 #   checks    the rules of the user's side: dsdpv1::checks
-#   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus
+#   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus, dsdpv1::systemc_host
 #   capi      libdsdpv1.so: dsdpv1::capi
 #   dpi       for simulators: dsdpv1::dpi, dsdpv1::vpi, SystemVerilog
 #   python    the module dsdpv1, cocotbext.profibus; the component wheel has what a wheel holds (bindings/python/CMakeLists.txt)
@@ -170,13 +170,18 @@ endfunction()
 function(dsdpv1_install_systemc)
   dsdpv1_install_targets(systemc systemc dsdpv1_systemc dsdpv1_driver_systemc)
   dsdpv1_install_targets(systemc systemc_bus dsdpv1_systemc_bus)
+  dsdpv1_install_targets(systemc systemc_host dsdpv1_systemc_host dsdpv1_host dsdpv1_output dsdpv1_socket)
   foreach(room model/systemc driver/systemc tb/systemc)
     install(DIRECTORY ${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT systemc FILES_MATCHING PATTERN "*.hpp")
   endforeach()
+  install(DIRECTORY tb/serve/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/tb/serve COMPONENT systemc FILES_MATCHING PATTERN "*.hpp" PATTERN "run" EXCLUDE)
+  install(FILES io/input/descriptor.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/io/input COMPONENT systemc)
   dsdpv1_install_pc(systemc dsdpv1-systemc "cycle-accurate model of the DSDPV1: SystemC modules"
                     LIBS dsdpv1_driver_systemc dsdpv1_systemc REQUIRES dsdpv1-core dsdpv1-driver systemc tlm)
   dsdpv1_install_pc(systemc dsdpv1-systemc-bus "PROFIBUS segment and masters in SystemC's time"
                     LIBS dsdpv1_systemc_bus REQUIRES dsdpv1-systemc dsdpv1-bus)
+  dsdpv1_install_pc(systemc dsdpv1-systemc-host "PROFIBUS masters outside of a SystemC platform, in real time"
+                    LIBS dsdpv1_systemc_host dsdpv1_host dsdpv1_output dsdpv1_socket REQUIRES dsdpv1-systemc-bus fmt)
 endfunction()
 
 function(dsdpv1_install_capi)
@@ -257,7 +262,7 @@ endfunction()
 # Builds everything that is installed, without tests: `./run examples`.
 function(dsdpv1_installed_target)
   add_custom_target(dsdpv1_installed)
-  foreach(target core driver bus checks systemc driver_systemc systemc_bus capi dpi vpi modules python pages rtl_libraries firmware)
+  foreach(target core driver bus checks systemc driver_systemc systemc_bus systemc_host capi dpi vpi modules python pages rtl_libraries firmware)
     if(TARGET dsdpv1_${target})
       add_dependencies(dsdpv1_installed dsdpv1_${target})
     endif()

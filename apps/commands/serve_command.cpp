@@ -21,7 +21,7 @@
 #include "tb/report/run_junit.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/serve/ports.hpp"
-#include "tb/serve/real_time_execution.hpp"
+#include "tb/serve/run/real_time_execution.hpp"
 
 namespace dsdpv1::app {
 namespace {

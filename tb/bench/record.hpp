@@ -16,6 +16,7 @@
 #include "tb/chip/user_cpu/place.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 #include "tb/scenario/scenario.hpp"
+#include "tb/serve/statistics.hpp"
 
 namespace dsdpv1::tb {
 
@@ -121,32 +122,6 @@ struct ExpectationResult {
   std::string seen;
   bool left_out = false;  ///< not judged: firmware does not report it, or the script keeps the slave away
   bool implied = false;   ///< from a master that has the slave; `line`: of the slave in the master's list
-};
-
-/// Bytes and telegrams of an external host (serve).
-struct HostLineStatistics {
-  std::uint64_t telegrams = 0;    ///< received from the host
-  std::uint64_t sent_bytes = 0;   ///< by the host
-  std::uint64_t heard_bytes = 0;  ///< by the host
-  std::uint64_t held_back = 0;    ///< telegrams delayed because they came before T_SYN or the slot time had ended
-  Tick longest_held_back = 0;
-};
-
-/// How well simulated time followed real time (serve).
-struct PaceStatistics {
-  std::uint64_t samples = 0;
-  double error_sum_us = 0, error_max_us = 0;  ///< delay of execution after the simulated time
-  std::uint64_t losses = 0;                   ///< how often the computer was too slow and time was given up
-  Tick lost = 0;                              ///< simulated time given up in total
-
-  double error_mean_us() const { return samples == 0 ? 0 : error_sum_us / static_cast<double>(samples); }
-};
-
-/// A run with an external host (serve).
-struct Pacing {
-  std::string port;
-  HostLineStatistics line;
-  PaceStatistics pace;
 };
 
 /// The first difference of model and RTL as text, one item a line.

@@ -7,7 +7,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
-#include "tb/bench/record.hpp"
+#include "tb/serve/statistics.hpp"
 
 namespace dsdpv1::tb::serve {
 

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "bus/time.hpp"
-#include "tb/bench/record.hpp"
 #include "tb/serve/framing.hpp"
+#include "tb/serve/statistics.hpp"
 
 namespace dsdpv1::tb::serve {
 

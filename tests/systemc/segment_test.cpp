@@ -1,6 +1,7 @@
 // Chips of two families and a master on a segment at the level of characters: the same as by pins, with collisions.
 #include <gtest/gtest.h>
 
+#include "tb/systemc/character_station.hpp"
 #include "tests/systemc/own_process.hpp"
 #include "tests/systemc/segment_platform.hpp"
 
@@ -71,6 +72,52 @@ TEST(Segment, TheQuantumChangesNothing) {
 
 TEST(Segment, AtAPicosecondEverythingIsAtTheSameTick) {
   EXPECT_EQ(first_difference(run(with([](Choice& c) { c.femtoseconds = 1000; })).all, by_pins().all), "");
+}
+
+/// A bus model that knows characters only.
+struct ForeignStation : tlm::tlm_analysis_if<systemc_bench::HeardCharacter> {
+  systemc_bench::CharacterStation station;
+  tlm::tlm_analysis_port<systemc::BusCharacter> out;
+  std::string got;
+
+  ForeignStation(const char* name, systemc_bench::SegmentModule& line) : station(name, line) { out.bind(station.in); }
+  void send(Tick at, const bus::Bytes& bytes) {
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      out.write({systemc::to_time(at + static_cast<Tick>(i) * 11 * bus::baud(0).bit),
+                 systemc::to_time(bus::baud(0).bit), bytes[i], true, true});
+  }
+  void write(const systemc_bench::HeardCharacter& heard) override {
+    got += std::to_string(heard.data) + (heard.collided ? "! " : " ");
+  }
+};
+
+TEST(Segment, StationsOfAPlatformAreHeardAndCollideByCharacters) {
+  const std::string said = in_a_process_of_its_own([] {
+    systemc_bench::SegmentModule line("line");
+    segment_platform::Device device("device", 17, {1, sc_core::SC_US});
+    line.attach(device.chip);
+    ForeignStation a("a", line), b("b", line);
+    line.heard.bind(a);
+    const auto ask = [&](ForeignStation& from, Tick at) {
+      from.send(at, bus::encode(bus::make_telegram(platform::kSlave, 2, bus::fc::kRequest | bus::fc::kFdlStatus)));
+    };
+    thread([&] {
+      for (const Tick at : {400, 600}) ask(a, at * kUs);
+      wait_until(700 * kUs);
+      a.got.clear();
+      ask(a, 800 * kUs);
+      wait_until(900 * kUs);
+      a.got += "| ";
+      ask(a, 1000 * kUs);
+      ask(b, 1000 * kUs + 5 * bus::baud(0).bit);
+    });
+    sc_core::sc_start(1100, sc_core::SC_US);
+    return a.got;
+  });
+  EXPECT_EQ(said.substr(0, said.find('|')), "16 9 2 73 84 22 16 2 9 0 11 22 ") << "request and answer";
+  const std::string both = said.substr(said.find('|'));
+  EXPECT_NE(both.find('!'), std::string::npos);
+  EXPECT_EQ(both.find("16 2 9"), std::string::npos) << "no answer: " << both;
 }
 
 TEST(Segment, AChipIsAStationOnce) {

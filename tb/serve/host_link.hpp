@@ -1,10 +1,11 @@
 #pragma once
-// A run in real time, with a host on the segment.
+// A host at a port, as a station of a simulated segment, in real time: the steps of a loop that advances simulated
+// time, of a bench or of a SystemC platform.
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "tb/bench/execution.hpp"
-#include "tb/bench/record.hpp"
 #include "tb/serve/framing.hpp"
 #include "tb/serve/host_connection.hpp"
 #include "tb/serve/host_line.hpp"
@@ -21,33 +22,49 @@ namespace dsdpv1::tb::serve {
 /// The host is read only up to kMostWaiting bytes waiting for the line; further bytes stay in the socket or
 /// pseudo-terminal, and finally the host waits. After a hold longer than Intake::kPatience nothing is read until
 /// simulated time has caught up, or for as long as the hold was, so that a slow host cannot stop simulated time.
-class RealTimeExecution : public Execution {
+///
+///   link.begin(now);
+///   for (;;) {
+///     link.take(now);
+///     now = advance to link.limit(now), if that is later;
+///     link.give(now);
+///     link.sleep(now);
+///   }
+///   link.end(now);
+class HostLink {
  public:
   /// Eight of the longest telegrams; at 12 Mbit/s nearly two slices of 1 ms, so that the line never waits for the
   /// program. The rest of an incomplete telegram is read beyond that.
   static constexpr std::size_t kMostWaiting = 8 * kLongestTelegram;
 
-  /// `baud` as in bus/baud.hpp.
-  RealTimeExecution(std::unique_ptr<HostConnection> port, int baud);
+  /// `baud` as in bus/baud.hpp. The segment must outlive it.
+  HostLink(std::unique_ptr<HostConnection> port, bus::Segment& segment, int baud);
 
-  /// Call after the last make_chip and before `run`: the host acts after the chips.
-  void join();
-  void run(Tick end, const std::function<bool()>& stopped) override;
-
-  /// Prints one line about the port or the pace.
+  /// The host as an agent.
+  HostLine& line() { return line_; }
+  /// Prints one line about the port.
   std::function<void(Tick at, const std::string& text)> say = [](Tick, const std::string&) {};
+  /// The same when simulated time is late; at most one in 5 s.
+  std::function<void(Tick at, const std::string& text)> late = [](Tick, const std::string&) {};
   Pacing pacing() const;
 
+  /// Simulated time is real time at `now`.
+  void begin(Tick now);
+  /// Reads the host, and passes complete telegrams to the line.
+  void take(Tick now);
+  /// The limit of simulated time at present; `now` while a telegram is incomplete.
+  Tick limit(Tick now) const;
+  /// Simulated time is `now`: passes on what was heard.
+  void give(Tick now);
+  /// Until the next slice or bytes of the host.
+  void sleep(Tick now);
+  void end(Tick now);
+
  private:
-  void take_from_host();
-  std::size_t room() const;
+  std::size_t room(Tick now) const;
   void hold_time();
   void tell_about_port(const std::string& text);
   void tell_left_out(bool at_end);
-  void advance(Tick end);
-  Tick limit() const;
-  void give_to_host();
-  void sleep();
   void tell(const Pace::Loss& loss);
 
   std::unique_ptr<HostConnection> port_;
@@ -55,6 +72,7 @@ class RealTimeExecution : public Execution {
   Intake intake_;
   std::optional<Pace> pace_;
   LineLimit lines_;
+  Tick now_ = 0;  ///< of the last step
   std::optional<WallTime> held_since_;
   WallTime rest_until_{};  ///< nothing is read until then, so that simulated time catches up
   WallTime told_at_{};
