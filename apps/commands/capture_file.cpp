@@ -15,6 +15,7 @@
 #include "bus/capture/pcap_reader.hpp"
 #include "bus/capture/signal_decoder.hpp"
 #include "bus/capture/sigrok_reader.hpp"
+#include "bus/capture/text_reader.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 #include "io/waves/wave_reader.hpp"
@@ -221,10 +222,10 @@ std::optional<capture::LogicSource> CaptureFile::read(const capture::LogicSettin
       case CaptureForm::kSigrok: return capture::read_sigrok(read_archive(stream()), settings, take);
       case CaptureForm::kCsv: return capture::read_csv(stream(), settings, take);
       case CaptureForm::kWave: return read_wave_line(path_, settings, take);
-      case CaptureForm::kText: break;
+      case CaptureForm::kText: capture::read_text(stream(), settings.baud, take); break;
     }
   } catch (const capture::CaptureError& error) {
-    throw tb::InputError(name_, 0, error.what());
+    throw tb::InputError(name_, error.line(), error.what());
   }
   return std::nullopt;
 }
@@ -238,7 +239,7 @@ Sampling CaptureFile::read_levels(capture::LevelTaker& taker) {
       default: break;
     }
   } catch (const capture::CaptureError& error) {
-    throw tb::InputError(name_, 0, error.what());
+    throw tb::InputError(name_, error.line(), error.what());
   }
   throw tb::InputError(name_, 0,
                        "has no levels of pins, expected VCD, FST, a session of sigrok, CSV of a logic analyser");

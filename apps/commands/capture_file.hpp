@@ -78,8 +78,8 @@ class CaptureFile {
   const std::string& name() const { return name_; }
   std::istream& stream() { return input_.stream(); }
 
-  /// Gives `take` each telegram of any form but kText; what it returns is the signal of a recording, nothing for
-  /// packets. Throws tb::InputError.
+  /// Gives `take` each telegram; what it returns is the signal of a recording, nothing for packets and text. Throws
+  /// tb::InputError.
   std::optional<bus::capture::LogicSource> read(const bus::capture::LogicSettings& settings,
                                                 const bus::capture::TakeTelegram& take);
   /// Gives `taker` the levels of a recording: a wave, a session of sigrok, a table. Throws tb::InputError, also for

@@ -12,9 +12,10 @@
 #include "apps/options/outputs.hpp"
 #include "apps/options/words.hpp"
 #include "bus/baud.hpp"
+#include "bus/capture/pcapng_writer.hpp"
+#include "bus/capture/telegram_printer.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"
-#include "bus/telegram/telegram_printer.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/units.hpp"
 #include "io/output/output_file.hpp"
@@ -48,7 +49,8 @@ std::string cell(const std::optional<std::uint8_t>& value) { return value ? fmt:
 
 std::string row(std::uint64_t number, const capture::CapturedTelegram& telegram, const bus::Decoded& decoded,
                 const std::string& why) {
-  std::string text = fmt::format("{}\t{}\t{}", number, tb::nanoseconds(telegram.start), baud_name(telegram));
+  std::string text =
+      fmt::format("{}\t{}\t{}", number, telegram.timed ? tb::nanoseconds(telegram.start) : "", baud_name(telegram));
   const bus::Telegram& fields = decoded.telegram;
   if (decoded.readable)
     text += fmt::format("\t{}\t{}\t{}\t{}\t{}\t{}\t{}", kind_name(fields.kind),
@@ -65,7 +67,8 @@ nlohmann::ordered_json object(std::uint64_t number, const capture::CapturedTeleg
                               const bus::Decoded& decoded, const std::string& why) {
   nlohmann::ordered_json json;
   json["number"] = number;
-  json["at_ns"] = static_cast<double>(telegram.start) / static_cast<double>(bus::kTicksPerNs);
+  if (telegram.line != 0) json["line"] = telegram.line;
+  if (telegram.timed) json["at_ns"] = static_cast<double>(telegram.start) / static_cast<double>(bus::kTicksPerNs);
   if (telegram.baud) json["baud"] = baud_name(telegram);
   if (decoded.readable) {
     const bus::Telegram& fields = decoded.telegram;
@@ -91,13 +94,19 @@ void open(std::optional<tb::OutputFile>& file, const std::string& path, const ch
   file->write(head);
 }
 
-/// --table and --json: a line for each telegram; nothing is kept.
+/// Paths, empty: not wanted.
+struct FileNames {
+  std::string table, json, pcapng;
+};
+
+/// --table, --json and --pcapng: a line or a packet for each telegram; nothing is kept.
 class TelegramFiles {
  public:
-  /// Paths, empty: not wanted. Throws tb::InputError.
-  TelegramFiles(const std::string& table, const std::string& json) {
-    open(table_, table, "number\tat_ns\tbaud\ttype\tsa\tda\tfc\tdsap\tssap\tservice\twrong\tbytes\n");
-    open(json_, json, "[");
+  /// `source`: the input's name, for messages. Throws tb::InputError.
+  TelegramFiles(const FileNames& names, std::string source) : source_(std::move(source)) {
+    open(table_, names.table, "number\tat_ns\tbaud\ttype\tsa\tda\tfc\tdsap\tssap\tservice\twrong\tbytes\n");
+    open(json_, names.json, "[");
+    open(pcapng_, names.pcapng, "");
   }
 
   /// `why`: what is wrong with it, empty for a right one.
@@ -105,32 +114,48 @@ class TelegramFiles {
     ++count_;
     if (table_) table_->write(row(count_, telegram, decoded, why));
     if (json_) json_->write((count_ == 1 ? "\n" : ",\n") + object(count_, telegram, decoded, why).dump());
+    if (pcapng_) packet(telegram);
   }
   /// Throws tb::InputError where something could not be written.
   void finish() {
     if (json_) json_->write(count_ == 0 ? "]\n" : "\n]\n");
-    if (table_) table_->commit();
-    if (json_) json_->commit();
+    for (std::optional<tb::OutputFile>* file : {&table_, &json_, &pcapng_})
+      if (*file) (*file)->commit();
   }
 
  private:
-  std::optional<tb::OutputFile> table_, json_;
+  void packet(const capture::CapturedTelegram& telegram) {
+    if (!telegram.baud)
+      throw tb::InputError(source_, telegram.line,
+                           "does not say its baud rate, --pcapng needs it, name it with --baud");
+    if (telegram.missing != 0)
+      throw tb::InputError(source_, telegram.line,
+                           "has not all bytes, --pcapng needs a log with all of them (--log-whole, .jsonl)");
+    if (!writer_)
+      writer_.emplace(capture::PcapngHeader{257, "dsdpv1-sim", *telegram.baud},
+                      [this](std::string_view bytes) { pcapng_->write(bytes); });
+    writer_->telegram(telegram);
+  }
+
+  std::string source_;
+  std::optional<tb::OutputFile> table_, json_, pcapng_;
+  std::optional<capture::PcapngWriter> writer_;
   std::uint64_t count_ = 0;
 };
 
-/// The telegrams of a capture, as those of a text are printed.
-class CapturePrinter {
+/// Prints telegrams, and writes them to files.
+class Printer {
  public:
-  /// `packets`: the telegrams are packets of a file, and numbered as such.
-  CapturePrinter(bool packets, bool quiet, TelegramFiles& files) : packets_(packets), quiet_(quiet), files_(files) {}
+  Printer(bool packets, bool quiet, TelegramFiles& files)
+      : printer_(std::cout, packets), quiet_(quiet), files_(files) {}
 
   void take(const capture::CapturedTelegram& telegram) {
     ++count_;
     const bus::Decoded decoded = bus::decode(telegram.bytes);
-    const std::string why = telegram.bytes.empty() ? "no character" : what_is_wrong(telegram, decoded);
+    const std::string why = capture::what_is_wrong(telegram, decoded);
     files_.take(telegram, decoded, why);
     if (!why.empty()) right_ = false;
-    if (!quiet_) print(telegram, decoded, why);
+    if (!quiet_) printer_.print(telegram, decoded, why);
   }
 
   int finish() {
@@ -140,44 +165,14 @@ class CapturePrinter {
   }
 
  private:
-  void print(const capture::CapturedTelegram& telegram, const bus::Decoded& decoded, const std::string& why) {
-    const std::string at = tb::nanoseconds(telegram.start) + " ns";
-    const std::string where = packets_ ? fmt::format("packet {}, {}", count_, at) : at;
-    if (telegram.bytes.empty())
-      printer_.garbage(where, {});
-    else if (why.empty())
-      printer_.right(where, decoded);
-    else
-      printer_.wrong(where, why, decoded, telegram.bytes);
-    for (const std::string& remark : telegram.remarks) std::cout << "        " << bus::printable(remark) << "\n";
-  }
-
-  /// Empty for a right telegram.
-  static std::string what_is_wrong(const capture::CapturedTelegram& telegram, const bus::Decoded& decoded) {
-    std::string why;
-    if (decoded.error != bus::DecodeError::kNone)
-      why = bus::describe(decoded.error);
-    else if (decoded.bytes.size() < telegram.bytes.size())
-      why = "more bytes than one telegram has";
-    const std::string damage = capture::damage_words(telegram.damage & capture::damage::kCharacter);
-    return damage.empty() ? why : why.empty() ? damage : damage + ", " + why;
-  }
-
-  bus::TelegramPrinter printer_{std::cout};
-  bool packets_, quiet_, right_ = true;
+  capture::TelegramPrinter printer_;
+  bool quiet_, right_ = true;
   TelegramFiles& files_;
   std::uint64_t count_ = 0;
 };
 
 void say_source(const capture::LogicSource& source) {
   std::cout << fmt::format("signal {} at {}\n", bus::printable(source.signal), bus::baud(source.baud).name);
-}
-
-int decode_text(std::istream& in, const std::string& name) {
-  std::string error;
-  const int status = bus::decode_text(in, name, std::cout, error);
-  if (!error.empty()) throw tb::InputError(error);
-  return status;
 }
 
 class Decode : public Command {
@@ -188,49 +183,47 @@ class Decode : public Command {
     app.add_option("FILE", file_,
                    "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session of "
                    "sigrok or CSV of a logic analyser; the format is detected (default and -: standard input)");
-    app.add_option("--baud", baud_, "Baud rate of a recording of the line (default: detected)");
+    app.add_option(
+        "--baud", baud_,
+        "Baud rate of a recording of the line (default: detected) or of text, whose telegrams then have times");
     app.add_option("--signal", settings_.signal,
                    "The line's signal in a recording (default: the only one, or line, PBRXD, PBTXD)");
     app.add_flag("--invert", settings_.inverted, "The recording's idle level is low");
-    app.add_option("--table", table_, "Write a capture or recording as one line per telegram, separated by tabs");
+    app.add_option("--table", table_, "Write one line per telegram, separated by tabs");
     app.add_option("--json", json_, "Write the same as JSON, with explanations");
+    app.add_option("--pcapng", pcapng_, "Write the telegrams as a capture for Wireshark and replay; text needs --baud");
     app.add_flag("--quiet,-q", quiet_, "Print nothing");
     app.footer(
         "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
         "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
-        "(--log-whole).\n"
+        "(--log-whole).\nOf a line of another program's log the longest row of bytes is taken: I (394) RX: 68 05 ...\n"
         "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
-        "dsdpv1-sim decode logic.sr --signal D2 --invert\n  dsdpv1-sim decode my.pcapng --quiet --table my.tsv\n  echo "
+        "dsdpv1-sim decode logic.sr --signal D2 --invert\n  dsdpv1-sim decode my.pcapng --quiet --table my.tsv\n  "
+        "dsdpv1-sim decode terminal.txt --baud 1.5M --pcapng "
+        "my.pcapng\n  echo "
         "68 05 05 68 85 82 6D 3C 3E EE 16 | dsdpv1-sim decode\n"
         "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
   }
 
   int carry_out() override {
     CaptureFile file(file_);
-    if (file.form() != CaptureForm::kText) return decode_capture(file);
-    if (!table_.empty() || !json_.empty() || quiet_)
-      throw tb::InputError(file.name(), 0,
-                           "is text, --table, --json and --quiet need a capture or recording of the line");
-    return decode_text(file.stream(), file.name());
-  }
-
- private:
-  int decode_capture(CaptureFile& file) {
     leave_nothing_on_signals();
-    check_outputs("dsdpv1-sim decode", {{"the capture", file.path()}}, {{"--table", table_}, {"--json", json_}});
-    TelegramFiles files(table_, json_);
-    CapturePrinter printer(file.packets(), quiet_, files);
+    check_outputs("dsdpv1-sim decode", {{"the capture", file.path()}},
+                  {{"--table", table_}, {"--json", json_}, {"--pcapng", pcapng_}});
     if (!baud_.empty()) settings_.baud = baud_index("dsdpv1-sim decode: --baud", baud_);
+    TelegramFiles files({table_, json_, pcapng_}, file.name());
+    Printer printer(file.packets(), quiet_, files);
     const auto source =
         file.read(settings_, [&printer](const capture::CapturedTelegram& telegram) { printer.take(telegram); });
     if (source && !quiet_) say_source(*source);
     return printer.finish();
   }
 
+ private:
   std::string file_;  ///< empty or "-": standard input
-  std::string baud_;  ///< of levels; empty: found
+  std::string baud_;  ///< of levels and text; empty: found, or not known
   capture::LogicSettings settings_;
-  std::string table_, json_;  ///< files for programs, of captures
+  std::string table_, json_, pcapng_;  ///< files for programs
   bool quiet_ = false;
 };
 

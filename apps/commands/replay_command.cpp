@@ -13,7 +13,6 @@
 #include "apps/options/words.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
-#include "bus/telegram/telegram_text.hpp"
 #include "cosim/lockstep_execution.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
@@ -29,31 +28,6 @@ using tb::replay::Recording;
 
 const std::string kReplay = "dsdpv1-sim replay";
 constexpr bus::Tick kAnyTime = std::numeric_limits<bus::Tick>::min();
-
-/// The telegrams of a log, which tells each when it has ended.
-void read_log(CaptureFile& file, const bus::capture::TakeTelegram& take, std::optional<int> baud) {
-  bus::TelegramText text;
-  std::string error;
-  if (!bus::read_telegram_text(file.stream(), file.name(), text, error)) throw tb::InputError(error);
-  if (text.logged.empty())
-    throw tb::InputError(file.name(), 0,
-                         "is no capture with times, expected pcapng, pcap, VCD, FST, a session of sigrok, CSV, a log");
-  if (!baud) throw tb::InputError(file.name(), 0, "is a log, which does not say its baud rate, name it with --baud");
-  std::size_t byte = 0;
-  for (const auto& [line, logged] : text.logged) {
-    bus::capture::CapturedTelegram telegram;
-    while (text.lines[byte] < line) ++byte;
-    for (; byte < text.bytes.size() && text.lines[byte] == line; ++byte) telegram.bytes.push_back(text.bytes[byte]);
-    if (telegram.bytes.size() < logged.whole_length)
-      throw tb::InputError(file.name(), line,
-                           "has not all bytes, expected a log with all of them (--log-whole, .jsonl)");
-    telegram.baud = baud;
-    telegram.end = std::llround(std::stod(logged.at_ns) * static_cast<double>(bus::kTicksPerNs));
-    telegram.start =
-        telegram.end - static_cast<bus::Tick>(telegram.bytes.size()) * bus::kCharacterBits * bus::baud(*baud).bit;
-    take(telegram);
-  }
-}
 
 int status_of(const tb::replay::Result& result, const tb::RunResult& run) {
   if (result.compared() == 0) return kNothingJudged;
@@ -177,13 +151,12 @@ class Replay : public Command {
     line.on_change = [&recorder, end](bus::Tick at, bool level) {
       if (at <= end) recorder.level(at, level);
     };
-    const auto take = [&recorder, end](const bus::capture::CapturedTelegram& telegram) {
+    file.read(line, [&recorder, &file, end](const bus::capture::CapturedTelegram& telegram) {
+      if (telegram.missing != 0)
+        throw tb::InputError(file.name(), telegram.line,
+                             "has not all bytes, expected a log with all of them (--log-whole, .jsonl)");
       if (telegram.start <= end) recorder.telegram(telegram);
-    };
-    if (file.form() == CaptureForm::kText)
-      read_log(file, take, line.baud);
-    else
-      file.read(line, take);
+    });
     Recording recording = recorder.finish();
     if (no_lead_in_) tb::replay::check_comparable(recording);
     return recording;

@@ -33,6 +33,9 @@ struct CapturedTelegram {
   std::uint32_t damage = 0;      ///< bits of namespace damage
   Bytes bytes = {};              ///< all characters, including those after the first wrong byte
   std::vector<std::string> remarks = {};  ///< remarks of the monitor
+  int line = 0;                           ///< of a text, 1..; 0: the capture is none
+  bool timed = true;                      ///< the capture gives its time
+  std::size_t missing = 0;                ///< bytes at the end that a log has cut off
 };
 
 using TakeTelegram = std::function<void(const CapturedTelegram&)>;
@@ -40,7 +43,12 @@ using TakeTelegram = std::function<void(const CapturedTelegram&)>;
 /// An error of a capture and the allowed values, without the capture's name.
 class CaptureError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// `line`: of a text, 0: the whole.
+  explicit CaptureError(const std::string& what, int line = 0) : std::runtime_error(what), line_(line) {}
+  int line() const { return line_; }
+
+ private:
+  int line_;
 };
 
 }  // namespace dsdpv1::bus::capture

@@ -83,9 +83,7 @@ class Table {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw CaptureError(fmt::format("line {}: {}", number_, what));
-  }
+  [[noreturn]] void fail(const std::string& what) const { throw CaptureError(what, number_); }
 
   /// Returns false at the end.
   bool next(std::string& line) {

@@ -9,8 +9,6 @@ namespace dsdpv1::bus {
 
 namespace {
 
-constexpr std::uint8_t kDpv1Decode = 0x80;  // table 28: the only value
-
 /// One row of table 29: sixteen codes of a class; nullptr is reserved, codes from `user_from` on belong to the user.
 struct ErrorClass {
   const char* name;
@@ -80,6 +78,7 @@ const char* function_name(std::uint8_t function) {
     case function_num::kImmediate: return "Immediate answer";
     case function_num::kInitiate: return "Initiate";
     case function_num::kAbort: return "Abort";
+    case function_num::kAlarmAck: return "Alarm_Ack";
     case function_num::kRead: return "DS_Read";
     case function_num::kWrite: return "DS_Write";
     default: return "unknown function";
@@ -96,7 +95,18 @@ std::string error_code_words(std::uint8_t error_code_1) {
   }
 }
 
+const char* error_decode_name(std::uint8_t error_decode) {
+  switch (error_decode) {
+    case kDpv1Decode: return "DPV1";
+    case 0xFE: return "PROFIBUS FMS";
+    case 0xFF: return "HART";
+    default: return "";
+  }
+}
+
 std::string error_words(std::uint8_t error_decode, std::uint8_t error_code_1, std::uint8_t error_code_2) {
+  const std::string other = error_decode == kDpv1Decode ? "" : error_decode_name(error_decode);
+  if (!other.empty()) return fmt::format("error of {} 0x{:02X} 0x{:02X}", other, error_code_1, error_code_2);
   std::string words = error_code_words(error_code_1);
   if (error_code_2 != 0) words += fmt::format(", Error_Code_2 0x{:02X}", error_code_2);
   if (error_decode != kDpv1Decode) words += fmt::format(" (Error_Decode 0x{:02X}, 0x80 is right)", error_decode);

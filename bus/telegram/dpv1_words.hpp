@@ -9,7 +9,7 @@ namespace dsdpv1::bus {
 /// Function_Num (tables 26 and 31, ruling V2).
 namespace function_num {
 constexpr std::uint8_t kIdle = 0x48, kTransport = 0x51, kImmediate = 0x56, kInitiate = 0x57, kAbort = 0x58,
-                       kRead = 0x5E, kWrite = 0x5F, kError = 0x80;
+                       kAlarmAck = 0x5C, kRead = 0x5E, kWrite = 0x5F, kError = 0x80;
 }
 
 /// "DS_Read", "Initiate", ...; ignores bit 7; "unknown function" for others.
@@ -17,6 +17,9 @@ const char* function_name(std::uint8_t function);
 
 /// Error_Code_1: "access: invalid index"; "user specific ..." and "reserved ..." according to the table.
 std::string error_code_words(std::uint8_t error_code_1);
+constexpr std::uint8_t kDpv1Decode = 0x80;  ///< table 28: the only Error_Decode there; IEC 61158 has FE and FF too
+/// "DPV1", "PROFIBUS FMS", "HART"; empty for a reserved one.
+const char* error_decode_name(std::uint8_t error_decode);
 /// A negative answer: "access: invalid index"; names Error_Decode if it is not 0x80, Error_Code_2 if it is not 0.
 std::string error_words(std::uint8_t error_decode, std::uint8_t error_code_1, std::uint8_t error_code_2);
 

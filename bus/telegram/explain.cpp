@@ -50,8 +50,23 @@ const char* station_type(std::uint8_t fc) {
   return kTypes[(fc >> 4) & 3];
 }
 
-const char* service_name(std::uint8_t slave_sap) {
+/// The master's SAP: SSAP of a request, DSAP of an answer.
+std::optional<std::uint8_t> master_sap(const Telegram& t) { return t.is_request() ? t.ssap : t.dsap; }
+
+/// The SAPs below that of Initiate belong to C2 between them and the master's SAP 50 (table 24), else to anything: S7
+/// and MPI use them, too.
+bool is_msac2(const Telegram& t, std::uint8_t slave_sap) {
+  return slave_sap < sap::kMs2Rm && master_sap(t) == sap::kMs2Master;
+}
+
+bool is_dpv1(const Telegram& t, std::uint8_t slave_sap) {
+  return is_msac2(t, slave_sap) || (slave_sap >= sap::kMs2Rm && slave_sap <= sap::kMs1);
+}
+
+/// nullptr without one.
+const char* service_name(const Telegram& t, std::uint8_t slave_sap) {
   switch (slave_sap) {
+    case sap::kExtUserPrm: return "Ext_User_Prm";
     case sap::kSetSlaveAddress: return "Set_Slave_Address";
     case sap::kReadInputs: return "Read_Inputs";
     case sap::kReadOutputs: return "Read_Outputs";
@@ -63,12 +78,15 @@ const char* service_name(std::uint8_t slave_sap) {
     case sap::kMs1: return "MSAC1";
     case sap::kMs1Alarm: return "MSAC1 alarm";
     case sap::kMs2Rm: return "MSAC2 Initiate";
-    default: return slave_sap < sap::kMs2Rm ? "MSAC2" : nullptr;
+    default: return is_msac2(t, slave_sap) ? "MSAC2" : nullptr;
   }
 }
 
 /// The slave's SAP, which determines the service: DSAP of a request, SSAP of an answer.
 std::optional<std::uint8_t> slave_sap(const Telegram& t) { return t.is_request() ? t.dsap : t.ssap; }
+
+/// An address extension that is a region or segment address instead of a SAP.
+bool is_region(std::uint8_t extension) { return (extension & extension::kRegion) != 0; }
 
 bool is_data_transfer(const Telegram& t) {
   if (!t.is_request()) return t.function() >= fc::kDl || !t.data.empty();
@@ -85,7 +103,8 @@ DataWords request_words(const Telegram& t, std::uint8_t sap) {
     case sap::kChkCfg: return detail::cfg_words(t.data);
     case sap::kGlobalControl: return detail::global_control_words(t.data);
     case sap::kSetSlaveAddress: return detail::set_slave_address_words(t.data);
-    default: return sap <= sap::kMs1 ? detail::dpv1_words(t.data, false) : detail::plain_words("data", t.data);
+    case sap::kExtUserPrm: return detail::plain_words("parameter", t.data);
+    default: return is_dpv1(t, sap) ? detail::dpv1_words(t.data, false) : detail::plain_words("data", t.data);
   }
 }
 
@@ -95,7 +114,7 @@ DataWords response_words(const Telegram& t, std::uint8_t sap, std::optional<bool
     case sap::kGetCfg: return detail::cfg_words(t.data);
     case sap::kReadInputs: return detail::plain_words("input", t.data);
     case sap::kReadOutputs: return detail::plain_words("output", t.data);
-    default: return sap <= sap::kMs1 ? detail::dpv1_words(t.data, true) : detail::plain_words("data", t.data);
+    default: return is_dpv1(t, sap) ? detail::dpv1_words(t.data, true) : detail::plain_words("data", t.data);
   }
 }
 
@@ -109,18 +128,21 @@ DataWords data_words(const Telegram& t, std::optional<bool> dpv1 = {}) {
 bool has_essentials(const Telegram& t) {
   if (!t.data.empty()) return true;
   if (!slave_sap(t)) return is_data_transfer(t);
-  return *slave_sap(t) <= sap::kMs1 && t.is_request();
+  return is_dpv1(t, *slave_sap(t)) && t.is_request();
 }
 
-std::string sap_words(const char* name, std::uint8_t byte, bool slave) {
-  const char* service = slave ? service_name(byte) : nullptr;
+std::string sap_words(const Telegram& t, const char* name, std::uint8_t byte, bool slave) {
+  if (is_region(byte))
+    return fmt::format("{}: region/segment address {}{}", name, byte & extension::kValue,
+                       (byte & extension::kFollows) != 0 ? ", another extension follows" : "");
+  const char* service = slave ? service_name(t, byte) : nullptr;
   return service != nullptr ? fmt::format("{}: {} ({})", name, byte, service) : fmt::format("{}: {}", name, byte);
 }
 
 std::string address_words(const char* name, std::uint8_t byte) {
   const unsigned address = byte & 0x7FU;
   return fmt::format("{}: {}{}{}", name, address, address == kBroadcast ? " (all stations)" : "",
-                     (byte & 0x80U) != 0 ? ", SAP byte follows" : "");
+                     (byte & extension::kFollows) != 0 ? ", SAP byte follows" : "");
 }
 
 class ByteExplainer {
@@ -156,8 +178,8 @@ class ByteExplainer {
 
   void explain_body() {
     say("FC: " + explain_fc(peek()));
-    if (telegram_.dsap) say(sap_words("DSAP", *telegram_.dsap, telegram_.is_request()));
-    if (telegram_.ssap) say(sap_words("SSAP", *telegram_.ssap, !telegram_.is_request()));
+    if (telegram_.dsap) say(sap_words(telegram_, "DSAP", *telegram_.dsap, telegram_.is_request()));
+    if (telegram_.ssap) say(sap_words(telegram_, "SSAP", *telegram_.ssap, !telegram_.is_request()));
     for (std::string& text : data_words(telegram_, dpv1_).bytes) say(std::move(text));
     say(fcs_words());
     say(decoded_.error == DecodeError::kEndDelimiter ? "ED: wrong, 16 is right" : "ED");
@@ -203,7 +225,8 @@ std::string explain_fc(std::uint8_t fc) {
 
 std::string explain_service(const Telegram& t) {
   if (const auto sap = slave_sap(t)) {
-    const char* name = service_name(*sap);
+    if (is_region(*sap)) return fmt::format("region/segment {}", *sap & extension::kValue);
+    const char* name = service_name(t, *sap);
     return name != nullptr ? name : fmt::format("SAP {}", *sap);
   }
   return is_data_transfer(t) ? "Data_Exchange" : "";

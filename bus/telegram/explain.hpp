@@ -2,7 +2,6 @@
 // Telegrams as text: one line for logs, or byte by byte. Field names are those of EN 50170 and of the datasheet's
 // tables 18 to 33.
 #include <cstddef>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,13 +30,5 @@ std::optional<bool> dpv1_enabled(const Telegram& telegram);
 
 /// The function code as text: "request SRD high FCB=0 FCV=1" or "response DH passive station".
 std::string explain_fc(std::uint8_t fc);
-
-/// Implements `dsdpv1-sim decode`. Reads hexadecimal text: two digits per byte, any spacing, commas, optional 0x before
-/// each byte, comments from # or ; to the end of the line. Telegrams may be one per line or consecutive; bytes between
-/// them are reported as garbage and skipped up to the next byte at which a valid telegram begins. Also reads the log of
-/// a run, as text or JSON lines: takes the bytes of lines with a telegram and skips all others. Returns 0, 1 if there
-/// was garbage or no telegram, 2 if the text is not hexadecimal: then nothing is written to `out` and `error` is
-/// "name:line: what is wrong, what is allowed".
-int decode_text(std::istream& in, const std::string& name, std::ostream& out, std::string& error);
 
 }  // namespace dsdpv1::bus

@@ -23,6 +23,9 @@ DataWords cfg_words(const Bytes& data);
 DataWords diag_words(const Bytes& data, std::optional<bool> dpv1);
 /// The DPV1 setting in a Set_Prm that locks its slave; nullopt for any other telegram.
 std::optional<bool> dpv1_enabled(const Telegram& telegram);
+/// "Alarm_Type: process alarm" and "Alarm_Specifier: appears, sequence number 3": of an alarm and of Alarm_Ack.
+std::string alarm_type_words(std::uint8_t byte);
+std::string alarm_specifier_words(std::uint8_t byte);
 /// C1 and C2 PDUs, requests and answers.
 DataWords dpv1_words(const Bytes& data, bool response);
 /// Process data and everything without a structure: "<what> 0", "<what> 1", ...

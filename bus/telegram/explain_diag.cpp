@@ -84,14 +84,9 @@ std::string dpv1_block_words(std::uint8_t type, std::size_t i, std::uint8_t byte
   const bool status = (type & 0x80U) != 0;
   const unsigned number = type & 0x7FU;
   switch (i) {
-    case 1:
-      return status ? fmt::format("Status_Type: {}", status_type(number))
-                    : fmt::format("Alarm_Type: {} alarm", alarm_type(number));
+    case 1: return status ? fmt::format("Status_Type: {}", status_type(number)) : alarm_type_words(type);
     case 2: return fmt::format("Slot_Number: {}", byte);
-    case 3:
-      if (status) return fmt::format("Status_Specifier: {}", specifier_words(byte));
-      return fmt::format("Alarm_Specifier: {}{}, sequence number {}", specifier_words(byte),
-                         (byte & 4U) != 0 ? ", Add_Ack" : "", byte >> 3);
+    case 3: return status ? fmt::format("Status_Specifier: {}", specifier_words(byte)) : alarm_specifier_words(byte);
     default:
       if (status && number == 2) return module_status_words(byte, 4 * (i - 4) + 1);
       return fmt::format("Diagnosis_User_Data {}", i - 4);
@@ -185,6 +180,15 @@ DataWords diag_words(const Bytes& data, std::optional<bool> dpv1) {
                   (data[2] & 0x80U) != 0 ? " [Ext_Diag_Overflow]" : "", master_words(data[3]), data[4], data[5]);
   if (data.size() > 6) words.summary += fmt::format(", {} bytes of Ext_Diag_Data", data.size() - 6);
   return words;
+}
+
+std::string alarm_type_words(std::uint8_t byte) {
+  return fmt::format("Alarm_Type: {} alarm", alarm_type(byte & 0x7FU));
+}
+
+std::string alarm_specifier_words(std::uint8_t byte) {
+  return fmt::format("Alarm_Specifier: {}{}, sequence number {}", specifier_words(byte),
+                     (byte & 4U) != 0 ? ", Add_Ack" : "", byte >> 3);
 }
 
 }  // namespace dsdpv1::bus::detail

@@ -12,6 +12,7 @@ namespace dsdpv1::bus::detail {
 namespace {
 
 constexpr std::size_t kNegative = 4;       // fn, Error_Decode, Error_Code_1, Error_Code_2
+constexpr std::size_t kAlarmAck = 4;       // fn, Slot_Number, Alarm_Type, Alarm_Specifier
 constexpr std::size_t kRequestFixed = 12;  // Initiate before Add_Addr
 constexpr std::size_t kResponseFixed = 8;  // its answer
 constexpr std::size_t kShortAddress = 2, kLongAddress = 4;
@@ -33,8 +34,9 @@ std::string too_short(const char* name, const Bytes& data, std::size_t least) {
 
 void read_error(DataWords& words, const Bytes& data, const char* name) {
   name_fields(words, {"Error_Decode", "Error_Code_1", "Error_Code_2"}, data);
-  if (data.size() > 1 && data[1] == 0x80) words.bytes[1] = "Error_Decode: 0x80 (DPV1)";
-  if (data.size() > 2) words.bytes[2] = "Error_Code_1: " + error_code_words(data[2]);
+  if (data.size() > 1 && *error_decode_name(data[1]) != '\0')
+    words.bytes[1] += fmt::format(" ({})", error_decode_name(data[1]));
+  if (data.size() > 2 && data[1] == kDpv1Decode) words.bytes[2] = "Error_Code_1: " + error_code_words(data[2]);
   if (data.size() < kNegative) {
     words.summary = too_short(name, data, kNegative);
     return;
@@ -51,6 +53,18 @@ void read_data_set(DataWords& words, const Bytes& data, const char* name) {
   words.bytes[2] = fmt::format("Index: {}", data[2]);
   words.bytes[3] = fmt::format("Length: {}", data[3]);
   words.summary = fmt::format("{} slot {} index {} length {}", name, data[1], data[2], data[3]);
+}
+
+void read_alarm_ack(DataWords& words, const Bytes& data, const char* name) {
+  name_fields(words, {"Slot_Number"}, data);
+  if (data.size() < kAlarmAck) {
+    words.summary = too_short(name, data, kAlarmAck);
+    return;
+  }
+  words.bytes[1] = fmt::format("Slot_Number: {}", data[1]);
+  words.bytes[2] = alarm_type_words(data[2]);
+  words.bytes[3] = alarm_specifier_words(data[3]);
+  words.summary = fmt::format("{} slot {}, {}, {}", name, data[1], words.bytes[2], words.bytes[3]);
 }
 
 /// Add_Addr from `at` on (V10): two APIs, or types, lengths and addresses of exactly these lengths.
@@ -132,6 +146,7 @@ void read_function(DataWords& words, const Bytes& data, const char* name, bool r
     case function_num::kRead:
     case function_num::kWrite:
     case function_num::kTransport: return read_data_set(words, data, name);
+    case function_num::kAlarmAck: return read_alarm_ack(words, data, name);
     case function_num::kInitiate: return response ? read_initiate_answer(words, data) : read_initiate(words, data);
     case function_num::kImmediate: return read_immediate(words, data);
     case function_num::kAbort: return read_abort(words, data);

@@ -7,7 +7,6 @@ namespace dsdpv1::bus {
 
 namespace {
 
-constexpr std::uint8_t kExtension = 0x80;
 constexpr std::size_t kMinLe = 4, kMaxLe = 249;  // DA, SA, FC and 1..246 bytes
 constexpr std::size_t kSd1Size = 6, kSd3Size = 14, kSd4Size = 3, kSd2Overhead = 6;
 constexpr std::size_t kSd3Data = 8;
@@ -15,7 +14,7 @@ constexpr std::size_t kSd3Data = 8;
 std::size_t unit_size(const Telegram& t) { return t.data.size() + (t.dsap ? 1U : 0U) + (t.ssap ? 1U : 0U); }
 
 std::uint8_t address_byte(std::uint8_t address, bool extended) {
-  return static_cast<std::uint8_t>((address & 0x7FU) | (extended ? kExtension : 0U));
+  return static_cast<std::uint8_t>((address & 0x7FU) | (extended ? extension::kFollows : 0U));
 }
 
 void check_unit(const Telegram& t) {
@@ -103,8 +102,8 @@ Telegram parse(const Bytes& bytes) {
   t.sa = sa & 0x7F;
   if (t.kind == TelegramKind::kSd4) return t;
   t.fc = bytes[at++];
-  if ((da & kExtension) != 0) t.dsap = bytes[at++];
-  if ((sa & kExtension) != 0) t.ssap = bytes[at++];
+  if ((da & extension::kFollows) != 0) t.dsap = bytes[at++];
+  if ((sa & extension::kFollows) != 0) t.ssap = bytes[at++];
   t.data.assign(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end() - 2);
   return t;
 }

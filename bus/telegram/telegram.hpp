@@ -33,12 +33,20 @@ constexpr std::uint8_t kOk = 0, kUe = 1, kRr = 2, kRs = 3, kDl = 8, kNr = 9, kDh
 namespace sap {
 constexpr std::uint8_t kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59,
                        kSlaveDiag = 60, kSetPrm = 61, kChkCfg = 62;
+constexpr std::uint8_t kExtUserPrm = 53;
 constexpr std::uint8_t kMaster = 62;    ///< SSAP of a DP master
 constexpr std::uint8_t kMs1 = 51;       ///< class 1 acyclic, both sides
 constexpr std::uint8_t kMs1Alarm = 50;  ///< alarm acknowledge of class 1
 constexpr std::uint8_t kMs2Rm = 49;     ///< Initiate of class 2
 constexpr std::uint8_t kMs2Master = 50;
 }  // namespace sap
+
+/// Bits of an address byte and of the address extensions after FC (EN 50170).
+namespace extension {
+constexpr std::uint8_t kFollows = 0x80;  ///< an extension, or another one
+constexpr std::uint8_t kRegion = 0x40;   ///< region or segment address, not a SAP
+constexpr std::uint8_t kValue = 0x3F;
+}  // namespace extension
 
 /// Bits of Control_Command (table 23).
 namespace global_control {

@@ -11,12 +11,14 @@ using testing::HasSubstr;
 
 constexpr std::uint8_t kRequestFc = 0x7D, kAnswerFc = 0x08;
 
+std::uint8_t master_sap(std::uint8_t slave_sap) { return slave_sap <= sap::kMs2Rm ? sap::kMs2Master : sap::kMaster; }
+
 Telegram request(std::uint8_t slave_sap, const Bytes& data, std::uint8_t fc = kRequestFc) {
-  return make_telegram(3, 1, fc, data, slave_sap, sap::kMaster);
+  return make_telegram(3, 1, fc, data, slave_sap, master_sap(slave_sap));
 }
 
 Telegram answer(std::uint8_t slave_sap, const Bytes& data, std::uint8_t fc = kAnswerFc) {
-  return make_telegram(1, 3, fc, data, sap::kMaster, slave_sap);
+  return make_telegram(1, 3, fc, data, master_sap(slave_sap), slave_sap);
 }
 
 std::vector<ExplainedByte> bytes_of(const Telegram& telegram) {
@@ -69,7 +71,8 @@ TEST(ExplainLine, EveryServiceHasItsName) {
   const std::pair<int, const char*> services[] = {{55, "Set_Slave_Address"}, {56, "Read_Inputs"}, {57, "Read_Outputs"},
                                                   {58, "Global_Control"},    {59, "Get_Cfg"},     {60, "Slave_Diag"},
                                                   {61, "Set_Prm"},           {62, "Chk_Cfg"},     {51, "MSAC1"},
-                                                  {49, "MSAC2 Initiate"},    {48, "MSAC2"},       {63, "SAP 63"}};
+                                                  {49, "MSAC2 Initiate"},    {48, "MSAC2"},       {63, "SAP 63"},
+                                                  {53, "Ext_User_Prm"}};
   for (const auto& [sap, name] : services)
     EXPECT_THAT(explain_line(request(static_cast<std::uint8_t>(sap), {})), HasSubstr(name)) << sap;
 }
@@ -409,6 +412,42 @@ TEST(ExplainDpv1, EveryErrorCodeOfTable29) {
   EXPECT_THAT(explain_line(odd), HasSubstr("invalid index, Error_Code_2 0x07 (Error_Decode 0x81, 0x80 is right)"));
   EXPECT_EQ(data_texts(answer(48, {0xDE, 0x80, 0xB0, 0}))[1], "Error_Decode: 0x80 (DPV1)");
   EXPECT_THAT(explain_line(answer(48, {0xDE, 0x80})), HasSubstr("DS_Read, 2 bytes, at least 4"));
+}
+
+TEST(ExplainDpv1, ErrorsOfOtherProtocols) {
+  EXPECT_THAT(explain_line(answer(51, {0xDE, 0xFE, 0xB0, 0x07})),
+              HasSubstr("refused, error of PROFIBUS FMS 0xB0 0x07"));
+  EXPECT_THAT(explain_line(answer(51, {0xDF, 0xFF, 0x01, 0x02})), HasSubstr("refused, error of HART 0x01 0x02"));
+  const auto texts = data_texts(answer(48, {0xDE, 0xFF, 0xB0, 0x07}));
+  EXPECT_EQ(texts[1], "Error_Decode: 0xFF (HART)");
+  EXPECT_EQ(texts[2], "Error_Code_1: 0xB0") << "table 29 is DPV1's";
+}
+
+TEST(ExplainDpv1, AlarmAckAtBothSaps) {
+  for (const std::uint8_t at : {std::uint8_t{50}, std::uint8_t{51}}) {
+    EXPECT_THAT(explain_line(request(at, {0x5C, 4, 2, 0x19})),
+                HasSubstr("Alarm_Ack slot 4, Alarm_Type: process alarm, Alarm_Specifier: appears, sequence number 3"));
+    EXPECT_THAT(explain_line(answer(at, {0xDC, 0x80, 0xB5, 0})),
+                HasSubstr("Alarm_Ack refused, access: state conflict"));
+  }
+  EXPECT_THAT(explain_line(request(51, {0x5C, 4})), HasSubstr("Alarm_Ack, 2 bytes, at least 4"));
+}
+
+TEST(ExplainDpv1, ClassTwoIsBetweenTheMastersSap50AndTheSlavesBelow49) {
+  const Bytes s7 = {0x5E, 0x07, 0x00, 0x00, 0x00, 0x08};
+  const Telegram other = make_telegram(3, 1, kRequestFc, s7, std::uint8_t{18}, std::uint8_t{19});
+  EXPECT_THAT(explain_line(other), AllOf(HasSubstr("SAP 18"), Not(HasSubstr("DS_Read"))));
+  EXPECT_EQ(data_texts(other)[0], "data 0");
+  const Telegram back = make_telegram(1, 3, kAnswerFc, s7, std::uint8_t{19}, std::uint8_t{18});
+  EXPECT_THAT(explain_line(back), AllOf(HasSubstr("SAP 18"), Not(HasSubstr("DS_Read"))));
+}
+
+TEST(ExplainBytes, AnAddressExtensionMayBeARegion) {
+  const Telegram region = make_telegram(3, 1, kRequestFc, {1, 2}, std::uint8_t{0xC5}, std::uint8_t{0x41});
+  const auto explained = bytes_of(region);
+  EXPECT_EQ(explained[7].meaning, "DSAP: region/segment address 5, another extension follows");
+  EXPECT_EQ(explained[8].meaning, "SSAP: region/segment address 1");
+  EXPECT_THAT(explain_line(region), HasSubstr("region/segment 5: data 01 02"));
 }
 
 TEST(ExplainDpv1, AbortsInWords) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <string>
 
 #include "bus/capture/sample_clock.hpp"
 
@@ -16,7 +17,7 @@ std::string table_error(const std::string& table) {
     read_csv(
         in, {}, [](const CapturedTelegram&) {});
   } catch (const CaptureError& error) {
-    return error.what();
+    return (error.line() == 0 ? "" : "line " + std::to_string(error.line()) + ": ") + error.what();
   }
   return "";
 }

@@ -222,6 +222,41 @@ def for_programs(folder):
     expect("nothing half-written", sorted(path.name for path in folder.glob("cut_off*")), ["cut_off.pcapng"])
 
 
+def every_form(folder):
+    """Text, a log, captures and recordings, each printed, as a table, as JSON, as a capture, and replayed from that."""
+    scenario = folder / "exchange.yaml"
+    scenario.write_text(EXCHANGE.format(baud="1.5M", end=12_000), encoding="utf-8")
+    wave = folder / "wave.vcd"
+    packets, log = capture(folder, scenario, "--wave", wave, "--log-whole")
+    wanted = telegrams(decoded(folder, packets))
+    rows = "".join(f"I ({number}) RX: {each['bytes']}\n" for number, each in enumerate(log))
+    (folder / "pasted.txt").write_text(rows, encoding="utf-8")
+    (folder / "bytes.txt").write_text(" ".join(each["bytes"] for each in log), encoding="utf-8")
+    changes, end = changes_of(wave), 12_000_000_000
+    (folder / "saleae.csv").write_text(saleae(changes, end), encoding="utf-8")
+    write_sigrok(folder / "session.sr", levels(changes, end, 12_000_000), 12_000_000)
+    text, line = ["--baud", "1.5M"], ["--signal", "Channel 1"]
+    for file, options in (("pasted.txt", text), ("bytes.txt", text), ("log.jsonl", text), (packets.name, []), ("saleae.csv", line),
+                          ("session.sr", []), (wave.name, [])):
+        printed = decoded(folder, file, *options, "--table", "t.tsv", "--json", "t.json", "--pcapng", "t.pcapng", status=None)
+        expect_same(f"{file}: printed", telegrams(printed), wanted)
+        count = len(telegrams(printed))
+        table = list(csv.DictReader((folder / "t.tsv").open(encoding="utf-8"), delimiter="\t"))
+        expect(f"{file}: table", [(row["bytes"], bool(row["at_ns"])) for row in table], [(each, True) for each, _ in telegrams(printed)])
+        expect(f"{file}: JSON", len(json.loads((folder / "t.json").read_text(encoding="utf-8"))), count)
+        expect(f"{file}: capture", telegrams(decoded(folder, "t.pcapng", status=None)), telegrams(printed))
+        for source, more in (("t.pcapng", []), (file, options)):
+            replayed = sim(folder, "replay", source, "--as", "5", *more, "-q", "--json", "r.json", status=0)
+            expect(f"{file}: replayed", (replayed.stderr, json.loads((folder / "r.json").read_text(encoding="utf-8"))["equal"]), ("", True))
+    expect("text without a rate", sim(folder, "replay", "bytes.txt", "--as", "5", status=2).stderr,
+           "bytes.txt: does not say its baud rate, name it with --baud, expected 12M to 9.6k\n")
+    expect("no capture without a rate", sim(folder, "decode", "bytes.txt", "-q", "--pcapng", "x.pcapng", status=2).stderr,
+           "bytes.txt:1: does not say its baud rate, --pcapng needs it, name it with --baud\n")
+    expect("nothing half-written", (folder / "x.pcapng").exists(), False)
+    decoded(folder, "bytes.txt", "-q", "--table", "untimed.tsv")
+    expect("no rate, no times", {row.split("\t")[1] for row in (folder / "untimed.tsv").read_text(encoding="utf-8").splitlines()[1:]}, {""})
+
+
 def archive_of(folder, **members):
     with zipfile.ZipFile(folder / "made.sr", "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in members.items():
@@ -277,7 +312,7 @@ def bad_files(folder):
     expect("/dev/zero", (endless.returncode, endless.stderr.count("\n")), (2, 1))
 
 
-CASES = {case.__name__: case for case in (as_the_log, classic, rewritten, every_rate, by_pipe, for_programs, bad_files)}
+CASES = {case.__name__: case for case in (as_the_log, classic, rewritten, every_rate, by_pipe, for_programs, every_form, bad_files)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_decode_") as folder_name:
     CASES[sys.argv[2]](pathlib.Path(folder_name))

@@ -230,11 +230,13 @@ def rare_services(folder):
         telegram(5, 2, 0x6D, bytes([0xC2, 0x81, 0x40, 0x11, 0x22, 0x57]), 62, 62),
         telegram(5, 2, 0x5D, bytes([0x88, 10, 20, 11, 0x0C, 0xC9, 1, 0x84, 0x40, 0x0B, 6, 129, 0, 0, 7, 8]), 61, 62),
         telegram(5, 2, 0x5D, b"", 60, 62), read, telegram(5, 2, 0x5D, b"", 60, 62),
+        telegram(5, 2, 0x6D, bytes([0x5E, 7, 0, 0]), 18, 19),
         bytes([0xA2, 5, 2, 0x6D, *range(8), (5 + 2 + 0x6D + 28) % 256, 0x16])])
     text = tshark(folder, packets, "-V")
     for words in ("Alarm_Ack slot 3, process", "Sequence number: 1", "Special format: output and input (3)", "Manufacturer data: 1122",
                   "[Watchdog / ms: 200]", "Structure_Type: User_Prm_Data (129)", "Error: line break (6)", "Modules with diagnosis: 0x05",
-                  "A request again, with the same FCB", "Start delimiter: SD3, 8 bytes of data", "Outputs: 0001020304050607"):
+                  "A request again, with the same FCB", "Start delimiter: SD3, 8 bytes of data", "Outputs: 0001020304050607",
+                  "PROFIBUS DP, SAP 18 request"):
         expect(f"'{words}' is said", words in text, True)
 
 

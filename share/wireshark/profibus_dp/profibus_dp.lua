@@ -228,16 +228,24 @@ local function service_of(t, info)
     return (answered and (t.function_code >= 8 and t.function_code ~= 9)) and kDefaultSap or nil
 end
 
+-- MSAC2 is between the master's SAP 50 and the slave's below 49; other protocols use these, too.
+local function is_msac2(t, sap)
+    local master
+    if t.request then master = t.ssap else master = t.dsap end
+    return sap < 49 and master == 50
+end
+
 local function dissect_service(t, info, tvb, tree, root)
     local sap = service_of(t, info)
     if not sap then return nil end
-    local name = sap == kDefaultSap and "Data_Exchange" or words.service[sap] or "SAP " .. sap
+    local known_sap = sap >= 49 or is_msac2(t, sap)
+    local name = sap == kDefaultSap and "Data_Exchange" or known_sap and words.service[sap] or "SAP " .. sap
     local title = string.format("PROFIBUS DP, %s %s", name, t.request and "request" or "response")
     local item = root:add(pbdp, tvb(t.data, t.stop - t.data), title)
     item:add(f["pbdp.service"], name):set_generated()
     local reader = Reader.new(tvb, t.data, t.stop, item)
     local said
-    if sap <= 51 then
+    if sap <= 51 and known_sap then
         said = dpv1(reader, not t.request)
     elseif t.stop == t.data and sap ~= kDefaultSap and not (t.request and dp.requests[sap]) then
         said = ""

@@ -3,8 +3,8 @@
 
 #include <sstream>
 
+#include "bus/capture/telegram_printer.hpp"
 #include "bus/telegram/explain.hpp"
-#include "bus/telegram/telegram_printer.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace dsdpv1 {
@@ -28,11 +28,9 @@ void explain(const bus::Decoded& decoded) {
 
 void print(const bus::Decoded& decoded, const bus::Bytes& all) {
   std::ostringstream out;
-  bus::TelegramPrinter printer(out);
-  if (decoded.error == bus::DecodeError::kNone)
-    printer.right("here", decoded);
-  else
-    printer.wrong("here", bus::describe(decoded.error), decoded, all);
+  bus::capture::CapturedTelegram telegram;
+  telegram.bytes = all;
+  bus::capture::TelegramPrinter(out).print(telegram, decoded, bus::capture::what_is_wrong(telegram, decoded));
   fuzz::promise(!out.str().empty(), "a telegram is printed");
 }
 

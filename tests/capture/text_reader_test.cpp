@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <vector>
 
-#include "bus/telegram/explain.hpp"
+#include "bus/baud.hpp"
 
-namespace dsdpv1::bus {
+#include "bus/capture/telegram_printer.hpp"
+#include "bus/capture/text_reader.hpp"
+
+namespace dsdpv1::bus::capture {
 namespace {
 
 using testing::AllOf;
@@ -21,9 +25,21 @@ struct Result {
 Result decoded(const std::string& input) {
   std::istringstream in(input);
   std::ostringstream out;
-  std::string error;
-  const int code = decode_text(in, "bus.txt", out, error);
-  return {code, out.str(), error};
+  TelegramPrinter printer(out);
+  int right = 0, wrong = 0;
+  try {
+    read_text(
+        in, std::nullopt,
+        [&](const CapturedTelegram& telegram) {
+          const Decoded decoded = decode(telegram.bytes);
+          const std::string why = what_is_wrong(telegram, decoded);
+          ++(why.empty() ? right : wrong);
+          printer.print(telegram, decoded, why);
+        });
+  } catch (const CaptureError& error) {
+    return {2, out.str(), fmt::format("{}: {}", error.line(), error.what())};
+  }
+  return {right > 0 && wrong == 0 ? 0 : 1, out.str(), ""};
 }
 
 const std::string kStatusText = "10 03 01 49 4D 16";
@@ -99,7 +115,7 @@ TEST(DecodeText, ALogOfJsonLines) {
   EXPECT_EQ(result.code, 0) << result.error;
   EXPECT_THAT(result.text, HasSubstr("telegram 1, line 2, 1400.000 ns: 1 -> 3  request FDL status"));
   EXPECT_THAT(decoded("{\"at_ns\": 3}\n").error,
-              "bus.txt:1: is no line of a log, expected JSON objects with at_ns and kind, or bytes of two digits 00 "
+              "1: is no line of a log, expected JSON objects with at_ns and kind, or bytes of two digits 00 "
               "to FF");
   EXPECT_EQ(decoded("{not json\n").code, 2);
 }
@@ -137,20 +153,60 @@ TEST(DecodeText, ASetPrmDecidesHowLaterDiagnosesOfItsSlaveAreRead) {
   EXPECT_THAT(decoded(set_prm(0x00) + diagnosis).text, AllOf(HasSubstr(manufacturers), Not(HasSubstr(dpv1))));
 }
 
+TEST(DecodeText, TheLongestRowOfBytesInALineOfAnotherLog) {
+  const Result result = decoded(
+      "PHY-serial: TX   10 03 01 49 4D 16\n"
+      "I (394) RX: E5\n"
+      "start of phase 2, be patient\n"
+      "[12:00:01.5] 02 -> 3: DC 02 01 (token); 12 ms\n"
+      "0012 RX 0x68,0x05,0x05,0x68,0x85 cut\n");
+  EXPECT_EQ(result.error, "");
+  EXPECT_THAT(result.text, HasSubstr("telegram 1, line 1: 1 -> 3  request FDL status"));
+  EXPECT_THAT(result.text, HasSubstr("telegram 2, line 2: SC"));
+  EXPECT_THAT(result.text, HasSubstr("telegram 3, line 4: 1 -> 2  token"));
+  EXPECT_THAT(result.text, HasSubstr("wrong telegram, line 5: truncated"));
+  EXPECT_THAT(result.text, Not(HasSubstr("garbage")));
+  EXPECT_EQ(decoded("no bytes\nat all, be sure\n").error,
+            "1: 'no' is no hexadecimal number, expected bytes of two digits 00 to FF");
+}
+
+std::vector<CapturedTelegram> laid_out(const std::string& text, int baud) {
+  std::vector<CapturedTelegram> telegrams;
+  std::istringstream in(text);
+  read_text(in, baud, [&](const CapturedTelegram& telegram) { telegrams.push_back(telegram); });
+  return telegrams;
+}
+
+TEST(DecodeText, TelegramsOfTextAreLaidOutAtTheRate) {
+  constexpr int kBaud = 3;  // 1.5 Mbit/s
+  const Tick bit = bus::baud(kBaud).bit;
+  const auto telegrams = laid_out(kStatusText + kStatusText + "E5 DC 02 01", kBaud);
+  ASSERT_EQ(telegrams.size(), 4U);
+  EXPECT_EQ(telegrams[0].start, 37 * bit);
+  EXPECT_EQ(telegrams[0].end, (37 + 66) * bit);
+  EXPECT_EQ(telegrams[1].start - telegrams[0].end, 37 * bit) << "a request, not an answer";
+  EXPECT_EQ(telegrams[2].start - telegrams[1].end, 11 * bit) << "an answer, after min_TSDR";
+  EXPECT_EQ(telegrams[3].start - telegrams[2].end, 37 * bit);
+  const auto logged = laid_out(kLog, kBaud);
+  ASSERT_EQ(logged.size(), 2U);
+  EXPECT_EQ(logged[0].end, 1'362'000 * kTicksPerNs) << "the log's time is that of the end";
+  EXPECT_EQ(logged[0].start, logged[0].end - 66 * bit);
+}
+
 TEST(DecodeText, NothingIsNoTelegram) {
   EXPECT_EQ(decoded("# only a comment\n").code, 1);
-  EXPECT_EQ(decoded("").text, "no telegram\n");
+  EXPECT_EQ(decoded("").text, "");
 }
 
 TEST(DecodeText, WhatIsNotHexadecimalIsAnErrorWithItsLineAndNoOutput) {
   const Result word = decoded("E5\nE5 XY\n");
   EXPECT_EQ(word.code, 2);
-  EXPECT_EQ(word.error, "bus.txt:2: 'XY' is no hexadecimal number, expected bytes of two digits 00 to FF");
+  EXPECT_EQ(word.error, "2: 'XY' is no hexadecimal number, expected bytes of two digits 00 to FF");
   EXPECT_EQ(word.text, "");
   const Result odd = decoded("123");
   EXPECT_EQ(odd.code, 2);
-  EXPECT_EQ(odd.error, "bus.txt:1: '123' has an odd number of digits, a byte has two: 00 to FF");
+  EXPECT_EQ(odd.error, "1: '123' has an odd number of digits, a byte has two: 00 to FF");
 }
 
 }  // namespace
-}  // namespace dsdpv1::bus
+}  // namespace dsdpv1::bus::capture

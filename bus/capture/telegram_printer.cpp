@@ -1,0 +1,76 @@
+#include "bus/capture/telegram_printer.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "bus/printable.hpp"
+
+namespace dsdpv1::bus::capture {
+
+std::string what_is_wrong(const CapturedTelegram& telegram, const Decoded& decoded) {
+  if (telegram.missing != 0) {
+    const std::size_t there = telegram.bytes.size();
+    return fmt::format("the log has {} of its {} bytes, all of them with --log-whole or --log FILE.jsonl", there,
+                       there + telegram.missing);
+  }
+  if (telegram.bytes.empty()) return "no character";
+  std::string why;
+  if (decoded.error != DecodeError::kNone)
+    why = describe(decoded.error);
+  else if (decoded.bytes.size() < telegram.bytes.size())
+    why = "more bytes than one telegram has";
+  const std::string damage = damage_words(telegram.damage & damage::kCharacter);
+  return damage.empty() ? why : why.empty() ? damage : damage + ", " + why;
+}
+
+void TelegramPrinter::print(const CapturedTelegram& telegram, const Decoded& decoded, const std::string& why) {
+  ++taken_;
+  if (telegram.bytes.empty() || (telegram.line != 0 && decoded.error == DecodeError::kStartDelimiter))
+    garbage(where(telegram), telegram.bytes);
+  else if (why.empty())
+    right(where(telegram), decoded);
+  else
+    wrong(where(telegram), why, decoded, telegram.bytes);
+  for (const std::string& remark : telegram.remarks) out_ << "        " << printable(remark) << "\n";
+}
+
+std::string TelegramPrinter::where(const CapturedTelegram& telegram) const {
+  const Tick start = telegram.start;
+  std::string place = packets_             ? fmt::format("packet {}", taken_)
+                      : telegram.line != 0 ? fmt::format("line {}", telegram.line)
+                                           : "";
+  if (!telegram.timed) return place;
+  const Tick thousandths = ((start % kTicksPerNs) * 1000 + kTicksPerNs / 2) / kTicksPerNs;
+  return fmt::format("{}{}{}.{:03} ns", place, place.empty() ? "" : ", ", start / kTicksPerNs, thousandths);
+}
+
+void TelegramPrinter::right(const std::string& where, const Decoded& decoded) {
+  const Telegram& telegram = decoded.telegram;
+  if (const std::optional<bool> dpv1 = dpv1_enabled(telegram)) dpv1_.at(telegram.da) = dpv1;
+  write(fmt::format("telegram {}", ++right_), where, explain_line(telegram),
+        explain_bytes(decoded, dpv1_.at(telegram.sa)));
+}
+
+void TelegramPrinter::wrong(const std::string& where, const std::string& why, const Decoded& decoded,
+                            const Bytes& all) {
+  std::vector<ExplainedByte> bytes = explain_bytes(decoded);
+  for (std::size_t i = bytes.size(); i < all.size(); ++i) bytes.push_back({i, all[i], "not decoded"});
+  write("wrong telegram", where, why, bytes);
+}
+
+void TelegramPrinter::garbage(const std::string& where, const Bytes& bytes) {
+  std::vector<ExplainedByte> words;
+  for (std::size_t i = 0; i < bytes.size(); ++i) words.push_back({i, bytes[i], "garbage"});
+  write("garbage", where, fmt::format("{} {} between telegrams", bytes.size(), bytes.size() == 1 ? "byte" : "bytes"),
+        words);
+}
+
+void TelegramPrinter::write(const std::string& what, const std::string& where, const std::string& line,
+                            const std::vector<ExplainedByte>& bytes) {
+  out_ << fmt::format("{}, {}: {}\n", what, where, line);
+  for (const ExplainedByte& byte : bytes)
+    out_ << fmt::format("  {:4}  {:02X}  {}\n", byte.offset, byte.byte, byte.meaning);
+}
+
+}  // namespace dsdpv1::bus::capture
