@@ -46,15 +46,31 @@ uint16_t spc3_buffer(const spc3_device* device, uint16_t pointer) {
 }
 
 void spc3_get_bytes(const spc3_device* device, uint16_t address, uint8_t* bytes, uint8_t length) {
+  if (device->port.read_array != NULL && length != 0u) {
+    device->port.read_array(device->port.ctx, address, bytes, length);
+    return;
+  }
   for (uint8_t i = 0; i < length; ++i) bytes[i] = spc3_get(device, (uint16_t)(address + i));
 }
 
 void spc3_put_bytes(const spc3_device* device, uint16_t address, const uint8_t* bytes, uint8_t length) {
+  if (device->port.write_array != NULL && length != 0u) {
+    device->port.write_array(device->port.ctx, address, bytes, length);
+    return;
+  }
   for (uint8_t i = 0; i < length; ++i) spc3_put(device, (uint16_t)(address + i), bytes[i]);
 }
 
 void spc3_fill(const spc3_device* device, uint16_t address, uint16_t end, uint8_t value) {
-  for (uint16_t each = address; each < end; ++each) spc3_put(device, each, value);
+  uint8_t bytes[SPC3_PIECE];
+  for (uint8_t i = 0; i < SPC3_PIECE; ++i) bytes[i] = value;
+  for (uint16_t each = address; each < end; each = (uint16_t)(each + SPC3_PIECE))
+    spc3_put_bytes(device, each, bytes, spc3_piece(each, end));
+}
+
+uint8_t spc3_piece(uint16_t address, uint16_t end) {
+  const uint16_t left = (uint16_t)(end - address);
+  return left < SPC3_PIECE ? (uint8_t)left : (uint8_t)SPC3_PIECE;
 }
 
 uint16_t spc3_status(const spc3_device* device) { return spc3_get_word(device, SPC3_REG_STATUS); }

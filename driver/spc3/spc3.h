@@ -68,12 +68,17 @@ const char* spc3_error_text(spc3_error error);
 
 /* ----------------------------------------------------------------------------------------------- port, application */
 
-/* Access to a byte of the chip, addresses 0x000..0x7FF; `ctx` is passed to both. A read can be a command (A16): once.
+/*
+ * Access to a byte of the chip, addresses 0x000..0x7FF; `ctx` is passed to all. A read can be a command (A16): once.
+ * SPI: instructions 13H and 12H. `read_array` and `write_array`, of 1 to 244 bytes from `address` on, may be null; they
+ * are for SPI (03H, 02H), and never called for addresses below 0x16.
  */
 typedef struct spc3_port {
   void* ctx;
   uint8_t (*read)(void* ctx, uint16_t address);
   void (*write)(void* ctx, uint16_t address, uint8_t value);
+  void (*read_array)(void* ctx, uint16_t address, uint8_t* bytes, uint8_t length);
+  void (*write_array)(void* ctx, uint16_t address, const uint8_t* bytes, uint8_t length);
 } spc3_port;
 
 /* A Chk_Cfg. The lengths are the largest of the initialisation; a judge that accepts sets those of the configuration.

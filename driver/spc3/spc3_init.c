@@ -87,10 +87,21 @@ static uint16_t place_buffers(const spc3_device* device, const spc3_config* conf
 static uint16_t ram_end(const spc3_config* config) { return config->vpc3 ? (uint16_t)kVpc3End : SPC3_REG_RAM_SIZE; }
 
 /* Each byte holds another value than its neighbours and those at a distance of a power of two. Leaves zeros. */
+static uint8_t test_value(uint16_t address) { return (uint8_t)((address ^ (address >> 8)) & 0xFFu); }
+
 static bool test_ram(const spc3_device* device, uint16_t end) {
-  for (uint16_t each = SPC3_REG_ORG; each < end; ++each) spc3_put(device, each, (uint8_t)(each ^ (each >> 8)));
-  for (uint16_t each = SPC3_REG_ORG; each < end; ++each)
-    if (spc3_get(device, each) != (uint8_t)((each ^ (each >> 8)) & 0xFFu)) return false;
+  uint8_t bytes[SPC3_PIECE];
+  for (uint16_t each = SPC3_REG_ORG; each < end; each = (uint16_t)(each + SPC3_PIECE)) {
+    const uint8_t size = spc3_piece(each, end);
+    for (uint8_t i = 0; i < size; ++i) bytes[i] = test_value((uint16_t)(each + i));
+    spc3_put_bytes(device, each, bytes, size);
+  }
+  for (uint16_t each = SPC3_REG_ORG; each < end; each = (uint16_t)(each + SPC3_PIECE)) {
+    const uint8_t size = spc3_piece(each, end);
+    spc3_get_bytes(device, each, bytes, size);
+    for (uint8_t i = 0; i < size; ++i)
+      if (bytes[i] != test_value((uint16_t)(each + i))) return false;
+  }
   spc3_fill(device, SPC3_REG_ORG, end, 0);
   return true;
 }

@@ -10,6 +10,7 @@
 
 enum { kDiagHead = 6 };      /* standard bytes of a diagnosis */
 #define SPC3_SEGMENT_BITS 3u /* of an address; a pointer has the others */
+#define SPC3_PIECE 32u       /* bytes of RAM that the driver holds at once, beside the block that is judged */
 
 uint8_t spc3_get(const spc3_device* device, uint16_t address);
 void spc3_put(const spc3_device* device, uint16_t address, uint8_t value);
@@ -23,6 +24,8 @@ uint16_t spc3_buffer(const spc3_device* device, uint16_t pointer);
 
 void spc3_get_bytes(const spc3_device* device, uint16_t address, uint8_t* bytes, uint8_t length);
 void spc3_put_bytes(const spc3_device* device, uint16_t address, const uint8_t* bytes, uint8_t length);
+/* Bytes from `address` to `end`, at most SPC3_PIECE. */
+uint8_t spc3_piece(uint16_t address, uint16_t end);
 void spc3_fill(const spc3_device* device, uint16_t address, uint16_t end, uint8_t value);
 
 #endif /* SPC3_INTERNAL_H */

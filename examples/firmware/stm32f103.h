@@ -171,6 +171,7 @@ typedef struct {
 #define SPI2 ((spi_registers*)0x40003800u)
 #define SPI_CR1_MSTR (1u << 2)
 #define SPI_CR1_BR_DIV8 (2u << 3)
+#define SPI_CR1_BR_DIV16 (3u << 3)
 #define SPI_CR1_SPE (1u << 6)
 #define SPI_CR1_SSI (1u << 8)
 #define SPI_CR1_SSM (1u << 9)

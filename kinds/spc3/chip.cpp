@@ -22,24 +22,27 @@ const char* rulings_of(Pin pin) {
     case Pin::kXReady: return "A42";
     case Pin::kDbOut: return "A16, A42";
     case Pin::kClkOut: return "A43";
+    case Pin::kMiso: return "A59, A60";
     default: return "";
   }
 }
 
+PinTable table_of(int count) {
+  PinTable pins;
+  for (int i = 0; i < count; ++i) {
+    const auto pin = static_cast<Pin>(i);
+    const bool line = pin == Pin::kRxd || pin == Pin::kTxd, data = pin == Pin::kDbIn || pin == Pin::kDbOut;
+    pins.push_back({spc3::name(pin), spc3::width(pin), spc3::is_input(pin), data ? "DB" : nullptr, line,
+                    pin == Pin::kDbOut || pin == Pin::kMiso, rulings_of(pin)});
+  }
+  return pins;
+}
+
 }  // namespace
 
-const PinTable& spc3_pins() {
-  static const PinTable table = [] {
-    PinTable pins;
-    for (int i = 0; i < spc3::kPinCount; ++i) {
-      const auto pin = static_cast<Pin>(i);
-      const bool line = pin == Pin::kRxd || pin == Pin::kTxd, data = pin == Pin::kDbIn || pin == Pin::kDbOut;
-      pins.push_back({spc3::name(pin), spc3::width(pin), spc3::is_input(pin), data ? "DB" : nullptr, line,
-                      pin == Pin::kDbOut, rulings_of(pin)});
-    }
-    return pins;
-  }();
-  return table;
+const PinTable& spc3_pins(spc3::Variant variant) {
+  static const PinTable all = table_of(spc3::kPinCount), fewer = table_of(spc3::kTablePinCount);
+  return row(variant).has_more_modes ? all : fewer;
 }
 
 const BoardPins kSpc3BoardPins = {number(Pin::kReset), number(Pin::kRxd), number(Pin::kTxd), number(Pin::kRts),
@@ -77,22 +80,60 @@ void Spc3Device::advance(Tick to) {
   chip_.advance(to);
 }
 
-Spc3PinChip::Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, spc3::Bus bus, PinMask watched,
-                         bus::Segment& segment, bool late)
-    : PinChip(name, std::move(device), spc3_pins(), kSpc3BoardPins, watched, segment, late), cycle_(*device_, bus) {
-  spc3_bus::strap(
-      bus,
-      [this](Pin pin, Level level) {
-        device_->set(0, number(pin), level);
-        begin_input(number(pin), level);
-      });
+Spc3PinChip::Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, const spc3::Config& config,
+                         spc3::Bus bus, PinMask watched, bus::Segment& segment, bool late)
+    : PinChip(name, std::move(device), spc3_pins(config.variant), kSpc3BoardPins, watched, segment, late),
+      cycle_(*device_, bus),
+      has_spi_(row(config.variant).has_more_modes),
+      spi_mode_(config.spi_mode) {
+  const auto begin = [this](Pin pin, Level level) {
+    device_->set(0, number(pin), level);
+    begin_input(number(pin), level);
+  };
+  spc3_bus::strap(bus, begin);
+  if (has_spi_ && sck_rests_high()) begin(Pin::kSck, 1);
 }
 
 void Spc3PinChip::reset_host(Tick at) {
   device();
   cycle_.idle(at);
   report(at);
+  if (has_spi_) idle_serial(at);
 }
+
+// --- SPI -------------------------------------------------------------------------------------------------------------
+
+void Spc3PinChip::idle_serial(Tick at) {
+  move_serial(at, Pin::kXss, true);
+  move_serial(at, Pin::kSck, sck_rests_high());
+  move_serial(at, Pin::kMosi, false);
+}
+
+void Spc3PinChip::set_serial(Tick at, dsdpv1::Pin pin, bool level) {
+  if (!has_spi_) return;
+  switch (pin) {
+    case dsdpv1::Pin::kXss: return move_serial(at, Pin::kXss, level);
+    case dsdpv1::Pin::kSck: return move_serial(at, Pin::kSck, level);
+    case dsdpv1::Pin::kMosi: return move_serial(at, Pin::kMosi, level);
+    default: return;
+  }
+}
+
+void Spc3PinChip::move_serial(Tick at, Pin pin, bool level) {
+  if (device_->level(number(pin)) == (level ? 1 : 0)) return;
+  device().set(at, number(pin), level ? 1 : 0);
+  report_host(at, number(pin), number(pin));
+  plan_again();
+}
+
+/// Released, it is high: a board has a pull-up.
+bool Spc3PinChip::miso(Tick at) {
+  if (!has_spi_) return true;
+  device().advance(at - 1);
+  return level(number(Pin::kMiso)) != 0;
+}
+
+// --- the parallel buses ----------------------------------------------------------------------------------------------
 
 bool Spc3PinChip::is_high(Tick at, Pin pin) {
   device().advance(at);

@@ -15,7 +15,8 @@
 
 namespace dsdpv1::tb {
 
-const PinTable& spc3_pins();
+/// AB11 and the pins of SPI are only a VPC3+'s.
+const PinTable& spc3_pins(spc3::Variant variant);
 extern const BoardPins kSpc3BoardPins;
 
 class Spc3Device : public PinDevice, private RegisterPort {
@@ -83,8 +84,8 @@ class Spc3Device : public PinDevice, private RegisterPort {
 class Spc3PinChip : public PinChip, private user_cpu::HostBus {
  public:
   /// `bus`: the straps of the board.
-  Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, spc3::Bus bus, PinMask watched,
-              bus::Segment& segment, bool late);
+  Spc3PinChip(const std::string& name, std::unique_ptr<PinDevice> device, const spc3::Config& config, spc3::Bus bus,
+              PinMask watched, bus::Segment& segment, bool late);
 
   /// RESET is high-active.
   void set_reset(Tick at, bool released) override { PinChip::set_reset(at, !released); }
@@ -109,8 +110,15 @@ class Spc3PinChip : public PinChip, private user_cpu::HostBus {
   Tick end() const override { return cycle_.end(); }
   std::uint8_t read_value() const override { return cycle_.read_value(); }
   bool last_read_was_bad() const override { return cycle_.last_read_was_bad(); }
+  void set_serial(Tick at, dsdpv1::Pin pin, bool level) override;
+  bool miso(Tick at) override;
+  bool sck_rests_high() const { return (spi_mode_ & 2U) != 0; }
+  void idle_serial(Tick at);
+  void move_serial(Tick at, spc3::Pin pin, bool level);
 
   spc3_user::BusCycle cycle_;
+  const bool has_spi_;
+  const unsigned spi_mode_;
 };
 
 }  // namespace dsdpv1::tb

@@ -68,6 +68,10 @@ const WordKey* word_key(std::string_view parameter) {
        {"Empty data with Spec_Clear_Mode (A46).",
         {{0, "clear", "Clear"}, {1, "by_prm", "Clear only with byte 7 bit 6 of Set_Prm"}}}},
       {"diag_flag_by", {"The master whose read ends Diag_Flag (A51).", {{0, "holder", ""}, {1, "any", ""}}}},
+      {"spi_fetch",
+       {"The time at which a byte of a read by SPI acts (A60).",
+        {{0, "clocked", "with the first bit of it that the user clocks"},
+         {1, "ahead", "with the last bit before it"}}}},
       {"type", {"The type in the status register (A1).", {{11, "B", ""}, {12, "C", ""}, {14, "E", ""}}}}};
   const auto found = all.find(parameter);
   return found == all.end() ? nullptr : &found->second;
@@ -76,7 +80,8 @@ const WordKey* word_key(std::string_view parameter) {
 /// Some parameters are those of one chip only.
 bool has_parameter(Variant variant, std::string_view name) {
   if (name == "clock") return variant == Variant::kSpc3;
-  if (name == "type" || name == "prm_reserved") return variant == Variant::kVpc3;
+  if (name == "type" || name == "prm_reserved" || name == "spi_mode" || name == "spi_fetch")
+    return variant == Variant::kVpc3;
   return true;
 }
 
@@ -96,12 +101,13 @@ void add_parameter(  // NOLINT(readability-function-size): as the macro has it
 ChipKeys chip_keys_of(Variant variant) {
   using spc3::Bus;
   ChipKeys o("chip", "The parameters of the chip that its rulings mark (p) (docs/spc3.md), for all slaves.");
-  o.word("bus", &Spc3Settings::bus,
-         std::vector<keys::WordFor<Bus>>{{Bus::kIntelAsync, "intel_async", "XCS, XRD, XWR; XREADY"},
-                                         {Bus::kIntelSync, "intel_sync", "80C32: ALE, XRD, XWR"},
-                                         {Bus::kMotorolaAsync, "motorola_async", "XCS, AS, R_W; XDTACK"},
-                                         {Bus::kMotorolaSync, "motorola_sync", "68HC11: XCS, E_CLOCK, R_W"}},
-         "The bus of the user CPU: the straps XINT/MOT and MODE (table 6.1).");
+  std::vector<keys::WordFor<Bus>> buses = {{Bus::kIntelAsync, "intel_async", "XCS, XRD, XWR; XREADY"},
+                                           {Bus::kIntelSync, "intel_sync", "80C32: ALE, XRD, XWR"},
+                                           {Bus::kMotorolaAsync, "motorola_async", "XCS, AS, R_W; XDTACK"},
+                                           {Bus::kMotorolaSync, "motorola_sync", "68HC11: XCS, E_CLOCK, R_W"}};
+  if (variant == Variant::kVpc3)
+    buses.push_back({Bus::kSpi, "spi", "XSS, SCK, MOSI, MISO of the VPC3+S, by the strap SERIAL (A59)"});
+  o.word("bus", &Spc3Settings::bus, buses, "The bus of the user CPU: the straps XINT/MOT and MODE (table 6.1).");
 #define SPC3_PARAMETER(name, initial, least, most, unit, ruling, text) \
   add_parameter(o, variant, #name, &spc3::Config::name, {least, most}, unit, text " (" ruling ").");
 #include "model/spc3/parameters.inc"
@@ -141,42 +147,60 @@ const ObjectOf<Spc3Access>& access_keys() {
   return keys;
 }
 
-}  // namespace
-
-const keys::Object& spc3_user_keys() {
-  using spc3_user::Mode;
-  static const ObjectOf<Spc3User> keys = [] {
-    using U = Spc3User;
-    const Range short_time = {0, bus::kTicksPerMs};
-    ObjectOf<U> o("user_cpu", "The processor that runs the user program, and its bus to the chip.");
-    o.word("kind", &U::kind,
-           std::vector<keys::WordFor<Spc3Cpu>>{
-               {Spc3Cpu::kNative, "native", "a program of the bench on a CPU whose times are `access` and `overhead`"},
-               {Spc3Cpu::kArm, "arm", kArmText}},
-           "The processor.");
-    add_elf_key(o);
-    add_without_mailbox_key(o);
-    add_processor_keys(o);
-    o.object("fsmc", &U::fsmc, fsmc_keys(), "The times of the ARM board's bus, as registers of its FSMC.");
-    o.word(
-        "mode", &U::mode,
-        std::vector<keys::WordFor<Mode>>{{Mode::kInterrupt, "interrupt", "X/INT calls a handler, which judges"},
-                                         {Mode::kPolled, "polled", "the main loop reads the requests in each cycle"}},
-        "How the program gets the chip's events.");
-    o.object("access", &U::access, access_keys(), "Its accesses.");
-    o.boolean("wait", &U::wait,
-              "XREADY is connected: the CPU looks at it each 13.9 ns and samples a read 55.6 ns, ends a write 41.7 ns "
-              "after its fall. Not with the synchronous buses.");
-    o.time("overhead", &U::overhead, short_time, "Instructions between two accesses.");
-    o.time("interrupt_latency", &U::interrupt_latency, short_time,
-           "From X/INT to the first instruction of its handler.");
-    o.integer("wd_baud_control", &U::wd_baud_control, {1, 255}, "",
-              "WD_BAUD_CONTROL_Val, cell 0A: a baud rate without telegrams ends after value x value x 10 ms (A31).");
-    o.integer("user_wd", &U::user_watchdog, {1, 0xFFFF}, "data telegrams",
-              "User watchdog, cells 18 and 19: the program serves it in each cycle (A34).");
+const ObjectOf<Spc3Spi>& spi_keys() {
+  static const ObjectOf<Spc3Spi> keys = [] {
+    ObjectOf<Spc3Spi> o("spi",
+                        "The native user CPU's SPI controller, with bus: spi of the chip, whose spi_mode it has. No "
+                        "document at hand has "
+                        "the chip's limits (A59).");
+    add_spi_times(o);
     return o;
   }();
   return keys;
+}
+
+}  // namespace
+
+namespace {
+
+ObjectOf<Spc3User> user_keys_of(Variant variant) {
+  using spc3_user::Mode;
+  using U = Spc3User;
+  const Range short_time = {0, bus::kTicksPerMs};
+  ObjectOf<U> o("user_cpu", "The processor that runs the user program, and its bus to the chip.");
+  o.word("kind", &U::kind,
+         std::vector<keys::WordFor<Spc3Cpu>>{
+             {Spc3Cpu::kNative, "native", "a program of the bench on a CPU whose times are `access` and `overhead`"},
+             {Spc3Cpu::kArm, "arm", kArmText}},
+         "The processor.");
+  add_elf_key(o);
+  add_without_mailbox_key(o);
+  add_processor_keys(o);
+  o.object("fsmc", &U::fsmc, fsmc_keys(), "The times of the ARM board's bus, as registers of its FSMC.");
+  o.word("mode", &U::mode,
+         std::vector<keys::WordFor<Mode>>{{Mode::kInterrupt, "interrupt", "X/INT calls a handler, which judges"},
+                                          {Mode::kPolled, "polled", "the main loop reads the requests in each cycle"}},
+         "How the program gets the chip's events.");
+  o.object("access", &U::access, access_keys(), "Its accesses.");
+  if (variant == Variant::kVpc3) o.object("spi", &U::spi, spi_keys(), "Its end of SPI, with bus: spi of the chip.");
+  o.boolean("wait", &U::wait,
+            "XREADY is connected: the CPU looks at it each 13.9 ns and samples a read 55.6 ns, ends a write 41.7 ns "
+            "after its fall. Not with the synchronous buses.");
+  o.time("overhead", &U::overhead, short_time, "Instructions between two accesses.");
+  o.time("interrupt_latency", &U::interrupt_latency, short_time, "From X/INT to the first instruction of its handler.");
+  o.integer("wd_baud_control", &U::wd_baud_control, {1, 255}, "",
+            "WD_BAUD_CONTROL_Val, cell 0A: a baud rate without telegrams ends after value x value x 10 ms (A31).");
+  o.integer("user_wd", &U::user_watchdog, {1, 0xFFFF}, "data telegrams",
+            "User watchdog, cells 18 and 19: the program serves it in each cycle (A34).");
+  return o;
+}
+
+}  // namespace
+
+const keys::Object& spc3_user_keys(Variant variant) {
+  static const std::array<ObjectOf<Spc3User>, spc3::kVariants.size()> all = {
+      user_keys_of(Variant::kApc3), user_keys_of(Variant::kSpc3), user_keys_of(Variant::kVpc3)};
+  return all.at(static_cast<std::size_t>(variant));
 }
 
 spc3::Config spc3_config_of(const ChipRequest& request) {
@@ -235,8 +259,8 @@ bool is_one_of(const std::string& key, std::initializer_list<const char*> keys) 
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// RESET PE4; X/INT PG6, XDATAEXCH PG12.
-constexpr WiredPins kWired = {0, 0, 0, 0, 0x0010, 0, 0x1040};
+/// RESET PE4; X/INT PG6, XDATAEXCH PG12; SPI PA4 to PA7.
+constexpr WiredPins kWired = {0, 0, 0, 0, 0x0010, 0, 0x1040}, kWiredSpi = {0x00F0, 0, 0, 0, 0x0010, 0, 0x1040};
 
 /// Keys that only an ARM board has, or only the other CPU.
 void check_cpu(const At& at, const scenario::Slave& slave) {
@@ -245,13 +269,23 @@ void check_cpu(const At& at, const scenario::Slave& slave) {
     if (arm && is_one_of(key.key, {"access", "wait", "overhead", "interrupt_latency"}))
       throw InputError(at.file, key.line,
                        fmt::format("{} is that of kind: native, an ARM board has cpi and fsmc", key.key));
+    const bool spi = static_cast<const Spc3Settings&>(*slave.chip).bus == spc3::Bus::kSpi;
+    if (key.key == "spi" && (arm || !spi))
+      throw InputError(at.file, key.line, "spi without bus: spi of the chip and kind: native, expected both");
+    if (spi && is_one_of(key.key, {"access", "wait"}))
+      throw InputError(at.file, key.line, fmt::format("{} with bus: spi of the chip, expected spi", key.key));
     if (!arm && is_one_of(key.key, {"cpi", "fsmc", "without_mailbox"}))
       throw InputError(at.file, key.line, fmt::format("{} without kind: arm, expected access", key.key));
   }
-  if (arm && static_cast<const Spc3Settings&>(*slave.chip).bus != spc3::Bus::kIntelAsync)
+  const spc3::Bus bus = static_cast<const Spc3Settings&>(*slave.chip).bus;
+  if (arm && bus != spc3::Bus::kIntelAsync && bus != spc3::Bus::kSpi)
     throw InputError(
         at.file, slave.user_cpu.line,
-        fmt::format("kind is arm and bus of the chip not intel_async, expected both at slave {}", slave.name.text));
+        fmt::format("kind is arm and bus of the chip neither intel_async nor spi, expected both at slave {}",
+                    slave.name.text));
+  for (const keys::Given& key : slave.user_cpu.given)
+    if (key.key == "fsmc" && bus == spc3::Bus::kSpi)
+      throw InputError(at.file, key.line, "fsmc with bus: spi of the chip, expected none: the firmware sets its SPI");
 }
 
 void check_settings(const At& at, const scenario::Slave& slave) {
@@ -281,12 +315,15 @@ void check_action(const At& at, const scenario::Action& action) {
 
 }  // namespace
 
-void check_spc3_user(const Spc3User& user, const std::string& file, const std::string& slave, int line) {
-  check_board_keys(user, user.kind == Spc3Cpu::kArm, kWired, file, slave, line);
+void check_spc3_user(const Spc3User& user, const Spc3Settings& chip, const std::string& file, const std::string& slave,
+                     int line) {
+  check_board_keys(user, user.kind == Spc3Cpu::kArm, chip.bus == spc3::Bus::kSpi ? kWiredSpi : kWired, file, slave,
+                   line);
 }
 
 void check_spc3_slave(const scenario::Scenario& scenario, const scenario::Slave& slave) {
   const At at{scenario.file, slave.kind->name()};
+  check_mosi(spc3_user_of(slave.user_cpu).spi, scenario.file);
   check_settings(at, slave);
   check_cpu(at, slave);
   for (const scenario::Action& action : scenario.script)

@@ -8,6 +8,7 @@
 #include "kinds/spc3/checks/check.hpp"
 #include "kinds/spc3/checks/checks.hpp"
 #include "kinds/spc3/chip.hpp"
+#include "kinds/spc3/port/frame_reader.hpp"
 #include "kinds/spc3/port/last_access.hpp"
 #include "kinds/spc3/rtl_of.hpp"
 #include "kinds/spc3/settings.hpp"
@@ -26,7 +27,7 @@ class Spc3Kind : public ChipKind {
 
   const char* name() const override { return row(variant_).name; }
   const char* title() const override { return row(variant_).title; }
-  const PinTable& pins() const override { return spc3_pins(); }
+  const PinTable& pins() const override { return spc3_pins(variant_); }
   const BoardPins& board_pins() const override { return kSpc3BoardPins; }
   int cells() const override { return row(variant_).ram_size; }
 
@@ -37,7 +38,7 @@ class Spc3Kind : public ChipKind {
     settings->variant = variant_;
     return settings;
   }
-  const keys::Object& user_keys() const override { return spc3_user_keys(); }
+  const keys::Object& user_keys() const override { return spc3_user_keys(variant_); }
   std::unique_ptr<OwnSettings> make_user_settings() const override { return std::make_unique<Spc3User>(); }
   void check_slave(const scenario::Scenario& scenario, const scenario::Slave& slave) const override {
     check_spc3_slave(scenario, slave);
@@ -57,6 +58,14 @@ class Spc3Kind : public ChipKind {
         {"user", {"RESET", "X_INT", "XDATAEXCH", "CLKOUT2_4"}},
         {"bus", {"XCS", "XRD_R_W", "XWR_E_CLOCK", "ALE_AS", "AB", "DB", "DB_IN", "DB_OUT", "XREADY_XDTACK"}},
         {"straps", {"XINT_MOT", "MODE", "DIVIDER", "XTEST0", "XTEST1"}}};
+    static const std::vector<PinGroup> with_spi = [] {
+      std::vector<PinGroup> all = groups;
+      all[2].pins.insert(all[2].pins.begin() + 5, "AB11");
+      all[3].pins.push_back("SERIAL");
+      all.push_back({"spi", {"XSS", "SCK", "MOSI", "spi_request", "MISO", "spi_reply"}});
+      return all;
+    }();
+    if (row(variant_).has_more_modes) return with_spi;
     return groups;
   }
   const std::vector<InnerSignal>& inner_signals() const override { return Spc3Inside::signals(); }
@@ -65,8 +74,13 @@ class Spc3Kind : public ChipKind {
   PinMask checked_pins() const override { return spc3_checks::Checks::kPins; }
   std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
                                                   const OwnSettings* chip) const override {
-    const spc3::Bus bus = chip == nullptr ? spc3::Bus::kIntelAsync : static_cast<const Spc3Settings*>(chip)->bus;
-    return std::make_unique<spc3_checks::Checks>(limits, variant_, spc3_pins(), bus);
+    const Spc3Settings usual;
+    const Spc3Settings& own = chip == nullptr ? usual : *static_cast<const Spc3Settings*>(chip);
+    return std::make_unique<spc3_checks::Checks>(limits, variant_, spc3_pins(variant_), own.bus, own.spi_mode);
+  }
+  std::unique_ptr<HostReader> make_host_reader(const OwnSettings& chip) const override {
+    const auto& own = static_cast<const Spc3Settings&>(chip);
+    return own.bus == spc3::Bus::kSpi ? std::make_unique<Spc3FrameReader>(own.spi_mode) : nullptr;
   }
 
   std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Spc3LastAccess>(); }
@@ -75,13 +89,14 @@ class Spc3Kind : public ChipKind {
   }
   std::unique_ptr<PinChip> make_pin_chip(const ChipRequest& request, std::unique_ptr<PinDevice> device,
                                          bus::Segment& segment) const override {
-    return std::make_unique<Spc3PinChip>(request.name, std::move(device),
-                                         static_cast<const Spc3Settings&>(request.settings).bus, request.watched,
-                                         segment, request.late);
+    const auto& own = static_cast<const Spc3Settings&>(request.settings);
+    return std::make_unique<Spc3PinChip>(request.name, std::move(device), own, own.bus, request.watched, segment,
+                                         request.late);
   }
-  void check_user(const OwnSettings& settings, const OwnSettings& /*chip*/, const keys::Source& source,
+  void check_user(const OwnSettings& settings, const OwnSettings& chip, const keys::Source& source,
                   const std::string& slave, int where) const override {
-    check_spc3_user(static_cast<const Spc3User&>(settings), source.file, slave, where);
+    check_spc3_user(static_cast<const Spc3User&>(settings), static_cast<const Spc3Settings&>(chip), source.file, slave,
+                    where);
   }
   MakeUser make_user(const UserRequest& request) const override;
   bool has_debugger(const scenario::Slave& slave) const override {
@@ -136,6 +151,11 @@ MakeUser Spc3Kind::make_user(const UserRequest& request) const {
   }
   auto firmware = static_cast<const spc3_user::FirmwareOptions&>(own);
   firmware.vpc3 = variant_ == Variant::kVpc3;
+  const auto& chip = static_cast<const Spc3Settings&>(*request.slave.chip);
+  if (chip.bus == spc3::Bus::kSpi) {
+    firmware.spi_timing = spi_timing_of(own.spi);
+    firmware.spi_timing->mode = chip.spi_mode;
+  }
   user_cpu::CpuTiming timing;
   timing.access = own.access;
   timing.overhead = own.overhead;

@@ -31,12 +31,24 @@ SerialEdge SpiFrame::operator[](std::size_t number) const {
   if (number == 1) return {std::min(timing_.mosi_delay, timing_.lead), Pin::kMosi, mosi(0)};
   if (number == size_ - 1)
     return {bits_ == 0 ? timing_.lead : rise(bits_ - 1) + timing_.high + timing_.lag, Pin::kXss, true};
-  const std::size_t bit = (number - 2) / 4;
-  switch ((number - 2) % 4) {
+  const std::size_t bit = (number - 2) / 4, part = (number - 2) % 4;
+  if ((timing_.mode & 1U) != 0) return late_edge(bit, part);
+  const bool rest = (timing_.mode & 2U) != 0;
+  switch (part) {
     case 0: return {rise(bit), Pin::kMiso, true};
-    case 1: return {rise(bit), Pin::kSck, true};
-    case 2: return {rise(bit) + timing_.high, Pin::kSck, false};
+    case 1: return {rise(bit), Pin::kSck, !rest};
+    case 2: return {rise(bit) + timing_.high, Pin::kSck, rest};
     default: return {rise(bit) + timing_.high + mosi_delay(bit), Pin::kMosi, mosi(bit + 1)};
+  }
+}
+
+SerialEdge SpiFrame::late_edge(std::size_t bit, std::size_t part) const {
+  const bool rest = (timing_.mode & 2U) != 0;
+  switch (part) {
+    case 0: return {rise(bit), Pin::kSck, !rest};
+    case 1: return {rise(bit) + std::min(timing_.mosi_delay, timing_.high), Pin::kMosi, mosi(bit)};
+    case 2: return {rise(bit) + timing_.high, Pin::kMiso, true};
+    default: return {rise(bit) + timing_.high, Pin::kSck, rest};
   }
 }
 

@@ -27,10 +27,12 @@ struct SpiTiming {
   Tick gap = 6000;             ///< minimum high time of XSS between two frames: 500 ns
   Tick byte_gap = 0;           ///< additional low time of SCK between two bytes
   Tick mosi_delay = 0;         ///< from SCK's fall (first bit: XSS's) to MOSI's change; at most `low`
+  unsigned mode = 0;           ///< of SCK: bit 1 high at rest (CPOL), bit 0 MOSI is taken by its second edge (CPHA)
 };
 
-/// One frame of XSS: mode 0, MSB first (SP1). MOSI changes `mosi_delay` after SCK's fall, for the first bit after XSS's
-/// fall, but not after SCK's first rise or XSS's rise.
+/// One frame of XSS, MSB first; a DSDPV1-RSU has mode 0 (SP1). MOSI changes `mosi_delay` after SCK's fall, for the
+/// first bit after XSS's fall, but not after SCK's first rise or XSS's rise. With CPHA it changes after SCK's first
+/// edge, at most `high` later. CPOL inverts SCK.
 class SpiFrame {
  public:
   SpiFrame() = default;  ///< no edges
@@ -48,6 +50,7 @@ class SpiFrame {
 
  private:
   Tick rise(std::size_t bit) const;
+  SerialEdge late_edge(std::size_t bit, std::size_t part) const;
   bool mosi(std::size_t bit) const;
   Tick mosi_delay(std::size_t bit) const;  ///< after this bit
 

@@ -57,6 +57,11 @@ std::uint8_t AddressMap::command(Cycle now, Address address) {
   }
 }
 
+bool AddressMap::is_command(Address address) {
+  return address == regs::kNewDin || address == regs::kNextDout || address == regs::kSsaFree ||
+         (address >= regs::kNewDiag && address <= regs::kCfgNotOk);
+}
+
 std::uint8_t AddressMap::peek(Address address) const {
   address = in_map(address);
   const bool high = is_high(address), more = variant_.has_more_modes;

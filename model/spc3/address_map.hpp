@@ -27,6 +27,9 @@ class AddressMap {
   std::uint8_t peek(Address address) const;
   void poke(Address address, std::uint8_t value);
 
+  /// A read of it is a command.
+  static bool is_command(Address address);
+
   /// The edge of `now`, after the station's and the store's: OFFLINE that was asked for (A55), the user's timer (A36).
   void eval(Cycle now);
   Cycle next() const { return std::min(user_timer_, touched_); }

@@ -20,10 +20,12 @@ void BusPort::reset() {
   xready_ = true;
   db_out_ = kLevelZ;
   ready_at_ = fall_at_ = release_at_ = kNever;
+  spi_.reset();
 }
 
 void BusPort::release(Cycle now) {
   enabled_ = true;
+  spi_.release();
   if (access_ != Access::kNone) begin(now * profibus::kTicksPerCycle, access_);
 }
 
@@ -33,7 +35,22 @@ bool BusPort::set(Tick at, Pin pin, Level level) {
     if (level == 0) log_.at_tick(at, Reason::kTestPin, pin == Pin::kXTest1 ? 1 : 0);
     return false;
   }
+  if (pin >= Pin::kSerial) return set_spi(at, pin, level);
   return follow_strobes(at);
+}
+
+bool BusPort::set_spi(Tick at, Pin pin, Level level) {
+  const Level miso = spi_.miso();
+  if (pin == Pin::kSerial) {
+    spi_.reset();
+    if (enabled_) spi_.release();
+    follow_strobes(at);
+    return true;
+  }
+  if (lines_.bus() != Bus::kSpi) return false;
+  if (pin == Pin::kXss) spi_.xss(at, level != 0, lines_.is_high(Pin::kSck));
+  if (pin == Pin::kSck) spi_.sck(at, level != 0, lines_.is_high(Pin::kMosi));
+  return pin == Pin::kSck || spi_.miso() != miso;
 }
 
 // --- strobes ---------------------------------------------------------------------------------------------------------

@@ -1,17 +1,19 @@
 #pragma once
 // The CPU's bus at the pins (M tables 2.1 and 6.1; rulings A16, A42): strobes and DB with tick resolution, ready and
-// the answer of a read at rising edges.
+// the answer of a read at rising edges; or SPI.
 #include <algorithm>
 
 #include "model/profibus/event_log.hpp"
 #include "model/spc3/address_map.hpp"
 #include "model/spc3/bus_lines.hpp"
+#include "model/spc3/spi_port.hpp"
 
 namespace dsdpv1::spc3 {
 
 class BusPort {
  public:
-  BusPort(profibus::EventLog& log, const Config& config, AddressMap& map) : log_(log), config_(config), map_(map) {}
+  BusPort(profibus::EventLog& log, const Config& config, AddressMap& map)
+      : log_(log), config_(config), map_(map), spi_(log, config, map) {}
 
   /// RESET is high: accesses that end before release() are reported and do nothing.
   void reset();
@@ -30,21 +32,23 @@ class BusPort {
   bool xready() const { return xready_; }
   /// DB as the chip drives it.
   Level db_out() const { return db_out_; }
+  Level miso() const { return spi_.miso(); }
 
   template <class Archive>
   void store(Archive& archive) {
-    auto& [log, config, map, lines, enabled, access, acted, early, both, xready, db_out, ready_at, fall_at,
+    auto& [log, config, map, lines, spi, enabled, access, acted, early, both, xready, db_out, ready_at, fall_at,
            release_at] = *this;
     archive.given(log, config, map);
     archive.within(kLevelX, Level{0xFF}, db_out);
     archive.within(Access::kNone, Access::kWrite, access);
-    archive(lines, enabled, acted, early, both, xready);
+    archive(lines, spi, enabled, acted, early, both, xready);
     archive.cycles(ready_at, fall_at, release_at);
   }
 
  private:
   enum class Access : std::uint8_t { kNone, kRead, kWrite };
 
+  bool set_spi(Tick at, Pin pin, Level level);
   bool follow_strobes(Tick at);
   void begin(Tick at, Access access);
   void await_answer(Tick at);
@@ -59,6 +63,7 @@ class BusPort {
   const Config& config_;
   AddressMap& map_;
   BusLines lines_;
+  SpiPort spi_;
   bool enabled_ = false;
   Access access_ = Access::kNone;
   bool acted_ = false;                           ///< the running read has its answer

@@ -96,7 +96,7 @@ struct Chip::Impl {
   Cycle release_at = kNever;
   bool reset_pin = true, running = false;
   std::uint32_t outputs = kResetLevels;  // those of one wire
-  Level db_out = kLevelZ;
+  Level db_out = kLevelZ, miso = kLevelZ;
 };
 
 // --- inputs ----------------------------------------------------------------------------------------------------------
@@ -263,8 +263,10 @@ void Chip::Impl::publish(Tick at, std::uint32_t levels) {
 
 void Chip::Impl::publish_bus(Tick at) {
   publish(at, (outputs & ~mask(Pin::kXReady)) | bit(Pin::kXReady, port.xready()));
-  if (std::exchange(db_out, port.db_out()) == db_out || (watched & mask(Pin::kDbOut)) == 0) return;
-  sink.call(sink.self, at, Pin::kDbOut, db_out);
+  if (std::exchange(db_out, port.db_out()) != db_out && (watched & mask(Pin::kDbOut)) != 0)
+    sink.call(sink.self, at, Pin::kDbOut, db_out);
+  if (std::exchange(miso, port.miso()) != miso && (watched & mask(Pin::kMiso)) != 0)
+    sink.call(sink.self, at, Pin::kMiso, miso);
 }
 
 Level Chip::Impl::level(Pin pin) const {
@@ -272,6 +274,7 @@ Level Chip::Impl::level(Pin pin) const {
   if (pin == Pin::kRxd) return station.rxd();
   if (pin == Pin::kXCts) return cts.pin();
   if (pin == Pin::kDbOut) return db_out;
+  if (pin == Pin::kMiso) return miso;
   if (pin == Pin::kClkOut) return kLevelX;
   if (is_input(pin)) return port.level(pin);
   return (outputs & mask(pin)) != 0 ? Level{1} : Level{0};
@@ -282,7 +285,8 @@ Level Chip::Impl::level(Pin pin) const {
 template <class Archive>
 void Chip::Impl::store(Archive& archive) {
   auto& [its_config, its_log, its_interrupt, its_user, its_station, its_map, its_cts, its_port, its_sink, its_watched,
-         its_now, its_done, its_edge, its_other_plans, its_release, its_reset, runs, its_outputs, its_db] = *this;
+         its_now, its_done, its_edge, its_other_plans, its_release, its_reset, runs, its_outputs, its_db, its_miso] =
+      *this;
   archive.given(its_config, its_log, its_sink, its_watched, its_edge, its_other_plans);
   archive.within(Tick{0}, Tick{1} << 62, its_now);
   archive.cycles(its_done, its_release);
@@ -291,6 +295,7 @@ void Chip::Impl::store(Archive& archive) {
   archive(its_map, its_cts, its_port, its_reset, runs);
   archive.within(0U, kOutputPins, its_outputs);
   archive.within(kLevelX, Level{0xFF}, its_db);
+  archive.within(kLevelZ, Level{1}, its_miso);
   if constexpr (Archive::kReads) its_user.derive();
   archive.check(is_possible());
 }

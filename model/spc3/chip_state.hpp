@@ -6,7 +6,7 @@
 namespace dsdpv1::spc3 {
 
 /// Increment when the content or meaning of a block's stored state changes.
-constexpr std::uint32_t kStateVersion = 3;
+constexpr std::uint32_t kStateVersion = 4;
 
 /// For profibus::save_chip.
 struct StateHead {

@@ -34,10 +34,12 @@ constexpr PinRow kPinRows[] = {
 #define SPC3_PIN(pin, name, width, direction, ...) {name, width, Direction::direction, __VA_ARGS__},
 #include "model/spc3/pins.inc"
 };
-constexpr int kPinCount = sizeof kPinRows / sizeof(PinRow);
+constexpr int kPinCount = sizeof kPinRows / sizeof(PinRow);  ///< of the VPC3+: all
 
 /// Index in tables of pins.
 constexpr std::uint8_t number(Pin pin) { return static_cast<std::uint8_t>(pin); }
+/// Pins of the chips without AB11 and SPI.
+constexpr int kTablePinCount = number(Pin::kAb11);
 constexpr const PinRow& row(Pin pin) { return kPinRows[number(pin)]; }
 constexpr std::uint32_t mask(Pin pin) { return std::uint32_t{1} << static_cast<unsigned>(pin); }
 constexpr bool is_input(Pin pin) { return row(pin).direction == Direction::kInput; }

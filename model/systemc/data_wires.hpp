@@ -1,5 +1,5 @@
 #pragma once
-// A data bus between a level of the core and the four-valued wires of SystemC.
+// A wire or a data bus between a level of the core and the four-valued wires of SystemC.
 #include <systemc>
 
 #include "model/dsdpv1/pins.hpp"
@@ -10,6 +10,11 @@ inline sc_dt::sc_lv<8> wires(Level level) {
   if (level == kLevelZ) return sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_Z);
   if (level == kLevelX) return sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_X);
   return sc_dt::sc_lv<8>(static_cast<int>(level));
+}
+
+inline sc_dt::sc_logic wire(Level level) {
+  if (level == kLevelZ) return sc_dt::sc_logic(sc_dt::SC_LOGIC_Z);
+  return sc_dt::sc_logic(level == 1);
 }
 
 /// A byte with a floating or unknown bit counts as floating.

@@ -1,16 +1,13 @@
 #include "model/systemc/rsu_pins.hpp"
 
+#include "model/systemc/data_wires.hpp"
+
 namespace dsdpv1::systemc {
 namespace {
 
 PinOptions of_rsu(PinOptions options) {
   options.chip.part = Part::kRsu;
   return options;
-}
-
-sc_dt::sc_logic wire(Level level) {
-  if (level == kLevelZ) return sc_dt::sc_logic(sc_dt::SC_LOGIC_Z);
-  return sc_dt::sc_logic(level == 1);
 }
 
 }  // namespace

@@ -21,12 +21,15 @@ Spc3PinModule::Spc3PinModule(const sc_core::sc_module_name& name, const Spc3PinO
                {Pin::kXWr, &XWR_E_CLOCK},
                {Pin::kAle, &ALE_AS},
                {Pin::kRxd, &RXD},
-               {Pin::kXCts, &XCTS}}} {
+               {Pin::kXCts, &XCTS}}},
+      optional_inputs_{
+          {{Pin::kAb11, &AB11}, {Pin::kSerial, &SERIAL}, {Pin::kSck, &SCK}, {Pin::kMosi, &MOSI}, {Pin::kXss, &XSS}}} {
   watch(spc3::kOutputPins, 0);
   SC_HAS_PROCESS(Spc3PinModule);
   SC_METHOD(evaluate);
   sensitive << due_ << CLK << AB << DB;
   for (const auto& [pin, port] : inputs_) sensitive << *port;
+  for (const auto& [pin, port] : optional_inputs_) sensitive << *port;
 }
 
 void Spc3PinModule::end_of_elaboration() {
@@ -46,6 +49,8 @@ void Spc3PinModule::apply_inputs(Tick at, bool first) {
   for (const auto& [pin, port] : inputs_)
     if (first || port->event()) set(at, pin, port->read());
   if (first || AB.event()) set(at, Pin::kAb, static_cast<spc3::Level>(AB.read().to_uint()));
+  for (const auto& [pin, port] : optional_inputs_)
+    if (port->size() > 0 && (first || (*port)->event())) set(at, pin, (*port)->read());
   if (!first && !other_driver && !DB.event()) return;
   if (DB.event()) user_db_ = level_of(DB.read());  // costly: four-valued
   set(at, Pin::kDbIn, user_drives ? user_db_ : spc3::kLevelZ);
@@ -54,6 +59,7 @@ void Spc3PinModule::apply_inputs(Tick at, bool first) {
 void Spc3PinModule::drive_pins(std::uint32_t pins) {
   drive(pins);
   if ((pins & mask(Pin::kDbOut)) != 0) DB.write(wires(chip().level(Pin::kDbOut)));
+  if ((pins & mask(Pin::kMiso)) != 0 && MISO.size() > 0) MISO->write(wire(chip().level(Pin::kMiso)));
 }
 
 }  // namespace dsdpv1::systemc

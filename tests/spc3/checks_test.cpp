@@ -39,7 +39,81 @@ void begin_access(Script& user, Pin strobe) {
   user.now += 1000;
 }
 
+/// A frame of SPI with so many bits; `half` a period of SCK.
+void spi_frame(Script& user, const Bytes& bytes, std::size_t bits, Tick half = 1200) {
+  user.pin(Pin::kSerial, 1);
+  user.pin(Pin::kXss, 0);
+  for (std::size_t i = 0; i < bits; ++i) {
+    user.pin(Pin::kMosi, static_cast<tb::Level>(bytes[i / 8] >> (7 - i % 8) & 1));
+    user.now += half;
+    user.pin(Pin::kSck, 1);
+    user.now += half;
+    user.pin(Pin::kSck, 0);
+  }
+  user.pin(Pin::kXss, 1);
+  user.checks.finish(user.now);
+}
+
 const Planted kPlanted[] = {
+    {"SPI_CLOCK", "At6MHz",
+     [](Script& user) {
+       user.pin(Pin::kSerial, 1);
+       user.pin(Pin::kXss, 0);
+       for (const Tick half : {1200, 950})
+         for (const int level : {1, 0}) {
+           user.now += half;
+           user.pin(Pin::kSck, static_cast<tb::Level>(level));
+         }
+     },
+     "in a frame"},
+    {"SPI_DATA", "MosiWithSck",
+     [](Script& user) {
+       user.pin(Pin::kSerial, 1);
+       user.pin(Pin::kXss, 0);
+       user.pin(Pin::kMosi, 1);
+       user.now -= 6;
+       user.pin(Pin::kSck, 1);
+     },
+     "MOSI before SCK"},
+    {"SPI_DATA", "MosiRightAfterSck",
+     [](Script& user) {
+       user.pin(Pin::kSerial, 1);
+       user.pin(Pin::kXss, 0);
+       user.pin(Pin::kSck, 1);
+       user.now -= 6;
+       user.pin(Pin::kMosi, 1);
+     },
+     "MOSI after SCK"},
+    {"SPI_FRAME", "NoInstruction",
+     [](Script& user) {
+       spi_frame(user, {0x55, 3, 0, 1}, 32);
+     },
+     "instruction 55: no"},
+    {"SPI_FRAME", "Cut",
+     [](Script& user) {
+       spi_frame(user, {0x02, 3, 0, 1, 2}, 38);
+     },
+     "write 300, 1 bytes: cut after 4 bytes and 6 bits"},
+    {"SPI_FRAME", "NoData",
+     [](Script& user) {
+       spi_frame(user, {0x03, 3, 0}, 24);
+     },
+     "cut after 3 bytes and 0 bits"},
+    {"SPI_FRAME", "TwoBytes",
+     [](Script& user) {
+       spi_frame(user, {0x12, 3, 0, 1, 2}, 40);
+     },
+     "2 bytes of data, one"},
+    {"SPI_FRAME", "BeyondTheMap",
+     [](Script& user) {
+       spi_frame(user, {0x02, 0x12, 0, 1}, 32);
+     },
+     "beyond the map"},
+    {"SPI_ARRAY", "OfRegisters",
+     [](Script& user) {
+       spi_frame(user, {0x03, 0, 0, 0}, 32);
+     },
+     "read 000, 1 bytes"},
     {"BUS_READY", "TooShort",
      [](Script& user) {
        begin_access(user, Pin::kXWr);
@@ -333,7 +407,19 @@ TEST(ListOfPlantedFaults, HasEachRuleWithALimit) {
 // --- what is right
 // -----------------------------------------------------------------------------------------------------
 
-/// A long `ready_release`: the next access has no fall of its own.
+TEST(RightUserOfAnSpc3, HasFramesOfSpi) {
+  Script user(spc3::Variant::kVpc3);
+  spi_frame(user, {0x13, 0, 4, 0}, 32);
+  spi_frame(user, {0x02, 3, 0, 1, 2, 3}, 48);
+  spi_frame(user, {0x03, 3, 0, 0, 0}, 40);
+  spi_frame(user, {}, 0);
+  EXPECT_THAT(user.ids(), IsEmpty());
+  EXPECT_EQ(user.checks.record(Check::kSpiFrame).count, 3U);
+  EXPECT_TRUE(user.checks.applies(Check::kSpiClock));
+  EXPECT_FALSE(user.checks.applies(Check::kBusReady));
+}
+
+/// A long `ready_release`: the next access has no fall.
 TEST(RightUserOfAnSpc3, MeetsXreadyStillLow) {
   Script user;
   begin_access(user, Pin::kXWr);

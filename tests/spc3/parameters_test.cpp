@@ -177,6 +177,12 @@ constexpr Row kRows[] = {
     {"strobe", 3, 2, "Synchronous.HasNoReadyAndAReadActsAfterStrobe"},
     {"clock", 48, 24, "Names/EachName.TheEventComesAfterItsDelay/spc3"},
     {"clock", 24, 48, "States.DelaysOfAnSpc3With24MhzAreTwiceAsLong"},
+    {"spi_mode", 0, 1, "Modes/EachSpiMode.IsThatOfTheParameter/0"},
+    {"spi_mode", 1, 0, "Modes/EachSpiMode.IsThatOfTheParameter/1"},
+    {"spi_mode", 2, 3, "Modes/EachSpiMode.IsThatOfTheParameter/2"},
+    {"spi_mode", 3, 2, "Modes/EachSpiMode.IsThatOfTheParameter/3"},
+    {"spi_fetch", 0, 1, "Vpc3Spi.AReadActsWithItsFirstBit"},
+    {"spi_fetch", 1, 0, "SpiAhead.MayActWithTheLastBitBefore"},
     {"empty_data", 0, 1, "Data.EmptyDataAreClearWithSpecClear"},
     {"empty_data", 1, 0, "Data.EmptyDataMayNeedFailSafeInTheParameters"},
 };

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "model/dsdpv1/serial_host.hpp"
 #include "model/systemc/character_line.hpp"
 #include "model/systemc/spc3_pins.hpp"
 #include "registers/spc3_regs.hpp"
@@ -171,6 +172,59 @@ struct Board {
   }
 };
 
+/// A VPC3+S at SPI. Its bus is at rest.
+struct SpiBoard {
+  std::map<spc3::Pin, sc_core::sc_signal<bool>> wires;
+  sc_core::sc_signal<sc_dt::sc_uint<11>> ab;
+  sc_core::sc_signal_rv<8> db;
+  sc_core::sc_signal<sc_dt::sc_logic> miso{"miso"};
+  Spc3PinModule chip;
+  SpiFrame write{{0x12, 0x01, 0x23, 0xA5}, {}}, read{{0x13, 0x01, 0x23, 0x00}, {}};
+  sc_dt::sc_logic rest;  ///< of MISO after both
+
+  SpiBoard() : chip("spi", of_vpc3()) {
+    using spc3::Pin;
+    chip.RESET(wires[Pin::kReset]), chip.XINT_MOT(wires[Pin::kXIntMot]), chip.MODE(wires[Pin::kMode]);
+    chip.DIVIDER(wires[Pin::kDivider]), chip.XTEST0(wires[Pin::kXTest0]), chip.XTEST1(wires[Pin::kXTest1]);
+    chip.XCS(wires[Pin::kXCs]), chip.XRD_R_W(wires[Pin::kXRd]), chip.XWR_E_CLOCK(wires[Pin::kXWr]);
+    chip.ALE_AS(wires[Pin::kAle]), chip.AB(ab), chip.DB(db), chip.RXD(wires[Pin::kRxd]), chip.XCTS(wires[Pin::kXCts]);
+    chip.XREADY_XDTACK(wires[Pin::kXReady]), chip.X_INT(wires[Pin::kXInt]), chip.XDATAEXCH(wires[Pin::kXDataExch]);
+    chip.TXD(wires[Pin::kTxd]), chip.RTS(wires[Pin::kRts]);
+    chip.AB11(wires[Pin::kAb11]), chip.SERIAL(wires[Pin::kSerial]), chip.SCK(wires[Pin::kSck]);
+    chip.MOSI(wires[Pin::kMosi]), chip.XSS(wires[Pin::kXss]), chip.MISO(miso);
+    for (auto& [pin, wire] : wires)
+      if (spc3::is_input(pin)) wire.write(spc3::row(pin).level != 0);
+    wires[Pin::kSerial].write(true);
+    thread([this] {
+      wait_until(12'007);
+      wires[Pin::kReset].write(false);
+      play(write, 20'011);
+      play(read, 120'011);
+      wait_until(180'000);
+      rest = miso.read();
+    });
+  }
+
+ private:
+  static systemc::Spc3PinOptions of_vpc3() {
+    systemc::Spc3PinOptions options;
+    options.chip.variant = spc3::Variant::kVpc3;
+    return options;
+  }
+  void play(SpiFrame& frame, Tick begin) {
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      const SerialEdge edge = frame[i];
+      wait_until(begin + edge.at);
+      switch (edge.pin) {
+        case Pin::kMiso: frame.sampled(miso.read() != sc_dt::SC_LOGIC_0); break;
+        case Pin::kSck: wires[spc3::Pin::kSck].write(edge.level); break;
+        case Pin::kMosi: wires[spc3::Pin::kMosi].write(edge.level); break;
+        default: wires[spc3::Pin::kXss].write(edge.level);
+      }
+    }
+  }
+};
+
 systemc::Spc3PinOptions shifted() {
   systemc::Spc3PinOptions options;
   options.phase = kPhase;
@@ -179,6 +233,7 @@ systemc::Spc3PinOptions shifted() {
 
 struct World {
   Board unbound{"unbound", {}, false, 0}, bound{"bound", {}, true, 0}, later{"later", shifted(), false, kPhase};
+  SpiBoard spi;
 };
 std::unique_ptr<World> world;
 
@@ -246,6 +301,13 @@ TEST(Spc3Pins, DbIsDrivenByUserAndChipInTurn) {
   EXPECT_EQ(std::count(bus.begin(), bus.end(), "00000100"), 1);
   EXPECT_EQ(std::count(bus.begin(), bus.end(), "XXXXXXXX"), 2);  // both reads, until ready
   EXPECT_EQ(world->unbound.chip.peek(regs::kOrgAddress), 9);
+}
+
+TEST(Spc3Pins, OfAVpc3HaveSpi) {
+  const SpiBoard& board = world->spi;
+  EXPECT_EQ(board.chip.peek(0x123), 0xA5);
+  EXPECT_EQ(board.read.received(), (std::vector<std::uint8_t>{0xFF, 0xFF, 0xFF, 0xA5}));
+  EXPECT_EQ(board.rest, sc_dt::SC_LOGIC_Z);
 }
 
 /// CLKOUT2/4 has none (A43); DB is one port for both directions.

@@ -80,6 +80,7 @@ void station_service(void) {
 spc3_device* station_open(void) {
   const spc3_application application = {NULL, judge_prm, judge_cfg, keep_address, NULL};
   read_switches();
+  port_start();
   if (spc3_open(&chip, &port_stm32, &application) != SPC3_OK) board_halt();
   return &chip;
 }

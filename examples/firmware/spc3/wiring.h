@@ -18,6 +18,11 @@ static void configure_wiring(void) {
   board_pin(GPIOD, kNwaitPin, GPIO_INPUT_FLOATING);
 }
 
+#ifdef SPC3_SPI
+/* The chip is at SPI1 (port.c): the memory bus stays off. */
+#define kBtr 0u
+#define kBcr 0u
+#else
 /*
  * Mode 1, asynchronous, 8 bits. The chip ends each access: XREADY, low when it is done, is at NWAIT, so NWAIT is active
  * while high. DATAST has the four HCLK that the FSMC needs to see it (RM0008 21.5.4), and one more: the XREADY of the
@@ -25,3 +30,4 @@ static void configure_wiring(void) {
  */
 #define kBtr (1u << FSMC_BTR_ADDSET_SHIFT | 5u << FSMC_BTR_DATAST_SHIFT)
 #define kBcr (FSMC_BCR_MBKEN | FSMC_BCR_RESERVED_7 | FSMC_BCR_WREN | FSMC_BCR_WAITPOL | FSMC_BCR_ASYNCWAIT)
+#endif

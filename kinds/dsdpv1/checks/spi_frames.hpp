@@ -13,7 +13,7 @@
 
 namespace dsdpv1::checks {
 
-class SpiFrames : private tb::SpiFrameReader {
+class SpiFrames : private tb::RsuFrameReader {
  public:
   /// `settings`, `station` and `duties` must outlive it.
   SpiFrames(Recorder& recorder, const SerialSettings& settings, const OwnStation& station, UserDuties& duties)

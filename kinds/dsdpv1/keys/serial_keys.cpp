@@ -19,21 +19,12 @@ using keys::Range;
 const ObjectOf<SpiKeys>& spi_keys() {
   static const ObjectOf<SpiKeys> keys = [] {
     using S = SpiKeys;
-    const Range range = {0, bus::kTicksPerMs};
     ObjectOf<S> o(
         "spi",
         "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's firmware sets its own). "
         "Times beyond the chip's limits (SP2) are "
         "reported as violations.");
-    o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "Frequency of SCK, with equal high and low times.");
-    o.time("lead", &S::lead, range, "XSS falls before SCK's first rise.");
-    o.time("lag", &S::lag, range, "XSS rises after SCK's last fall.");
-    o.time("gap", &S::gap, range, "Least high time of XSS between two frames.");
-    o.time("byte_gap", &S::byte_gap, range, "Additional low time of SCK between two bytes.");
-    o.time(
-        "mosi_delay", &S::mosi_delay, range,
-        "Time from SCK's fall (XSS's for the first bit) to the change of MOSI; at most half of SCK's period: it then "
-        "changes with the rise.");
+    add_spi_times(o);
     o.integer("spare", &S::spare, {0, static_cast<int>(DSDPV1_SPI_SPARE)}, "bytes",
               "Greatest delay of a reply after the request (SP6).");
     return o;
@@ -76,19 +67,9 @@ bool is_of_the_card(const Switch& one) {
   return (kPins.at(one.port) >> one.pin & 1U) != 0;
 }
 
-Tick period_of(const SpiKeys& keys) { return (1000 * bus::kTicksPerUs + keys.clock_khz / 2) / keys.clock_khz; }
-
-void check_mosi(const SpiKeys& keys, const std::string& file) {
-  if (keys.mosi_delay <= period_of(keys) / 2) return;
-  throw InputError(file, keys.line,
-                   fmt::format("mosi_delay is {} ticks, expected half of SCK's period, {} ticks, at most",
-                               keys.mosi_delay, period_of(keys) / 2));
-}
-
 user_cpu::SpiPort spi_port(const SpiKeys& keys) {
   user_cpu::SpiPort port;
-  const Tick period = period_of(keys);
-  port.timing = {(period + 1) / 2, period / 2, keys.lead, keys.lag, keys.gap, keys.byte_gap, keys.mosi_delay};
+  port.timing = spi_timing_of(keys);
   port.spare = static_cast<std::uint8_t>(keys.spare);
   return port;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinds/board/board_keys.hpp"
+#include "kinds/board/spi_keys.hpp"
 #include "kinds/dsdpv1/port/serial_settings.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_port.hpp"
 #include "kinds/user_cpu/cpu.hpp"
@@ -46,12 +47,9 @@ struct CpuTimes : user_cpu::CpuTiming {
 
 enum class CpuKind : std::uint8_t { kNative, kArm, kProcess };
 
-/// The user's end of an SPI port. Times in ticks.
-struct SpiKeys {
-  int clock_khz = 9000;
-  Tick lead = 2400, lag = 2400, gap = 6000, byte_gap = 0, mosi_delay = 0;
+/// The user's end of an SPI port.
+struct SpiKeys : SpiTimes {
   int spare = 0;
-  int line = 0;
 };
 
 /// The user's end of a UART port.

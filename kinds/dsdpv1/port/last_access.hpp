@@ -11,7 +11,7 @@ namespace dsdpv1::tb {
 /// A read counts from the fall of RD, a write from the rise of WR, both while CSR is low. A frame of SPI counts from
 /// XSS's fall, a telegram of the UART from its first start bit; characters belong to one telegram if fewer than seven
 /// half characters are between them (UA3's minimum). The strap UBR gives the rate.
-class LastAccess : public AccessReader, private SpiFrameReader {
+class LastAccess : public AccessReader, private RsuFrameReader {
  public:
   void pin(Tick at, PinNumber pin, Level level) override;
   /// "read B410 at cycle 84795 + 122 ticks (1766.573 us)", "write B011 := 01 at ...", "none"; "SPI frame of 11 bytes

@@ -6,7 +6,7 @@
 
 namespace dsdpv1::tb {
 
-class SpiReader : public HostReader, private SpiFrameReader {
+class SpiReader : public HostReader, private RsuFrameReader {
  public:
   const char* port() const override { return "spi"; }
   PinMask pins() const override;

@@ -8,8 +8,8 @@
 #include <systemc>
 #include <vector>
 
-#include "kinds/dsdpv1/user_cpu/spi_master.hpp"
 #include "kinds/dsdpv1/user_cpu/uart_master.hpp"
+#include "kinds/user_cpu/spi_master.hpp"
 #include "model/systemc/rsu_tlm.hpp"
 
 namespace dsdpv1::user_cpu {

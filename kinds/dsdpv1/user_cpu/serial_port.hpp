@@ -9,10 +9,10 @@
 
 #include "driver/dsdpv1_spi.h"
 #include "driver/dsdpv1_uart.h"
-#include "kinds/dsdpv1/user_cpu/spi_master.hpp"
 #include "kinds/dsdpv1/user_cpu/uart_master.hpp"
 #include "kinds/user_cpu/claim_counters.hpp"
 #include "kinds/user_cpu/cpu.hpp"
+#include "kinds/user_cpu/spi_master.hpp"
 #include "tb/chip/user_cpu/program.hpp"
 
 namespace dsdpv1::user_cpu {

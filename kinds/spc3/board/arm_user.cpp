@@ -16,11 +16,12 @@
 namespace dsdpv1::tb {
 namespace {
 
-arm::Wiring wiring() {
+arm::Wiring wiring(bool spi) {
   arm::Wiring wiring;
   wiring.interrupt_name = "X/INT";
   wiring.reset_high = true;
-  wiring.wait = true;
+  wiring.wait = !spi;
+  if (spi) wiring.miso = number(spc3::Pin::kMiso);
   wiring.lamps = {number(spc3::Pin::kXDataExch)};
   return wiring;
 }
@@ -41,7 +42,13 @@ MakeUser arm_user(const UserRequest& request, user_cpu::HostBus& pins) {
                           {options.firmware->path, "has no mailbox", own.without_mailbox, "SPC3_ERR_"});
   options.notes = std::move(missing.notes);
   request.left_out.merge(missing.left_out);
-  options.wiring = wiring();
+  const bool spi = static_cast<const Spc3Settings&>(*request.slave.chip).bus == spc3::Bus::kSpi;
+  options.wiring = wiring(spi);
+  options.serial = spi;
+  if (spi) {
+    options.mode = HostMode::kSpi;
+    options.card = 1;
+  }
   return [&chip = request.chip, &pins, options](const user_cpu::StationConfig&, Tick start) {
     const auto set_chip_reset = [&chip](Tick at, bool released) { chip.set_reset(at, released); };
     return std::make_unique<arm::Board>(pins, options, set_chip_reset, start);

@@ -1,6 +1,6 @@
 #pragma once
-// Firmware on the ARM board as the user CPU of a chip of the SPC3 family: XCS at NE1, XREADY at NWAIT (PD6), RESET at
-// PE4, X/INT at PG6, XDATAEXCH at PG12 (p).
+// Firmware on the ARM board as the user CPU of a chip of the SPC3 family: XCS at NE1, XREADY at NWAIT (PD6), or XSS,
+// SCK, MISO, MOSI at PA4 to PA7; RESET at PE4, X/INT at PG6, XDATAEXCH at PG12 (p).
 
 namespace dsdpv1::tb {
 

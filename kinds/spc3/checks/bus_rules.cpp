@@ -25,7 +25,8 @@ void BusRules::reset() {
 void BusRules::pin(Tick at, Pin pin, tb::Level level, const spc3::BusLines& lines) {
   const bool is_motorola = spc3::is_motorola(lines.bus());
   switch (pin) {
-    case Pin::kAb: return address_moves(at);
+    case Pin::kAb:
+    case Pin::kAb11: return address_moves(at);
     case Pin::kDbIn: data_moved_ = at; return moves(at);
     case Pin::kXRd:
       if (is_motorola) address_moves(at);

@@ -12,7 +12,8 @@ using spc3::Pin;
 constexpr std::uint32_t kResetPin = mask(Pin::kReset), kInterruptPin = mask(Pin::kXInt),
                         kExchangePin = mask(Pin::kXDataExch),
                         kBusPins = mask(Pin::kXCs) | mask(Pin::kXRd) | mask(Pin::kXWr) | mask(Pin::kAle) |
-                                   mask(Pin::kAb) | mask(Pin::kDbIn) | mask(Pin::kXReady);
+                                   mask(Pin::kAb) | mask(Pin::kDbIn) | mask(Pin::kXReady),
+                        kSpiPins = mask(Pin::kXss) | mask(Pin::kSck) | mask(Pin::kMosi) | mask(Pin::kMiso);
 
 }  // namespace
 

@@ -12,6 +12,7 @@ using spc3::Pin;
 void Checks::pin(Tick at, tb::PinNumber pin, tb::Level level) {
   history_.add(at, pin, level);
   bus_.pin(at, static_cast<Pin>(pin), level, reader_.lines());
+  spi_.pin(at, static_cast<Pin>(pin), level, reader_.lines());
   reader_.pin(at, pin, level);
   switch (static_cast<Pin>(pin)) {
     case Pin::kReset: return reset_pin(level != 0);
@@ -29,6 +30,7 @@ void Checks::pin(Tick at, tb::PinNumber pin, tb::Level level) {
 void Checks::reset_pin(bool level) {
   in_reset_ = level;
   bus_.reset();
+  spi_.reset();
   chip_.reset();
   blocks_.drop();
   interrupt_.reset();
@@ -91,7 +93,15 @@ void Checks::event(const profibus::Event& event) {
   }
 }
 
+bool Checks::applies(checks::CheckId check) const {
+  const auto which = static_cast<Check>(check.index);
+  if (which >= Check::kBusReady && which <= Check::kBusStrobes && by_spi()) return false;
+  if (which >= Check::kSpiClock && which <= Check::kSpiArray && !by_spi()) return false;
+  return has_accesses_;
+}
+
 void Checks::finish(Tick end) {
+  reader_.pass(end + 1);
   recorder_.now(end);
   if (!in_reset_) pass(end);
 }

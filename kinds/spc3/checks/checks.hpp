@@ -14,6 +14,7 @@
 #include "kinds/spc3/checks/interrupt_rules.hpp"
 #include "kinds/spc3/checks/live_rules.hpp"
 #include "kinds/spc3/checks/seen_chip.hpp"
+#include "kinds/spc3/checks/spi_rules.hpp"
 #include "kinds/spc3/checks/use_rules.hpp"
 #include "kinds/spc3/port/bus_reader.hpp"
 #include "model/spc3/pins.hpp"
@@ -28,12 +29,19 @@ class Checks : public checks::ChipChecks, private spc3_bus::AccessSink {
       spc3::mask(spc3::Pin::kXDataExch) | spc3::mask(spc3::Pin::kXIntMot) | spc3::mask(spc3::Pin::kMode) |
       spc3::mask(spc3::Pin::kXCs) | spc3::mask(spc3::Pin::kXRd) | spc3::mask(spc3::Pin::kXWr) |
       spc3::mask(spc3::Pin::kAle) | spc3::mask(spc3::Pin::kAb) | spc3::mask(spc3::Pin::kDbIn) |
-      spc3::mask(spc3::Pin::kDbOut) | spc3::mask(spc3::Pin::kXReady);
+      spc3::mask(spc3::Pin::kDbOut) | spc3::mask(spc3::Pin::kXReady) | spc3::mask(spc3::Pin::kAb11) |
+      spc3::mask(spc3::Pin::kSerial) | spc3::mask(spc3::Pin::kSck) | spc3::mask(spc3::Pin::kMosi) |
+      spc3::mask(spc3::Pin::kXss) | spc3::mask(spc3::Pin::kMiso);
 
   /// `pins`: the kind's, with the numbers of spc3::Pin; must outlive it. `bus`: the straps, until pin() moves them.
+  /// `spi_mode`: as the chip's parameter.
   Checks(const checks::Limits& limits, spc3::Variant variant, const tb::PinTable& pins,
-         spc3::Bus bus = spc3::Bus::kIntelAsync)
-      : history_(pins), recorder_(rules(), limits, history_), reader_(*this, bus), chip_(variant) {}
+         spc3::Bus bus = spc3::Bus::kIntelAsync, unsigned spi_mode = 0)
+      : history_(pins),
+        recorder_(rules(), limits, history_),
+        reader_(*this, bus, spi_mode),
+        spi_(recorder_, spi_mode),
+        chip_(variant) {}
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
@@ -44,8 +52,8 @@ class Checks : public checks::ChipChecks, private spc3_bus::AccessSink {
   void event(const profibus::Event& event) override;
   void finish(Tick end) override;
 
-  /// Without accesses nothing is judged.
-  bool applies(checks::CheckId /*check*/) const override { return has_accesses_; }
+  /// Without accesses nothing is judged; of SPI and the parallel buses only the one that is used.
+  bool applies(checks::CheckId check) const override;
   const checks::Record& record(checks::CheckId check) const override { return recorder_.record(check); }
   const checks::Limit& limit(checks::CheckId check) const override { return recorder_.limit(check); }
   void on_violation(std::function<void(const checks::Violation&)> sink) override {
@@ -55,11 +63,15 @@ class Checks : public checks::ChipChecks, private spc3_bus::AccessSink {
  private:
   // spc3_bus::AccessSink
   void read_answered(Tick at, const spc3_bus::BusAccess& access) override { transferred(at, access); }
-  void access_began(const spc3_bus::BusAccess& access) override { bus_.began(access, reader_.lines()); }
+  void access_began(const spc3_bus::BusAccess& access) override {
+    if (!by_spi()) bus_.began(access, reader_.lines());
+  }
   void access_ended(Tick at, const spc3_bus::BusAccess& access) override {
-    bus_.ended(at, access, reader_.lines());
+    if (!by_spi()) bus_.ended(at, access, reader_.lines());
     if (access.write) transferred(at, access);
   }
+  void frame_ended(const spc3_bus::SpiFrame& frame) override { spi_.ended(frame); }
+  bool by_spi() const { return reader_.lines().bus() == spc3::Bus::kSpi; }
   void transferred(Tick at, const spc3_bus::BusAccess& access);
   void reset_pin(bool level);
   void take(const RegisterAccess& access);
@@ -69,6 +81,7 @@ class Checks : public checks::ChipChecks, private spc3_bus::AccessSink {
   checks::Recorder recorder_;
   spc3_bus::BusReader reader_;
   BusRules bus_{recorder_};
+  SpiRules spi_;
   SeenChip chip_;
   UseRules use_{recorder_, chip_};
   Blocks blocks_{recorder_, chip_};

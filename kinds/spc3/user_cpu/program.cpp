@@ -31,6 +31,7 @@ const char* error_code(spc3_error error) {
 
 void UserProgram::run(user_cpu::Cpu& cpu) {
   cpu_ = &cpu;
+  if (firmware_.spi_timing) spi_.emplace(cpu, *firmware_.spi_timing);
   open();
   cpu.wait_until(cpu.now() + options_.start_delay);
   for (;;) {
@@ -39,13 +40,25 @@ void UserProgram::run(user_cpu::Cpu& cpu) {
   }
 }
 
-void UserProgram::open() {
+spc3_port UserProgram::port() {
   spc3_port port{};
   port.ctx = this;
-  port.read = [](void* ctx, std::uint16_t address) { return static_cast<UserProgram*>(ctx)->cpu_->read(address); };
+  port.read = [](void* ctx, std::uint16_t address) { return static_cast<UserProgram*>(ctx)->read(address); };
   port.write = [](void* ctx, std::uint16_t address, std::uint8_t value) {
-    static_cast<UserProgram*>(ctx)->cpu_->write(address, value);
+    static_cast<UserProgram*>(ctx)->write(address, value);
   };
+  if (!spi_) return port;
+  port.read_array = [](void* ctx, std::uint16_t address, std::uint8_t* bytes, std::uint8_t length) {
+    static_cast<UserProgram*>(ctx)->spi_->read_array(address, bytes, length);
+  };
+  port.write_array = [](void* ctx, std::uint16_t address, const std::uint8_t* bytes, std::uint8_t length) {
+    static_cast<UserProgram*>(ctx)->spi_->write_array(address, bytes, length);
+  };
+  return port;
+}
+
+void UserProgram::open() {
+  const spc3_port port = this->port();
   spc3_application application{};
   application.ctx = this;
   application.prm = [](void* ctx, const std::uint8_t*, std::uint8_t length) {
@@ -262,9 +275,9 @@ void UserProgram::carry_out(const command::OfChip& order) {
   if (order.order == kGoOffline) return spc3_go_offline(&device_);
   if (order.order == kLeaveMaster) return spc3_leave_master(&device_);
   const auto address = static_cast<std::uint16_t>(order.bytes.at(0) << 8 | order.bytes.at(1));
-  if (order.order == kReadChip) (void)cpu_->read(address);
+  if (order.order == kReadChip) (void)read(address);
   for (std::size_t i = 2; order.order == kWriteChip && i < order.bytes.size(); ++i)
-    cpu_->write(static_cast<std::uint16_t>(address + i - 2), order.bytes[i]);
+    write(static_cast<std::uint16_t>(address + i - 2), order.bytes[i]);
 }
 
 }  // namespace dsdpv1::spc3_user

@@ -11,6 +11,7 @@
 
 #include "bus/time.hpp"
 #include "driver/spc3/spc3.h"
+#include "kinds/spc3/user_cpu/spi_user.hpp"
 #include "kinds/user_cpu/cpu.hpp"
 #include "tb/chip/user_cpu/program.hpp"
 #include "tb/chip/user_cpu/program_inputs.hpp"
@@ -25,9 +26,10 @@ enum class Mode : std::uint8_t { kInterrupt, kPolled };
 /// Options of these chips only.
 struct FirmwareOptions {
   Mode mode = Mode::kInterrupt;
-  int user_watchdog = 20'000;  ///< data telegrams, 1..65535 (A34)
-  int wd_baud_control = 30;    ///< cell 0A, 1..255 (A31)
-  bool vpc3 = false;           ///< RAM of 2 KB
+  int user_watchdog = 20'000;                   ///< data telegrams, 1..65535 (A34)
+  int wd_baud_control = 30;                     ///< cell 0A, 1..255 (A31)
+  bool vpc3 = false;                            ///< RAM of 2 KB
+  std::optional<dsdpv1::SpiTiming> spi_timing;  ///< by SPI; else at the parallel bus
 };
 
 // Words of command::OfChip::order.
@@ -56,6 +58,11 @@ class UserProgram {
 
  private:
   void open();
+  spc3_port port();
+  std::uint8_t read(std::uint16_t address) { return spi_ ? spi_->read(address) : cpu_->read(address); }
+  void write(std::uint16_t address, std::uint8_t value) {
+    spi_ ? spi_->write(address, value) : cpu_->write(address, value);
+  }
   void bring_up();
   bool initialise();
   void main_loop();
@@ -89,6 +96,7 @@ class UserProgram {
   user_cpu::ProgramInputs inputs_{options_};
   std::deque<user_cpu::Command> commands_;
   user_cpu::Cpu* cpu_ = nullptr;
+  std::optional<SpiUser> spi_;
   spc3_device device_{};
   user_cpu::ProgramCounters counters_;
   std::vector<std::uint8_t> outputs_;

@@ -27,7 +27,7 @@ struct FakeSpc3 {
   std::vector<Write> writes;
   std::vector<std::uint16_t> commands;
 
-  spc3_port port() { return {this, &read_it, &write_it}; }
+  spc3_port port() { return {this, &read_it, &write_it, nullptr, nullptr}; }
 
   /// Bytes of the buffer that the cell points to.
   Bytes buffer(std::uint16_t pointer, std::size_t length) const {

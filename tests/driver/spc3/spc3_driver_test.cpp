@@ -350,8 +350,9 @@ TEST_F(Spc3DriverTest, WrongConfigurationsAreRefusedBeforeAnythingIsWritten) {
 
 TEST_F(Spc3DriverTest, MissingArgumentsAreErrors) {
   const spc3_port port = chip.port();
-  const spc3_port no_read = {&chip, nullptr, port.write};
-  const spc3_port no_write = {&chip, port.read, nullptr};
+  spc3_port no_read = port, no_write = port;
+  no_read.read = nullptr;
+  no_write.write = nullptr;
   EXPECT_EQ(spc3_open(nullptr, &port, nullptr), SPC3_ERR_ARGUMENT);
   EXPECT_EQ(spc3_open(&device, nullptr, nullptr), SPC3_ERR_ARGUMENT);
   EXPECT_EQ(spc3_open(&device, &no_read, nullptr), SPC3_ERR_ARGUMENT);

@@ -87,9 +87,10 @@ class Spc3WithModel : public testing::TestWithParam<std::tuple<Variant, Mode>> {
   }
 
   void power_on() {
-    const spc3_port port = {
-        this, [](void* ctx, std::uint16_t address) { return test_of(ctx).read(address); },
-        [](void* ctx, std::uint16_t address, std::uint8_t value) { test_of(ctx).write(address, value); }};
+    spc3_port port{};
+    port.ctx = this;
+    port.read = [](void* ctx, std::uint16_t address) { return test_of(ctx).read(address); };
+    port.write = [](void* ctx, std::uint16_t address, std::uint8_t value) { test_of(ctx).write(address, value); };
     bench.power_on();
     checks.released();
     ASSERT_EQ(spc3_open(&chip, &port, &application), SPC3_OK);

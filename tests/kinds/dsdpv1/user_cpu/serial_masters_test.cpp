@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "kinds/dsdpv1/user_cpu/spi_master.hpp"
 #include "kinds/dsdpv1/user_cpu/uart_master.hpp"
+#include "kinds/user_cpu/spi_master.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -6,12 +6,14 @@ docs/spc3.md says.
 """
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[4]
 POWER_ON = ROOT / "scenarios/spc3_power_on.yaml"
+BY_SPI = ROOT / "scenarios/vpc3_spi_power_on.yaml"
 SLOW_JUDGE = """name: x
 baud: 12M
 end: 20ms
@@ -67,6 +69,30 @@ def other_buses(simulator):
             expect(f"{bus}: set-up of {limit}", subprocess.run(words, capture_output=True, check=False).returncode, code)
 
 
+def exchanges(heard):
+    """Requests with their answers, without tokens, each once while it is repeated, and without diagnoses that wait for the user's verdict."""
+    pairs = []
+    for words in (re.sub(r" FCB=\d", "", each[2]) for each in heard if "token" not in each[2]):
+        if "request" in words:
+            pairs.append([words])
+        elif pairs:
+            pairs[-1].append(words)
+    pairs = [pair for pair in pairs if not any("[Station_Not_Ready] [WD_On]" in words for words in pair)]
+    return [pair for number, pair in enumerate(pairs) if number == 0 or pair != pairs[number - 1]]
+
+
+def spi(simulator):
+    """A slower bus: the same exchanges in the same order. A user CPU that is quick enough for the master's polls has the same telegrams, to the tick."""
+    own, usual = telegrams(simulator, BY_SPI), telegrams(simulator, BY_SPI, "chip.bus=intel_async")
+    expect("SPI: some exchanges", len(exchanges(usual)) > 50, True)
+    expect("SPI: exchanges", exchanges(own), exchanges(usual))
+    for setting in ("spi_mode=1", "spi_mode=2", "spi_mode=3", "spi_fetch=ahead"):
+        words = [simulator, "run", BY_SPI, "-q", "--checks", "fail", "--set", f"chip.{setting}"]
+        expect(f"SPI: {setting}", subprocess.run(words, capture_output=True, check=False).returncode, 0)
+    slow = ("baud=1.5M", "end=90ms")
+    expect("SPI: telegrams", telegrams(simulator, BY_SPI, *slow), telegrams(simulator, BY_SPI, "chip.bus=intel_async", *slow))
+
+
 def slow_judge(simulator, scenario):
     """A49: a Set_Prm is taken when it is received, so a Chk_Cfg is served before the user's verdict. S15 has it the DSDPV1's way."""
     usual = telegrams(simulator, scenario, "chip.kind=dsdpv1")
@@ -93,6 +119,7 @@ def main():
     simulator = sys.argv[1]
     power_on(simulator)
     other_buses(simulator)
+    spi(simulator)
     with tempfile.TemporaryDirectory() as folder:
         scenario = pathlib.Path(folder, "x.yaml")
         scenario.write_text(SLOW_JUDGE, encoding="utf-8")

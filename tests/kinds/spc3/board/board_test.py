@@ -49,6 +49,16 @@ def each_chip(bench):
     expect("polled: logs of both engines", bench.read("step.log"), bench.read("skip.log"))
 
 
+def spi(bench):
+    """A VPC3+S at SPI1: the firmware keeps all checks; both engines agree."""
+    scenario, elf = ROOT / "scenarios/vpc3_spi_arm.yaml", f"user_cpu.elf={bench.firmware}/device_spc3_spi.elf"
+    for engine in ("skip", "step"):
+        bench.sim("--set", elf, "--engine", engine, "--checks", "fail", "--trace", f"{engine}.trace", scenario=scenario)
+    expect("SPI: pins of both engines", bench.read("step.trace"), bench.read("skip.trace"))
+    for wrong, why in (("user_cpu.switches=[PA5=high]", "a pin that the board wires to the chip"), ("user_cpu.fsmc.datast=3", "fsmc with bus: spi")):
+        bench.is_refused(why, "--set", elf, "--set", wrong, scenario=scenario)
+
+
 def saved(bench):
     bench.sim("--log", "whole.log", "--save-at", "8ms", "x.run")
     done = subprocess.run([bench.simulator, "run", "--restore", "x.run", "-q"], cwd=bench.folder, capture_output=True, text=True, check=False)
@@ -76,7 +86,7 @@ def bad_settings(bench):
     bench.is_refused("it is firmware for a DSDPV1, expected some for apc3", "--set", f"user_cpu.elf={bench.firmware}/device_O2.elf")
     bench.is_refused("a pin that the board wires to the chip", "--set", "user_cpu.switches=[PG6=high]")
     bench.is_refused("interrupt_latency is that of kind: native", "--set", "user_cpu.interrupt_latency=1us")
-    bench.is_refused("kind is arm and bus of the chip not intel_async", "--set", "chip.bus=motorola_async")
+    bench.is_refused("kind is arm and bus of the chip neither intel_async nor spi", "--set", "chip.bus=motorola_async")
     bench.is_refused("behaviour is for the program of board", "--set", "user_cpu.behaviour=constant")
     bench.is_refused("cpi without kind: arm", "--set", "user_cpu.cpi=2", scenario=ROOT / "scenarios/spc3_power_on.yaml")
 
@@ -89,7 +99,7 @@ def too_fast(bench):
 
 def main():
     simulator, firmware, gdb = sys.argv[1:]
-    for test in (each_chip, saved, debugger_looks, bad_settings, too_fast):
+    for test in (each_chip, spi, saved, debugger_looks, bad_settings, too_fast):
         with tempfile.TemporaryDirectory() as folder:
             test(Bench(simulator, firmware, gdb, pathlib.Path(folder)))
         print(test.__name__, flush=True)

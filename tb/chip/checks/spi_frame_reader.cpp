@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/port/spi_frame_reader.hpp"
+#include "tb/chip/checks/spi_frame_reader.hpp"
 
 namespace dsdpv1::tb {
 
@@ -8,14 +8,13 @@ void SpiFrameReader::Wire::set(Tick at, bool to) {
   level = to;
 }
 
-void SpiFrameReader::read(Tick at, Pin pin, Level level) {
+void SpiFrameReader::read(Tick at, SpiWire wire, Level level) {
   pass(at);
-  switch (pin) {
-    case Pin::kXss: return xss(at, level != 0);
-    case Pin::kSck: return level != 0 ? sck_rose(at) : void();
-    case Pin::kMosi: return mosi_.set(at, level != 0);
-    case Pin::kMiso: return miso_.set(at, level != 0);  // released: read as high
-    default: return;
+  switch (wire) {
+    case SpiWire::kXss: return xss(at, level != 0);
+    case SpiWire::kSck: return (level != 0) == (mode_ == 0 || mode_ == 3) ? sck_takes(at) : void();
+    case SpiWire::kMosi: return mosi_.set(at, level != 0);
+    case SpiWire::kMiso: return miso_.set(at, level != 0);  // released: read as high
   }
 }
 
@@ -41,7 +40,7 @@ void SpiFrameReader::xss(Tick at, bool level) {
   frame_began(at);
 }
 
-void SpiFrameReader::sck_rose(Tick at) {
+void SpiFrameReader::sck_takes(Tick at) {
   const bool selected = fell_ && *fell_ < at && (!rose_ || at <= *rose_);
   if (!selected) return;
   if (bits_ % 8 == 0) byte_start_ = at;

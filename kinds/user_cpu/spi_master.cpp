@@ -1,4 +1,4 @@
-#include "kinds/dsdpv1/user_cpu/spi_master.hpp"
+#include "kinds/user_cpu/spi_master.hpp"
 
 #include <algorithm>
 #include <utility>
