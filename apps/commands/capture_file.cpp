@@ -174,6 +174,9 @@ capture::LogicSource read_wave_line(const std::string& path, const capture::Logi
 }
 
 std::ifstream open_file(const std::string& path) {
+  if (std::filesystem::path(path).extension() == ".ptd" || std::filesystem::path(path).extension() == ".PTD")
+    throw tb::InputError(path, 0,
+                         "is a message file of ProfiTrace, which is not read, expected its messages exported as text");
   const bool folder = std::filesystem::is_directory(path);
   std::ifstream file(path, std::ios::binary);
   if (folder || !file)

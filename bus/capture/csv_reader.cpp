@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <istream>
+#include <limits>
 
 #include "bus/baud.hpp"
+#include "bus/capture/csv_cells.hpp"
+#include "bus/capture/csv_characters.hpp"
 #include "bus/capture/lower_case.hpp"
 #include "bus/capture/sample_clock.hpp"
 #include "bus/capture/signal_decoder.hpp"
@@ -14,94 +17,63 @@
 namespace dsdpv1::bus::capture {
 namespace {
 
-constexpr std::size_t kLongestLine = 65'536;
-constexpr double kLongestTime = 1e8;  ///< seconds, three years
 constexpr double kMostSamples = 1e15;
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', at), line.size());
-    cells.push_back(trimmed(line.substr(at, comma - at)));
-    at = comma + 1;
-  }
-  return cells;
-}
-
-std::optional<double> decimal(const std::string& cell) {
-  char* end = nullptr;
-  const double value = std::strtod(cell.c_str(), &end);
-  if (cell.empty() || *end != '\0') return std::nullopt;
-  return value;
-}
 
 std::optional<bool> level(const std::string& cell) {
   if (cell == "0" || cell == "1") return cell == "1";
   return std::nullopt;
 }
 
-bool is_remark(const std::string& line) {
-  return line.empty() || line[0] == ';' || line[0] == '#' || line.compare(0, 4, "META") == 0;
-}
+/// A signal in volts: its level by the middle of what it has shown, with hysteresis.
+class Volts {
+ public:
+  bool moved() const { return level_.has_value(); }
+  /// nullopt before the signal has moved.
+  std::optional<bool> level(double volts) {
+    constexpr double kLeastSwing = 0.5, kHysteresis = 0.2;  // V; share of the swing
+    low_ = std::min(low_, volts);
+    high_ = std::max(high_, volts);
+    const double swing = high_ - low_, middle = (high_ + low_) / 2;
+    if (swing < kLeastSwing) return std::nullopt;
+    if (!level_ || std::abs(volts - middle) > kHysteresis / 2 * swing) level_ = volts > middle;
+    return level_;
+  }
 
-bool is_row(const std::vector<std::string>& cells) {
-  return std::all_of(
-      cells.begin(), cells.end(), [](const std::string& cell) { return decimal(cell).has_value(); });
-}
-
-/// The unit named in the first column's heading; 0 if it is not a time.
-double seconds_of(const std::string& heading) {
-  const std::string name = lower_case(heading);
-  const auto has = [&name](const char* part) { return name.find(part) != std::string::npos; };
-  if (!has("time") && !has("second")) return 0;
-  if (has("milli") || has("[ms]")) return 1e-3;
-  if (has("micro") || has("[us]")) return 1e-6;
-  return has("nano") || has("[ns]") ? 1e-9 : 1;
-}
+ private:
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+  std::optional<bool> level_;
+};
 
 class Table {
  public:
-  Table(std::istream& in, LevelTaker& taker) : in_(in), taker_(taker) {}
+  Table(CsvLines& lines, LevelTaker& taker) : lines_(lines), taker_(taker) {}
 
-  std::optional<std::uint64_t> read() {
-    for (std::string line; next(line);)
+  /// `line`: the first.
+  std::optional<std::uint64_t> read(std::string line) {
+    do {
       if (is_remark(line))
         remark(line);
       else if (!begun_)
         begin(cells_of(line));
       else
         row(cells_of(line));
+    } while (lines_.next(line));
     if (!begun_) fail("is empty, expected a table of levels");
     taker_.finish(last_);
     return rate_;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw CaptureError(what, number_); }
-
-  /// Returns false at the end.
-  bool next(std::string& line) {
-    line.clear();
-    ++number_;
-    for (char c = 0; in_.get(c) && c != '\n';) {
-      line += c;
-      if (line.size() > kLongestLine)
-        fail(fmt::format("is longer than {} bytes, expected lines of up to that", kLongestLine));
-    }
-    return in_.good() || !line.empty();
-  }
+  [[noreturn]] void fail(const std::string& what) const { lines_.fail(what); }
 
   /// "; Samplerate: 24 MHz", "META samplerate: 24000000", "; Channels (2/2): D0, D1".
   void remark(const std::string& line) {
     const std::size_t colon = line.find(':');
     if (colon == std::string::npos) return;
-    const std::string name = lower_case(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
+    const std::string name = lower_case(line.substr(0, colon));
+    std::string value = line.substr(colon + 1);
+    value.erase(0, value.find_first_not_of(" \t"));
+    value.erase(value.find_last_not_of(" \t\r") + 1);
     if (name.find("samplerate") != std::string::npos) {
       const auto rate = sample_rate(value);
       if (!rate) fail(fmt::format("samplerate {}, expected a number and Hz, kHz, MHz or GHz", value.substr(0, 40)));
@@ -113,18 +85,47 @@ class Table {
 
   /// The first line of the table, which may be headings.
   void begin(const std::vector<std::string>& cells) {
-    const bool row_already = is_row(cells);
-    time_unit_ = row_already ? (clock_ ? 0 : 1) : seconds_of(cells[0]);
+    const bool row_already = is_row(cells), sampled = lower_case(cells[0]) == "x" && cells.size() > 2;
+    time_unit_ = row_already ? (clock_ ? 0 : 1) : sampled ? 1 : seconds_of(cells[0]);
     counted_ = !row_already && lower_case(cells[0]) == "samples";
     first_ = time_unit_ != 0 || counted_ ? 1 : 0;
     columns_ = cells.size();
+    if (sampled) find_increment(cells);
     if (columns_ <= first_) fail("has no column of levels, expected a time and levels, or levels");
     if (time_unit_ == 0 && !clock_)
       fail("neither a time in the first column nor a samplerate before, expected one of them");
     name_signals(cells, row_already);
     chosen_ = taker_.choose(names_);
+    volts_.resize(chosen_.size());
     begun_ = true;
     if (row_already) row(cells);
+  }
+
+  /// "X,CH1,Start,Increment": the line of units below has both.
+  void find_increment(const std::vector<std::string>& cells) {
+    const auto at = [&cells](const char* name) {
+      const auto found = std::find_if(cells.begin(), cells.end(),
+                                      [name](const std::string& cell) { return lower_case(cell) == name; });
+      return static_cast<std::size_t>(found - cells.begin());
+    };
+    start_ = at("start");
+    increment_ = at("increment");
+    if (increment_ < cells.size()) columns_ = std::min(start_, increment_);
+  }
+
+  bool are_units(const std::vector<std::string>& cells) const {
+    const auto number = [](const std::string& cell) { return decimal(cell).has_value(); };
+    return !is_time(cells[0]) && (increment_ != 0 || std::none_of(cells.begin(), cells.end(), number));
+  }
+
+  /// "Second,Volt", "(ms),(V)", "Sequence,Volt,-0.001,1e-8".
+  void units(const std::vector<std::string>& cells) {
+    if (const double unit = seconds_of(cells[0]); unit != 0) time_unit_ = unit;
+    const auto number = [&cells](std::size_t at) { return at < cells.size() ? decimal(cells[at]) : std::nullopt; };
+    if (const auto step = number(increment_)) {
+      time_unit_ = *step;
+      offset_ = std::llround(number(start_).value_or(0) * static_cast<double>(kTicksPerSecond));
+    }
   }
 
   void name_signals(const std::vector<std::string>& cells, bool row_already) {
@@ -136,32 +137,50 @@ class Table {
   }
 
   void row(const std::vector<std::string>& cells) {
-    if (cells.size() != columns_)
+    if (rows_ == 0 && are_units(cells)) return units(cells);
+    if (cells.size() != columns_ && increment_ == 0)
       fail(fmt::format("has {} columns, expected {} as in the first", cells.size(), columns_));
+    if (cells.size() < columns_) fail(fmt::format("has {} columns, expected {}", cells.size(), columns_));
     const Tick at = time_of(cells);
     if (at < last_) fail("goes back in time, expected the order of time");
     last_ = at;
-    for (std::size_t which = 0; which < chosen_.size(); ++which) {
-      const std::string& cell = cells[first_ + chosen_[which]];
-      const std::optional<bool> now = level(cell);
-      if (!now) fail(fmt::format("level {}, expected 0 or 1", cell.substr(0, 40)));
-      taker_.level(at, which, *now);
-    }
+    ++rows_;
+    for (std::size_t which = 0; which < chosen_.size(); ++which) take(at, which, cells[first_ + chosen_[which]]);
+  }
+
+  void take(Tick at, std::size_t which, const std::string& cell) {
+    std::optional<Volts>& volts = volts_[which];
+    const std::optional<bool> digital = volts ? std::nullopt : level(cell);
+    if (digital) return taker_.level(at, which, *digital);
+    const std::optional<double> value = decimal(cell);
+    if (!value || (!volts && cell.find_first_of(".eE") == std::string::npos))
+      fail(fmt::format("level {}, expected 0 or 1, or volts like 3.3", cell.substr(0, 40)));
+    if (!volts) volts.emplace();
+    const bool still = !volts->moved();
+    const std::optional<bool> now = volts->level(*value);
+    if (!now) return;
+    if (still) taker_.level(at, which, !*now);  // up to its first change it was the other way round
+    taker_.level(at, which, *now);
   }
 
   Tick time_of(const std::vector<std::string>& cells) {
     if (time_unit_ == 0 && !counted_) return clock_->at(sample_++);
-    const std::optional<double> time = decimal(cells[0]);
-    if (counted_ && time && *time >= 0 && *time < kMostSamples) return clock_->at(static_cast<std::uint64_t>(*time));
-    if (!time || !(std::abs(*time) * time_unit_ < kLongestTime))
-      fail(fmt::format("time {}, expected a number", cells[0].substr(0, 40)));
-    const Tick at = std::llround(*time * time_unit_ * static_cast<double>(kTicksPerSecond));
-    if (!zero_) zero_ = std::min<Tick>(at, 0);  // a trigger may come after the first change
+    if (counted_) {
+      const std::optional<double> count = decimal(cells[0]);
+      if (count && *count >= 0 && *count < kMostSamples) return clock_->at(static_cast<std::uint64_t>(*count));
+    }
+    const std::optional<Tick> time = times_.read(cells[0], time_unit_);
+    if (!time || counted_) fail(fmt::format("time {}, expected a number or a date and time", cells[0].substr(0, 40)));
+    const Tick at = *time + offset_;
+    if (!zero_) zero_ = clocked_by_day(cells[0]) ? at : std::min<Tick>(at, 0);  // a trigger may come after the first
     return at - *zero_;
   }
 
-  std::istream& in_;
+  static bool clocked_by_day(const std::string& cell) { return !decimal(cell).has_value(); }
+
+  CsvLines& lines_;
   LevelTaker& taker_;
+  TimeCell times_;
   std::optional<SampleClock> clock_;
   std::vector<std::string> names_;
   std::optional<std::uint64_t> rate_;
@@ -171,33 +190,56 @@ class Table {
   double time_unit_ = 0;  ///< seconds per unit of the first column; 0: samples of the clock
   bool counted_ = false;  ///< the first column is the number of the sample
   std::uint64_t sample_ = 0;
+  std::vector<std::optional<Volts>> volts_;  ///< by chosen signal
+  std::size_t start_ = 0, increment_ = 0;    ///< columns of the line of units; 0: none
+  Tick offset_ = 0;
+  std::uint64_t rows_ = 0;
   std::optional<Tick> zero_;
   Tick last_ = 0;
-  int number_ = 0;
 };
 
 }  // namespace
 
 bool begins_as_csv(std::string_view beginning) {
-  std::size_t at = 0;
-  while (at < beginning.size()) {
+  bool headed = false;
+  for (std::size_t at = 0; at < beginning.size();) {
     const std::size_t end = std::min(beginning.find('\n', at), beginning.size());
     const std::string line(beginning.substr(at, end - at));
     at = end + 1;
     if (line.find("libsigrok") != std::string::npos || line.compare(0, 5, "META ") == 0) return true;
-    if (is_remark(trimmed(line))) continue;
+    if (is_remark(line) || line == "\r") continue;
     const std::vector<std::string> cells = cells_of(line);
     if (cells.size() < 2) return false;
-    return is_row(cells) ? level(cells[1]).has_value() : seconds_of(cells[0]) != 0;
+    if (is_row(cells)) return level(cells[1]).has_value() || cells[1].find('.') != std::string::npos;
+    if (headed) return true;
+    if (character_columns(cells)) return true;
+    headed = seconds_of(cells[0]) != 0 || lower_case(cells[0]) == "x";
+    if (!headed) return false;
   }
-  return false;
+  return headed;
 }
 
-std::optional<std::uint64_t> read_csv_levels(std::istream& in, LevelTaker& taker) { return Table(in, taker).read(); }
+namespace {
+
+std::string first_line(CsvLines& lines) {
+  std::string line;
+  if (!lines.next(line)) lines.fail("is empty, expected a table of levels");
+  return line;
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> read_csv_levels(std::istream& in, LevelTaker& taker) {
+  CsvLines lines(in);
+  return Table(lines, taker).read(first_line(lines));
+}
 
 LogicSource read_csv(std::istream& in, const LogicSettings& settings, const TakeTelegram& take) {
+  CsvLines lines(in);
+  const std::string first = first_line(lines);
+  if (const auto columns = character_columns(cells_of(first))) return read_characters(lines, *columns, settings, take);
   SignalDecoder decoder(settings, take);
-  read_csv_levels(in, decoder);
+  Table(lines, decoder).read(first);
   return decoder.source();
 }
 

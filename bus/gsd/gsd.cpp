@@ -33,6 +33,16 @@ const TypeFacts& facts(GsdType type) {
 constexpr std::array<std::string_view, kBaudCount> kBaudNames = {"12M",   "6M",    "3M",    "1.5M", "500",
                                                                  "187.5", "93.75", "45.45", "19.2", "9.6"};
 
+/// The name of another kind of file, empty for a GSD file as far as it can be seen.
+std::string other_kind(const std::string& text, const std::string& file) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && text[first] == '<') return "XML, as the GSDML of a PROFINET device";
+  constexpr std::string_view kType = ".200";
+  const bool type_file = file.size() > kType.size() && file.substr(file.size() - kType.size()) == kType;
+  const bool headed = gsd::lower(text).find("#profibus_dp") != std::string::npos;
+  return type_file && !headed ? "a type file of COM PROFIBUS" : "";
+}
+
 GsdResult failure(gsd::Diagnostics& diagnostics) { return {std::nullopt, diagnostics.take()}; }
 
 }  // namespace
@@ -57,6 +67,10 @@ GsdResult parse_gsd(std::istream& in, const std::string& file) {
   gsd::Diagnostics diagnostics(file);
   const std::string text = gsd::decode({std::istreambuf_iterator<char>(in), {}}, diagnostics);
   if (diagnostics.failed()) return failure(diagnostics);
+  if (const std::string kind = other_kind(text, file); !kind.empty()) {
+    diagnostics.error(1, fmt::format("is {}, a GSD file is needed: it begins with #Profibus_DP", kind));
+    return failure(diagnostics);
+  }
   const auto lines = gsd::logical_lines(text, diagnostics);
   if (lines.empty() && !diagnostics.failed())
     diagnostics.error(1, "the file is empty, a GSD file with #Profibus_DP and Ident_Number is needed");

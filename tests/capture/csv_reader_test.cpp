@@ -32,12 +32,12 @@ TEST(CsvReader, TablesAreToldFromHexadecimalText) {
 
 TEST(CsvReader, WrongLinesAreNamed) {
   const std::string head = "Time [s],D0\n";
-  EXPECT_EQ(table_error(head + "0,1\n1,2\n"), "line 3: level 2, expected 0 or 1");
+  EXPECT_EQ(table_error(head + "0,1\n1,2\n"), "line 3: level 2, expected 0 or 1, or volts like 3.3");
   EXPECT_EQ(table_error(head + "0,1\n1,0,1\n"), "line 3: has 3 columns, expected 2 as in the first");
   EXPECT_EQ(table_error(head + "1,1\n0,0\n"), "line 3: goes back in time, expected the order of time");
-  EXPECT_EQ(table_error(head + "now,1\n"), "line 2: time now, expected a number");
-  EXPECT_EQ(table_error(head + "nan,1\n"), "line 2: time nan, expected a number");
-  EXPECT_EQ(table_error(head + "1e300,1\n"), "line 2: time 1e300, expected a number");
+  EXPECT_EQ(table_error(head + "now,1\n"), "line 2: time now, expected a number or a date and time");
+  EXPECT_EQ(table_error(head + "nan,1\n"), "line 2: time nan, expected a number or a date and time");
+  EXPECT_EQ(table_error(head + "1e300,1\n"), "line 2: time 1e300, expected a number or a date and time");
   EXPECT_EQ(table_error("Time [s],D0,D1\n0,1,1\n"),
             "several signals, name that of the line with --signal, expected D0, D1");
   EXPECT_EQ(table_error("logic\n1\n"),

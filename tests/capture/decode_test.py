@@ -257,6 +257,40 @@ def every_form(folder):
     expect("no rate, no times", {row.split("\t")[1] for row in (folder / "untimed.tsv").read_text(encoding="utf-8").splitlines()[1:]}, {""})
 
 
+def foreign_tables(folder):
+    """Tables of oscilloscopes and of analysers' decoders, after their public descriptions: volts, dates, decimal commas, characters."""
+    scenario = folder / "exchange.yaml"
+    scenario.write_text(EXCHANGE.format(baud="500k", end=20_000), encoding="utf-8")
+    packets, _ = capture(folder, scenario)
+    text = decoded(folder, packets)
+    wanted = telegrams(text)
+    changes, end = characters_of(text, 500_000), 20_000_000_000
+    samples = [3.1 - 0.02 * (i % 3) if level else 0.2 + 0.03 * (i % 2) for i, level in enumerate(levels(changes, end, 4_000_000))]
+    comma = "".join(f"{i / 4:.2f};{volts:.2f}\n".replace(".", ",") for i, volts in enumerate(samples))
+    rows = {"scope.csv": "Time;Channel A\n(us);(V)\n\n" + comma,
+            "dates.csv": "Time,line\n" + "".join(
+                f"2026-11-29T23:59:{59 + ps // 10**12:02d}.{ps % 10**12 // 1000:09d}Z,{level}\n" for ps, level in changes),
+            "sequence.csv": "X,CH1,Start,Increment,\nSequence,Volt,-1.0e-3,2.5e-7,\n" + "".join(
+                f"{i},{volts:.2f},,\n" for i, volts in enumerate(samples)),
+            "logic1.csv": "Time [s],Value,Parity Error,Framing Error\n", "logic2.csv": "name,type,start_time,duration,data,error\n"}
+    for start, (data, _) in zip(times(text), wanted):
+        for number, byte in enumerate(data.split()):
+            at = start / 1e9 + number * 11 / 500_000
+            rows["logic1.csv"] += f"{at:.9f},0x{byte},,\n"
+            rows["logic2.csv"] += f'"Async Serial","data",{at:.9f},0.000022,0x{byte},\n'
+    for name, table in rows.items():
+        (folder / name).write_text(table, encoding="utf-8")
+        printed = decoded(folder, name, status=None)
+        expect(f"{name}: the rate is found", " at 500k\n" in printed, True)
+        expect_same(name, telegrams(printed), wanted)
+    wrong = rows["logic1.csv"].splitlines()
+    (folder / "wrong.csv").write_text("\n".join([*wrong[:3], wrong[3] + "Error", *wrong[4:]]) + "\n", encoding="utf-8")
+    expect("a framing error stays one", "wrong character" in decoded(folder, "wrong.csv", status=1), True)
+    (folder / "plant.ptd").write_bytes(bytes(100))
+    expect("ProfiTrace", sim(folder, "decode", "plant.ptd", status=2).stderr,
+           "plant.ptd: is a message file of ProfiTrace, which is not read, expected its messages exported as text\n")
+
+
 def archive_of(folder, **members):
     with zipfile.ZipFile(folder / "made.sr", "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in members.items():
@@ -312,7 +346,7 @@ def bad_files(folder):
     expect("/dev/zero", (endless.returncode, endless.stderr.count("\n")), (2, 1))
 
 
-CASES = {case.__name__: case for case in (as_the_log, classic, rewritten, every_rate, by_pipe, for_programs, every_form, bad_files)}
+CASES = {case.__name__: case for case in (as_the_log, classic, rewritten, every_rate, by_pipe, for_programs, every_form, foreign_tables, bad_files)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_decode_") as folder_name:
     CASES[sys.argv[2]](pathlib.Path(folder_name))

@@ -208,6 +208,16 @@ TEST(GsdSetup, SlotNumbersBeginWhereTheFileSays) {
             (Bytes{7, 3}));
 }
 
+TEST(GsdFile, OtherKindsOfFilesAreNamedInOneLine) {
+  EXPECT_THAT(lines(parse("<?xml version=\"1.0\"?>\n<ISO15745Profile>\n</ISO15745Profile>\n", "device.xml")),
+              testing::ElementsAre("device.xml:1: is XML, as the GSDML of a PROFINET device, a GSD file is needed: it "
+                                   "begins with #Profibus_DP"));
+  EXPECT_THAT(
+      lines(parse("@TYPE 80\n[Station]\nName=ET\n", "SI8008AE.200")),
+      testing::ElementsAre("SI8008AE.200:1: is a type file of COM PROFIBUS, a GSD file is needed: it begins with "
+                           "#Profibus_DP"));
+}
+
 TEST(GsdSetPrm, EnablesDpv1WhereTheFileHasIt) {
   const bus::Gsd gsd = sample("rev3_slots");
   ASSERT_TRUE(gsd.dpv1);
