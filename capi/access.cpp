@@ -21,7 +21,7 @@ constexpr Tick kMostTime = 100 * bus::kTicksPerUs;
 /// A parallel host bus: a kind's names of the pins of HostAccess, of straps that are low for it, its default times.
 struct HostBusRow {
   const char *a, *csr, *rd, *wr, *d_in;
-  std::array<const char*, 2> straps;
+  std::array<const char*, 3> straps;  ///< SERIAL is only a VPC3+'s
   AccessTiming timing;
 };
 
@@ -35,7 +35,7 @@ constexpr AccessTiming for_xready() {
 
 constexpr std::array<HostBusRow, 2> kHostBuses = {
     {{"A", "CSR", "RD", "WR", "D_IN", {}, {}},
-     {"AB", "XCS", "XRD_R_W", "XWR_E_CLOCK", "DB_IN", {"XINT_MOT", "MODE"}, for_xready()}}};
+     {"AB", "XCS", "XRD_R_W", "XWR_E_CLOCK", "DB_IN", {"XINT_MOT", "MODE", "SERIAL"}, for_xready()}}};
 
 /// That bus at the pins of a kind.
 class HostBus {
@@ -46,7 +46,7 @@ class HostBus {
                                   [this](const HostBusRow& each) { return find(each.csr) != kNone; });
     if (row == kHostBuses.end()) capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
     for (const char* strap : row->straps)
-      if (strap != nullptr && chip.level(find(strap)) != 0)
+      if (strap != nullptr && find(strap) != kNone && chip.level(find(strap)) != 0)
         capi::fail(DPSIM_ERR_UNSUPPORTED, "the straps choose another bus than the asynchronous one of Intel");
     a_ = find(row->a);
     csr_ = find(row->csr);

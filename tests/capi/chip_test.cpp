@@ -384,9 +384,9 @@ TEST(CapiChip, ACellThatIsPokedIsSeenByPeekAndAtThePins) {
 }
 
 /// An APC3 out of RESET, which is high-active and its first pin.
-Owned<dpsim_chip> make_apc3() {
+Owned<dpsim_chip> make_apc3(const char* kind = "apc3") {
   auto options = sized<dpsim_chip_options>();
-  options.kind = "apc3";
+  options.kind = kind;
   dpsim_chip* chip = nullptr;
   ok(dpsim_chip_create(&options, &chip));
   ok(dpsim_chip_set(chip, 20 * kCycle, 0, 0));
@@ -445,6 +445,12 @@ TEST(CapiChip, AChipOfTheSpc3FamilyHasTheSameAccessesAtItsPins) {
   ok(dpsim_pin_find("apc3", "MODE", &mode));
   ok(dpsim_chip_set(chip.get(), now, mode, 1));
   EXPECT_EQ(dpsim_chip_read(chip.get(), now, 0x120, nullptr, &value, &now), DPSIM_ERR_UNSUPPORTED);
+  const auto vpc3 = make_apc3("vpc3");
+  ok(dpsim_chip_write(vpc3.get(), now, 0x120, 0x5A, nullptr, &now));
+  uint16_t serial = 0;
+  ok(dpsim_pin_find("vpc3", "SERIAL", &serial));
+  ok(dpsim_chip_set(vpc3.get(), now, serial, 1));
+  EXPECT_EQ(dpsim_chip_read(vpc3.get(), now, 0x120, nullptr, &value, &now), DPSIM_ERR_UNSUPPORTED) << "SPI (A59)";
 }
 
 TEST(CapiChip, RegistersAreOnlyCalledInTimeAndOfAKindWithoutPinsForThem) {

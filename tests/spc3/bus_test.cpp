@@ -344,6 +344,14 @@ TEST_F(IntelSync, LatchesTheAddressAndSelectsItself) {
   EXPECT_EQ(bench.twins.chip().level(Pin::kDbOut), spc3::kLevelX) << "A58";
   user.end();
   EXPECT_EQ(count(Reason::kUnknownAddress), 1);
+  // Both strobes before AB selects: reported when it does, as BUS_STROBES.
+  user.set(Pin::kAb, 0x40);
+  user.set(Pin::kXRd, 0);
+  user.set(Pin::kXWr, 0);
+  EXPECT_EQ(count(Reason::kBothStrobes), 0);
+  user.set(Pin::kAb, 0x01);
+  EXPECT_EQ(count(Reason::kBothStrobes), 1);
+  user.end();
 }
 
 }  // namespace

@@ -170,6 +170,19 @@ const Planted kPlanted[] = {
        user.pin(Pin::kXRd, 1);
      },
      "AB without levels"},
+    {"BUS_STROBES", "BothBeforeAnAddressSelects",
+     [](Script& user) {
+       user.pin(Pin::kMode, 1);
+       user.pin(Pin::kAb, 0x40);
+       user.pin(Pin::kXRd, 0);
+       user.pin(Pin::kXWr, 0);
+       user.now += 1000;
+       user.pin(Pin::kAb, 0x03);
+       user.now += 1000;
+       user.pin(Pin::kXWr, 1);
+       user.pin(Pin::kXRd, 1);
+     },
+     "at once"},
     {"BUS_STROBES", "Both",
      [](Script& user) {
        begin_access(user, Pin::kXRd);

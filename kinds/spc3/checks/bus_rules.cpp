@@ -64,6 +64,9 @@ void BusRules::began(const BusAccess& access, const spc3::BusLines& lines) {
   recorder_.value(
       Check::kBusSetup, access.began, access.began - address_moved_, [&] { return cell_text(access); });
   recorder_.kept(Check::kBusLevels, access.began, lines.address() >= 0, [&] { return cell_text(access); });
+  if (lines.bus() == spc3::Bus::kIntelSync)  // the strobes may be low before AB selects (A45)
+    recorder_.kept(Check::kBusStrobes, access.began, !lines.reads() || !lines.writes(),
+                   [] { return std::string("XRD and XWR are low at once"); });
 }
 
 void BusRules::ended(Tick at, const BusAccess& access, const spc3::BusLines& lines) {

@@ -7,6 +7,7 @@
 Needs DSDPV1_LIBRARY for the C API and Python.
 """
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -142,6 +143,44 @@ def read_at_the_pins(cell, chip):
     cell.expect("read", chip.read(0x50), 0xA5)
 
 
+def by_spi(cell):
+    """More of it: telegrams_test.py, tests/spc3/spi_test.cpp, tests/kinds/spc3/board."""
+    if cell.kind != "vpc3":
+        cell.is_refused('bus is "spi", expected intel_async', "run", "x.yaml", "--set", "chip.bus=spi")
+        return
+    spi = ("--set", "chip.bus=spi", "--set", "masters.plc.start=15ms", "--set", "end=25ms", "--set", "expect.0.by=24ms")
+    for engine in ("skip", "step"):
+        cell.passes("run", "x.yaml", "-q", *spi, "--engine", engine, "--log", f"spi_{engine}.log", "--trace", f"spi_{engine}.trace", "--wave", f"{engine}.vcd")
+    cell.expect("SPI: logs", cell.read("spi_step.log"), cell.read("spi_skip.log"))
+    cell.expect("SPI: traces", cell.read("spi_step.trace"), cell.read("spi_skip.trace"))
+    cell.expect("SPI: frames in the log", "  13 00 04" in cell.read("spi_skip.log").decode(), True)
+    cell.expect("SPI: signals in the wave", [name for name in ("XSS", "SCK", "MISO", "spi_request", "spi_reply") if f" {name} " not in cell.read("skip.vcd").decode()], [])
+    cell.passes("run", "x.yaml", "-q", *spi, "--save-at", "8ms", "spi.run")
+    cell.passes("run", "--restore", "spi.run", "-q")
+
+
+def pins_of(cell):
+    """As the library lists them, for cocotb and simulators; CLKOUT2/4 has no edges (A43)."""
+    import dsdpv1  # pylint: disable=import-outside-toplevel  # the table needs none
+    return [pin.name for pin in dsdpv1.kind_of(cell.kind).pins]
+
+
+def simulators(cell):
+    """The modules have a port for each pin. What they do: tests/cocotb/test_spc3.py, tests/bindings_sv/simulator_test.cpp."""
+    folder = pathlib.Path(os.environ["DSDPV1_LIBRARY"]).resolve().parents[1] / "bindings/systemverilog"
+    for module in ("model", "scoreboard"):
+        text = (folder / f"{cell.kind}_{module}.sv").read_text(encoding="utf-8")
+        missing = [pin for pin in pins_of(cell) if not re.search(rf"\b{pin.lower().removesuffix('_in').removesuffix('_out')}_[io]\b", text)]
+        cell.expect(f"{module}: pins without a port", missing, [])
+
+
+def systemc_pins(cell):
+    """What they do: tests/systemc/spc3_pins_test.cpp."""
+    header = (ROOT / "model/systemc/spc3_pins.hpp").read_text(encoding="utf-8")
+    missing = [pin for pin in pins_of(cell) if pin != "CLKOUT2_4" and f'{{"{re.sub("^DB_.*", "DB", pin)}"}}' not in header]
+    cell.expect("pins without a port", missing, [])
+
+
 def systemc(cell):
     cell.is_refused("a user CPU moves their pins, expected --view pins", "run", "x.yaml", "--view", "tlm")
 
@@ -228,11 +267,14 @@ ROWS = [  # what, how, the function
     ("`serve`", "yes", serve),
     ("`compare`, `decode`, `gsd`", "yes: about lines and files", without_chip),
     ("C API, Python", "scenarios; a chip with its pins, `read`, `write`, `load`, `store`, `peek`, `poke`", c_api_and_python),
+    ("SPI", "`vpc3`: [yes](spc3.md#a59), in all of the above; the C API's `read` and `write` are refused; `apc3`, `spc3`: refused", by_spi),
+    ("cocotb, SystemVerilog, VPI", "[their pins](systemverilog.md#the-other-chips)", simulators),
+    ("SystemC module of the pins", "[yes](systemc.md#spc3pinmodule)", systemc_pins),
     ("`--view tlm`", "refused: its user CPU has no pins there; the [SystemC module](systemc.md#spc3tlmmodule) has no scenario", systemc),
     ("`--engine rtl`, `lockstep`", "refused: no reference RTL", reference_rtl),
     ("`cosim --rtl`, `traces check --rtl`", "[RTL of yours](cosim.md#rtl-of-the-spc3-family), by its pins", own_rtl),
     ("`rtl-random`, `rtl-faults`, `verify-rtl`", "refused: no random users", random_rtl),
-    ("ARM board, `--gdb`", "[yes](arm_board.md#a-chip-of-the-spc3-family), on the asynchronous Intel bus", board),
+    ("ARM board, `--gdb`", "[yes](arm_board.md#a-chip-of-the-spc3-family), on the asynchronous Intel bus, or at SPI", board),
     ("host process", "refused: `user_cpu` has not this `kind`", process),
     ("`accept`", "refused: its stimuli are for firmware of a DSDPV1", accept),
     ("`calibrate`", "refused: the pins are not those of a DSDPV1", calibrate),
