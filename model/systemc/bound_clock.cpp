@@ -39,12 +39,13 @@ std::optional<double> BoundClock::take_wrong_frequency() {
 }
 
 void BoundClock::close_window(const sc_core::sc_time& now) {
-  if (cycle_ > 0 && !reported_) {
+  if (cycle_ > 0 && !reported_ && measures_) {
     const double mhz = static_cast<double>(kWindow) / ((now - window_start_).to_seconds() * 1e6);
     reported_ = std::fabs(mhz / kNominalMhz - 1.0) * 1e6 > tolerance_ppm_;
     if (reported_) wrong_mhz_ = mhz;
   }
   window_start_ = now;
+  measures_ = true;
 }
 
 }  // namespace dsdpv1::systemc

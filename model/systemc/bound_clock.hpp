@@ -4,7 +4,7 @@
 #include <optional>
 #include <systemc>
 
-#include "model/profibus/time.hpp"
+#include "model/systemc/sim_time.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -28,8 +28,24 @@ class BoundClock {
   /// The frequency in MHz, if the window closed by the last rising edge is the first one outside the tolerance.
   std::optional<double> take_wrong_frequency();
 
+  /// At `now`, of the save or of the restore.
+  template <class Archive>
+  void store(Archive& archive, const sc_core::sc_time& now) {
+    archive(cycle_, high_, reported_, measures_);
+    store_age(archive, now, edge_);
+    measures_ = store_age(archive, now, window_start_) && measures_;
+  }
+
  private:
   void close_window(const sc_core::sc_time& now);
+  /// False: it was before time 0 of this simulation.
+  template <class Archive>
+  static bool store_age(Archive& archive, const sc_core::sc_time& now, sc_core::sc_time& time) {
+    sc_core::sc_time age = now - time;
+    store_duration(archive, age);
+    time = age > now ? sc_core::SC_ZERO_TIME : now - age;
+    return age <= now;
+  }
 
   double tolerance_ppm_;
   std::int64_t cycle_ = -1;
@@ -37,6 +53,7 @@ class BoundClock {
   sc_core::sc_time edge_{sc_core::SC_ZERO_TIME}, window_start_{sc_core::SC_ZERO_TIME};
   std::optional<double> wrong_mhz_;
   bool reported_ = false;
+  bool measures_ = true;  ///< window_start_ is known
 };
 
 }  // namespace dsdpv1::systemc

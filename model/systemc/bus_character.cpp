@@ -1,5 +1,6 @@
 #include "model/systemc/bus_character.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "model/systemc/core_module.hpp"
@@ -13,9 +14,9 @@ std::ostream& operator<<(std::ostream& out, const BusCharacter& character) {
   return out << (character.parity_ok ? "" : " parity error") << (character.stop_ok ? "" : " framing error");
 }
 
-BusCharacter on_bus(const LineCharacter& character, Tick phase) {
-  return {to_time(character.start + phase), to_time(character.bit), character.data, character.parity_ok,
-          character.stop_ok};
+BusCharacter on_bus(const LineCharacter& character, Tick zero) {
+  return {to_time(std::max<Tick>(character.start + zero, 0)), to_time(character.bit), character.data,
+          character.parity_ok, character.stop_ok};
 }
 
 bool CharacterInput::is_sendable(const BusCharacter& character) const {

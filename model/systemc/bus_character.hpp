@@ -27,8 +27,9 @@ inline bool is_break(const BusCharacter& character) {
   return character.data == 0 && character.parity_ok && !character.stop_ok;
 }
 
-/// A character of a chip with this phase, as its port `bus_out` carries it.
-BusCharacter on_bus(const LineCharacter& character, Tick phase);
+/// A character of a chip whose tick 0 is at simulation tick `zero`, as its port `bus_out` carries it; not before time
+/// 0.
+BusCharacter on_bus(const LineCharacter& character, Tick zero);
 
 /// The bit time at which a chip sends. Without a baud rate it does not send; an edge then comes from RESET cutting a
 /// character.
@@ -66,6 +67,12 @@ class CharacterInput {
   void put(const BusCharacter& character);
   /// The tick nearest to the start of a bit, or of the position after the last bit.
   Tick tick_of_bit(const BusCharacter& character, unsigned int bit) const;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    archive(edges);
+    archive.ticks(busy_until);
+  }
 
  private:
   const TimedModule& module_;

@@ -23,7 +23,23 @@ struct LineCharacter {
   bool parity_ok = true;  ///< even parity
   bool stop_ok = true;    ///< the stop bit is high
   Tick end() const { return start + profibus::kBitsPerCharacter * bit; }
+
+  template <class Archive>
+  void store(Archive& archive) {
+    archive.ticks(start, bit);
+    archive(data, parity_ok, stop_ok);
+  }
 };
+
+/// The elements of a list in a module's state.
+template <class Archive, class List>
+void store_list(Archive& archive, List& list) {
+  constexpr std::uint32_t kMost = 1U << 24;
+  auto size = static_cast<std::uint32_t>(list.size());
+  archive.within(0U, kMost, size);
+  list.resize(size);
+  for (auto& element : list) archive(element);
+}
 
 /// The eleven levels of a character, start bit in bit 0.
 std::uint16_t frame_of(std::uint8_t data, bool parity_ok, bool stop_ok);
@@ -31,6 +47,12 @@ std::uint16_t frame_of(std::uint8_t data, bool parity_ok, bool stop_ok);
 struct Edge {
   Tick at;
   bool level;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    archive.ticks(at);
+    archive(level);
+  }
 };
 
 /// Valid characters without a gap between them.
@@ -46,6 +68,12 @@ struct LineRun {
   profibus::CharacterRun told() const {
     return {start, bit / profibus::kTicksPerCycle, bytes.data(), static_cast<int>(bytes.size())};
   }
+
+  template <class Archive>
+  void store(Archive& archive) {
+    archive.ticks(start, bit);
+    store_list(archive, bytes);
+  }
 };
 
 /// The changes of a line that carries characters, in order of time. The line idles high.
@@ -58,6 +86,11 @@ class EdgeQueue {
   /// Tick of the earliest change, kNever without one.
   Tick next() const { return edges_.empty() ? profibus::kNever : edges_.front().at; }
   Edge take();
+
+  template <class Archive>
+  void store(Archive& archive) {
+    store_list(archive, edges_);
+  }
 
  private:
   std::deque<Edge> edges_;
@@ -72,6 +105,12 @@ class CharacterCollector {
   Tick next() const { return running_ ? character_.end() : profibus::kNever; }
   /// The character that is complete at `now`, once.
   std::optional<LineCharacter> take(Tick now);
+
+  template <class Archive>
+  void store(Archive& archive) {
+    archive(character_, running_, level_, frame_);
+    archive.within(0, profibus::kBitsPerCharacter, sampled_);
+  }
 
  private:
   void sample_until(Tick now);

@@ -1,8 +1,29 @@
 #include "model/systemc/core_module.hpp"
 
-namespace dsdpv1::systemc {
+#include <array>
 
-TimedModule::TimedModule(const sc_core::sc_module_name& name, Tick phase) : sc_core::sc_module(name), phase_(phase) {
+#include "model/systemc/character_line.hpp"
+
+namespace dsdpv1::systemc {
+namespace {
+
+/// Increment when the content or meaning of a module's stored state changes.
+constexpr profibus::StateFrame kFrame = {0x4353'3156'5044'5344, 1};  // "DSDPV1SC"
+
+using Title = std::array<std::uint8_t, 24>;
+
+Title bytes_of(const char* text) {
+  Title title{};
+  for (std::size_t i = 0; i < title.size() && text[i] != 0; ++i) title[i] = static_cast<std::uint8_t>(text[i]);
+  return title;
+}
+
+std::string text_of(const Title& title) { return {title.begin(), std::find(title.begin(), title.end(), 0)}; }
+
+}  // namespace
+
+TimedModule::TimedModule(const sc_core::sc_module_name& name, Tick phase)
+    : sc_core::sc_module(name), phase_(phase), zero_(phase) {
   require_resolution();
   if (phase < 0 || phase >= profibus::kTicksPerCycle) {
     const std::string text = "phase is " + std::to_string(phase) + " ticks, expected 0 to 249";
@@ -28,8 +49,46 @@ void TimedModule::schedule(Tick now, Tick due) {
   const Tick at = std::min(std::max(due, now + 1), now + kFarthest);
   if (scheduled_ > now && scheduled_ <= at) return;
   scheduled_ = at;
-  scheduled_at_ = to_time(at + phase_);
+  scheduled_at_ = to_time(at + zero_);
   due_.notify(scheduled_at_ - sc_core::sc_time_stamp());
+}
+
+// ------------------------------------------------------------------------------------------------- save and restore
+
+std::vector<std::uint8_t> TimedModule::save() {
+  if (in_core_) refuse_to_save("the chip is running");
+  if (is_busy()) refuse_to_save("an access is in progress");
+  settle();
+  profibus::StateWriter writer;
+  profibus::begin_frame(writer, kFrame);
+  Title its_title = bytes_of(title());
+  std::vector<std::uint8_t> core = save_core();
+  writer(its_title);
+  store_list(writer, core);
+  store_module(writer);
+  return profibus::end_frame(writer.take());
+}
+
+void TimedModule::restore(const std::vector<std::uint8_t>& state) {
+  if (!sc_core::sc_start_of_simulation_invoked())
+    throw profibus::StateError(std::string(name()) + ": restore after the simulation has started: sc_start(0) will do");
+  if (is_busy()) throw profibus::StateError(std::string(name()) + ": not restored, because an access is in progress");
+  profibus::StateReader reader = profibus::open_frame(state.data(), state.size(), kFrame);
+  Title saved{};
+  std::vector<std::uint8_t> core;
+  reader(saved);
+  profibus::check_title(text_of(saved), title());
+  store_list(reader, core);
+  restore_core(core);
+  zero_ = current_tick() - core_now();
+  store_module(reader);
+  profibus::check_frame(reader);
+  unschedule();
+  schedule_now();
+}
+
+void TimedModule::refuse_to_save(const std::string& why) const {
+  throw profibus::StateError(std::string(name()) + ": not saved, because " + why);
 }
 
 void TimedModule::unschedule() {

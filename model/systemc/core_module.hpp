@@ -11,6 +11,7 @@
 
 #include "model/profibus/character_run.hpp"
 #include "model/profibus/event.hpp"
+#include "model/profibus/state_frame.hpp"
 #include "model/systemc/sim_time.hpp"
 
 namespace dsdpv1::systemc {
@@ -25,10 +26,48 @@ class TimedModule : public sc_core::sc_module {
  public:
   Tick phase() const { return phase_; }
   /// The chip's tick at simulation tick `tick`; 0 until the first rising edge.
-  Tick chip_tick(Tick tick) const { return tick > phase_ ? tick - phase_ : 0; }
+  Tick chip_tick(Tick tick) const { return tick > zero_ ? tick - zero_ : 0; }
+  /// The simulation tick of the chip's tick 0: phase(), unless restore() has moved it.
+  Tick zero() const { return zero_; }
+
+  /// The module at the present time, for restore() in this or another simulation: the chip, and characters on the line.
+  /// Not from `on_pin` and `on_event`. Throws profibus::StateError, and nothing has changed, in the middle of an
+  /// access.
+  std::vector<std::uint8_t> save();
+  /// Continues at the present time, with the same kind of module, part and parameters, as at the save: pins, events and
+  /// characters come at the same ticks of the chip (chip_tick()). Signals of inputs have to have the levels of the
+  /// save, or change now. After the simulation has started. Throws profibus::StateError, and nothing has changed, if
+  /// it is another state.
+  void restore(const std::vector<std::uint8_t>& state);
 
  protected:
   TimedModule(const sc_core::sc_module_name& name, Tick phase);
+
+  /// A transaction has the bus.
+  static bool is_taken(sc_core::sc_mutex& bus) { return bus.trylock() != 0 || bus.unlock() != 0; }
+
+  // For save() and restore().
+  /// The kind of module; up to 24 characters.
+  virtual const char* title() const = 0;
+  /// An access is in progress.
+  virtual bool is_busy() { return false; }
+  /// Brings module and core to the present time, and to a state that the module stores.
+  virtual void settle() = 0;
+  [[noreturn]] void refuse_to_save(const std::string& why) const;
+  /// The state of the core, and back; throws StateError.
+  virtual std::vector<std::uint8_t> save_core() const = 0;
+  virtual void restore_core(const std::vector<std::uint8_t>& state) = 0;
+  virtual Tick core_now() const = 0;
+  /// The module's state besides the core, also at another time of the kernel.
+  virtual void store_module(profibus::StateWriter& archive) = 0;
+  virtual void store_module(profibus::StateReader& archive) = 0;
+  /// Simulation ticks in a state.
+  template <class Archive>
+  void store_time(Archive& archive, Tick& tick) const {
+    Tick later = tick - current_tick();
+    archive(later);
+    tick = current_tick() + later;
+  }
 
   /// The chip's tick at the present time, or `core`, that of its core, if it is ahead of simulation time.
   Tick at_least(Tick core) const {
@@ -103,7 +142,7 @@ class TimedModule : public sc_core::sc_module {
     bool& flag_;
   };
 
-  Tick phase_;
+  Tick phase_, zero_;
   Tick scheduled_ = 0;                                      ///< of the chip; up to now: no notification is pending
   sc_core::sc_time scheduled_at_ = sc_core::sc_max_time();  ///< the same
   struct Wire {
@@ -156,6 +195,8 @@ class CoreModule : public TimedModule {
         pins);
   }
   void begin_pins(std::uint32_t outputs, int pins) {
+    outputs_ = outputs;
+    pins_ = pins;
     std::uint32_t high = 0;
     for (int pin = 0; pin < pins; ++pin)
       if (chip_.level(static_cast<Pin>(pin)) == 1) high |= mask(static_cast<Pin>(pin));
@@ -174,6 +215,12 @@ class CoreModule : public TimedModule {
   void advance(Tick to) {
     in_core([&] { chip_.advance(to); });
   }
+  std::vector<std::uint8_t> save_core() const override { return chip_.save(); }
+  void restore_core(const std::vector<std::uint8_t>& state) override {
+    chip_.restore(state.data(), state.size());
+    begin_pins(outputs_, pins_);
+  }
+  Tick core_now() const override { return chip_.now(); }
   Tick chip_now() const { return at_least(chip_.now()); }
 
   // Telegrams as a whole; see the chip's functions of these names.
@@ -218,6 +265,8 @@ class CoreModule : public TimedModule {
 
   bool report_violations_;
   std::uint32_t told_ = ~std::uint32_t{0};
+  std::uint32_t outputs_ = 0;
+  int pins_ = 0;
   std::uint32_t asked_ = 0;  ///< outputs for which output_changed() is called
 };
 

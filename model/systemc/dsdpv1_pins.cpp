@@ -10,7 +10,7 @@ PinModule::PinModule(const sc_core::sc_module_name& name, const PinOptions& opti
   watch(outputs_of(part()), 0);
   SC_HAS_PROCESS(PinModule);
   SC_METHOD(evaluate);
-  sensitive << due_ << CLK << RESET << R_REQ << R_STA << CSR << RD << WR << A << D << PBRXD;
+  sensitive << due_ << soon_ << CLK << RESET << R_REQ << R_STA << CSR << RD << WR << A << D << PBRXD;
 }
 
 void PinModule::end_of_elaboration() {

@@ -39,6 +39,7 @@ class PinModule : public PinsOf<ChipModule> {
   void begin_inputs() override;
   void apply_inputs(Tick at, bool first) override;
   void drive_pins(std::uint32_t pins) override;
+  const char* title() const override { return has_clock() ? "PinModule with CLK" : "PinModule"; }
 
  private:
   void apply_host(Tick at);

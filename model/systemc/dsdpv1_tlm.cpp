@@ -16,7 +16,8 @@ TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& opti
   serve(host_socket);
   serve(host_socket_64);
   serve(host_socket_8);
-  tell_only(observed_ | ~kHostPins);  // an access ahead of simulation time moves none of them
+  // Accesses ahead of simulation time, runs, bound ports and bus_out do not make other pins observed.
+  tell_only(observed_ | ~(kHostPins | mask(Pin::kPbrxd) | kRsuOutputPins));
   bus_in.bind(*this);
   SC_HAS_PROCESS(TlmModule);
   SC_METHOD(evaluate);
@@ -131,9 +132,7 @@ bool TlmModule::carry_out_alone(Tick begin, Tick end, const HostAccess& access, 
 }
 
 bool TlmModule::is_private(Tick begin) {
-  if (hears_host() || !R_REQ.read() || !R_STA.read() || begin < earliest() || host_bus_.trylock() != 0) return false;
-  host_bus_.unlock();
-  return true;
+  return !hears_host() && R_REQ.read() && R_STA.read() && begin >= earliest() && !is_taken(host_bus_);
 }
 
 Tick TlmModule::earliest() const {
@@ -218,6 +217,38 @@ void TlmModule::wait_until(Tick tick) {
 }
 
 unsigned int TlmModule::transport_dbg(Payload& payload) { return transport_debug(*this, payload, kDpramSize); }
+
+// --------------------------------------------------------------------------------------------------- save and restore
+
+/// Runs become changes, so they need not be stored.
+void TlmModule::settle() {
+  sync();
+  const Tick now = chip_now();
+  if (now > chip_tick(current_tick())) refuse_to_save("it is ahead of simulation time");
+  if (on_txd || on_rts || on_answer || (in_run(now) && !run_is_own_)) refuse_to_save("a segment has its line");
+  if (in_run(now)) stop_run(now);
+  if (!answer_.bytes.empty() && now < answer_.end()) show_txd();
+  plan();
+}
+
+template <class Archive>
+void TlmModule::store(Archive& archive) {
+  archive(applied_, late_reported_, characters_level_, line_, from_chip_);
+  archive.ticks(run_end_);
+  store_list(archive, runs_);
+  store_time(archive, host_free_at_);
+}
+
+void TlmModule::store_module(profibus::StateWriter& archive) { store(archive); }
+
+void TlmModule::store_module(profibus::StateReader& archive) {
+  store(archive);
+  run_is_own_ = false;
+  answer_ = {};
+  answered_ = 0;
+  if (dmi_given_) end_dmi();
+  others_changed();
+}
 
 // ------------------------------------------------------------------------------------------------------ pins and core
 

@@ -137,6 +137,11 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   /// simulation time.
   Tick earliest() const;
   bool output_changed(Tick at, Pin pin, Level level) override;
+  const char* title() const override { return "TlmModule"; }
+  bool is_busy() override { return is_taken(host_bus_); }
+  void settle() override;
+  void store_module(profibus::StateWriter& archive) override;
+  void store_module(profibus::StateReader& archive) override;
   /// A value used by plan() has changed while the core was running.
   void others_changed() { others_ = arrivals_ = 0; }
   /// `on_pin` receives the pin.
@@ -163,6 +168,8 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   /// The chip's tick of its next edge or report.
   virtual Tick next_of_host() const { return profibus::kNever; }
 
+  template <class Archive>
+  void store(Archive& archive);
   void write(const BusCharacter& character) override;  // bus_in
   void b_transport(Payload& payload, sc_core::sc_time& delay);
 

@@ -160,7 +160,7 @@ void TlmModule::tell_characters(Tick now) {
   collect_character(now);
   if (complete_.empty()) return;
   while (emitted_ < complete_.size())  // a listener may call back and continue here
-    bus_out.write(on_bus(complete_[emitted_++], phase()));
+    bus_out.write(on_bus(complete_[emitted_++], zero()));
   complete_.clear();
   emitted_ = 0;
 }
@@ -179,7 +179,7 @@ void TlmModule::offer_answer() {
   const profibus::CharacterRun run = hide_core_txd();
   if (on_answer && !on_answer(run)) {
     show_core_txd(run.start);
-    if (on_pin) on_pin(run.start, Pin::kPbtxd, 0);
+    if (on_pin && hears(Pin::kPbtxd)) on_pin(run.start, Pin::kPbtxd, 0);
     txd_changed(run.start, false);
     if (on_txd) on_txd(run.start, false);
     return;

@@ -26,7 +26,7 @@ bool TlmModule::wait_for_hold(std::uint16_t address) {
   const Tick until = current_tick() + hold_within_;
   for (; !holds() && current_tick() < until; catch_up()) {
     const bool asked = R_REQ.read() && R_STA.read();
-    const Tick next = phase() + std::max(chip().next_event(), chip().now() + profibus::kTicksPerCycle);
+    const Tick next = zero() + std::max(chip().next_event(), chip().now() + profibus::kTicksPerCycle);
     plan();
     wait(time_until(asked ? std::min(next, until) : until),
          RESET.value_changed_event() | R_REQ.value_changed_event() | R_STA.value_changed_event());
@@ -93,7 +93,7 @@ sc_core::sc_time TlmModule::ahead_until() {
 sc_core::sc_time TlmModule::next_action() {
   sync();
   const Tick next = std::min({chip().next_seen(), next_of_line(), next_of_host(), from_chip_.next(), next_answered()});
-  return next == profibus::kNever ? sc_core::sc_max_time() : to_time(next + phase());
+  return next == profibus::kNever ? sc_core::sc_max_time() : to_time(next + zero());
 }
 
 }  // namespace dsdpv1::systemc

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 
+#include "model/profibus/state_frame.hpp"
+
 namespace dsdpv1::systemc {
 namespace {
+
+constexpr profibus::StateFrame kRegistersFrame = {0x5248'3156'5044'5344, 1};  // "DSDPV1HR"
 
 constexpr std::uint8_t bit(bool level, std::uint8_t mask) { return level ? mask : std::uint8_t{0}; }
 
@@ -77,6 +81,20 @@ void HostRegisters::write(sc_dt::uint64 offset, std::uint8_t value) {
     case kReset: reset_ = value & 1U; break;
     default: return;
   }
+  written_.notify();
+}
+
+std::vector<std::uint8_t> HostRegisters::save() {
+  profibus::StateWriter writer;
+  profibus::begin_frame(writer, kRegistersFrame);
+  store(writer);
+  return profibus::end_frame(writer.take());
+}
+
+void HostRegisters::restore(const std::vector<std::uint8_t>& state) {
+  profibus::StateReader reader = profibus::open_frame(state.data(), state.size(), kRegistersFrame);
+  store(reader);
+  profibus::check_frame(reader);
   written_.notify();
 }
 

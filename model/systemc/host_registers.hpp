@@ -10,9 +10,9 @@
 #include <tlm.h>
 #include <tlm_utils/simple_target_socket.h>
 
-#include <array>
 #include <cstdint>
 #include <systemc>
+#include <vector>
 
 #include "model/systemc/sim_time.hpp"
 #include "model/systemc/transaction.hpp"
@@ -62,9 +62,17 @@ class HostRegisters : public sc_core::sc_module {
     chip.L_REQ(L_REQ), chip.L_STA(L_STA), chip.INTR0(INTR0);
   }
 
+  /// As TimedModule::save() and restore(); the signals follow in the next delta cycle.
+  std::vector<std::uint8_t> save();
+  void restore(const std::vector<std::uint8_t>& state);
+
  private:
   using Payload = tlm::tlm_generic_payload;
 
+  template <class Archive>
+  void store(Archive& archive) {
+    archive(request_, reset_, interrupt_);
+  }
   template <class Socket>
   void serve(Socket& target);
   void b_transport(Payload& payload, sc_core::sc_time& delay);

@@ -44,7 +44,7 @@ class PinsOf : public Base {
       begin();
       return;
     }
-    const Tick now = clock_ ? clock_->chip_tick(sc_core::sc_time_stamp()) : this->chip_now();
+    const Tick now = this->now();
     this->advance(now);
     apply_inputs(now, !std::exchange(applied_, true));
     drive_pins(this->take_changed());
@@ -59,7 +59,21 @@ class PinsOf : public Base {
   virtual void apply_inputs(Tick at, bool first) = 0;
   virtual void drive_pins(std::uint32_t pins) = 0;
 
+  // For save() and restore(). The pins have all that the core needs, so it may be in the middle of an access.
+  void settle() override { this->advance(now()); }
+  void store_module(profibus::StateWriter& archive) override {
+    if (clock_) clock_->store(archive, sc_core::sc_time_stamp());
+  }
+  void store_module(profibus::StateReader& archive) override {
+    if (clock_) clock_->store(archive, sc_core::sc_time_stamp());
+    begin_inputs();
+    applied_ = false;
+  }
+  bool has_clock() const { return clock_ != nullptr; }
+
  private:
+  Tick now() const { return clock_ ? clock_->chip_tick(sc_core::sc_time_stamp()) : this->chip_now(); }
+
   /// CLK is bound, the chip is at `now`: plans events between two edges of CLK.
   virtual void plan_between_edges(Tick /*now*/) {}
 

@@ -33,6 +33,7 @@ class RsuPinModule : public PinModule {
   void apply_inputs(Tick at, bool first) override;
   void drive_pins(std::uint32_t pins) override;
   void plan_between_edges(Tick now) override;
+  const char* title() const override { return has_clock() ? "RsuPinModule with CLK" : "RsuPinModule"; }
 
   sc_core::sc_event between_edges_{"between_edges"};
 };

@@ -211,13 +211,39 @@ void RsuTlmModule::send(const BusCharacter& character) {
   begins_.erase(begins_.begin(), std::upper_bound(begins_.begin(), begins_.end(), now));
   begins_.push_back(begin);
   uart_idle_.cancel();
-  uart_idle_.notify(time_until(to_uart_end_ + phase()));
+  uart_idle_.notify(time_until(to_uart_end_ + zero()));
   catch_up();
   plan();
 }
 
 std::size_t RsuTlmModule::uart_waiting() const {
   return static_cast<std::size_t>(begins_.end() - std::upper_bound(begins_.begin(), begins_.end(), chip_now()));
+}
+
+// ------------------------------------------------------------------------------------------------- save and restore
+
+/// Transactions are over.
+template <class Archive>
+void RsuTlmModule::store(Archive& archive) {
+  archive(from_uart_, select_, by_line_, to_uart_, rxd_lane_, rxd_character_, series_.bits);
+  archive.ticks(to_uart_end_, series_.begin);
+  store_list(archive, begins_);
+  store_duration(archive, series_.bit);
+  store_time(archive, spi_free_at_);
+}
+
+void RsuTlmModule::store_module(profibus::StateWriter& archive) {
+  TlmModule::store_module(archive);
+  store(archive);
+}
+
+void RsuTlmModule::store_module(profibus::StateReader& archive) {
+  TlmModule::store_module(archive);
+  store(archive);
+  spi_ = {};
+  uart_ = {};
+  uart_idle_.cancel();
+  if (to_uart_end_ > chip_now()) uart_idle_.notify(time_until(to_uart_end_ + zero()));
 }
 
 // ------------------------------------------------------------------------------------------------- chip to host
@@ -241,7 +267,7 @@ void RsuTlmModule::tell_host(Tick now) {
     const LineCharacter character = received_.front();
     received_.pop_front();
     if (character.parity_ok && character.stop_ok) uart_out.write(character.data);
-    uart_characters.write(on_bus(character, phase()));
+    uart_characters.write(on_bus(character, zero()));
   }
 }
 

@@ -93,6 +93,12 @@ class RsuTlmModule : public TlmModule {
   };
 
   void check_binding() override;
+  const char* title() const override { return "RsuTlmModule"; }
+  bool is_busy() override { return TlmModule::is_busy() || is_taken(spi_bus_) || is_taken(uart_bus_); }
+  template <class Archive>
+  void store(Archive& archive);
+  void store_module(profibus::StateWriter& archive) override;
+  void store_module(profibus::StateReader& archive) override;
   std::uint32_t heard_outputs() const override {
     return uart_out.bound() || uart_characters.bound() ? mask(Pin::kTxd) : 0;
   }

@@ -3,6 +3,7 @@
 // starts from the absolute tick count and rounds once, so nothing drifts: the time of a tick is off by at most a third
 // of the resolution, 333 fs at 1 ps. Neighbouring ticks are 83 ps apart, so a tick converted to time and back is the
 // same tick.
+#include <cstdint>
 #include <systemc>
 
 #include "model/profibus/time.hpp"
@@ -24,6 +25,15 @@ Tick current_tick();
 
 /// From the present simulation time to that of `tick`, zero if it has passed.
 sc_core::sc_time time_until(Tick tick);
+
+/// A length of time in a state, in femtoseconds: resolutions may differ.
+template <class Archive>
+void store_duration(Archive& archive, sc_core::sc_time& duration) {
+  const double unit = sc_core::sc_get_time_resolution().to_seconds() * 1e15;  // 1, 10, 100, 1000
+  auto femtoseconds = static_cast<std::int64_t>(static_cast<double>(duration.value()) * unit);
+  archive(femtoseconds);
+  duration = sc_core::sc_time::from_value(static_cast<sc_dt::uint64>(static_cast<double>(femtoseconds) / unit));
+}
 
 /// Apart from the calling process the kernel is idle before this tick: no process to run, no signal to update, no event
 /// to notify.

@@ -27,7 +27,7 @@ Spc3PinModule::Spc3PinModule(const sc_core::sc_module_name& name, const Spc3PinO
   watch(spc3::kOutputPins, 0);
   SC_HAS_PROCESS(Spc3PinModule);
   SC_METHOD(evaluate);
-  sensitive << due_ << CLK << AB << DB;
+  sensitive << due_ << soon_ << CLK << AB << DB;
   for (const auto& [pin, port] : inputs_) sensitive << *port;
   for (const auto& [pin, port] : optional_inputs_) sensitive << *port;
 }

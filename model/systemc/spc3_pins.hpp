@@ -54,6 +54,7 @@ class Spc3PinModule : public PinsOf<Spc3Module> {
   void begin_inputs() override;
   void apply_inputs(Tick at, bool first) override;
   void drive_pins(std::uint32_t pins) override;
+  const char* title() const override { return has_clock() ? "Spc3PinModule with CLK" : "Spc3PinModule"; }
 
   /// Inputs of one wire, in the order of the table.
   const std::array<std::pair<spc3::Pin, In<bool>*>, 12> inputs_;

@@ -72,8 +72,7 @@ unsigned int Spc3TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& 
 /// reports nothing; the core has then passed it.
 bool Spc3TlmModule::is_unseen(Tick end) {
   const Tick at = chip_tick(end);
-  if (at < chip().now() || has_changed(bound_) || !driven_.empty() || host_bus_.trylock() != 0) return false;
-  host_bus_.unlock();
+  if (at < chip().now() || has_changed(bound_) || !driven_.empty() || is_busy()) return false;
   unschedule();  // the kernel is asked about others
   bool unseen = kernel_quiet_until() > end && std::min(line_.edges.next(), from_chip_.next()) > at;
   if (unseen && chip().next_event() == taken_ && taken_ <= at) {
@@ -84,6 +83,12 @@ bool Spc3TlmModule::is_unseen(Tick end) {
   unseen = unseen && chip().next_event() > at;
   if (!unseen) plan();
   return unseen;
+}
+
+void Spc3TlmModule::settle() {
+  sync();
+  if (chip().now() > chip_tick(current_tick())) refuse_to_save("it is ahead of simulation time");
+  if (on_txd || on_rts || on_answer || in_run(chip_now())) refuse_to_save("a segment has its line");
 }
 
 void Spc3TlmModule::carry_out(Payload& payload, unsigned int first) {
@@ -256,7 +261,7 @@ void Spc3TlmModule::tell_characters(Tick now) {
   while (!complete_.empty()) {  // a listener may call back and continue here
     const LineCharacter character = complete_.front();
     complete_.pop_front();
-    bus_out.write(on_bus(character, phase()));
+    bus_out.write(on_bus(character, zero()));
   }
 }
 

@@ -108,6 +108,16 @@ class Spc3TlmModule : public Spc3Module, public LineStation, private tlm::tlm_an
   Tick next_driven() const { return driven_.empty() ? profibus::kNever : driven_.front().at; }
   bool output_changed(Tick at, spc3::Pin pin, spc3::Level level) override;
   void heard(const profibus::Event& event) override;
+  const char* title() const override { return "Spc3TlmModule"; }
+  bool is_busy() override { return is_taken(host_bus_); }
+  void settle() override;
+  template <class Archive>
+  void store(Archive& archive) {
+    archive(characters_level_, line_, from_chip_);
+    archive.ticks(taken_);
+  }
+  void store_module(profibus::StateWriter& archive) override { store(archive); }
+  void store_module(profibus::StateReader& archive) override { store(archive); }
   void tell_characters(Tick now);
 
   sc_dt::uint64 size_;  ///< addresses

@@ -32,6 +32,12 @@ class SpiSelect {
   Tick next() const { return edges_.next(); }
   Edge take() { return edges_.take(); }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    archive(level_, edges_);
+    archive.ticks(moved_, clocks_end_);
+  }
+
  private:
   SpiTiming timing_;
   bool level_ = true;

@@ -195,6 +195,30 @@ TEST(HostRegisters, AFallOfIntr0IsKeptUntilItIsCleared) {
   EXPECT_EQ(told, "00 11 11 00 ");
 }
 
+TEST(HostRegisters, AreSavedAndRestored) {
+  const std::string told = in_a_process_of_its_own([] {
+    HostRegisters one("one"), other("other");
+    std::string seen;
+    ForeignCpu<> cpu("cpu", [&](ForeignCpu<>& self) {
+      self.pass(3 * kUs);
+      self.write(HostRegisters::kRequest, 2);
+      self.write(HostRegisters::kReset, 1);
+      other.restore(one.save());
+      self.pass(kUs);
+      for (const auto* wire : {&other.R_REQ, &other.R_STA, &other.RESET, &other.IRQ})
+        seen += std::to_string(wire->read());
+    });
+    cpu.socket.bind(one.socket);
+    thread([&] {
+      wait_until(kUs);
+      one.INTR0.write(false);
+    });
+    sc_core::sc_start(10, sc_core::SC_US);
+    return seen;
+  });
+  EXPECT_EQ(told, "0111");
+}
+
 TEST(HostRegisters, ADebuggerReadsAndWritesWithoutTime) {
   run(
       0, options(),

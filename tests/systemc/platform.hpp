@@ -170,21 +170,24 @@ class Station : tlm::tlm_analysis_if<BusCharacter> {
 };
 
 struct Platform {
+  static constexpr std::uint32_t kUnobservedAccesses = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);
+
   User user;
-  dsdpv1::systemc::TlmModule chip{"chip", options()};
+  dsdpv1::systemc::TlmModule chip;
   DriverCpu cpu{"cpu", [this](DriverCpu& itself) { user.run(itself); }};
   sc_core::sc_signal<bool> reset{"reset"}, r_req{"r_req"}, r_sta{"r_sta"}, l_req{"l_req"}, l_sta{"l_sta"},
       intr0{"intr0"};
   Station station;
 
-  explicit Platform(bool adds_up = false) : station(chip, user, adds_up) {
+  explicit Platform(bool adds_up = false, std::uint32_t observed = kUnobservedAccesses)
+      : chip("chip", options(observed)), station(chip, user, adds_up) {
     cpu.socket.bind(chip.host_socket);
     cpu.RESET(reset), cpu.R_REQ(r_req), cpu.R_STA(r_sta), cpu.L_REQ(l_req), cpu.L_STA(l_sta), cpu.INTR0(intr0);
     chip.RESET(reset), chip.R_REQ(r_req), chip.R_STA(r_sta), chip.L_REQ(l_req), chip.L_STA(l_sta), chip.INTR0(intr0);
   }
-  static dsdpv1::systemc::TlmOptions options() {
+  static dsdpv1::systemc::TlmOptions options(std::uint32_t observed) {
     dsdpv1::systemc::TlmOptions options;
-    options.observed = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);  // the pins of an access are not observed
+    options.observed = observed;
     return options;
   }
   std::string told() { return station.told(); }

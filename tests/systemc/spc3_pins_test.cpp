@@ -24,7 +24,7 @@ namespace regs = spc3::regs;
 
 namespace {
 
-constexpr Tick kEnd = 200 * kUs, kPhase = 100, kBit = 1000;
+constexpr Tick kSpc3End = 200 * kUs, kPhase = 100, kBit = 1000;
 
 struct Event {
   Tick at;
@@ -107,7 +107,7 @@ struct Core {
                 &all},
                spc3::kOutputPins);
     for (const Event& each : stimulus()) chip.set(each.at, each.pin, each.level);
-    chip.advance(kEnd);
+    chip.advance(kSpc3End);
   }
 };
 
@@ -151,7 +151,7 @@ struct Board {
         });
   }
   void run_clk() {
-    for (Tick edge = 0; edge < kEnd; edge += 250) {
+    for (Tick edge = 0; edge < kSpc3End; edge += 250) {
       wait_until(edge);
       clk.write(true);
       wait_until(edge + 125);
@@ -257,7 +257,7 @@ void simulate() {
   set_resolution();
   collect_reports();
   world = std::make_unique<World>();
-  sc_core::sc_start(to_time(kEnd));
+  sc_core::sc_start(to_time(kSpc3End));
 }
 
 namespace {
@@ -279,9 +279,9 @@ TEST(Spc3Pins, ChangeAtTheTicksOfTheCoreAlone) {
 
 TEST(Spc3Pins, SignalsChangeAtTheirTicks) {
   const Core core;
-  const Events wanted = single(core.all, kEnd - kUs);
-  EXPECT_EQ(single(world->unbound.seen, kEnd - kUs), wanted);
-  EXPECT_EQ(single(world->later.seen, kEnd - kUs, kPhase), wanted);
+  const Events wanted = single(core.all, kSpc3End - kUs);
+  EXPECT_EQ(single(world->unbound.seen, kSpc3End - kUs), wanted);
+  EXPECT_EQ(single(world->later.seen, kSpc3End - kUs, kPhase), wanted);
 }
 
 /// The inputs of the core at DB_IN.
