@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 #include <systemc>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "model/profibus/character_run.hpp"
 #include "model/profibus/event.hpp"
 #include "model/profibus/state_frame.hpp"
+#include "model/systemc/parameters.hpp"
 #include "model/systemc/sim_time.hpp"
 
 namespace dsdpv1::systemc {
@@ -42,6 +44,17 @@ class TimedModule : public sc_core::sc_module {
 
  protected:
   TimedModule(const sc_core::sc_module_name& name, Tick phase);
+
+  /// Adds an attribute for each parameter, sc_attribute<std::uint32_t>, to be read.
+  template <class Config>
+  void list_parameters(Config config) {
+    each_parameter(
+        config,
+        [this](const ParameterRow& row, std::uint32_t value) {
+          parameters_.push_back(std::make_unique<sc_core::sc_attribute<std::uint32_t>>(row.name, value));
+          add_attribute(*parameters_.back());
+        });
+  }
 
   /// A transaction has the bus.
   static bool is_taken(sc_core::sc_mutex& bus) { return bus.trylock() != 0 || bus.unlock() != 0; }
@@ -150,6 +163,7 @@ class TimedModule : public sc_core::sc_module {
     sc_core::sc_signal_inout_if<bool>* signal;
   };
   std::vector<Wire> wires_;
+  std::vector<std::unique_ptr<sc_core::sc_attribute<std::uint32_t>>> parameters_;
   std::uint32_t changed_ = 0;
   std::uint32_t high_ = 0;  ///< the reported levels
   bool in_core_ = false;
@@ -179,6 +193,7 @@ class CoreModule : public TimedModule {
  protected:
   CoreModule(const sc_core::sc_module_name& name, const typename Core::Config& config, const ModuleOptions& options)
       : TimedModule(name, options.phase), chip_(config), report_violations_(options.report_violations) {
+    list_parameters(config);
     chip_.on_event(
         {[](void* self, const profibus::Event& event) { static_cast<CoreModule*>(self)->event_happened(event); },
          this});

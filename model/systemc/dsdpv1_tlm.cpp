@@ -48,10 +48,6 @@ void TlmModule::start_of_simulation() {
   watch(bound_ | asked | (on_pin ? observed_ : 0), asked);
 }
 
-void TlmModule::report_unbound(const std::string& socket, const char* why) {
-  SC_REPORT_ERROR("/dsdpv1/binding", (socket + " is not bound, and " + why).c_str());
-}
-
 void TlmModule::sync(const sc_core::sc_time& ahead) {
   if (is_in_core()) return;
   if (ahead > sc_core::SC_ZERO_TIME) advance(chip_tick(to_tick(sc_core::sc_time_stamp() + ahead)));

@@ -25,6 +25,7 @@
 #include "model/systemc/chip_module.hpp"
 #include "model/systemc/host_transaction.hpp"
 #include "model/systemc/line_station.hpp"
+#include "model/systemc/optional_port.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -54,8 +55,8 @@ struct TlmOptions : ChipOptions {
 class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_analysis_if<BusCharacter> {
  public:
   using In = sc_core::sc_in<bool>;
-  using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
-  using OptionalOut = sc_core::sc_port<sc_core::sc_signal_inout_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
+  using OptionalIn = systemc::OptionalIn;
+  using OptionalOut = systemc::OptionalOut;
 
   /// DPRAM 0x000..0x7FF. Every byte of a transaction is one access with `AccessTiming`; its time passes inside
   /// b_transport.
@@ -146,11 +147,7 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   void others_changed() { others_ = arrivals_ = 0; }
   /// `on_pin` receives the pin.
   bool hears(Pin pin) const { return (observed_ & mask(pin)) != 0; }
-  /// The live host port's socket is bound.
-  template <class Socket>
-  void require_bound(Socket& socket, const char* why) {
-    if (!is_bound(socket)) report_unbound(socket.name(), why);
-  }
+  /// The parallel port's socket, of any width.
   void require_host_bound(const char* why) {
     if (!is_bound(host_socket_64) && !is_bound(host_socket_8)) require_bound(host_socket, why);
   }
@@ -177,10 +174,6 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   unsigned int carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay);
   bool carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay, bool with);
   template <class Socket>
-  static bool is_bound(Socket& socket) {
-    return socket.get_base_port().size() > 0;
-  }
-  template <class Socket>
   void serve(Socket& socket);
   template <class Socket>
   static void withdraw_dmi(Socket& socket);
@@ -200,7 +193,6 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
   void perform(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing);
   void move_access(Tick now);
-  static void report_unbound(const std::string& socket, const char* why);
 
   void evaluate();
   bool nothing_arrives() const { return fired_as_scheduled() && scheduled() < arrivals_ && !in_access(); }

@@ -7,6 +7,8 @@ namespace dsdpv1::systemc {
 HostPins::HostPins(const sc_core::sc_module_name& name, const AccessTiming& timing) : sc_module(name), timing_(timing) {
   require_resolution();
   socket.register_b_transport(this, &HostPins::b_transport);
+  socket_64.register_b_transport(this, &HostPins::b_transport);
+  socket_8.register_b_transport(this, &HostPins::b_transport);
   A.initialize(HostAccess::kIdleAddress);
   for (sc_core::sc_out<bool>* strobe : {&CSR, &RD, &WR}) strobe->initialize(true);
   SC_HAS_PROCESS(HostPins);

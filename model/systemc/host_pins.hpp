@@ -21,7 +21,10 @@ class HostPins : public sc_core::sc_module {
  public:
   /// DPRAM 0x000..0x7FF, with the responses of TlmModule::host_socket. Each access is a synchronisation point, with any
   /// quantum. An access whose initiator is reset or killed runs to its end. No debug transport, no DMI.
-  tlm_utils::simple_target_socket<HostPins> socket{"socket"};
+  tlm_utils::simple_target_socket_optional<HostPins> socket{"socket"};
+  /// The same for initiators of another BUSWIDTH.
+  tlm_utils::simple_target_socket_optional<HostPins, 64> socket_64{"socket_64"};
+  tlm_utils::simple_target_socket_optional<HostPins, 8> socket_8{"socket_8"};
 
   sc_core::sc_out<sc_dt::sc_uint<11>> A{"A"};            ///< 0x7FF between accesses
   sc_core::sc_inout_rv<8> D{"D"};                        ///< Z except for writes

@@ -8,6 +8,7 @@
 
 #include "model/systemc/bound_clock.hpp"
 #include "model/systemc/core_module.hpp"
+#include "model/systemc/optional_port.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -21,10 +22,10 @@ class PinsOf : public Base {
  public:
   template <class T>
   using In = sc_core::sc_in<T>;
-  using Out = sc_core::sc_out<bool>;
+  using Out = OptionalOut;  ///< all of one wire may stay unbound
 
   /// 48 MHz, optional.
-  sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> CLK{"CLK"};
+  OptionalIn CLK{"CLK"};
 
  protected:
   /// `options`: those of Base, and clock_tolerance_ppm.

@@ -11,9 +11,9 @@
 
 namespace dsdpv1::systemc {
 
-/// All pins must be bound, also those of unused ports, which the chip ignores (R14). A strap's level counts at the end
-/// of a reset. Inputs that change in one delta cycle with others of the parallel port are applied before those; among
-/// themselves, and relative to CLK, the order does not matter.
+/// All inputs and MISO must be bound, also those of unused ports, which the chip ignores (R14). A strap's level counts
+/// at the end of a reset. Inputs that change in one delta cycle with others of the parallel port are applied before
+/// those; among themselves, and relative to CLK, the order does not matter.
 class RsuPinModule : public PinModule {
  public:
   In<bool> XSS{"XSS"};                    ///< low-active, idle high

@@ -13,15 +13,23 @@ Spc3TlmModule::Spc3TlmModule(const sc_core::sc_module_name& name, const Spc3TlmO
     : Spc3Module(name, options),
       size_(static_cast<sc_dt::uint64>(spc3::addresses(options.chip.variant))),
       access_(options.access) {
-  host_socket.register_b_transport(this, &Spc3TlmModule::b_transport);
-  host_socket.register_transport_dbg(this, &Spc3TlmModule::transport_dbg);
+  serve(host_socket);
+  serve(host_socket_64);
+  serve(host_socket_8);
   bus_in.bind(*this);
   SC_HAS_PROCESS(Spc3TlmModule);
   SC_METHOD(evaluate);
   sensitive << due_ << soon_ << RESET << XCTS << RXD;
 }
 
+template <class Socket>
+void Spc3TlmModule::serve(Socket& socket) {
+  socket.register_b_transport(this, &Spc3TlmModule::b_transport);
+  socket.register_transport_dbg(this, &Spc3TlmModule::transport_dbg);
+}
+
 void Spc3TlmModule::start_of_simulation() {
+  if (!is_bound(host_socket_64) && !is_bound(host_socket_8)) require_bound(host_socket, "it is the user CPU's");
   const struct {
     Pin pin;
     OptionalOut& port;

@@ -18,6 +18,7 @@
 
 #include "model/systemc/bus_character.hpp"
 #include "model/systemc/line_station.hpp"
+#include "model/systemc/optional_port.hpp"
 #include "model/systemc/spc3_module.hpp"
 #include "model/systemc/transaction.hpp"
 
@@ -42,8 +43,8 @@ struct RegisterAccessExtension : tlm::tlm_extension<RegisterAccessExtension> {
 class Spc3TlmModule : public Spc3Module, public LineStation, private tlm::tlm_analysis_if<BusCharacter> {
  public:
   using In = sc_core::sc_in<bool>;
-  using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
-  using OptionalOut = sc_core::sc_port<sc_core::sc_signal_inout_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
+  using OptionalIn = systemc::OptionalIn;
+  using OptionalOut = systemc::OptionalOut;
 
   /// Registers and RAM, 0x000..0x7FF (VPC3+: 0xFFF), in Intel order. Every byte of a transaction is one access of
   /// `Spc3TlmOptions::access`, in the order of the addresses; its time passes inside b_transport. A read may be a
@@ -57,8 +58,11 @@ class Spc3TlmModule : public Spc3Module, public LineStation, private tlm::tlm_an
   /// zero, b_transport does not wait for an access before whose end neither the chip nor another process does anything:
   /// the time is added to the returned delay. An initiator must wait for its delay before it moves RESET or XCTS, or
   /// samples an output. Debug transport reads and writes by peek() and poke(); direct memory access is denied. Must be
-  /// bound.
-  tlm_utils::simple_target_socket<Spc3TlmModule> host_socket{"host_socket"};
+  /// bound (error /dsdpv1/binding), or one of the next two.
+  tlm_utils::simple_target_socket_optional<Spc3TlmModule> host_socket{"host_socket"};
+  /// The same for initiators of another BUSWIDTH.
+  tlm_utils::simple_target_socket_optional<Spc3TlmModule, 64> host_socket_64{"host_socket_64"};
+  tlm_utils::simple_target_socket_optional<Spc3TlmModule, 8> host_socket_8{"host_socket_8"};
 
   In RESET{"RESET"};           ///< high-active
   OptionalIn XCTS{"XCTS"};     ///< unbound: low, clear to send
@@ -86,6 +90,8 @@ class Spc3TlmModule : public Spc3Module, public LineStation, private tlm::tlm_an
   using Payload = tlm::tlm_generic_payload;
 
   void start_of_simulation() override;
+  template <class Socket>
+  void serve(Socket& socket);
   void write(const BusCharacter& character) override;  // bus_in
   void b_transport(Payload& payload, sc_core::sc_time& delay);
   unsigned int transport_dbg(Payload& payload);

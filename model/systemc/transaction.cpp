@@ -1,5 +1,6 @@
 #include "model/systemc/transaction.hpp"
 
+#include <string>
 #include <systemc>
 
 namespace dsdpv1::systemc {
@@ -29,6 +30,10 @@ tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload, sc_dt::u
   if (payload.get_address() < first || offset >= size || length > size - offset) return tlm::TLM_ADDRESS_ERROR_RESPONSE;
   if (!enables_are_valid(payload)) return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
   return payload.get_data_ptr() != nullptr ? tlm::TLM_OK_RESPONSE : tlm::TLM_GENERIC_ERROR_RESPONSE;
+}
+
+void report_unbound(const char* socket, const char* why) {
+  SC_REPORT_ERROR("/dsdpv1/binding", (std::string(socket) + " is not bound, and " + why).c_str());
 }
 
 void wait_for(sc_core::sc_time& delay) {

@@ -19,6 +19,18 @@ inline bool is_decoupled() { return tlm::tlm_global_quantum::instance().get() > 
 /// Waits until a transaction's annotated delay has passed.
 void wait_for(sc_core::sc_time& delay);
 
+/// A target socket that may stay unbound has an initiator.
+template <class Socket>
+bool is_bound(Socket& socket) {
+  return socket.get_base_port().size() > 0;
+}
+void report_unbound(const char* socket, const char* why);
+/// Reports a socket that must be bound, before the simulation.
+template <class Socket>
+void require_bound(Socket& socket, const char* why) {
+  if (!is_bound(socket)) report_unbound(socket.name(), why);
+}
+
 /// transport_dbg with the addresses of a module below `size`: the number of bytes.
 template <class Module>
 unsigned int transport_debug(Module& module, tlm::tlm_generic_payload& payload, sc_dt::uint64 size) {

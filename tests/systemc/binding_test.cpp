@@ -43,6 +43,12 @@ struct Platform {
   }
 };
 
+struct Spc3Alone {
+  sc_core::sc_signal<bool> reset;
+  systemc::Spc3TlmModule chip{"chip"};
+  Spc3Alone() { chip.RESET(reset); }
+};
+
 std::string rsu_with(const RsuStraps& straps) {
   return start([=] {
     systemc::RsuTlmOptions options;
@@ -54,6 +60,8 @@ std::string rsu_with(const RsuStraps& straps) {
 TEST(Binding, TheSocketOfTheLivePortMustBeBound) {
   EXPECT_EQ(start([] { return std::make_unique<Platform<systemc::TlmModule>>(); }),
             "/dsdpv1/binding: chip.host_socket is not bound, and it is the host port");
+  EXPECT_EQ(start([] { return std::make_unique<Spc3Alone>(); }),
+            "/dsdpv1/binding: chip.host_socket is not bound, and it is the user CPU's");
   EXPECT_EQ(rsu_with({HostMode::kParallel}),
             "/dsdpv1/binding: chip.host_socket is not bound, and the straps choose the parallel port");
   EXPECT_EQ(rsu_with({HostMode::kSpi}), "/dsdpv1/binding: chip.spi_socket is not bound, and the straps choose SPI");
@@ -92,6 +100,47 @@ TEST(Binding, EachObjectOfAModuleHasItsName) {
               return names;
             }),
             "");
+}
+
+/// The attributes of a module, with their values.
+std::string attributes(const sc_core::sc_object& module) {
+  std::string all;
+  for (const sc_core::sc_attr_base* each : module.attr_cltn())
+    all += each->name() + " " + std::to_string(dynamic_cast<const sc_core::sc_attribute<std::uint32_t>&>(*each).value) +
+           "\n";
+  return all;
+}
+
+TEST(Parameters, AreListedByTheModules) {
+  const std::string told = in_a_process_of_its_own([] {
+    systemc::PinOptions slow;
+    slow.chip.search_window_ms = 77;
+    const systemc::PinModule plain("plain", slow);
+    const RsuTlmModule rsu("rsu");
+    const systemc::Spc3TlmModule spc3("spc3");
+    return attributes(plain) + "\n" + attributes(rsu) + "\n" + attributes(spc3);
+  });
+  const std::size_t rsu = told.find("\n\n"), spc3 = told.rfind("\n\n");
+  EXPECT_EQ(told.substr(0, rsu + 1),
+            "access_interval 48\nready_cycles 4096\nrts_lead 4\nrts_trail 4\nintr_low 64\nintr_gap 64\n"
+            "search_window_ms 77\nsearch_window_bits 4000\nbaud_control_ms 600\nfcb_rule 0\n");
+  EXPECT_THAT(told.substr(rsu, spc3 - rsu), HasSubstr("spi_miso_delay 120\n"));
+  EXPECT_THAT(told.substr(rsu, spc3 - rsu), HasSubstr("uart_gaps_0 7\nuart_gaps_1 2\n"));
+  EXPECT_THAT(told.substr(spc3), HasSubstr("\nint_delay 1\n"));
+}
+
+TEST(Parameters, AreSetByAnAdapterWithinTheirRanges) {
+  Config config;
+  int rows = 0;
+  systemc::each_parameter(config, [&](const systemc::ParameterRow& row, std::uint32_t& value) {
+    EXPECT_GE(value, row.least) << row.name;
+    EXPECT_LE(value, row.most) << row.name;
+    value = row.most;
+    ++rows;
+  });
+  EXPECT_EQ(rows, 10);
+  EXPECT_EQ(config.rts_lead, 32U);
+  EXPECT_EQ(config.spi_strobe, 600U);  // another part's
 }
 
 }  // namespace
