@@ -4,6 +4,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
+#include <string>
 
 #include "model/systemc/logic_wires.hpp"
 #include "tests/systemc/bench.hpp"
@@ -64,7 +66,10 @@ TEST(Ports, AreTracedBeforeTheyAreBoundAndNotIfTheyStayUnbound) {
   const std::string trace = read(path + ".vcd");
   for (const char* name : {"L_REQ_by_port", "R_REQ_by_port", "D_by_port"}) EXPECT_THAT(trace, HasSubstr(name));
   EXPECT_EQ(trace.find("unbound"), std::string::npos);
-  const std::string id = trace.substr(trace.find("L_REQ_by_port") - 4, 3);  // "$var wire    1  aaa  L_REQ_by_port"
+  std::istringstream declaration(trace.substr(trace.find("$var")));  // $var wire 1 aaaaa L_REQ_by_port
+  std::string word, id, name;
+  declaration >> word >> word >> word >> id >> name;
+  EXPECT_EQ(name, "L_REQ_by_port");
   EXPECT_THAT(trace, HasSubstr("\n1" + id + "\n"));
   std::remove((path + ".vcd").c_str());
 }
