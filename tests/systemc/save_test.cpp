@@ -362,6 +362,52 @@ TEST(SavedRsuTlmModule, ContinuesWithTheSameReplies) {
   expect_the_same<RsuTlm>(times, kGoldenEnd, 4);
 }
 
+/// The same chip with its UART, byte by byte.
+struct RsuUart : tlm::tlm_analysis_if<BusCharacter> {
+  Story story;
+  systemc::RsuTlmModule chip{"chip", options()};
+  sc_core::sc_signal<bool> reset, low;
+  ForeignCpu<> cpu{"cpu", [](ForeignCpu<>&) {}};
+
+  RsuUart(Tick from, Tick shift) {
+    cpu.socket.bind(chip.uart_socket);
+    chip.RESET(reset), chip.R_REQ(low), chip.R_STA(low);
+    chip.uart_characters.bind(*this);
+    story.listen(chip);
+    thread([this, from, shift] { send(from, shift); });
+  }
+
+ private:
+  static systemc::RsuTlmOptions options() {
+    systemc::RsuTlmOptions options;
+    options.straps.mode = HostMode::kUart;
+    return options;
+  }
+  void send(Tick from, Tick shift) {
+    if (from < kUs) wait_until(kUs);
+    reset.write(true);
+    for (Tick at = 200 * kUs; at < kUartEnd; at += 150 * kUs) {
+      if (at <= from) continue;
+      wait_until(at + shift);
+      for (const int byte : {0x01, 0x00, 0x14, 0x01, 0x18, 0xCF})  // read B014
+        chip.uart_in->write(
+            {systemc::to_time(at + shift), sc_core::SC_ZERO_TIME, static_cast<std::uint8_t>(byte), true, true});
+    }
+  }
+  void write(const BusCharacter& character) override {
+    story.say(chip.chip_tick(systemc::current_tick())) << "character " << int{character.data} << "\n";
+  }
+
+ public:
+  static constexpr Tick kUartEnd = 2'000 * kUs;
+};
+
+TEST(SavedRsuTlmModule, ContinuesInCharactersOfTheUart) {
+  std::vector<Tick> times;
+  for (Tick i = 0; i < 14; ++i) times.push_back(210 * kUs + i * 117 * kUs + i * i * 313);
+  expect_the_same<RsuUart>(times, RsuUart::kUartEnd, 14);
+}
+
 // --- the SPC3 family -------------------------------------------------------------------------------------------------
 
 template <bool kWithClk>
