@@ -53,10 +53,16 @@ void TimedModule::schedule(Tick now, Tick due) {
   due_.notify(scheduled_at_ - sc_core::sc_time_stamp());
 }
 
+void TimedModule::begin_again(Tick now) {
+  zero_ = current_tick() - now;
+  unschedule();
+  schedule_now();
+}
+
 // ------------------------------------------------------------------------------------------------- save and restore
 
-std::vector<std::uint8_t> TimedModule::save() {
-  if (in_core_) refuse_to_save("the chip is running");
+std::vector<std::uint8_t> SavedModule::save() {
+  if (is_in_core()) refuse_to_save("the chip is running");
   if (is_busy()) refuse_to_save("an access is in progress");
   settle();
   profibus::StateWriter writer;
@@ -69,7 +75,7 @@ std::vector<std::uint8_t> TimedModule::save() {
   return profibus::end_frame(writer.take());
 }
 
-void TimedModule::restore(const std::vector<std::uint8_t>& state) {
+void SavedModule::restore(const std::vector<std::uint8_t>& state) {
   if (!sc_core::sc_start_of_simulation_invoked())
     throw profibus::StateError(std::string(name()) + ": restore after the simulation has started: sc_start(0) will do");
   if (is_busy()) throw profibus::StateError(std::string(name()) + ": not restored, because an access is in progress");
@@ -80,14 +86,12 @@ void TimedModule::restore(const std::vector<std::uint8_t>& state) {
   profibus::check_title(text_of(saved), title());
   store_list(reader, core);
   restore_core(core);
-  zero_ = current_tick() - core_now();
+  begin_again(core_now());
   store_module(reader);
   profibus::check_frame(reader);
-  unschedule();
-  schedule_now();
 }
 
-void TimedModule::refuse_to_save(const std::string& why) const {
+void SavedModule::refuse_to_save(const std::string& why) const {
   throw profibus::StateError(std::string(name()) + ": not saved, because " + why);
 }
 

@@ -32,16 +32,6 @@ class TimedModule : public sc_core::sc_module {
   /// The simulation tick of the chip's tick 0: phase(), unless restore() has moved it.
   Tick zero() const { return zero_; }
 
-  /// The module at the present time, for restore() in this or another simulation: the chip, and characters on the line.
-  /// Not from `on_pin` and `on_event`. Throws profibus::StateError, and nothing has changed, in the middle of an
-  /// access.
-  std::vector<std::uint8_t> save();
-  /// Continues at the present time, with the same kind of module, part and parameters, as at the save: pins, events and
-  /// characters come at the same ticks of the chip (chip_tick()). Signals of inputs have to have the levels of the
-  /// save, or change now. After the simulation has started. Throws profibus::StateError, and nothing has changed, if
-  /// it is another state.
-  void restore(const std::vector<std::uint8_t>& state);
-
  protected:
   TimedModule(const sc_core::sc_module_name& name, Tick phase);
 
@@ -58,29 +48,6 @@ class TimedModule : public sc_core::sc_module {
 
   /// A transaction has the bus.
   static bool is_taken(sc_core::sc_mutex& bus) { return bus.trylock() != 0 || bus.unlock() != 0; }
-
-  // For save() and restore().
-  /// The kind of module; up to 24 characters.
-  virtual const char* title() const = 0;
-  /// An access is in progress.
-  virtual bool is_busy() { return false; }
-  /// Brings module and core to the present time, and to a state that the module stores.
-  virtual void settle() = 0;
-  [[noreturn]] void refuse_to_save(const std::string& why) const;
-  /// The state of the core, and back; throws StateError.
-  virtual std::vector<std::uint8_t> save_core() const = 0;
-  virtual void restore_core(const std::vector<std::uint8_t>& state) = 0;
-  virtual Tick core_now() const = 0;
-  /// The module's state besides the core, also at another time of the kernel.
-  virtual void store_module(profibus::StateWriter& archive) = 0;
-  virtual void store_module(profibus::StateReader& archive) = 0;
-  /// Simulation ticks in a state.
-  template <class Archive>
-  void store_time(Archive& archive, Tick& tick) const {
-    Tick later = tick - current_tick();
-    archive(later);
-    tick = current_tick() + later;
-  }
 
   /// The chip's tick at the present time, or `core`, that of its core, if it is ahead of simulation time.
   Tick at_least(Tick core) const {
@@ -142,6 +109,9 @@ class TimedModule : public sc_core::sc_module {
   void unschedule();
   sc_core::sc_event due_{"due"}, soon_{"soon"};
 
+  /// The chip is at tick `now` at the present time.
+  void begin_again(Tick now);
+
  private:
   /// Sets a flag during its lifetime.
   class WhileTrue {
@@ -170,9 +140,49 @@ class TimedModule : public sc_core::sc_module {
   std::exception_ptr thrown_;
 };
 
+/// A TimedModule with a chip whose state it saves.
+class SavedModule : public TimedModule {
+ public:
+  /// The module at the present time, for restore() in this or another simulation: the chip, and characters on the line.
+  /// Not from `on_pin` and `on_event`. Throws profibus::StateError, and nothing has changed, in the middle of an
+  /// access.
+  std::vector<std::uint8_t> save();
+  /// Continues at the present time, with the same kind of module, part and parameters, as at the save: pins, events and
+  /// characters come at the same ticks of the chip (chip_tick()). Signals of inputs have to have the levels of the
+  /// save, or change now. After the simulation has started. Throws profibus::StateError, and nothing has changed, if
+  /// it is another state.
+  void restore(const std::vector<std::uint8_t>& state);
+
+ protected:
+  using TimedModule::TimedModule;
+
+  // For save() and restore().
+  /// The kind of module; up to 24 characters.
+  virtual const char* title() const = 0;
+  /// An access is in progress.
+  virtual bool is_busy() { return false; }
+  /// Brings module and core to the present time, and to a state that the module stores.
+  virtual void settle() = 0;
+  [[noreturn]] void refuse_to_save(const std::string& why) const;
+  /// The state of the core, and back; throws StateError.
+  virtual std::vector<std::uint8_t> save_core() const = 0;
+  virtual void restore_core(const std::vector<std::uint8_t>& state) = 0;
+  virtual Tick core_now() const = 0;
+  /// The module's state besides the core, also at another time of the kernel.
+  virtual void store_module(profibus::StateWriter& archive) = 0;
+  virtual void store_module(profibus::StateReader& archive) = 0;
+  /// Simulation ticks in a state.
+  template <class Archive>
+  void store_time(Archive& archive, Tick& tick) const {
+    Tick later = tick - current_tick();
+    archive(later);
+    tick = current_tick() + later;
+  }
+};
+
 /// `Core`: a chip, with its types of pins and levels, and describe() of its events.
 template <class Core>
-class CoreModule : public TimedModule {
+class CoreModule : public SavedModule {
  public:
   using Pin = typename Core::Pin;
   using Level = typename Core::Level;
@@ -192,7 +202,7 @@ class CoreModule : public TimedModule {
 
  protected:
   CoreModule(const sc_core::sc_module_name& name, const typename Core::Config& config, const ModuleOptions& options)
-      : TimedModule(name, options.phase), chip_(config), report_violations_(options.report_violations) {
+      : SavedModule(name, options.phase), chip_(config), report_violations_(options.report_violations) {
     list_parameters(config);
     chip_.on_event(
         {[](void* self, const profibus::Event& event) { static_cast<CoreModule*>(self)->event_happened(event); },

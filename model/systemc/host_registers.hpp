@@ -62,7 +62,7 @@ class HostRegisters : public sc_core::sc_module {
     chip.L_REQ(L_REQ), chip.L_STA(L_STA), chip.INTR0(INTR0);
   }
 
-  /// As TimedModule::save() and restore(); the signals follow in the next delta cycle.
+  /// As SavedModule::save() and restore(); the signals follow in the next delta cycle.
   std::vector<std::uint8_t> save();
   void restore(const std::vector<std::uint8_t>& state);
 
