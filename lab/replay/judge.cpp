@@ -11,7 +11,8 @@
 namespace dsdpv1::tb::replay {
 namespace {
 
-constexpr std::uint8_t kStationNotReady = 0x02;  // in the first byte of Slave_Diag
+// Bits of the first byte of Slave_Diag.
+constexpr std::uint8_t kStationNotReady = 0x02, kFaultOfCfg = 0x04, kFaultNotSupported = 0x10, kFaultOfPrm = 0x40;
 constexpr std::size_t kHeadOfSd2 = 4;
 
 bus::Telegram telegram_of(const bus::Bytes& bytes) { return bus::decode(bytes).telegram; }
@@ -40,6 +41,7 @@ Judge::Judge(const Recording& recording, const Firmware& firmware, const JudgeOp
       min_tsdr_(recording.baud) {
   if (options.started) beginning_.comparable = beginning_.first_answer;
   supplied_.now = supplied_.before = firmware.inputs;
+  old_faults_ = kFaultOfCfg | kFaultNotSupported | kFaultOfPrm;
 }
 
 std::vector<RequestResult> Judge::judge(const Listener& listener) {
@@ -54,6 +56,7 @@ std::vector<RequestResult> Judge::judge(const Listener& listener) {
     min_tsdr_.take(recording_.request(request).decoded.telegram, recording_.answer(request));
     follow_dpv1(results.back());
     results.back().verdict = verdict(i, results.back(), heard);
+    follow_faults(results.back());
   }
   return results;
 }
@@ -107,6 +110,7 @@ Verdict Judge::compare_bytes(RequestResult& result) {
   const bool equal = result.recorded->bytes == result.model->bytes && result.recorded->right == result.model->right;
   if (equal) return Verdict::kEqual;
   if (users_dpv1) return Verdict::kUserDpv1;
+  if (only_old_faults_differ(result)) return Verdict::kOldFault;
   if (options_.supplied && user_was_late(result)) return Verdict::kUserLate;
   result.why = difference_words(result);
   return Verdict::kBytes;
@@ -146,6 +150,21 @@ bool Judge::user_was_late(const RequestResult& result) const {
   const bool news_of_diagnosis = supplied_.any_diagnosis && request_end_ - supplied_.diagnosis < time;
   if (recorded.data != model.data && !(news_of_inputs && model.data == supplied_.before)) return false;
   return recorded.fc == model.fc || news_of_diagnosis;
+}
+
+/// A fault stays until the next Set_Prm or Chk_Cfg (S6, S17); the model has not seen the one before the capture.
+bool Judge::only_old_faults_differ(const RequestResult& result) const {
+  if (result.service != "Slave_Diag" || !result.recorded->right || !result.model->right) return false;
+  const bus::Telegram recorded = telegram_of(result.recorded->bytes);
+  bus::Telegram model = telegram_of(result.model->bytes);
+  if (model.data.empty() || recorded.data.empty()) return false;
+  model.data[0] = static_cast<std::uint8_t>((model.data[0] & ~old_faults_) | (recorded.data[0] & old_faults_));
+  return model == recorded;
+}
+
+void Judge::follow_faults(const RequestResult& result) {
+  if (result.service == "Set_Prm") old_faults_ &= static_cast<std::uint8_t>(~(kFaultOfPrm | kFaultNotSupported));
+  if (result.service == "Chk_Cfg") old_faults_ &= static_cast<std::uint8_t>(~kFaultOfCfg);
 }
 
 /// DPV1: the user CPU decides when an answer is ready and why a request is refused. Once an answer came at another

@@ -26,8 +26,9 @@ enum class Verdict : std::uint8_t {
   kBeforeWindow,
   kUserLate,  ///< the user CPU had not yet delivered the inputs or the diagnosis, or judged at another time
   kUserDpv1,  ///< DPV1: the user CPU answered at another poll, or refused for another reason
+  kOldFault,  ///< only fault bits differ, from a Set_Prm or Chk_Cfg before the capture
 };
-constexpr std::size_t kVerdicts = 14;
+constexpr std::size_t kVerdicts = 15;
 
 /// "equal", "both silent", "missing" ...
 const char* name(Verdict verdict);

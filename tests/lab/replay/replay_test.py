@@ -347,6 +347,35 @@ def in_the_middle(folder):
     expect("the second is", (result["equal"], result["compared"] > 30), (True, True))
 
 
+def old_faults(folder):
+    """Fault bits from before the capture do not count until the Set_Prm or Chk_Cfg that sets them, and are reported."""
+    def is_diagnosis(packet):
+        return len(packet.data) > 9 and packet.data[7:9] == bytes([62, 60]) and packet.data[5] & 0x7F == 5
+
+    def service(packet):
+        return packet.data[7] if len(packet.data) > 9 and packet.data[5] & 0x7F == 2 else None
+
+    head, packets = pcapng.read(record(folder))
+    prm = next(i for i, packet in enumerate(packets) if service(packet) == 61)
+    cfg = next(i for i, packet in enumerate(packets) if service(packet) == 62)
+    for bit, sets in ((0x40, prm), (0x10, prm), (0x04, cfg)):
+        early = [pcapng.Packet(packet.block()[8:-4]) for packet in packets]
+        changed = [packet for packet in early[:sets] if is_diagnosis(packet)]
+        for packet in changed:
+            packet.change(9, packet.data[9] | bit)
+        pcapng.write(folder / "early.pcapng", head, early)
+        result, text = replayed(folder, "early.pcapng")
+        expect(f"{bit:02X} before", (len(changed) > 0, result["equal"], result["verdicts"]["faults from before the capture"] > 0),
+               (True, True, True))
+        expect(f"{bit:02X} before: said", "faults from before the capture" in text, True)
+        late = next(i for i, packet in enumerate(packets) if i > cfg and is_diagnosis(packet))
+        packets[late].change(9, packets[late].data[9] | bit)
+        pcapng.write(folder / "late.pcapng", head, packets)
+        result, _ = replayed(folder, "late.pcapng", status=1)
+        expect(f"{bit:02X} after", (result["equal"], result["differences"][0]["telegram"]), (False, late))
+        packets[late].change(9, packets[late].data[9] & ~bit)
+
+
 def without_lead_in(folder):
     """The model then searches the rate in the capture: what it misses is counted, and nothing is called a difference."""
     capture = record(folder, "500k")
@@ -392,7 +421,7 @@ def outputs(folder):
 
 
 CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, repetitions, repetitions_in_rtl, changed_byte,
-                                          missing_answer, answer_without_syn, shifted_answer, unlock, other_ident, in_the_middle, without_lead_in, window, outputs)}
+                                          missing_answer, answer_without_syn, shifted_answer, unlock, other_ident, in_the_middle, old_faults, without_lead_in, window, outputs)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as folder_name:
     CASES[sys.argv[2]](pathlib.Path(folder_name))
