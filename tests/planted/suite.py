@@ -16,7 +16,7 @@ class Stage:
 
 SCENARIOS = Stage("app_scenarios_test", calls_sim=True, names="All/Scenarios.")
 SYSTEMC = ("time", "views", "bus", "tlm", "run", "ahead", "clock", "host_pins", "character", "binding", "rsu_tlm", "rsu_pins", "quantum", "decoupled",
-           "serial_platform", "bench")
+           "byte_ports", "segment", "serial_platform", "bench", "host_bridge")
 STAGES = {
     "systemc": (*(Stage(f"systemc_{name}_test") for name in SYSTEMC), SCENARIOS),
     "driver": (Stage("driver_spc3_model_test"), Stage("driver_test"), Stage("user_cpu_test"), SCENARIOS),

@@ -6,11 +6,14 @@
 #include <tlm_utils/tlm_quantumkeeper.h>
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 
+#include "model/systemc/rsu_pins.hpp"
 #include "model/systemc/rsu_tlm.hpp"
+#include "model/systemc/spi_pins.hpp"
 #include "tests/systemc/bench.hpp"
 #include "tests/systemc/own_process.hpp"
 
@@ -213,6 +216,94 @@ TEST(SpiBytes, MoveThePinsAsAWholeFrameWithAnyQuantum) {
     EXPECT_EQ(first_difference(spi_told(quantum_us, false), whole), "") << "by signal, " << quantum_us << " us";
     EXPECT_EQ(first_difference(spi_told(quantum_us, true), whole), "") << "by call, " << quantum_us << " us";
   }
+}
+
+/// A chip by its pins, with the adapter between them and the controller.
+struct PinBoard {
+  systemc::RsuPinModule chip{"chip", options()};
+  systemc::SpiPins adapter{"adapter"};
+  ForeignSpi spi{"spi"};
+  std::map<std::string, sc_core::sc_signal<bool>> wires;
+  sc_core::sc_signal<sc_dt::sc_uint<11>> a;
+  sc_core::sc_signal<sc_dt::sc_uint<2>> mode, adr;
+  sc_core::sc_signal<sc_dt::sc_uint<3>> ubr, uiv;
+  sc_core::sc_signal_rv<8> d;
+  sc_core::sc_signal_resolved miso;
+  sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS> reset;
+  Changes changes;
+
+  PinBoard() {
+    chip.R_REQ(wires["low"]), chip.R_STA(wires["low"]), chip.CSR(wires["csr"]), chip.RD(wires["rd"]);
+    chip.WR(wires["wr"]), chip.A(a), chip.D(d), chip.L_REQ(wires["l_req"]), chip.L_STA(wires["l_sta"]);
+    chip.INTR0(wires["intr0"]), chip.PBRXD(wires["pbrxd"]), chip.PBTXD(wires["pbtxd"]), chip.PBRTS(wires["pbrts"]);
+    chip.PBF(wires["pbf"]), chip.BR(wires["br"]), chip.READY(wires["ready"]), chip.RXD(wires["rxd"]);
+    chip.TXD(wires["txd"]), chip.MODE(mode), chip.ADR(adr), chip.UBR(ubr), chip.UIV(uiv), chip.RESET(reset);
+    for (const char* high : {"csr", "rd", "wr", "pbrxd", "rxd"}) wires[high].write(true);
+    mode.write(static_cast<unsigned>(HostMode::kSpi)), adr.write(1);
+    chip.XSS(wires["xss"]), chip.SCK(wires["sck"]), chip.MOSI(wires["mosi"]), chip.MISO(miso);
+    adapter.XSS(wires["xss"]), adapter.SCK(wires["sck"]), adapter.MOSI(wires["mosi"]), adapter.MISO(miso);
+    spi.bus.bind(adapter.socket), spi.cs(wires["cs"]);
+    chip.on_pin = [this](Tick at, Pin pin, Level level) { changes.push_back({at, pin, level}); };
+    thread([this] {
+      wait_until(kUs);
+      reset.write(true);
+    });
+  }
+  static systemc::PinOptions options() {
+    systemc::PinOptions options;
+    options.report_violations = false;
+    return options;
+  }
+};
+
+std::string pins_told(bool by_bytes) {
+  return in_a_process_of_its_own([=] {
+    PinBoard board;
+    if (by_bytes) board.adapter.CS(board.wires["cs"]);
+    std::ostringstream out;
+    thread([&] {
+      for (const Tick at : {kAt + 777, 2 * kAt}) {
+        wait_until(at);
+        if (by_bytes) {
+          out << hex(board.spi.frame(with_room(kReadB014))) << "\n";
+        } else {
+          Bytes data = with_room(kReadB014);
+          tlm::tlm_generic_payload payload;
+          payload.set_read();
+          payload.set_data_ptr(data.data());
+          payload.set_data_length(static_cast<unsigned>(data.size()));
+          payload.set_streaming_width(static_cast<unsigned>(data.size()));
+          sc_core::sc_time delay;
+          board.spi.bus->b_transport(payload, delay);
+          out << hex(data) << "\n";
+        }
+      }
+    });
+    sc_core::sc_start(600, sc_core::SC_US);
+    for (const Pin pin : kSpiPins)
+      for (const Change& change : only(board.changes, pin)) out << change << "\n";
+    return out.str();
+  });
+}
+
+TEST(SpiPins, MoveThePinsOfAChipAsItsSocketDoes) {
+  const std::string socket = in_a_process_of_its_own([] {
+    Card card("card", HostMode::kSpi);
+    Whole whole("whole");
+    whole.socket.bind(card.chip.spi_socket);
+    std::ostringstream out;
+    thread([&] {
+      for (const Tick at : {kAt + 777, 2 * kAt}) {
+        wait_until(at);
+        out << hex(whole.send(tlm::TLM_READ_COMMAND, with_room(kReadB014))) << "\n";
+      }
+    });
+    sc_core::sc_start(600, sc_core::SC_US);
+    return out.str() + card.told(kSpiPins);
+  });
+  EXPECT_NE(socket.find(hex(kReply)), std::string::npos);
+  EXPECT_EQ(first_difference(pins_told(false), socket), "") << "a frame";
+  EXPECT_EQ(first_difference(pins_told(true), socket), "") << "byte by byte";
 }
 
 /// The reply to a request in its own frame.
