@@ -4,12 +4,12 @@
 
 namespace dsdpv1::systemc_bench {
 
-ChipPort::ChipPort(const std::string& name, dsdpv1::systemc::LineStation& chip, bus::Tick phase, bus::Segment& segment,
-                   TimelineModule& timeline)
-    : chip_(chip), phase_(phase), segment_(segment), timeline_(timeline), station_(segment.attach(name, this)) {
+ChipPort::ChipPort(const std::string& name, dsdpv1::systemc::LineStation& chip,
+                   const dsdpv1::systemc::TimedModule& module, bus::Segment& segment, TimelineModule& timeline)
+    : chip_(chip), module_(module), segment_(segment), timeline_(timeline), station_(segment.attach(name, this)) {
   chip_.on_answer = [this](const profibus::CharacterRun& run) { return answer_begins(run); };
   chip_.on_left_run = [this](bus::Tick at) {
-    segment_.cut_run(at + phase_);
+    segment_.cut_run(at + module_.zero());
     timeline_.wake();
   };
 }
@@ -26,7 +26,7 @@ void ChipPort::drive(bus::Tick at, bool level) {
 }
 
 void ChipPort::pass_on(bus::Tick at) {
-  segment_.drive(station_, at + phase_, enabled_, drives_);
+  segment_.drive(station_, at + module_.zero(), enabled_, drives_);
   timeline_.wake();
 }
 
@@ -39,7 +39,8 @@ bool ChipPort::run_begins(const bus::CharacterRun& run) {
   if (own_run_) return true;  // the chip does not receive while it sends
   if (run.bit % bus::kTicksPerCycle != 0) return false;
   timeline_.catch_up();
-  return chip_.hear_run({run.start - phase_, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+  return chip_.hear_run(
+      {run.start - module_.zero(), run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
 }
 
 void ChipPort::run_cut(bus::Tick /*at*/, bool level) {
@@ -54,8 +55,8 @@ void ChipPort::run_cut(bus::Tick /*at*/, bool level) {
 
 bool ChipPort::answer_begins(const profibus::CharacterRun& run) {
   own_run_ = true;
-  hides_txd_ = segment_.send_run(
-      station_, {run.start + phase_, run.bit * bus::kTicksPerCycle, run.bytes, static_cast<std::size_t>(run.size)});
+  hides_txd_ = segment_.send_run(station_, {run.start + module_.zero(), run.bit * bus::kTicksPerCycle, run.bytes,
+                                            static_cast<std::size_t>(run.size)});
   timeline_.wake();
   return hides_txd_;
 }

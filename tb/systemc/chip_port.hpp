@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bus/wire/segment.hpp"
+#include "model/systemc/core_module.hpp"
 #include "model/systemc/line_station.hpp"
 #include "tb/systemc/timeline_module.hpp"
 
@@ -13,9 +14,9 @@ namespace dsdpv1::systemc_bench {
 /// The line arrives at the chip at its tick, one delta cycle later, which no rule of the chip can distinguish (P9).
 class ChipPort : private bus::Listener {
  public:
-  /// `phase` of the chip's module. All must outlive the simulation.
-  ChipPort(const std::string& name, dsdpv1::systemc::LineStation& chip, bus::Tick phase, bus::Segment& segment,
-           TimelineModule& timeline);
+  /// `module`: of the chip, for its place in time. All must outlive the simulation.
+  ChipPort(const std::string& name, dsdpv1::systemc::LineStation& chip, const dsdpv1::systemc::TimedModule& module,
+           bus::Segment& segment, TimelineModule& timeline);
   ChipPort(const ChipPort&) = delete;
   ChipPort& operator=(const ChipPort&) = delete;
 
@@ -32,7 +33,7 @@ class ChipPort : private bus::Listener {
   void pass_on(bus::Tick at);
 
   dsdpv1::systemc::LineStation& chip_;
-  const bus::Tick phase_;
+  const dsdpv1::systemc::TimedModule& module_;
   bus::Segment& segment_;
   TimelineModule& timeline_;
   bus::StationId station_;

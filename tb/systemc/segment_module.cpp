@@ -6,24 +6,26 @@
 
 namespace dsdpv1::systemc_bench {
 
+using dsdpv1::systemc::TimedModule;
 using dsdpv1::systemc::to_time;
 
 SegmentModule::SegmentModule(const sc_core::sc_module_name& name) : sc_module(name) {}
 
 bus::StationId SegmentModule::attach(dsdpv1::systemc::TlmModule& chip) {
   agents_.add(chip);
-  return attach(chip, chip, chip.phase());
+  return attach(static_cast<const TimedModule&>(chip), chip);
 }
 
-bus::StationId SegmentModule::attach(dsdpv1::systemc::Spc3TlmModule& chip) { return attach(chip, chip, chip.phase()); }
+bus::StationId SegmentModule::attach(dsdpv1::systemc::Spc3TlmModule& chip) {
+  return attach(static_cast<const TimedModule&>(chip), chip);
+}
 
-bus::StationId SegmentModule::attach(const sc_core::sc_module& module, dsdpv1::systemc::LineStation& chip,
-                                     bus::Tick phase) {
+bus::StationId SegmentModule::attach(const TimedModule& module, dsdpv1::systemc::LineStation& chip) {
   if (chip.on_rts) {
     const std::string text = std::string(module.name()) + " is already a station of a segment";
     SC_REPORT_ERROR("/dsdpv1/segment", text.c_str());
   }
-  chips_.push_back(std::make_unique<ChipPort>(module.name(), chip, phase, segment_, agents_));
+  chips_.push_back(std::make_unique<ChipPort>(module.name(), chip, module, segment_, agents_));
   ChipPort& port = *chips_.back();
   chip.on_rts = [&port](bus::Tick at, bool level) { port.enable(at, level); };
   chip.on_txd = [&port](bus::Tick at, bool level) { port.drive(at, level); };

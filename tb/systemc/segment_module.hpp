@@ -55,7 +55,7 @@ class SegmentModule : public sc_core::sc_module {
 
  private:
   void end_of_elaboration() override;
-  bus::StationId attach(const sc_core::sc_module& module, dsdpv1::systemc::LineStation& chip, bus::Tick phase);
+  bus::StationId attach(const dsdpv1::systemc::TimedModule& module, dsdpv1::systemc::LineStation& chip);
   void driven(bus::StationId station, bus::Tick at, bool enabled);
   void tell(const bus::ReceivedCharacter& character);
   bool collided(bus::Tick start) const;

@@ -24,7 +24,7 @@ void TlmChip::take(dsdpv1::systemc::TlmModule* module) {
   module->R_REQ(r_req_);
   module->R_STA(r_sta_);
   module->on_pin = [this](bus::Tick at, Pin pin, Level level) { pin_changed(at, pin, level); };
-  port_ = std::make_unique<ChipPort>(name(), *module, module->phase(), segment_, timeline_);
+  port_ = std::make_unique<ChipPort>(name(), *module, *module, segment_, timeline_);
 }
 
 void TlmChip::set_reset(bool level) {
