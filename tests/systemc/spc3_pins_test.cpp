@@ -9,11 +9,12 @@
 #include <tuple>
 #include <vector>
 
-#include "model/dsdpv1/serial_host.hpp"
 #include "model/systemc/character_line.hpp"
 #include "model/systemc/spc3_pins.hpp"
+#include "model/systemc/spi_pins.hpp"
 #include "registers/spc3_regs.hpp"
 #include "tests/systemc/bench.hpp"
+#include "tests/systemc/spc3_initiator.hpp"
 
 namespace dsdpv1 {
 
@@ -179,8 +180,10 @@ struct SpiBoard {
   sc_core::sc_signal_rv<8> db;
   sc_core::sc_signal<sc_dt::sc_logic> miso{"miso"};
   Spc3PinModule chip;
-  SpiFrame write{{0x12, 0x01, 0x23, 0xA5}, {}}, read{{0x13, 0x01, 0x23, 0x00}, {}};
-  sc_dt::sc_logic rest;  ///< of MISO after both
+  systemc::SpiPins host{"spi_host"};
+  Initiator cpu{"spi_cpu"};
+  std::vector<std::uint8_t> read, by_bytes;
+  sc_dt::sc_logic rest;  ///< of MISO after all
 
   SpiBoard() : chip("spi", of_vpc3()) {
     using spc3::Pin;
@@ -192,15 +195,24 @@ struct SpiBoard {
     chip.TXD(wires[Pin::kTxd]), chip.RTS(wires[Pin::kRts]);
     chip.AB11(wires[Pin::kAb11]), chip.SERIAL(wires[Pin::kSerial]), chip.SCK(wires[Pin::kSck]);
     chip.MOSI(wires[Pin::kMosi]), chip.XSS(wires[Pin::kXss]), chip.MISO(miso);
+    host.XSS(wires[Pin::kXss]), host.SCK(wires[Pin::kSck]), host.MOSI(wires[Pin::kMosi]), host.MISO(miso);
+    cpu.socket.bind(host.socket);
     for (auto& [pin, wire] : wires)
-      if (spc3::is_input(pin)) wire.write(spc3::row(pin).level != 0);
+      if (spc3::is_input(pin) && pin != Pin::kXss && pin != Pin::kSck && pin != Pin::kMosi)
+        wire.write(spc3::row(pin).level != 0);
     wires[Pin::kSerial].write(true);
     thread([this] {
       wait_until(12'007);
       wires[Pin::kReset].write(false);
-      play(write, 20'011);
-      play(read, 120'011);
-      wait_until(180'000);
+      wait_until(20'011);
+      exchange({0x12, 0x01, 0x23, 0xA5});
+      wait_until(120'011);
+      read = exchange({0x13, 0x01, 0x23, 0x00});
+      host.set_cs(false);  // as a controller of single bytes from here on
+      for (const std::uint8_t byte : std::vector<std::uint8_t>{0x13, 0x01, 0x23, 0x00})
+        by_bytes.push_back(exchange({byte}).front());
+      host.set_cs(true);
+      sc_core::wait(1, sc_core::SC_US);
       rest = miso.read();
     });
   }
@@ -211,17 +223,8 @@ struct SpiBoard {
     options.chip.variant = spc3::Variant::kVpc3;
     return options;
   }
-  void play(SpiFrame& frame, Tick begin) {
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-      const SerialEdge edge = frame[i];
-      wait_until(begin + edge.at);
-      switch (edge.pin) {
-        case Pin::kMiso: frame.sampled(miso.read() != sc_dt::SC_LOGIC_0); break;
-        case Pin::kSck: wires[spc3::Pin::kSck].write(edge.level); break;
-        case Pin::kMosi: wires[spc3::Pin::kMosi].write(edge.level); break;
-        default: wires[spc3::Pin::kXss].write(edge.level);
-      }
-    }
+  std::vector<std::uint8_t> exchange(std::vector<std::uint8_t> bytes) {
+    return cpu.send(tlm::TLM_READ_COMMAND, 0, std::move(bytes)).data;
   }
 };
 
@@ -306,7 +309,8 @@ TEST(Spc3Pins, DbIsDrivenByUserAndChipInTurn) {
 TEST(Spc3Pins, OfAVpc3HaveSpi) {
   const SpiBoard& board = world->spi;
   EXPECT_EQ(board.chip.peek(0x123), 0xA5);
-  EXPECT_EQ(board.read.received(), (std::vector<std::uint8_t>{0xFF, 0xFF, 0xFF, 0xA5}));
+  EXPECT_EQ(board.read, (std::vector<std::uint8_t>{0xFF, 0xFF, 0xFF, 0xA5}));
+  EXPECT_EQ(board.by_bytes, board.read);
   EXPECT_EQ(board.rest, sc_dt::SC_LOGIC_Z);
 }
 
