@@ -4,6 +4,7 @@
 #   bus       segment, masters, monitor, GSD files: dsdpv1::bus
 #   checks    the rules of the user's side: dsdpv1::checks
 #   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus, dsdpv1::systemc_host
+#   recorder  what the bench records, for chips in SystemC platforms: dsdpv1::recorder; needs bus, checks and systemc
 #   capi      libdsdpv1.so: dsdpv1::capi
 #   dpi       for simulators: dsdpv1::dpi, dsdpv1::vpi, SystemVerilog
 #   python    the module dsdpv1, cocotbext.profibus; the component wheel has what a wheel holds (bindings/python/CMakeLists.txt)
@@ -122,7 +123,7 @@ function(dsdpv1_install_package)
                                 INSTALL_DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} NO_SET_AND_CHECK_MACRO)
   write_basic_package_version_file(${version} COMPATIBILITY SameMinorVersion)
   # Installed with every component, because each may be the only one.
-  foreach(component core driver bus checks systemc capi dpi python tools)
+  foreach(component core driver bus checks systemc recorder capi dpi python tools)
     install(FILES ${config} ${version} ${PROJECT_SOURCE_DIR}/cmake/systemc.cmake
             DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT ${component})
   endforeach()
@@ -182,6 +183,14 @@ function(dsdpv1_install_systemc)
                     LIBS dsdpv1_systemc_bus REQUIRES dsdpv1-systemc dsdpv1-bus)
   dsdpv1_install_pc(systemc dsdpv1-systemc-host "PROFIBUS masters outside of a SystemC platform, in real time"
                     LIBS dsdpv1_systemc_host dsdpv1_host dsdpv1_output dsdpv1_socket REQUIRES dsdpv1-systemc-bus fmt)
+endfunction()
+
+function(dsdpv1_install_recorder)
+  dsdpv1_install_targets(recorder recorder dsdpv1_recorder_whole)
+  set_target_properties(dsdpv1_recorder_whole PROPERTIES EXPORT_NAME recorder)
+  install(FILES kinds/systemc/chip_recorder.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/kinds/systemc COMPONENT recorder)
+  dsdpv1_install_pc(recorder dsdpv1-recorder "checks, summary, waves and captures of a chip in a SystemC platform" LIBS dsdpv1_recorder boost_context z dl
+                    REQUIRES dsdpv1-systemc dsdpv1-checks fmt yaml-cpp pugixml)
 endfunction()
 
 function(dsdpv1_install_capi)
@@ -262,7 +271,7 @@ endfunction()
 # Builds everything that is installed, without tests: `./run examples`.
 function(dsdpv1_installed_target)
   add_custom_target(dsdpv1_installed)
-  foreach(target core driver bus checks systemc driver_systemc systemc_bus systemc_host capi dpi vpi modules python pages rtl_libraries firmware)
+  foreach(target core driver bus checks systemc driver_systemc systemc_bus systemc_host recorder_whole capi dpi vpi modules python pages rtl_libraries firmware)
     if(TARGET dsdpv1_${target})
       add_dependencies(dsdpv1_installed dsdpv1_${target})
     endif()
@@ -274,6 +283,7 @@ function(dsdpv1_install)
   dsdpv1_install_core_and_driver()
   dsdpv1_install_bus_and_checks()
   dsdpv1_install_systemc()
+  dsdpv1_install_recorder()
   dsdpv1_install_capi()
   dsdpv1_install_dpi()
   dsdpv1_install_python()

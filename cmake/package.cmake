@@ -20,7 +20,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS python3)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-numpy)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, pkg-config, libfmt-dev, libsystemc-dev, verilator, iverilog, gcc-arm-none-eabi, gdb-multiarch, gtkwave, wireshark")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, pkg-config, libfmt-dev, libsystemc-dev, libboost-context-dev, libpugixml-dev, libyaml-cpp-dev, zlib1g-dev, verilator, iverilog, gcc-arm-none-eabi, gdb-multiarch, gtkwave, wireshark")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 # A package of a program that uses the shared libraries depends on this package; the linker's cache is updated.

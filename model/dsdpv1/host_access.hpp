@@ -1,11 +1,13 @@
 #pragma once
 // One access of the user CPU to the host port as edges of the pins: for user CPUs of the bench and for adapters that
 // turn transactions into pins.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "model/dsdpv1/pins.hpp"
+#include "model/profibus/time.hpp"
 
 namespace dsdpv1 {
 
@@ -97,6 +99,32 @@ class HostAccess {
   Times times_ = {};
   bool write_ = false, right_ = false;
 };
+
+constexpr std::size_t kMostChanges = 11;  ///< of the pins in an access: 8, or 7 and 4 of D
+
+/// Writes the changes of the pins, in order of time, of an access that keeps all limits and that the chip carries out
+/// as a whole: the host's, and of a read those of D, which the chip drives at a falling edge of its clock (P5). The
+/// first edge is at `begin`, a tick of the chip; `read`: the byte read. `Change{at, number(pin), level}`. Returns their
+/// end.
+template <class Change, class Number>
+Change* changes_of_whole(const HostAccess& access, Tick begin, Level read, const Number& number,
+                         std::array<Change, kMostChanges>& changes) {
+  Change* last = changes.data();
+  for (const HostAccess::Edge& edge : access)
+    if (edge.pin != Pin::kDOut) *last++ = {begin + edge.at, number(edge.pin), edge.level};
+  if (access.is_write()) return last;
+  const auto insert = [&](Tick at, Level level) {
+    Change* place = last++;
+    for (; place != changes.data() && place[-1].at > at; --place) *place = place[-1];
+    *place = {at, number(Pin::kDOut), level};
+  };
+  const HostAccess::Times& times = access.times();
+  const Tick fall = begin + std::max(times.select, times.strobe);
+  insert(fall, kLevelX);
+  insert(profibus::first_edge_after(fall) * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2, read);
+  insert(begin + std::min(times.select_end, times.strobe_end), kLevelZ);
+  return last;
+}
 
 /// Makes accesses one after another. Accesses with the same timing differ in address and value only, so their edges are
 /// sorted once.

@@ -8,6 +8,7 @@
 
 #include "model/profibus/baud.hpp"
 #include "model/systemc/character_line.hpp"
+#include "model/systemc/module_reports.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -36,21 +37,6 @@ BusCharacter on_bus(const LineCharacter& character, Tick zero);
 constexpr Tick bit_time_of(profibus::BaudIndex baud) {
   return (baud.known() ? baud.bit_cycles() : 1) * profibus::kTicksPerCycle;
 }
-
-/// A port that knows whether it is bound.
-template <class T>
-class ListenedPort : public tlm::tlm_analysis_port<T> {
- public:
-  using tlm::tlm_analysis_port<T>::tlm_analysis_port;
-  void bind(tlm::tlm_analysis_if<T>& listener) override {
-    tlm::tlm_analysis_port<T>::bind(listener);
-    bound_ = true;
-  }
-  bool bound() const { return bound_; }
-
- private:
-  bool bound_ = false;
-};
 
 /// The characters of a module's `bus_in`, as edges of its line. Ticks are the chip's.
 class CharacterInput {

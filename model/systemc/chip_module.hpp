@@ -35,6 +35,7 @@ class ChipModule : public CoreModule<Dsdpv1Core> {
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
   /// True if an access of the user has violated the timing of table 15 or P8 since the last call.
   bool take_broken_timing();
+  bool broken_timing() const { return broken_timing_; }
 
  private:
   void heard(const profibus::Event& event) override;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <systemc>
@@ -13,6 +14,7 @@
 #include "model/profibus/character_run.hpp"
 #include "model/profibus/event.hpp"
 #include "model/profibus/state_frame.hpp"
+#include "model/systemc/module_reports.hpp"
 #include "model/systemc/parameters.hpp"
 #include "model/systemc/sim_time.hpp"
 
@@ -64,6 +66,16 @@ class TimedModule : public sc_core::sc_module {
       call();
     }
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+  }
+  /// Makes a step of a release, whose other steps must be made, too. Returns what it has thrown.
+  template <class Call>
+  static std::exception_ptr try_to(const Call& call) {
+    try {
+      call();
+    } catch (...) {
+      return std::current_exception();
+    }
+    return nullptr;
   }
   /// Calls an observer from inside of the core.
   template <class Call>
@@ -194,30 +206,62 @@ class CoreModule : public SavedModule {
   /// Called for every event of the core (refusals, state changes, violations) at its time; ticks as for `on_pin`.
   std::function<void(const profibus::Event& event)> on_event;
 
+  /// As `on_pin`, for any number of listeners, for the pins of observe(). Those of an access through a socket come with
+  /// their ticks, but as a whole when the access is over, and at once if it is carried out ahead of simulation time: so
+  /// they may come before earlier changes of other pins.
+  ListenedPort<PinChange<Pin, Level>> pin_changes{"pin_changes"};
+  /// As `on_event`, for any number of listeners.
+  ListenedPort<profibus::Event> events{"events"};
+  /// The accesses through a socket with the chip's addresses, each when it is over or carried out ahead.
+  ListenedPort<AccessReport> accesses{"accesses"};
+
+  /// `pin_changes` reports these, too. `late`: the listener accepts changes of L_REQ and L_STA later than others, and
+  /// of accesses of the chip that nothing else shows only the last three. Before the simulation starts.
+  void observe(std::uint32_t pins, bool late = false) {
+    observed_by_ports_ |= pins;
+    late_ = late_ && late;
+  }
+  /// The tick at which a read through a socket samples the data, which no pin shows: before the changes of the read.
+  ListenedPort<Tick> samples{"samples"};
+  /// The tick to which the core has been advanced: for a look inside, with Engine::kStep at each edge of CLK.
+  ListenedPort<Tick> advances{"advances"};
+  /// The module is about to be destroyed.
+  ListenedPort<ModuleEnd> ending{"ending"};
+
   /// Levels and status of the core at its last evaluation; sync() of a TLM module advances it to the present time.
   const typename Core::Chip& chip() const { return chip_; }
+  const typename Core::Config& config() const { return config_; }
   /// The memory shared with the user, without pins, time or side effects.
   std::uint8_t peek(std::uint16_t address) const { return chip_.peek(address); }
   void poke(std::uint16_t address, std::uint8_t value) { chip_.poke(address, value); }
 
  protected:
   CoreModule(const sc_core::sc_module_name& name, const typename Core::Config& config, const ModuleOptions& options)
-      : SavedModule(name, options.phase), chip_(config), report_violations_(options.report_violations) {
+      : SavedModule(name, options.phase),
+        chip_(config),
+        config_(config),
+        report_violations_(options.report_violations) {
     list_parameters(config);
     chip_.on_event(
         {[](void* self, const profibus::Event& event) { static_cast<CoreModule*>(self)->event_happened(event); },
          this});
   }
 
+  ~CoreModule() override { ending.tell_each({}, guard()); }
+
   /// Only these are reported to `on_pin`.
   void tell_only(std::uint32_t pins) { told_ = pins; }
-  /// output_changed() is called for the pins in `asked`.
-  void watch(std::uint32_t pins, std::uint32_t asked) {
+  /// Those of observe().
+  std::uint32_t observed_by_ports() const { return observed_by_ports_; }
+  bool accepts_late() const { return late_; }
+  /// output_changed() is called for the pins in `asked`. `late`: as Chip::watch.
+  template <class... Late>
+  void watch(std::uint32_t pins, std::uint32_t asked, Late... late) {
     asked_ = asked;
     chip_.watch(
         {[](void* self, Tick at, Pin pin, Level level) { static_cast<CoreModule*>(self)->pin_changed(at, pin, level); },
          this},
-        pins);
+        pins, late...);
   }
   void begin_pins(std::uint32_t outputs, int pins) {
     outputs_ = outputs;
@@ -229,16 +273,31 @@ class CoreModule : public SavedModule {
   }
   void set(Tick at, Pin pin, Level level) {
     if (chip_.level(pin) == level) return;
+    in_core([&] { set_in_core(at, pin, level); });
+  }
+  struct PinLevel {
+    Pin pin;
+    Level level;
+  };
+  /// All of them, whatever an observer throws.
+  void set_all(Tick at, std::initializer_list<PinLevel> pins) {
     in_core([&] {
-      if (on_pin && (told_ & mask(pin)) != 0) {
-        chip_.advance(at);  // earlier events of the core must precede this change
-        tell([&] { on_pin(at, pin, level); });
-      }
-      chip_.set(at, pin, level);
+      for (const PinLevel& each : pins) set_in_core(at, each.pin, each.level);
     });
   }
   void advance(Tick to) {
-    in_core([&] { chip_.advance(to); });
+    in_core([&] {
+      chip_.advance(to);
+      advances.tell_each(to, guard());
+    });
+  }
+  /// From inside the core: a change of a pin, for the ports only.
+  void tell_ports(Tick at, Pin pin, Level level) {
+    if ((observed_by_ports_ & mask(pin)) != 0) pin_changes.tell_each({at, pin, level}, guard());
+  }
+  /// Calls a listener from inside of the core.
+  auto guard() {
+    return [this](const auto& call) { this->tell(call); };
   }
   std::vector<std::uint8_t> save_core() const override { return chip_.save(); }
   void restore_core(const std::vector<std::uint8_t>& state) override {
@@ -274,24 +333,39 @@ class CoreModule : public SavedModule {
   typename Core::Chip chip_;
 
  private:
+  /// The ports report it after the change: late reports of the core come first.
+  void set_in_core(Tick at, Pin pin, Level level) {
+    if (chip_.level(pin) == level) return;
+    if (on_pin && (told_ & mask(pin)) != 0) {
+      chip_.advance(at);  // earlier events of the core must precede this change
+      tell([&] { on_pin(at, pin, level); });
+    }
+    chip_.set(at, pin, level);
+    tell_ports(at, pin, level);
+  }
   void pin_changed(Tick at, Pin pin, Level level) {
     if ((asked_ & mask(pin)) != 0 && !output_changed(at, pin, level)) return;
     note_output(mask(pin), level == 1);
     if (on_pin && (told_ & mask(pin)) != 0) tell([&] { on_pin(at, pin, level); });
+    tell_ports(at, pin, level);
   }
 
   void event_happened(const profibus::Event& event) {
     heard(event);
     if (on_event) tell([&] { on_event(event); });
+    events.tell_each(event, guard());
     if (!report_violations_ || profibus::severity(event.reason) != profibus::Severity::kViolation) return;
     const std::string text = std::string(name()) + ": " + profibus::code(event.reason) + ": " + Core::describe(event);
     tell([&] { SC_REPORT_WARNING("/dsdpv1/violation", text.c_str()); });
   }
 
+  const typename Core::Config config_;
   bool report_violations_;
   std::uint32_t told_ = ~std::uint32_t{0};
   std::uint32_t outputs_ = 0;
   int pins_ = 0;
+  std::uint32_t observed_by_ports_ = 0;
+  bool late_ = true;         ///< all of observe() accept it
   std::uint32_t asked_ = 0;  ///< outputs for which output_changed() is called
 };
 

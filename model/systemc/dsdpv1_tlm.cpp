@@ -1,6 +1,8 @@
 #include "model/systemc/dsdpv1_tlm.hpp"
 
 #include <algorithm>
+#include <array>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -42,11 +44,21 @@ void TlmModule::start_of_simulation() {
     connect(mask(wire.pin), wire.port);
     if (wire.port.size() > 0) bound_ |= mask(wire.pin);
   }
-  const std::uint32_t asked = heard_outputs() | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
-  const bool told = on_pin && (observed_ & mask(Pin::kPbtxd)) != 0;
+  const bool told = (told_pins() & mask(Pin::kPbtxd)) != 0;
   may_hide_ = PBTXD.size() == 0 && !told;
-  watch(bound_ | asked | (on_pin ? observed_ : 0), asked);
+  watch_outputs(false);
 }
+
+/// The ports need D only during an access that is not carried out as a whole.
+void TlmModule::watch_outputs(bool data) {
+  constexpr std::uint32_t kLate = mask(Pin::kLReq) | mask(Pin::kLSta), kData = mask(Pin::kDOut);
+  watches_data_ = data;
+  const std::uint32_t prompt = bound_ | asked_outputs() | (on_pin ? observed_ : 0);
+  const std::uint32_t ports = data ? observed_by_ports() : observed_by_ports() & ~kData;
+  in_core([&] { watch(prompt | ports, asked_outputs(), accepts_late() && (prompt & kLate) == 0); });
+}
+
+std::uint32_t TlmModule::asked_outputs() const { return heard_outputs() | mask(Pin::kPbtxd) | mask(Pin::kPbrts); }
 
 void TlmModule::sync(const sc_core::sc_time& ahead) {
   if (is_in_core()) return;
@@ -75,7 +87,7 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     try {
       carry_out(payload, first);
     } catch (...) {  // also the reset of the initiator's process
-      release_host_pins();
+      try_to([this] { release_host_pins(); });
       throw;
     }
   }
@@ -106,14 +118,34 @@ bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_co
   const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload, timing_));
   const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
   Level sampled = kLevelX;
+  const Level told_address = chip_.level(Pin::kA);
   const auto carry_out = with ? &TlmModule::carry_out_with_core : &TlmModule::carry_out_alone;
   if (!is_private(begin) || !(this->*carry_out)(begin, end, access, sampled)) return false;
   delay = time_until(end);
   if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
-  payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE
-                                                                 : tlm::TLM_GENERIC_ERROR_RESPONSE);
+  const bool ok = payload.is_write() || sampled >= 0;
+  payload.set_response_status(ok ? tlm::TLM_OK_RESPONSE : tlm::TLM_GENERIC_ERROR_RESPONSE);
+  in_core([&] {
+    tell_whole(chip_tick(begin), access, sampled, told_address);
+    tell_access({chip_tick(begin), chip_tick(end), payload.is_write(), address, Level{byte}, ok, true});
+  });
   return true;
 }
+
+/// Only the address may not change: the first one comes from the power-on level.
+void TlmModule::tell_whole(Tick begin, const HostAccess& access, Level sampled, Level address_before) {
+  if ((observed_by_ports() & kHostPins) == 0) return;
+  if (!access.is_write()) samples.tell_each(begin + access.sample(), guard());
+  std::array<HostAccess::Edge, kMostChanges> edges;
+  const HostAccess::Edge* last = changes_of_whole(
+      access, begin, sampled, [](Pin pin) { return pin; }, edges);
+  for (const HostAccess::Edge* edge = edges.data(); edge != last; ++edge) {
+    if (edge->pin == Pin::kA && std::exchange(address_before, edge->level) == edge->level) continue;
+    tell_ports(edge->at, edge->pin, edge->level);
+  }
+}
+
+void TlmModule::tell_access(const AccessReport& report) { accesses.tell_each(report, guard()); }
 
 bool TlmModule::carry_out_with_core(Tick begin, Tick end, const HostAccess& access, Level& sampled) {
   if (kernel_quiet_until() <= end || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return false;
@@ -165,13 +197,16 @@ bool TlmModule::write_byte(std::uint16_t address, const AccessTiming& timing, un
 }
 
 void TlmModule::release_host_pins() {
-  catch_up();
+  std::exception_ptr thrown = try_to([this] { catch_up(); });
   access_ = {};
-  const Tick now = chip_now();
-  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) set(now, pin, 1);
-  set(now, Pin::kDIn, kLevelZ);
-  set(now, Pin::kA, HostAccess::kIdleAddress);
+  const auto release = [this] {
+    set_all(chip_now(),
+            {{Pin::kRd, 1}, {Pin::kWr, 1}, {Pin::kCsr, 1}, {Pin::kDIn, kLevelZ}, {Pin::kA, HostAccess::kIdleAddress}});
+  };
+  if (const std::exception_ptr another = try_to(release); !thrown) thrown = another;
+  if (watches_data_) watch_outputs(false);
   plan();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 /// `sampled_` is then the level of D at the sample, X without a sample. As long as the user owns the DPRAM and the pins
@@ -186,9 +221,13 @@ void TlmModule::perform(bool write, std::uint16_t address, std::uint8_t value, c
     for (const HostAccess::Edge& edge : access_) wait_until(access_start_ + edge.at);
   const Tick end = access_start_ + access_.duration();
   wait_until(end);
+  const bool ok = access_.is_write() ? !broken_timing() : sampled_ >= 0;
+  const Level byte = access_.is_write() ? Level{value} : sampled_;
   access_ = {};
-  access_start_ = end;
+  if (watches_data_) watch_outputs(false);
+  const Tick start = std::exchange(access_start_, end);
   plan();
+  in_core([&] { tell_access({chip_tick(start), chip_tick(end), write, address, byte, ok, false}); });
 }
 
 /// Moves the pins of the running access at their ticks, up to `now`.
@@ -196,7 +235,8 @@ void TlmModule::move_access(Tick now) {
   if (!in_access()) return;
   const Tick start = chip_tick(access_start_);
   const bool over = start + access_.last() <= now && !hears_host();
-  if (moved_ == 0 && over && ChipModule::carry_out(start, access_, sampled_)) moved_ = access_.size();
+  if (moved_ == 0 && over && move_whole(start)) return;
+  if (moved_ == 0 && start <= now) begin_access(start);
   for (; moved_ < access_.size() && start + access_[moved_].at <= now; ++moved_) {
     const HostAccess::Edge& edge = access_[moved_];
     if (edge.pin == Pin::kDOut)
@@ -204,6 +244,21 @@ void TlmModule::move_access(Tick now) {
     else
       set(start + edge.at, edge.pin, edge.level);
   }
+}
+
+bool TlmModule::move_whole(Tick start) {
+  const Level address = chip_.level(Pin::kA);
+  if (!ChipModule::carry_out(start, access_, sampled_)) return false;
+  moved_ = access_.size();  // also if a listener throws
+  in_core([&] { tell_whole(start, access_, sampled_, address); });
+  return true;
+}
+
+/// Its edges are moved one by one.
+void TlmModule::begin_access(Tick start) {
+  if ((observed_by_ports() & mask(Pin::kDOut)) != 0) watch_outputs(true);
+  if (access_.is_write() || (observed_by_ports() & kHostPins) == 0) return;
+  in_core([&] { samples.tell_each(start + access_.sample(), guard()); });
 }
 
 void TlmModule::wait_until(Tick tick) {

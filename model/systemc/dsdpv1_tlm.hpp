@@ -45,7 +45,8 @@ struct TlmOptions : ChipOptions {
   Tick hold_within = 12'000'000;
   /// Direct memory access for the holder of the DPRAM: nothing shows or checks its accesses.
   bool dmi = false;
-  /// The pins reported to `on_pin` (dsdpv1::mask). Each change of a reported output costs an event. RESET, R_REQ and
+  /// The pins reported to `on_pin` (dsdpv1::mask); observe() chooses those of the port `pin_changes`. Each change of a
+  /// reported output costs an event. RESET, R_REQ and
   /// R_STA are always reported. If PBRXD and PBTXD are not, a telegram of valid characters costs a few events instead
   /// of six per character; if A, D, CSR, RD and WR are not, an access of the DPRAM's owner costs one.
   std::uint32_t observed = kOutputPins | mask(Pin::kPbrxd) | kHostPins;
@@ -145,8 +146,8 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   void store_module(profibus::StateReader& archive) override;
   /// A value used by plan() has changed while the core was running.
   void others_changed() { others_ = arrivals_ = 0; }
-  /// `on_pin` receives the pin.
-  bool hears(Pin pin) const { return (observed_ & mask(pin)) != 0; }
+  /// `on_pin` or `pin_changes` reports the pin.
+  bool hears(Pin pin) const { return ((observed_ | observed_by_ports()) & mask(pin)) != 0; }
   /// The parallel port's socket, of any width.
   void require_host_bound(const char* why) {
     if (!is_bound(host_socket_64) && !is_bound(host_socket_8)) require_bound(host_socket, why);
@@ -188,18 +189,25 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   bool carry_out_with_core(Tick begin, Tick end, const HostAccess& access, Level& sampled);
   bool carry_out_alone(Tick begin, Tick end, const HostAccess& access, Level& sampled);
   bool is_private(Tick begin);
+  void tell_whole(Tick begin, const HostAccess& access, Level sampled, Level address_before);
+  void tell_access(const AccessReport& report);
+  std::uint32_t asked_outputs() const;
+  void watch_outputs(bool data);
   void carry_out(Payload& payload, unsigned int first);
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
   void perform(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing);
   void move_access(Tick now);
+  bool move_whole(Tick start);
+  void begin_access(Tick start);
 
   void evaluate();
   bool nothing_arrives() const { return fired_as_scheduled() && scheduled() < arrivals_ && !in_access(); }
   void evaluate_core();
   void apply_line(Tick now);
   bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
-  bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
+  std::uint32_t told_pins() const { return (on_pin ? observed_ : 0) | observed_by_ports(); }
+  bool tells_runs() const { return (told_pins() & mask(Pin::kPbrxd)) == 0; }
   bool in_run(Tick now) const { return now < run_end_; }
   bool line_level() const { return characters_level_ && far_level_ && (PBRXD.size() == 0 || PBRXD->read()); }
   bool line_is_stale(Tick now) const;
@@ -231,6 +239,7 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   Tick arrivals_ = 0;  ///< the next arrival at the chip, from the line or the host ...
   Tick others_ = 0;    ///< ... and the next event outside the core, which may be the end of a character of the chip
   std::uint32_t observed_, bound_ = 0;      ///< pins
+  bool watches_data_ = false;               ///< of an access that is not carried out as a whole, for the ports
   std::uint32_t applied_ = 0;               ///< those of RESET, R_REQ, R_STA that are high for the core
   sc_core::sc_mutex host_bus_{"host_bus"};  ///< serialises the accesses of several initiators
   HostAccessMaker maker_;

@@ -72,7 +72,7 @@ void TlmModule::begin_run(Tick now) {
     spell_out(run_, now - 1);
 }
 
-/// The changes of a run after `behind`.
+/// Changes of a run that come later.
 void TlmModule::spell_out(const LineRun& run, Tick behind) {
   bool level = true;
   for (std::size_t i = 0; i < run.bytes.size(); ++i) {
@@ -134,7 +134,7 @@ bool TlmModule::output_changed(Tick at, Pin pin, Level level) {
     txd_changed(at, true);  // RESET ends both
   }
   if (pin == Pin::kPbrts && on_rts) tell([&] { on_rts(at, level != 0); });
-  if (pin == Pin::kPbrts) return ((bound_ | observed_) & mask(pin)) != 0;
+  if (pin == Pin::kPbrts) return ((bound_ | observed_ | observed_by_ports()) & mask(pin)) != 0;
   if (may_hide_ && chip().begins_to_send()) {
     answer_waits_ = true;  // until the core is idle
     return false;
@@ -179,7 +179,8 @@ void TlmModule::offer_answer() {
   const profibus::CharacterRun run = hide_core_txd();
   if (on_answer && !on_answer(run)) {
     show_core_txd(run.start);
-    if (on_pin && hears(Pin::kPbtxd)) on_pin(run.start, Pin::kPbtxd, 0);
+    if (on_pin && (observed_ & mask(Pin::kPbtxd)) != 0) on_pin(run.start, Pin::kPbtxd, 0);
+    in_core([&] { tell_ports(run.start, Pin::kPbtxd, 0); });
     txd_changed(run.start, false);
     if (on_txd) on_txd(run.start, false);
     return;

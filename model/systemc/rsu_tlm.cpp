@@ -75,7 +75,7 @@ void RsuTlmModule::transfer_frame(Payload& payload) {
   try {
     carry_out(spi_, std::move(frame), begin);
   } catch (...) {
-    release({Pin::kXss, Pin::kSck, Pin::kMosi});
+    release({{Pin::kXss, 1}, {Pin::kSck, 0}, {Pin::kMosi, 0}});
     spi_free_at_ = 0;
     throw;
   }
@@ -91,7 +91,7 @@ void RsuTlmModule::transfer_bytes(Payload& payload) {
   try {
     carry_out(spi_, std::move(clocks), begin);
   } catch (...) {
-    release({Pin::kSck, Pin::kMosi});
+    release({{Pin::kSck, 0}, {Pin::kMosi, 0}});
     select_.clocks_end(chip_now());
     throw;
   }
@@ -124,7 +124,7 @@ void RsuTlmModule::transport_uart(Payload& payload, sc_core::sc_time& delay) {
   } catch (...) {
     uart_ = {};
     rxd_lane_ = true;
-    set_rxd(chip_now());
+    try_to([this] { set_rxd(chip_now()); });
     plan();
     throw;
   }
@@ -181,13 +181,12 @@ void RsuTlmModule::move_pins(Tick now) {
 
 void RsuTlmModule::set_rxd(Tick at) { set(at, Pin::kRxd, rxd_lane_ && rxd_character_ ? 1 : 0); }
 
-/// Ends a frame or the clocks at once, because the initiator's process was reset or killed: the pins idle.
-void RsuTlmModule::release(std::initializer_list<Pin> pins) {
-  catch_up();
-  for (const Pin pin : pins) {
-    if (pin == Pin::kSck) spi_ = {};
-    if (pin != Pin::kRxd) set(chip_now(), pin, pin == Pin::kXss ? 1 : 0);
-  }
+/// Ends a frame or the clocks at once, because the initiator's process was reset or killed, or an observer has thrown:
+/// the pins idle, whatever observers throw now.
+void RsuTlmModule::release(std::initializer_list<PinLevel> pins) {
+  try_to([this] { catch_up(); });
+  spi_ = {};
+  try_to([&] { set_all(chip_now(), pins); });
   plan();
 }
 

@@ -131,7 +131,7 @@ class RsuTlmModule : public TlmModule {
   void carry_out(Lane<Edges>& lane, Edges edges, Tick begin);
   void move_pins(Tick now);
   void set_rxd(Tick at);
-  void release(std::initializer_list<Pin> pins);
+  void release(std::initializer_list<PinLevel> pins);
   void collect_byte(Tick now);
 
   RsuStraps straps_;

@@ -68,7 +68,7 @@ unsigned int Spc3TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& 
     if (!is_enabled(payload, i)) continue;
     const Tick end = to_tick(sc_core::sc_time_stamp() + delay) + length_of(payload);
     if (!is_unseen(end)) return i;
-    access(payload, i, chip_tick(end));
+    access(payload, i, chip_tick(end), true);
     plan();
     delay = time_until(end);
   }
@@ -105,13 +105,13 @@ void Spc3TlmModule::carry_out(Payload& payload, unsigned int first) {
     if (!is_enabled(payload, i)) continue;
     end += length_of(payload);
     if (const sc_core::sc_time rest = time_until(end); rest > sc_core::SC_ZERO_TIME) wait(rest);
-    access(payload, i, catch_up());
+    access(payload, i, catch_up(), false);
     plan();
   }
 }
 
 /// The core is at `at`, or before it without an event in between.
-void Spc3TlmModule::access(Payload& payload, unsigned int index, Tick at) {
+void Spc3TlmModule::access(Payload& payload, unsigned int index, Tick at, bool ahead) {
   unsigned char& byte = payload.get_data_ptr()[index];
   const auto address = static_cast<spc3::Address>(payload.get_address() + index);
   in_reset_ = false;
@@ -122,6 +122,8 @@ void Spc3TlmModule::access(Payload& payload, unsigned int index, Tick at) {
       chip_.store(cycle, address, byte);
     else
       byte = chip_.load(cycle, address);
+    const Tick begin = std::max<Tick>(at - length_of(payload), 0);
+    accesses.tell_each({begin, at, payload.is_write(), address, byte, !in_reset_, ahead}, guard());
   });
   taken_ = profibus::first_edge_after(at) * profibus::kTicksPerCycle;
   if (in_reset_) payload.set_response_status(tlm::TLM_GENERIC_ERROR_RESPONSE);
@@ -218,7 +220,7 @@ bool Spc3TlmModule::hear_run(const profibus::CharacterRun& run) {
   const Tick now = chip_now();
   profibus::CharacterRun heard = run;
   heard.start = now;
-  const bool hears = !on_pin && !in_run(now) && chip().level(Pin::kRxd) == 1 && core_hears(now, heard);
+  const bool hears = !tells(Pin::kRxd) && !in_run(now) && chip().level(Pin::kRxd) == 1 && core_hears(now, heard);
   if (hears)
     run_end_ = now + static_cast<Tick>(run.size) * profibus::kBitsPerCharacter * run.bit * profibus::kTicksPerCycle;
   plan();

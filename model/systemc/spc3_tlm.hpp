@@ -80,7 +80,8 @@ class Spc3TlmModule : public Spc3Module, public LineStation, private tlm::tlm_an
   /// As TlmModule::sync.
   void sync(const sc_core::sc_time& ahead = sc_core::SC_ZERO_TIME);
 
-  // As a station of a line; RTS is its enable, TXD its input. Runs are refused while `on_pin` is set.
+  // As a station of a line; RTS is its enable, TXD its input. Runs are refused while `on_pin` is set, or
+  // `pin_changes` reports the line.
   void set_line(bool level) override;
   bool hear_run(const profibus::CharacterRun& run) override;
   void leave_run() override;
@@ -98,7 +99,7 @@ class Spc3TlmModule : public Spc3Module, public LineStation, private tlm::tlm_an
   unsigned int carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
   bool is_unseen(Tick end);
   void carry_out(Payload& payload, unsigned int first);
-  void access(Payload& payload, unsigned int index, Tick at);
+  void access(Payload& payload, unsigned int index, Tick at, bool ahead);
   Tick length_of(const Payload& payload) const;
 
   void evaluate();
@@ -108,7 +109,8 @@ class Spc3TlmModule : public Spc3Module, public LineStation, private tlm::tlm_an
   bool in_run(Tick now) const { return now < run_end_; }
   void apply_line(Tick now);
   void leave_run(Tick now);
-  bool hides_answers() const { return on_answer && !on_pin && TXD.size() == 0 && !bus_out.bound(); }
+  bool tells(Pin pin) const { return on_pin || (observed_by_ports() & mask(pin)) != 0; }
+  bool hides_answers() const { return on_answer && !tells(Pin::kTxd) && TXD.size() == 0 && !bus_out.bound(); }
   void offer_answer();
   void drive_line();
   Tick next_driven() const { return driven_.empty() ? profibus::kNever : driven_.front().at; }

@@ -56,7 +56,7 @@ void CheckWatch::add(const scenario::Slave& slave, ChipView& chip) {
   if (entry.checks == nullptr) return;
   entry.allowed.resize(rules.size());
   entry.listed_of.resize(rules.size());
-  entry.checks->hears_looks();
+  if (chip.tells_looks()) entry.checks->hears_looks();
   entry.checks->on_violation([this, &entry](const checks::Violation& violation) { keep(entry, violation); });
 }
 

@@ -37,6 +37,9 @@ class CheckWatch : public Observer {
   void looked(std::size_t slave, PinNumber pin, Tick at) override {
     if (checks::ChipChecks* own = of(slave)) own->looked(pin, at);
   }
+  void accessed(std::size_t slave, Tick at, std::uint16_t address, std::uint8_t value, bool write) override {
+    if (checks::ChipChecks* own = of(slave)) own->accessed(at, address, value, write);
+  }
   void event(std::size_t slave, const profibus::Event& event) override {
     if (checks::ChipChecks* own = of(slave)) own->event(event);
   }

@@ -136,6 +136,9 @@ class Observers : public ChipListener {
   void inside(std::size_t slave, Tick at, std::size_t signal, Level level, const std::string& word) override {
     tell(&Observer::inside, slave, at, signal, level, word);
   }
+  void accessed(std::size_t slave, Tick at, std::uint16_t address, std::uint8_t value, bool write) override {
+    tell(&Observer::accessed, slave, at, address, value, write);
+  }
   void action(std::size_t slave, Tick at, const std::string& words) override {
     tell(&Observer::action, slave, at, words);
   }

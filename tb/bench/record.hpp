@@ -80,6 +80,17 @@ struct Tsdr {
   void add(double bits);
 };
 
+/// The accesses of a chip's user through a socket of a SystemC platform.
+struct SocketUse {
+  std::uint64_t accesses = 0;
+  std::uint64_t failed = 0;          ///< without TLM_OK_RESPONSE
+  std::uint64_t ahead = 0;           ///< carried out ahead of simulation time
+  Tick furthest = 0;                 ///< most that one was ahead at its end
+  std::uint64_t late_pins = 0;       ///< changes of pins that its user moves, before accesses already carried out
+  std::string late_pin;              ///< of the first ...
+  Tick late_at = 0, late_until = 0;  ///< ... its time, and the end of the accesses
+};
+
 struct SlaveResult {
   std::string name;
   ChipStatus status;
@@ -89,6 +100,7 @@ struct SlaveResult {
   Tsdr tsdr;
   user_cpu::UserCounters user;
   std::optional<user_cpu::BoardReport> board;  ///< of a board with a processor
+  std::optional<SocketUse> socket;             ///< of a chip in a SystemC platform
   bus::Bytes inputs;
   std::optional<bus::Bytes> outputs;  ///< absent: its program does not report
 };

@@ -77,6 +77,9 @@ class ChipListener {
   /// with ChipRequest::inside.
   virtual void inside(std::size_t /*slave*/, Tick /*at*/, std::size_t /*signal*/, Level /*level*/,
                       const std::string& /*word*/) {}
+  /// An access of the user that no pin shows, at the tick at which it acts; a read with its answer.
+  virtual void accessed(std::size_t /*slave*/, Tick /*at*/, std::uint16_t /*address*/, std::uint8_t /*value*/,
+                        bool /*write*/) {}
   /// An action of the user CPU at the chip's pins, as text: an access, or a change of a pin.
   virtual void action(std::size_t /*slave*/, Tick /*at*/, const std::string& /*words*/) {}
 };
@@ -105,6 +108,9 @@ class ChipView {
 
   /// The interface for a user CPU of this kind; null: the bench cannot connect one.
   virtual user_cpu::UserSide* user_side() { return nullptr; }
+
+  /// Whether its user CPU tells its looks: ChipListener::looked.
+  virtual bool tells_looks() const { return true; }
 
   /// True if it reports ChipListener::follows.
   virtual bool tells_runs() const { return false; }

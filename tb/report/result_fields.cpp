@@ -114,6 +114,14 @@ void board_fields(Fields& out, const user_cpu::BoardReport& board) {
   out.texts("notes", board.notes, "a line", "remarks on the firmware");
 }
 
+void socket_fields(Fields& out, const SocketUse& use) {
+  out.field("accesses", use.accesses, "of its user through the socket, a byte each");
+  out.field("failed", use.failed, "of these, without TLM_OK_RESPONSE");
+  out.field("ahead", use.ahead, "of these, carried out ahead of simulation time");
+  out.time("furthest_ahead_ns", use.furthest, "most that one was ahead when it ended");
+  out.field("late_pins", use.late_pins, "changes of pins that its user moves, before accesses already carried out");
+}
+
 std::string hexadecimal(const bus::Bytes& bytes) { return bytes_text(bytes, bytes.size()); }
 
 void slave_fields(Fields& out, const SlaveResult& slave) {
@@ -132,6 +140,7 @@ void slave_fields(Fields& out, const SlaveResult& slave) {
                      "from the end of a request to the start of the answer; null without an answer");
   out.object("handshake", slave, handshake_fields, "use of the DPRAM");
   out.object("user_cpu", slave.user, user_fields, "the user CPU and its program");
+  out.object_if("socket", slave.socket, socket_fields, "of a chip in a SystemC platform");
   out.object_if("arm_board", slave.board, board_fields, "of a slave whose user_cpu has kind: arm");
   out.field("master_state", slave.master_state, "its state at its master; empty without one");
   out.field("master_reason", slave.master_reason, "the reason for that state");

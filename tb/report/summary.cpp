@@ -231,6 +231,31 @@ std::string boards(const RunResult& result) {
   return text + result.fault_registers;
 }
 
+std::string socket_text(const SocketUse& use) {
+  std::string text = fmt::format("{}", use.accesses);
+  if (use.ahead != 0)
+    text += fmt::format(", {} ahead of simulation time, by {} at most", use.ahead, bus::short_time(use.furthest));
+  if (use.failed != 0) text += fmt::format("; {} without TLM_OK_RESPONSE", use.failed);
+  return text;
+}
+
+/// Accesses of SystemC platforms; their initiators that did not synchronise.
+std::string sockets(const RunResult& result) {
+  std::string text;
+  for (const SlaveResult& slave : result.slaves) {
+    if (!slave.socket) continue;
+    const SocketUse& use = *slave.socket;
+    text += named_line("accesses", fmt::format("{}: {}", slave.name, socket_text(use)));
+    if (use.late_pins != 0)
+      text += named_line(
+          "not in time",
+          fmt::format("{} moved at {}, but accesses up to {} had been carried out; the initiator has to "
+                      "wait for its local time first ({} times)",
+                      use.late_pin, bus::moment_text(use.late_at), bus::moment_text(use.late_until), use.late_pins));
+  }
+  return text;
+}
+
 /// ": 5.6 times slower than real time".
 std::string pace_text(double factor) {
   if (factor <= 0) return "";
@@ -251,7 +276,7 @@ std::string measured(const RunResult& result) {
       named_line("simulated", fmt::format("{} in {:.2f} s{}{}", bus::moment_text(result.simulated), result.wall_s,
                                           pace_text(result.real_time_factor()), execution(result)));
   if (result.pacing) text += pacing(result.pacing->line, result.pacing->pace);
-  return text + boards(result);
+  return text + sockets(result) + boards(result);
 }
 
 std::string violations(const RunResult& result) {

@@ -1,92 +1,27 @@
-// An initiator that knows nothing of this project but the socket, the wires and tlm_quantumkeeper: a hold of the DPRAM
-// after the other, forty writes in each.
+// A foreign initiator at the TLM module: its accesses ahead of simulation time, and its warnings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tlm_utils/simple_initiator_socket.h>
-#include <tlm_utils/tlm_quantumkeeper.h>
 
 #include <memory>
 
 #include "tests/systemc/bench.hpp"
+#include "tests/systemc/foreign_initiator.hpp"
 #include "tests/systemc/own_process.hpp"
 
 namespace dsdpv1 {
 
-using dsdpv1::systemc::to_time;
 using sc_core::sc_time;
 
 namespace {
 
-constexpr int kHolds = 10, kWrites = 40;
-
-class Initiator : public sc_core::sc_module {
- public:
-  tlm_utils::simple_initiator_socket<Initiator> socket{"socket"};
-  sc_core::sc_out<bool> R_REQ{"R_REQ"}, R_STA{"R_STA"};
-  bool forgets_to_synchronise = false, begins_without_a_hold = false;
-  int accesses = 0, ahead = 0, thrown = 0;
-
-  explicit Initiator(const sc_core::sc_module_name& name) : sc_module(name) {
-    SC_HAS_PROCESS(Initiator);
-    SC_THREAD(run);
-  }
-
- private:
-  void run() {
-    wait(to_time(100 * kUs));
-    keeper_.reset();
-    if (begins_without_a_hold) violate();
-    for (int hold = 0; hold < kHolds; ++hold) {
-      R_REQ.write(true);
-      pass(3 * kUs);  // the chip's longest access without work
-      R_STA.write(true);
-      pass(kUs);
-      for (int i = 0; i < kWrites; ++i)
-        write(static_cast<std::uint16_t>(0x130 + i), static_cast<std::uint8_t>(hold + i));
-      if (!forgets_to_synchronise) keeper_.sync();
-      R_STA.write(false);
-      R_REQ.write(false);
-      pass(5 * kUs);
-    }
-  }
-  void violate() {
-    try {
-      write(0x130, 0);
-    } catch (const sc_core::sc_report&) {
-      ++thrown;
-    }
-  }
-  void pass(Tick ticks) {
-    keeper_.inc(to_time(ticks));
-    keeper_.sync();
-  }
-  void write(std::uint16_t address, std::uint8_t value) {
-    tlm::tlm_generic_payload payload;
-    payload.set_command(tlm::TLM_WRITE_COMMAND);
-    payload.set_address(address);
-    payload.set_data_ptr(&value);
-    payload.set_data_length(1);
-    payload.set_streaming_width(1);
-    const sc_time before = sc_core::sc_time_stamp();
-    sc_time delay = keeper_.get_local_time();
-    socket->b_transport(payload, delay);
-    EXPECT_EQ(payload.get_response_status(), tlm::TLM_OK_RESPONSE);
-    ++accesses;
-    ahead += sc_core::sc_time_stamp() == before ? 1 : 0;
-    keeper_.set(delay);
-    if (keeper_.need_sync()) keeper_.sync();
-  }
-
-  tlm_utils::tlm_quantumkeeper keeper_;
-};
-
 struct Platform : sc_core::sc_module {
-  dsdpv1::systemc::TlmModule chip{"chip", options()};
-  Initiator initiator{"initiator"};
+  dsdpv1::systemc::TlmModule chip;
+  ForeignInitiator initiator{"initiator"};
   sc_core::sc_signal<bool> reset{"reset"}, r_req{"r_req"}, r_sta{"r_sta"};
   Changes changes;
 
-  explicit Platform(const sc_core::sc_module_name& name) : sc_module(name) {
+  explicit Platform(const sc_core::sc_module_name& name, const systemc::TlmOptions& own = options())
+      : sc_module(name), chip("chip", own) {
     initiator.socket.bind(chip.host_socket);
     initiator.R_REQ(r_req), initiator.R_STA(r_sta);
     chip.RESET(reset), chip.R_REQ(r_req), chip.R_STA(r_sta);
@@ -100,7 +35,8 @@ struct Platform : sc_core::sc_module {
   }
   std::string memory() const {
     std::string text;
-    for (int i = 0; i < kWrites; ++i) text += std::to_string(chip.peek(static_cast<std::uint16_t>(0x130 + i))) + " ";
+    for (int i = 0; i < ForeignInitiator::kWrites; ++i)
+      text += std::to_string(chip.peek(static_cast<std::uint16_t>(0x130 + i))) + " ";
     return text;
   }
 };
@@ -179,6 +115,30 @@ TEST(ForeignInitiator, AReportThatThrowsLeavesTheTransactionAndTheNextIsAsUsual)
            " accesses, " + platform.memory();
   });
   EXPECT_THAT(told, testing::StartsWith("1 thrown, 400 accesses, 9 10 11 "));
+}
+
+TEST(ForeignInitiator, AKilledOneReleasesItsPinsWhateverAnObserverThrows) {
+  const std::string told = in_a_process_of_its_own([] {
+    set_resolution();
+    collect_reports();
+    Platform platform("platform", systemc::TlmOptions());
+    bool throws = false;
+    platform.chip.on_pin = [&](Tick, Pin, dsdpv1::Level) {
+      if (throws) throw std::runtime_error("from on_pin");
+    };
+    std::string levels;
+    thread([&] {
+      while (platform.chip.chip().level(Pin::kWr) != 0) wait_until(systemc::current_tick() + 100);
+      throws = true;
+      platform.initiator.kill();
+      throws = false;
+      for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr, Pin::kDIn, Pin::kA})
+        levels += std::to_string(platform.chip.chip().level(pin)) + " ";
+    });
+    sc_core::sc_start(400, sc_core::SC_US);
+    return levels;
+  });
+  EXPECT_EQ(told, "1 1 1 -1 2047 ");
 }
 
 }  // namespace dsdpv1

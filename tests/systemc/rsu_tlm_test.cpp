@@ -38,7 +38,7 @@ struct Side : sc_core::sc_module, tlm::tlm_analysis_if<std::uint8_t> {
   tlm_utils::simple_initiator_socket<Side> socket{"socket"};
   sc_core::sc_signal<bool> reset, low;
   Changes changes;
-  bool throws = false;  ///< at the next change
+  bool throws = false, always_throws = false;  ///< at the next change, at each
   Bytes heard;
   std::vector<Tick> heard_at;
 
@@ -48,7 +48,7 @@ struct Side : sc_core::sc_module, tlm::tlm_analysis_if<std::uint8_t> {
     chip.uart_out.bind(*this);
     chip.on_pin = [this](Tick at, Pin pin, Level level) {
       changes.push_back({at, pin, level});
-      if (std::exchange(throws, false)) throw std::runtime_error("from on_pin");
+      if (std::exchange(throws, false) || always_throws) throw std::runtime_error("from on_pin");
     };
     thread([this] {
       wait_until(kUs);
@@ -121,6 +121,7 @@ struct World {
   std::vector<tlm::tlm_response_status> of_spi, of_uart;
   std::string thrown_of_spi, thrown_of_uart;
   std::optional<Outcome> frame_after_throw, telegram_after_throw;
+  std::vector<Level> released;  ///< XSS, SCK, MOSI of a killed frame
   Tick refused_until = 0;
   Bytes debug = Bytes(2);
   unsigned debugged = 0;
@@ -147,6 +148,16 @@ struct World {
     thrown_of_spi = spi.thrown(kReadB014);
     wait_until(current_tick() + kUs);
     frame_after_throw = spi.transport(tlm::TLM_READ_COMMAND, with_room(kReadB014));
+    kill_while_an_observer_throws();
+  }
+  void kill_while_an_observer_throws() {
+    const Chip& chip = spi.chip.chip();
+    auto killed = sc_core::sc_spawn([this] { spi.transport(tlm::TLM_WRITE_COMMAND, Bytes(200, 0xFF)); });
+    while (chip.level(Pin::kSck) != 1 || chip.level(Pin::kMosi) != 1) wait_until(current_tick() + 100);
+    spi.always_throws = true;
+    killed.kill();
+    spi.always_throws = false;
+    for (const Pin pin : {Pin::kXss, Pin::kSck, Pin::kMosi}) released.push_back(chip.level(pin));
   }
   /// SCK is low for `low` ticks.
   Outcome read_with_low(Tick low) {
@@ -250,6 +261,10 @@ TEST(RsuSockets, AKilledInitiatorLeavesIdlePinsAndTheNextFrameNeedNotWait) {
   EXPECT_EQ(behind(world->after_kill->data, kReadB014.size()), kReply);
   EXPECT_THAT(only(world->uart.changes, Pin::kRxd),
               testing::Contains(Change{kAt + 200 * kUs + 2 * kBit, Pin::kRxd, 1}));
+}
+
+TEST(RsuSockets, AKilledFrameReleasesItsPinsWhateverAnObserverThrows) {
+  EXPECT_THAT(world->released, ElementsAre(1, 0, 0));
 }
 
 TEST(RsuSockets, ATransactionIsATelegramOfTheUartAndItsReplyComesByteByByte) {

@@ -45,6 +45,9 @@ checks:
 A run with checks takes 1.9 times the host instructions of one without in `power_on_12m`, and 1.2 times in `arm_board_12m` (rows `demo_checks` and `demo`, `arm_checks` and `arm` of
 `./run bench --instructions`).
 
+In a SystemC platform `ChipRecorder` makes them ([systemc.md](systemc.md#chiprecorder)), also of accesses ahead of simulation time, with the same margins; `recorded_platform` of the examples
+shows it.
+
 ## What is recorded
 
 For each check and slave: the number of evaluations (`count`) and violations (`violations`, of which `allowed`), the worst margin with

@@ -150,26 +150,12 @@ bool Dsdpv1PinChip::run_whole() {
   return true;
 }
 
-/// The edges as the user CPU and the chip have made them; the chip drives D at a falling edge of its clock (P5).
+/// The edges as the user CPU and the chip have made them.
 void Dsdpv1PinChip::report_whole(const dsdpv1::HostAccess& access, Tick begin) {
-  std::array<PinEdge, 11> edges;  // 8, or 7 and 4 of D
-  PinEdge* last = edges.data();
-  for (const dsdpv1::HostAccess::Edge& edge : access)
-    if (edge.pin != Pin::kDOut) *last++ = {begin + edge.at, number(edge.pin), edge.level};
-  if (!access.is_write()) {
-    const auto insert = [&](Tick at, Pin pin, Level level) {
-      PinEdge* place = last++;
-      for (; place != edges.data() && place[-1].at > at; --place) *place = place[-1];
-      *place = {at, number(pin), level};
-    };
-    const dsdpv1::HostAccess::Times& times = access.times();
-    const Tick fall = begin + std::max(times.select, times.strobe);
-    const Tick drive = profibus::first_edge_after(fall) * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2;
-    insert(fall, Pin::kDOut, dsdpv1::kLevelX);
-    insert(drive, Pin::kDOut, pins_->read_value());
-    insert(begin + std::min(times.select_end, times.strobe_end), Pin::kDOut, dsdpv1::kLevelZ);
-  }
-  report_edges(edges.data(), last);
+  std::array<PinEdge, dsdpv1::kMostChanges> edges;
+  const Level read = access.is_write() ? dsdpv1::kLevelZ : pins_->read_value();
+  report_edges(edges.data(), dsdpv1::changes_of_whole(
+                                 access, begin, read, [](Pin pin) { return number(pin); }, edges));
 }
 
 void Dsdpv1PinChip::run_edges_singly(Tick until) {

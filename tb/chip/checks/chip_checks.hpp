@@ -2,6 +2,7 @@
 // The rules of one chip's user side, judged from its pins, the user's accesses and the telegrams on the line. So they
 // apply equally to every user CPU, every engine and foreign RTL; only rules about what the chip refuses need its
 // events.
+#include <cstdint>
 #include <functional>
 
 #include "bus/monitor/monitor.hpp"
@@ -32,6 +33,9 @@ class ChipChecks {
   virtual void hears_looks() {}
   /// Announces, before the user acts on it, that it looked at `pin` last at `at`; negative: never.
   virtual void looked(tb::PinNumber /*pin*/, Tick /*at*/) {}
+  /// An access that no pin shows, of a chip whose accesses can come so, at the tick at which it acts; a read with its
+  /// answer.
+  virtual void accessed(Tick /*at*/, std::uint16_t /*address*/, std::uint8_t /*value*/, bool /*write*/) {}
   /// A telegram of any station that has ended, at `now`.
   virtual void telegram(Tick now, const bus::WireTelegram& telegram) = 0;
   /// Once, at the end of the run.
