@@ -83,8 +83,7 @@ class PrmBuilder {
 
  private:
   void add_parameter(const GsdParameter& parameter, std::size_t at, std::optional<std::size_t> module) {
-    std::int64_t value =
-        module && gsd::lower(parameter.name) == "[slotnumber]" ? slot(parameter, *module) : parameter.preset;
+    std::int64_t value = module && is_slot_number(parameter) ? slot(parameter, *module) : parameter.preset;
     for (std::size_t i = 0; i < overrides_.size(); ++i) {
       if (overrides_[i].module != module || !names(overrides_[i], parameter)) continue;
       used_.insert(i);
@@ -93,6 +92,12 @@ class PrmBuilder {
     store(parameter, at, value);
     result_.fields.push_back(
         {at, static_cast<std::size_t>(size_of(parameter.type)), module, &parameter, value, text(parameter, value)});
+  }
+
+  /// ISO 15745-3 writes the name both ways.
+  static bool is_slot_number(const GsdParameter& parameter) {
+    const std::string name = gsd::lower(parameter.name);
+    return name == "[slotnumber]" || name == "[slot_number]";
   }
 
   /// The slot of a module, or the default after a reported error.

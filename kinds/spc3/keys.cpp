@@ -300,13 +300,23 @@ void check_settings(const At& at, const scenario::Slave& slave) {
   }
 }
 
-void check_action(const At& at, const scenario::Action& action) {
+/// The order's address and bytes are in the map.
+void check_place(const At& at, const scenario::Action& action, int highest) {
+  const int first = action.bytes[0] << 8 | action.bytes[1];
+  const int last = first + std::max(0, static_cast<int>(action.bytes.size()) - 3);
+  if (last > highest)
+    throw InputError(at.file, action.line,
+                     fmt::format("bytes reach address {:X}, expected 0 to {:X} of a {}", last, highest, at.chip));
+}
+
+void check_action(const At& at, const scenario::Action& action, int highest) {
   using scenario::ActionKind;
   const std::size_t least = action.word == spc3_user::kWriteChip ? 3 : action.word == spc3_user::kReadChip ? 2 : 0;
   if (action.bytes.size() < least)
     throw InputError(at.file, action.line,
                      fmt::format("bytes has {} bytes, expected two of the address{}", action.bytes.size(),
                                  least == 3 ? " and one or more values" : ""));
+  if (least != 0) check_place(at, action, highest);
   if (action.what == ActionKind::kWrongLength)
     refuse(at, action.line, action.word, "has one length of inputs, expected other actions");
   if (action.what == ActionKind::kAnswerAcyclic)
@@ -326,8 +336,9 @@ void check_spc3_slave(const scenario::Scenario& scenario, const scenario::Slave&
   check_mosi(spc3_user_of(slave.user_cpu).spi, scenario.file);
   check_settings(at, slave);
   check_cpu(at, slave);
+  const int highest = std::string_view(at.chip) == "vpc3" ? 0xFFF : 0x7FF;
   for (const scenario::Action& action : scenario.script)
-    if (action.slave.text == slave.name.text) check_action(at, action);
+    if (action.slave.text == slave.name.text) check_action(at, action, highest);
 }
 
 }  // namespace dsdpv1::tb

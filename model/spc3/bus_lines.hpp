@@ -50,8 +50,9 @@ class BusLines {
   Level address() const {
     const Level low = level(Pin::kAb);
     if (low < 0 || level(Pin::kAb11) < 0) return kLevelX;
-    if (bus() == Bus::kIntelSync) return latched_ < 0 ? kLevelX : static_cast<Level>((low & 7) << 8 | latched_);
-    const auto ab = static_cast<Level>(low | level(Pin::kAb11) << 11);
+    const auto high = static_cast<Level>(level(Pin::kAb11) << 11);
+    if (bus() == Bus::kIntelSync) return latched_ < 0 ? kLevelX : static_cast<Level>(high | (low & 7) << 8 | latched_);
+    const auto ab = static_cast<Level>(high | low);
     return is_motorola(bus()) ? static_cast<Level>(swapped(static_cast<Address>(ab))) : ab;
   }
 

@@ -30,12 +30,13 @@ void BusPort::release(Cycle now) {
 }
 
 bool BusPort::set(Tick at, Pin pin, Level level) {
+  const bool was_high = lines_.is_high(pin);
   if (!lines_.set(pin, level) || pin == Pin::kDbIn) return false;
   if (pin == Pin::kXTest0 || pin == Pin::kXTest1) {
     if (level == 0) log_.at_tick(at, Reason::kTestPin, pin == Pin::kXTest1 ? 1 : 0);
     return false;
   }
-  if (pin >= Pin::kSerial) return set_spi(at, pin, level);
+  if (pin >= Pin::kSerial) return lines_.is_high(pin) != was_high && set_spi(at, pin, level);
   return follow_strobes(at);
 }
 

@@ -196,7 +196,7 @@ TEST(GsdSetup, EachModuleGetsItsSlotNumber) {
 TEST(GsdSetup, SlotNumbersBeginWhereTheFileSays) {
   const std::string module =
       "Modular_Station = 1\nMax_Module = 2\nMax_Input_Len = 2\nMax_Output_Len = 0\n"
-      "ExtUserPrmData = 1 \"[SlotNumber]  \"\nUnsigned8 9 0-9\nEndExtUserPrmData\n"
+      "ExtUserPrmData = 1 \"[Slot_Number]  \"\nUnsigned8 9 0-9\nEndExtUserPrmData\n"
       "Module = \"in\" 0x10\n1\nExt_Module_Prm_Data_Len = 1\nExt_User_Prm_Data_Ref(0) = 1\nEndModule\n";
   const auto prm = [](const std::string& text) {
     return set_up(parse(file_with(text)).gsd.value(), {{"in", "in"}, {}}).user_prm;

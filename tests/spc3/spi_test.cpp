@@ -165,7 +165,7 @@ TEST_F(Vpc3Spi, AWriteActsWithItsLastBit) {
   user.end();
   EXPECT_EQ(cell(0x301), 0);
   EXPECT_EQ(spc3::describe(bench.twins.events.at(0)),
-            "XSS rises after 4 bytes and 7 bits: what is not complete is not taken");
+            "XSS rises after 4 bytes and 7 bits: a byte of a write that is not whole does nothing");
 }
 
 TEST_F(Vpc3Spi, WhatIsNoFrameIsReported) {
@@ -249,8 +249,30 @@ TEST_F(Vpc3Spi, ResetEndsAFrame) {
   EXPECT_EQ(bench.twins.events.size(), 1U);
 }
 
+TEST(Spi, SckBetweenHighAndFloatingIsNoEdge) {
+  Bench bench(Variant::kVpc3);
+  bench.power_on();
+  SpiUser user(bench);
+  user.begin();
+  for (int i = 7; i >= 0; --i) {
+    user.set(Pin::kMosi, static_cast<Level>(kReadByte >> i & 1));
+    user.wait(kHalf);
+    for (const Level level : {Level{1}, spc3::kLevelZ, spc3::kLevelX, Level{1}, Level{0}}) {
+      user.set(Pin::kSck, level);
+      user.wait(kHalf);
+    }
+  }
+  user.byte(0);
+  user.byte(0x20);
+  user.byte(0);
+  user.end();
+  EXPECT_EQ(bench.count(Reason::kSpiInstruction), 0);
+  EXPECT_EQ(bench.count(Reason::kSpiCut), 0);
+}
+
 struct WideBus : testing::TestWithParam<Bus> {};
-INSTANTIATE_TEST_SUITE_P(Buses, WideBus, testing::Values(Bus::kIntelAsync, Bus::kMotorolaAsync, Bus::kMotorolaSync));
+INSTANTIATE_TEST_SUITE_P(Buses, WideBus,
+                         testing::Values(Bus::kIntelAsync, Bus::kIntelSync, Bus::kMotorolaAsync, Bus::kMotorolaSync));
 TEST_P(WideBus, Ab11ReachesTheUpperHalf) {
   Bench bench(Variant::kVpc3);
   bench.power_on();

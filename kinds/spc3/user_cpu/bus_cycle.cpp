@@ -99,14 +99,16 @@ void BusCycle::address_moves(Tick at, bool begins) {
     if (spc3::is_motorola(bus_)) set(at, spc3::Pin::kXRd, 1);
     return set(at, spc3::Pin::kAb, bus_ == Bus::kIntelSync ? kIdleHigh : kIdleAddress);
   }
+  const auto high = static_cast<Level>(asked_.address >> 11 & 1);
+  if (pins_.level(spc3::number(spc3::Pin::kAb11)) != high) set(at, spc3::Pin::kAb11, high);
   if (bus_ == Bus::kIntelSync) {
     set(at, spc3::Pin::kAle, 1);
-    set(at, spc3::Pin::kAb, static_cast<Level>(asked_.address >> 8));
+    set(at, spc3::Pin::kAb, static_cast<Level>(asked_.address >> 8 & 7));
     return set(at, spc3::Pin::kDbIn, static_cast<Level>(asked_.address & 0xFF));
   }
   if (spc3::is_motorola(bus_)) set(at, spc3::Pin::kXRd, asked_.write ? 0 : 1);
   const auto address = static_cast<spc3::Address>(asked_.address);
-  set(at, spc3::Pin::kAb, static_cast<Level>(spc3::is_motorola(bus_) ? spc3::swapped(address) : address));
+  set(at, spc3::Pin::kAb, static_cast<Level>((spc3::is_motorola(bus_) ? spc3::swapped(address) : address) & 0x7FF));
 }
 
 void BusCycle::select(Tick at, bool begins) {
