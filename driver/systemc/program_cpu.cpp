@@ -10,13 +10,17 @@ namespace dsdpv1::systemc {
 
 CpuThread::CpuThread(const sc_core::sc_module_name& name, std::function<void()> program, DriverCpuOptions options)
     : sc_module(name), program_(std::move(program)), options_(std::move(options)) {
+#if IEEE_1666_SYSTEMC < 202301L  // obsolete since
   SC_HAS_PROCESS(CpuThread);
+#endif
   SC_THREAD(run);
 }
 
 ProgramCpu::ProgramCpu(const sc_core::sc_module_name& name, std::function<void()> program, DriverCpuOptions options)
     : CpuThread(name, std::move(program), std::move(options)), device_() {
+#if IEEE_1666_SYSTEMC < 202301L  // obsolete since
   SC_HAS_PROCESS(ProgramCpu);
+#endif
   SC_METHOD(intr0_changed);
   sensitive << INTR0;
 }

@@ -3,12 +3,13 @@
 #include <utility>
 
 #include "model/systemc/data_wires.hpp"
+#include "model/systemc/has_process.hpp"
 
 namespace dsdpv1::systemc {
 
 PinModule::PinModule(const sc_core::sc_module_name& name, const PinOptions& options) : PinsOf(name, options) {
   watch(outputs_of(part()), 0);
-  SC_HAS_PROCESS(PinModule);
+  DSDPV1_HAS_PROCESS(PinModule);
   SC_METHOD(evaluate);
   sensitive << due_ << soon_ << CLK << RESET << R_REQ << R_STA << CSR << RD << WR << A << D << PBRXD;
 }

@@ -1,5 +1,7 @@
 #include "model/systemc/dsdpv1_tlm.hpp"
 
+#include "model/systemc/has_process.hpp"
+
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -21,7 +23,7 @@ TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& opti
   // Accesses ahead of simulation time, runs, bound ports and bus_out do not make other pins observed.
   tell_only(observed_ | ~(kHostPins | mask(Pin::kPbrxd) | kRsuOutputPins));
   bus_in.bind(*this);
-  SC_HAS_PROCESS(TlmModule);
+  DSDPV1_HAS_PROCESS(TlmModule);
   SC_METHOD(evaluate);
   sensitive << due_ << soon_ << RESET << R_REQ << R_STA << PBRXD;
 }
@@ -71,13 +73,14 @@ void TlmModule::sync(const sc_core::sc_time& ahead) {
 
 void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   payload.set_dmi_allowed(false);
+  AccessTimingExtension* const ahead = ahead_of(payload);
   const tlm::tlm_response_status judgement = judge(payload, kDpramSize);
   if (judgement != tlm::TLM_OK_RESPONSE) {
     payload.set_response_status(judgement);
     return;
   }
-  if (is_ahead(payload)) {
-    carry_out_ahead(payload, delay);
+  if (ahead != nullptr) {
+    ahead->done = carry_out_ahead(payload, delay);
     return;
   }
   if (const unsigned int first = is_decoupled() ? carry_out_bytes_ahead(payload, delay) : 0;
@@ -95,9 +98,9 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   payload.set_dmi_allowed(gives_dmi());
 }
 
-void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
-  payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-  if (payload.get_data_length() == 1 && is_enabled(payload, 0)) carry_out_byte_ahead(payload, 0, delay, true);
+bool TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
+  payload.set_response_status(tlm::TLM_GENERIC_ERROR_RESPONSE);
+  return payload.get_data_length() == 1 && is_enabled(payload, 0) && carry_out_byte_ahead(payload, 0, delay, true);
 }
 
 /// Returns the index of the first byte that must wait for simulation time; the length if the transaction is complete.

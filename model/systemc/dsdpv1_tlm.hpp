@@ -171,7 +171,7 @@ class TlmModule : public ChipModule, public LineStation, protected tlm::tlm_anal
   void write(const BusCharacter& character) override;  // bus_in
   void b_transport(Payload& payload, sc_core::sc_time& delay);
 
-  void carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
+  bool carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
   unsigned int carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay);
   bool carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay, bool with);
   template <class Socket>

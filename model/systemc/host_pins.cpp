@@ -1,6 +1,7 @@
 #include "model/systemc/host_pins.hpp"
 
 #include "model/systemc/data_wires.hpp"
+#include "model/systemc/has_process.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -11,13 +12,14 @@ HostPins::HostPins(const sc_core::sc_module_name& name, const AccessTiming& timi
   socket_8.register_b_transport(this, &HostPins::b_transport);
   A.initialize(HostAccess::kIdleAddress);
   for (sc_core::sc_out<bool>* strobe : {&CSR, &RD, &WR}) strobe->initialize(true);
-  SC_HAS_PROCESS(HostPins);
+  DSDPV1_HAS_PROCESS(HostPins);
   SC_THREAD(run);  // the only process that writes the pins, for all initiators
 }
 
 void HostPins::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   payload.set_dmi_allowed(false);
-  payload.set_response_status(is_ahead(payload) ? tlm::TLM_INCOMPLETE_RESPONSE : judge(payload, kDpramSize));
+  payload.set_response_status(ahead_of(payload) != nullptr ? tlm::TLM_GENERIC_ERROR_RESPONSE
+                                                           : judge(payload, kDpramSize));
   if (!payload.is_response_ok()) return;
   wait_for(delay);
   const sc_core::sc_scoped_lock turn(host_bus_);

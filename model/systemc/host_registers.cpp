@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/profibus/state_frame.hpp"
+#include "model/systemc/has_process.hpp"
 
 namespace dsdpv1::systemc {
 namespace {
@@ -19,7 +20,7 @@ HostRegisters::HostRegisters(const sc_core::sc_module_name& name, const HostRegi
   serve(socket);
   serve(socket_64);
   serve(socket_8);
-  SC_HAS_PROCESS(HostRegisters);
+  DSDPV1_HAS_PROCESS(HostRegisters);
   SC_METHOD(intr0_fell);
   dont_initialize();
   sensitive << INTR0.negedge_event();

@@ -7,9 +7,11 @@ const AccessTiming& timing_of(const tlm::tlm_generic_payload& payload, const Acc
   return extension != nullptr ? extension->timing : own;
 }
 
-bool is_ahead(const tlm::tlm_generic_payload& payload) {
-  const auto* extension = payload.get_extension<AccessTimingExtension>();
-  return extension != nullptr && extension->ahead;
+AccessTimingExtension* ahead_of(const tlm::tlm_generic_payload& payload) {
+  auto* extension = payload.get_extension<AccessTimingExtension>();
+  if (extension == nullptr || !extension->ahead) return nullptr;
+  extension->done = false;
+  return extension;
 }
 
 }  // namespace dsdpv1::systemc

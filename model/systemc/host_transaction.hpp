@@ -12,9 +12,11 @@ namespace dsdpv1::systemc {
 struct AccessTimingExtension : tlm::tlm_extension<AccessTimingExtension> {
   AccessTiming timing;
   /// b_transport does not wait: it executes the access ahead of simulation time, at the annotated delay, and advances
-  /// the delay to the end of the access. If the result would differ from waiting, nothing is done and the response is
-  /// TLM_INCOMPLETE_RESPONSE. The chip is then in the future: inputs moved before that time are seen there.
+  /// the delay to the end of the access. If the result would differ from waiting, nothing is done, `done` is false and
+  /// the response TLM_GENERIC_ERROR_RESPONSE. The chip is then in the future: inputs moved before that time are seen
+  /// there.
   bool ahead = false;
+  bool done = false;  ///< set by the target if `ahead`
   tlm::tlm_extension_base* clone() const override { return new AccessTimingExtension(*this); }
   void copy_from(const tlm::tlm_extension_base& other) override {
     *this = static_cast<const AccessTimingExtension&>(other);
@@ -26,7 +28,7 @@ constexpr sc_dt::uint64 kDpramSize = 0x800;  ///< bytes, from address 0 on
 /// The timing from the payload's extension, or `own` if there is none.
 const AccessTiming& timing_of(const tlm::tlm_generic_payload& payload, const AccessTiming& own);
 
-/// True if the extension asks to run ahead of simulation time.
-bool is_ahead(const tlm::tlm_generic_payload& payload);
+/// The extension that asks to run ahead of simulation time, not done yet; null without one.
+AccessTimingExtension* ahead_of(const tlm::tlm_generic_payload& payload);
 
 }  // namespace dsdpv1::systemc

@@ -8,6 +8,8 @@
 #include <string>
 #include <systemc>
 
+#include "model/systemc/has_process.hpp"
+
 namespace dsdpv1::systemc {
 
 /// `out` follows `in` a delta cycle later. Z and X are the level of the board's pull resistor. An X after the first 0
@@ -18,7 +20,7 @@ class FromLogic : public sc_core::sc_module {
   sc_core::sc_out<bool> out{"out"};
 
   FromLogic(const sc_core::sc_module_name& name, bool pull) : sc_module(name), pull_(pull) {
-    SC_HAS_PROCESS(FromLogic);
+    DSDPV1_HAS_PROCESS(FromLogic);
     SC_METHOD(follow);
     sensitive << in;
   }
@@ -45,7 +47,7 @@ class ToLogic : public sc_core::sc_module {
   sc_core::sc_out<sc_dt::sc_logic> out{"out"};
 
   explicit ToLogic(const sc_core::sc_module_name& name) : sc_module(name) {
-    SC_HAS_PROCESS(ToLogic);
+    DSDPV1_HAS_PROCESS(ToLogic);
     SC_METHOD(follow);
     sensitive << in;
   }

@@ -1,5 +1,7 @@
 #include "model/systemc/rsu_tlm.hpp"
 
+#include "model/systemc/has_process.hpp"
+
 #include <string>
 #include <utility>
 
@@ -26,7 +28,7 @@ RsuTlmModule::RsuTlmModule(const sc_core::sc_module_name& name, const RsuTlmOpti
   uart_socket.register_b_transport(this, &RsuTlmModule::transport_uart);
   uart_socket.register_transport_dbg(this, &RsuTlmModule::transport_dbg);
   uart_in.bind(uart_input_);
-  SC_HAS_PROCESS(RsuTlmModule);
+  DSDPV1_HAS_PROCESS(RsuTlmModule);
   SC_METHOD(select);
   sensitive << XSS;
   const struct {

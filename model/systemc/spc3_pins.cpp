@@ -1,6 +1,7 @@
 #include "model/systemc/spc3_pins.hpp"
 
 #include "model/systemc/data_wires.hpp"
+#include "model/systemc/has_process.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -25,7 +26,7 @@ Spc3PinModule::Spc3PinModule(const sc_core::sc_module_name& name, const Spc3PinO
       optional_inputs_{
           {{Pin::kAb11, &AB11}, {Pin::kSerial, &SERIAL}, {Pin::kSck, &SCK}, {Pin::kMosi, &MOSI}, {Pin::kXss, &XSS}}} {
   watch(spc3::kOutputPins, 0);
-  SC_HAS_PROCESS(Spc3PinModule);
+  DSDPV1_HAS_PROCESS(Spc3PinModule);
   SC_METHOD(evaluate);
   sensitive << due_ << soon_ << CLK << AB << DB;
   for (const auto& [pin, port] : inputs_) sensitive << *port;

@@ -4,6 +4,7 @@
 
 #include "model/spc3/reasons.hpp"
 #include "model/spc3/variant.hpp"
+#include "model/systemc/has_process.hpp"
 
 namespace dsdpv1::systemc {
 
@@ -17,7 +18,7 @@ Spc3TlmModule::Spc3TlmModule(const sc_core::sc_module_name& name, const Spc3TlmO
   serve(host_socket_64);
   serve(host_socket_8);
   bus_in.bind(*this);
-  SC_HAS_PROCESS(Spc3TlmModule);
+  DSDPV1_HAS_PROCESS(Spc3TlmModule);
   SC_METHOD(evaluate);
   sensitive << due_ << soon_ << RESET << XCTS << RXD;
 }

@@ -1,5 +1,6 @@
 #include "tb/systemc/segment_port.hpp"
 
+#include "model/systemc/has_process.hpp"
 #include "model/systemc/sim_time.hpp"
 
 namespace dsdpv1::systemc_bench {
@@ -7,7 +8,7 @@ namespace dsdpv1::systemc_bench {
 SegmentPort::SegmentPort(const sc_core::sc_module_name& name, bus::Segment& segment, TimelineModule& timeline)
     : sc_module(name), segment_(segment), timeline_(timeline), station_(segment.attach(sc_module::name(), this)) {
   PBRXD.initialize(true);
-  SC_HAS_PROCESS(SegmentPort);
+  DSDPV1_HAS_PROCESS(SegmentPort);
   SC_METHOD(drive);
   sensitive << PBTXD << PBRTS;
   dont_initialize();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/systemc/has_process.hpp"
 #include "model/systemc/sim_time.hpp"
 
 namespace dsdpv1::systemc_bench {
@@ -15,7 +16,7 @@ constexpr bus::Tick kFarthest = 100 * bus::kTicksPerUs;
 TimelineModule::TimelineModule(const sc_core::sc_module_name& name, bus::Timeline& timeline)
     : sc_module(name), timeline_(timeline) {
   dsdpv1::systemc::require_resolution();
-  SC_HAS_PROCESS(TimelineModule);
+  DSDPV1_HAS_PROCESS(TimelineModule);
   SC_THREAD(run);
 }
 

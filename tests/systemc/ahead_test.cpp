@@ -23,6 +23,7 @@ struct Outcome {
   tlm::tlm_response_status response = tlm::TLM_OK_RESPONSE;
   Tick took = 0, delay_left = 0;
   std::uint8_t first_byte = 0;
+  bool done = false;  ///< ahead of simulation time
 };
 
 const Tick kRead = HostAccess::read(0, {}).duration(), kWrite = HostAccess::write(0, 0, {}).duration();
@@ -126,7 +127,8 @@ struct World : sc_core::sc_module {
     sc_time annotated = to_time(delay);
     socket->b_transport(payload, annotated);
     payload.clear_extension(&extension);
-    return {payload.get_response_status(), dsdpv1::systemc::current_tick() - begin, to_tick(annotated), data[0]};
+    return {payload.get_response_status(), dsdpv1::systemc::current_tick() - begin, to_tick(annotated), data[0],
+            extension.done};
   }
 };
 
@@ -134,6 +136,7 @@ std::unique_ptr<World> world;
 
 void expect(const Outcome& outcome, tlm::tlm_response_status response, Tick took, Tick delay_left) {
   EXPECT_EQ(outcome.response, response);
+  EXPECT_EQ(outcome.done, response == tlm::TLM_OK_RESPONSE && took == 0);
   EXPECT_EQ(outcome.took, took);
   EXPECT_EQ(outcome.delay_left, delay_left);
 }
@@ -166,20 +169,20 @@ TEST(Ahead, AnAccessThatWaitsBeginsNotBeforeTheTimeOfTheChip) {
 }
 
 TEST(Ahead, NothingIsDoneWithoutOwnershipForABurstOrBeforeTheTimeOfTheChip) {
-  expect(world->unowned, tlm::TLM_INCOMPLETE_RESPONSE, 0, 0);
+  expect(world->unowned, tlm::TLM_GENERIC_ERROR_RESPONSE, 0, 0);
   EXPECT_THAT(world->events, testing::Not(testing::Contains(dsdpv1::Reason::kAccessNotOwned)));
-  expect(world->burst, tlm::TLM_INCOMPLETE_RESPONSE, 0, kWrite + kRead);
+  expect(world->burst, tlm::TLM_GENERIC_ERROR_RESPONSE, 0, kWrite + kRead);
   EXPECT_EQ(world->burst.first_byte, 0xEE);
-  expect(world->before_the_chip, tlm::TLM_INCOMPLETE_RESPONSE, 0, 0);
+  expect(world->before_the_chip, tlm::TLM_GENERIC_ERROR_RESPONSE, 0, 0);
 }
 
 TEST(Ahead, NothingIsDoneWhenTheKernelHasSomethingToDoBeforeTheAccessIsOver) {
-  expect(world->at_another, tlm::TLM_INCOMPLETE_RESPONSE, 0, 0);
+  expect(world->at_another, tlm::TLM_GENERIC_ERROR_RESPONSE, 0, 0);
   expect(world->before_another, tlm::TLM_OK_RESPONSE, 0, kRead);
 }
 
 TEST(Ahead, AViolationIsLeftToAnAccessThatWaits) {
-  expect(world->violating, tlm::TLM_INCOMPLETE_RESPONSE, 0, 0);
+  expect(world->violating, tlm::TLM_GENERIC_ERROR_RESPONSE, 0, 0);
   EXPECT_EQ(world->events_ahead, world->events_before);
   EXPECT_EQ(world->violating_waited.response, tlm::TLM_GENERIC_ERROR_RESPONSE);
   EXPECT_THAT(world->events, testing::Contains(dsdpv1::Reason::kWriteLowTooShort));

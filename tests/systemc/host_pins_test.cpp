@@ -234,7 +234,7 @@ TEST(HostPins, AnAccessGoesOnWhenItsInitiatorIsKilledAndTheNextOneFollows) {
 }
 
 TEST(HostPins, NothingIsCarriedOutAheadOfTime) {
-  EXPECT_EQ(world->ahead.response, tlm::TLM_INCOMPLETE_RESPONSE);
+  EXPECT_EQ(world->ahead.response, tlm::TLM_GENERIC_ERROR_RESPONSE);
   EXPECT_EQ(world->ahead.data, Bytes{7});
   EXPECT_EQ(world->ahead.delay, 100);
 }

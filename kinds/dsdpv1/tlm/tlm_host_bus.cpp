@@ -1,5 +1,6 @@
 #include "kinds/dsdpv1/tlm/tlm_host_bus.hpp"
 
+#include "model/systemc/has_process.hpp"
 #include "model/systemc/sim_time.hpp"
 
 namespace dsdpv1::user_cpu {
@@ -11,7 +12,7 @@ TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmCh
   payload_.set_streaming_width(1);
   socket_.bind(chip.module().host_socket);
   if (chip.rsu() != nullptr) serial_.emplace("serial", *chip.rsu());
-  SC_HAS_PROCESS(TlmHostBus);
+  DSDPV1_HAS_PROCESS(TlmHostBus);
   SC_THREAD(initiate);
   initiator_ = sc_core::sc_get_current_process_handle();
 }
@@ -90,7 +91,7 @@ bool TlmHostBus::run_ahead() {
   timing_->ahead = true;
   transport(delay);
   timing_->ahead = false;
-  return payload_.get_response_status() != tlm::TLM_INCOMPLETE_RESPONSE;
+  return timing_->done;
 }
 
 void TlmHostBus::initiate() {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "model/systemc/has_process.hpp"
 #include "model/systemc/sim_time.hpp"
 
 namespace dsdpv1::systemc_bench {
@@ -17,7 +18,7 @@ HostBridge::HostBridge(const sc_core::sc_module_name& name, std::unique_ptr<tb::
   late = [named](const std::string& text) { SC_REPORT_WARNING("/dsdpv1/late", named(text).c_str()); };
   link_.say = [this](bus::Tick, const std::string& text) { say(text); };
   link_.late = [this](bus::Tick, const std::string& text) { late(text); };
-  SC_HAS_PROCESS(HostBridge);
+  DSDPV1_HAS_PROCESS(HostBridge);
   SC_THREAD(run);
 }
 
