@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/systemc/has_process.hpp"
 #include "model/systemc/transaction.hpp"
 
 namespace dsdpv1::systemc {
@@ -13,7 +14,7 @@ SpiPins::SpiPins(const sc_core::sc_module_name& name, const SpiTiming& timing)
   require_resolution();
   socket.register_b_transport(this, &SpiPins::b_transport);
   XSS.initialize(true);
-  SC_HAS_PROCESS(SpiPins);
+  DSDPV1_HAS_PROCESS(SpiPins);
   SC_METHOD(play);  // the only process that writes the pins, for all initiators
   sensitive << due_ << soon_ << CS;
 }

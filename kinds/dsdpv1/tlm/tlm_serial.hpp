@@ -10,6 +10,7 @@
 
 #include "kinds/dsdpv1/user_cpu/uart_master.hpp"
 #include "kinds/user_cpu/spi_master.hpp"
+#include "model/systemc/has_process.hpp"
 #include "model/systemc/rsu_tlm.hpp"
 
 namespace dsdpv1::user_cpu {
@@ -20,7 +21,7 @@ class TlmSender : public sc_core::sc_module {
  public:
   explicit TlmSender(const sc_core::sc_module_name& name) : sc_module(name) {
     payload_.set_extension(extension_);
-    SC_HAS_PROCESS(TlmSender);
+    DSDPV1_HAS_PROCESS(TlmSender);
     SC_THREAD(run);
     thread_ = sc_core::sc_get_current_process_handle();
   }
