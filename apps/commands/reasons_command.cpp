@@ -83,6 +83,7 @@ std::vector<tb::CodeTable> tables_of(const tb::ChipKind& kind) {
   std::vector<tb::CodeTable> tables = kind.codes();
   for (const tb::ChipKind* other : tb::chip_kinds()) add_codes(tables, *other);
   tables.push_back({"The bus", "Findings of the bus monitor on the line.", tb::scenario::flag_codes()});
+  tables.push_back({"The host", "Findings about the master at the port of `serve`.", {tb::scenario::host_code()}});
   return tables;
 }
 

@@ -15,12 +15,14 @@
 #include "apps/options/words.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
+#include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/html/report_file.hpp"
 #include "tb/report/result_fields.hpp"
 #include "tb/report/run_junit.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/serve/ports.hpp"
+#include "tb/serve/run/control_port.hpp"
 #include "tb/serve/run/real_time_execution.hpp"
 
 namespace dsdpv1::app {
@@ -46,9 +48,15 @@ class Serve : public Command {
     app.add_option("--junit", junit_, "As for run");
     add_checks_option(app, checks_);
     add_checks_table_option(app, check_rows_);
+    app.add_flag("--strict", run_.strict,
+                 "Fail if the host sends before the answer to its request has left (HOST_EARLY)");
     add_set_option(app, set_);
     add_capture_options(app, capture_);
     app.add_option("--gdb", gdb_, "As for run; while the processor is halted the host gets no answer")
+        ->type_name("PORT")
+        ->check(CLI::Range(0, 65535));
+    app.add_option("--control", control_,
+                   "Take actions of the script at this TCP port of 127.0.0.1 (0: any free one), a line of JSON each")
         ->type_name("PORT")
         ->check(CLI::Range(0, 65535));
     add_quiet_option(app, quiet_);
@@ -63,16 +71,20 @@ class Serve : public Command {
   int carry_out() override {
     leave_nothing_on_signals();
     scenario_ = scenario_file("dsdpv1-sim serve", scenario_);
-    tb::scenario::Scenario scenario = tb::scenario::load(scenario_, tb::scenario::parse_settings(set_));
+    tb::scenario::Scenario scenario =
+        tb::scenario::load(scenario_, tb::scenario::parse_settings(set_), tb::scenario::Least::kNone);
     if (!baud_.empty()) scenario.baud = baud_index("dsdpv1-sim serve: --baud", baud_);
     scenario.end = duration_.empty() ? kOpenEnd : time_of("dsdpv1-sim serve: --for", duration_, 1);
     take_run_words(kinds(scenario));
     if (gdb_) attach_gdb(scenario);
+    run_.orders = control_.has_value();
     check_files(scenario);
     WantedFile result_file(result_), junit_file(junit_);
     std::optional<tb::html::ReportFile> report_file;
     if (!report_.empty()) report_file.emplace(report_, scenario, run_);
 
+    std::optional<tb::serve::ControlPort> control;
+    if (control_) control.emplace(*control_);
     auto port = open_port(scenario.baud);
     const std::string name = port->name();
     auto made = std::make_unique<tb::serve::RealTimeExecution>(std::move(port), scenario.baud);
@@ -84,6 +96,13 @@ class Serve : public Command {
       std::cerr << "serve: " << text << '\n';
       bench.log(at, "host", "serve", text);
     };
+    execution.link().on_early = [&bench](tb::Tick at, const bus::Bytes& telegram) { bench.host_early(at, telegram); };
+    execution.link().on_gone = [&bench] { bench.host_gone(); };
+    bench.leave_untimed([&execution](tb::Tick start) { return execution.link().line().began_at(start); });
+    if (control) {
+      std::cerr << "serve: takes actions at " << control->address() << '\n';
+      execution.on_round = [&] { control->look([&bench](const std::string& line) { return answer_to(bench, line); }); };
+    }
     catch_signals();
     std::cout << "serving \"" << bus::printable(scenario.name) << "\" at " << bus::baud(scenario.baud).name << " on "
               << name << "; Ctrl-C ends\n"
@@ -101,6 +120,16 @@ class Serve : public Command {
   }
 
  private:
+  /// To a line of the control port.
+  static std::string answer_to(tb::Bench& bench, const std::string& line) {
+    try {
+      bench.order(line);
+      return "ok";
+    } catch (const tb::InputError& error) {
+      return bus::printable(error.what());
+    }
+  }
+
   void add_port_options(CLI::App& app) {
     CLI::Option* pty = app.add_option("--pty", link_, "Use a pseudo-terminal (default) with this name as a link to it")
                            ->expected(0, 1);
@@ -164,7 +193,7 @@ class Serve : public Command {
   tb::CheckRows check_rows_ = tb::CheckRows::kViolated;
   std::string checks_;  ///< empty: as the scenario says
   std::vector<std::string> set_;
-  std::optional<int> gdb_;
+  std::optional<int> gdb_, control_;
   CaptureArguments capture_;
   bool quiet_ = false;
 };

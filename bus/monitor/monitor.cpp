@@ -205,8 +205,10 @@ void Monitor::answer(WireTelegram& wire) {
     return;
   }
   wire.station = pending_->da;
-  wire.tsdr = wire.start - pending_->end;
-  if (!wire.character_errors) measure(wire);
+  if (!untimed || !untimed(wire.start)) {
+    wire.tsdr = wire.start - pending_->end;
+    if (!wire.character_errors) measure(wire);
+  }
   pending_.reset();
 }
 

@@ -91,6 +91,8 @@ class Monitor : public Listener, public Agent {
   /// For answers of one station (Set_Prm may have changed min_TSDR), or of all others.
   void set_limits(std::uint8_t station, const TsdrLimits& limits) { station_limits_[station] = limits; }
   void set_limits(const TsdrLimits& limits) { limits_ = limits; }
+  /// True for answers, by their start, whose time says nothing of their station: T_SDR is neither measured nor judged.
+  std::function<bool(Tick start)> untimed;
   /// Slot time after which a request counts as unanswered, bit times; default that of the baud rate.
   void set_slot_bits(std::optional<int> bits) {
     slot_bits_ = bits;

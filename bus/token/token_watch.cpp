@@ -17,7 +17,7 @@ constexpr Tick kLeastTimeout = 6;  // T_TO of address 0, in slot times
 bool TokenWatch::may_send(const Telegram& telegram, Tick quiet, Tick slot) const {
   if (!holder_ || telegram.sa == *holder_ || quiet >= kLeastTimeout * slot) return true;
   if (telegram.sa == passer_ && !holder_heard_) return true;
-  return telegram.kind != TelegramKind::kSd4 && !several_;
+  return false;
 }
 
 std::optional<std::string> TokenWatch::hear(const Telegram& telegram, Tick end, Tick quiet, Tick slot) {
@@ -26,7 +26,7 @@ std::optional<std::string> TokenWatch::hear(const Telegram& telegram, Tick end, 
     wrong = fmt::format("master {} sends while {} has the token", telegram.sa, *holder_);
   if (telegram.kind == TelegramKind::kSd4)
     passed(telegram, end);
-  else if (holder_ && several_)
+  else if (holder_ && (several_ || !wrong))
     holder_ = telegram.sa;  // another one: claimed, or two masters at once, of which the last one counts
   holder_heard_ = telegram.kind != TelegramKind::kSd4 || telegram.da == telegram.sa;
   return wrong;

@@ -13,9 +13,9 @@ namespace dsdpv1::bus {
 
 class TokenWatch {
  public:
-  /// A token or a request on the wire: its times, and the idle time before it. Requests are checked only after the
-  /// token has passed between two masters: a single master may send anything. After 6 x `slot` of silence any master
-  /// may have claimed the token (EN 50170: T_TO), and the previous holder may repeat it while its receiver is silent.
+  /// A token or a request on the wire: its times, and the idle time before it. Without a token on the line all may
+  /// send; a master that passes it to itself holds it. After 6 x `slot` of silence any master may have claimed the
+  /// token (EN 50170: T_TO), and the previous holder may repeat it while its receiver is silent.
   /// Returns the violation as text.
   std::optional<std::string> hear(const Telegram& telegram, Tick end, Tick quiet, Tick slot);
 

@@ -22,6 +22,17 @@ StationId Segment::attach(std::string name, Listener* listener) {
 }
 
 void Segment::drive(StationId station, Tick at, bool enabled, bool level) {
+  if (Diversion* const diversion = stations_.at(station).diversion) return diversion->driven(at, enabled, level);
+  deliver(station, at, enabled, level);
+}
+
+bool Segment::divert(StationId station, Tick at, Diversion& diversion) {
+  cut_run(at);
+  stations_.at(station).diversion = &diversion;
+  return stations_[station].enabled;
+}
+
+void Segment::deliver(StationId station, Tick at, bool enabled, bool level) {
   Station& driver = stations_.at(station);
   if (run_ && !(run_->driven && run_->sender == station && enabled)) cut_run(at);
   if (on_drive) on_drive(station, at, enabled, level);
@@ -139,7 +150,8 @@ bool Segment::tell(Station& station, Tick at, bool level) {
 // The line is idle, only this station drives it, and a listener exists for the cut.
 bool Segment::may_send_run(StationId station) const {
   const bool alone = drivers_.size() == 1 && drivers_.front() == station;
-  return alone && stations_[station].listener != nullptr && level_ && !forced_ && !telling_ && !run_;
+  return alone && stations_[station].listener != nullptr && stations_[station].diversion == nullptr && level_ &&
+         !forced_ && !telling_ && !run_;
 }
 
 bool Segment::send_run(StationId station, const CharacterRun& run) {

@@ -45,6 +45,14 @@ struct Collision {
   std::string first, second;
 };
 
+/// Gets what a station drives, instead of the line.
+class Diversion {
+ public:
+  virtual ~Diversion() = default;
+  /// As Segment::drive.
+  virtual void driven(Tick at, bool enabled, bool level) = 0;
+};
+
 class Segment {
  public:
   /// `listener` may be null for a station that only sends. Both must outlive the segment's use.
@@ -52,6 +60,12 @@ class Segment {
   /// Sets a station's driver from `at` on: enabled (RTS) and its level when enabled. While two drivers conflict, low
   /// wins, so that no receiver sees an undisturbed telegram.
   void drive(StationId station, Tick at, bool enabled, bool level);
+  /// All changes of the station go to `diversion` from `at` on, and to the line what `deliver` gets. Returns
+  /// whether its driver is enabled. Replaces an earlier diversion.
+  bool divert(StationId station, Tick at, Diversion& diversion);
+  void end_diversion(StationId station) { stations_[station].diversion = nullptr; }
+  /// As `drive`, past the diversion.
+  void deliver(StationId station, Tick at, bool enabled, bool level);
   /// The station's listener receives changes within this time late: before the next one reported at once, or by `hear`.
   /// For receivers that know their position in a character; replaces an earlier setting.
   void set_deafness(StationId station, const Deafness& deafness) { stations_[station].deafness = deafness; }
@@ -95,6 +109,7 @@ class Segment {
   struct Station {
     std::string name;
     Listener* listener = nullptr;
+    Diversion* diversion = nullptr;
     bool enabled = false, drives = true, plugged = true;
     bool heard = true;      ///< the level last reported to the listener
     std::uint64_t run = 0;  ///< the number of the last run that it took

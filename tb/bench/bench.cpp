@@ -52,7 +52,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       execution_(std::move(execution)),
       setup_(scenario),
       observers_(execution_->timeline()),
-      exchange_(scenario, stations_),
+      exchange_(scenario, stations_, options.open_ended),
       checks_(scenario, options.checks.value_or(scenario.checks.mode), observers_),
       hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty(), observers_),
       journal_(scenario, observers_, log_form(options.log, options.log_whole, options.open_ended, options.from)) {
@@ -178,9 +178,22 @@ void Bench::connect(MasterStation& entry) {
   };
 }
 
+void Bench::add_answer_faults() {
+  const auto is_one = [](const auto& action) { return action.what == scenario::ActionKind::kAnswerFault; };
+  if (!options_.orders && std::none_of(scenario_.script.begin(), scenario_.script.end(), is_one)) return;
+  for (const auto& slave : stations_.slaves) {
+    stations_.answer_faults.push_back(std::make_unique<AnswerFault>(
+        execution_->segment(), slave->chip().station(), [this] { return bus::baud(monitor_->baud()).bit; }));
+    execution_->timeline().add(*stations_.answer_faults.back());
+  }
+}
+
+void Bench::order(const std::string& json) { script_->order(scenario::parse_action(json, "control", scenario_)); }
+
 /// The chips are already in the timeline; then stations in the order in which they answer each other, the script last.
 void Bench::add_agents() {
   bus::Timeline& timeline = execution_->timeline();
+  add_answer_faults();
   timeline.add(*monitor_);
   hosts_.add_to(timeline);
   for (const MasterStation& each : stations_.masters) timeline.add(*each.master);

@@ -49,6 +49,8 @@ struct RunOptions {
   std::function<bool(Tick now, std::uint64_t digest)> on_mark;
   std::vector<Observer*> observers;  ///< additional observers of all pins; they must outlive the bench
   bool open_ended = false;           ///< `poll` ends the run; expectations for the end are judged then
+  bool strict = false;               ///< with a host: its violations fail the run
+  bool orders = false;               ///< Bench::order may be called
 };
 
 class Bench : private Observer {
@@ -66,6 +68,12 @@ class Bench : private Observer {
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text) {
     journal_.log(at, station, kind, text);
   }
+  /// With a host: it has sent a telegram too early; it has hung up; its answers, by their start, have no times.
+  void host_early(Tick at, const bus::Bytes& telegram) { journal_.host_early(at, telegram, options_.strict); }
+  void host_gone() { exchange_.host_gone(); }
+  void leave_untimed(std::function<bool(Tick start)> untimed) { monitor_->untimed = std::move(untimed); }
+  /// Carries out an action of the script at the next step. `json` and errors: scenario::parse_action.
+  void order(const std::string& json);
   /// Passes a command to the user CPU of a slave, which executes it as soon as it can.
   void command(const std::string& slave, const user_cpu::Command& command) {
     stations_.slave(slave).command(now(), command);
@@ -101,6 +109,7 @@ class Bench : private Observer {
   void add_master2(const scenario::Master2& spec);
   void add_marks();
   void add_monitor();
+  void add_answer_faults();
   void add_agents();
   void add_observers();
   const GdbRequest* gdb_of(const scenario::Slave& slave) const;

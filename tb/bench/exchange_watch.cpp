@@ -57,7 +57,8 @@ Effect effect_of(const Action& action) {
     case ActionKind::kPauseUser:
     case ActionKind::kChangeBaud:
     case ActionKind::kTelegram:
-    case ActionKind::kGlitch: return Effect::kDisturbs;
+    case ActionKind::kGlitch:
+    case ActionKind::kAnswerFault: return Effect::kDisturbs;
     default: return Effect::kNone;
   }
 }
@@ -94,7 +95,7 @@ std::string advice_of(const ChipKind& kind, const std::string& code) {
 
 }  // namespace
 
-ExchangeWatch::ExchangeWatch(const scenario::Scenario& scenario, const Stations& stations)
+ExchangeWatch::ExchangeWatch(const scenario::Scenario& scenario, const Stations& stations, bool host)
     : scenario_(scenario),
       stations_(stations),
       steps_(scenario.slaves.size()),
@@ -103,6 +104,21 @@ ExchangeWatch::ExchangeWatch(const scenario::Scenario& scenario, const Stations&
   if (!scenario.expects_exchange) return;
   for (const scenario::Master& master : scenario.masters)
     for (const scenario::MasterSlave& listed : master.slaves) add(master, listed);
+  if (!host) return;
+  for (const scenario::Slave& slave : scenario.slaves) add_of_host(slave);
+}
+
+void ExchangeWatch::add_of_host(const scenario::Slave& slave) {
+  for (const Entry& each : entries_)
+    if (each.slave == slave.name.text) return;
+  Entry entry{"the host", slave.name.text, slave.name.text, slave.line, false};
+  entry.of_host = true;
+  for (const Expectation& each : scenario_.expect) {
+    if (each.slave.text != entry.slave) continue;
+    if (is_away_at_the_end(each)) return;
+    entry.may_leave = entry.may_leave || leaves(each);
+  }
+  entries_.push_back(entry);
 }
 
 /// A slave listed only by its address is the scenario's slave with that address, if any; without one nothing is added.
@@ -121,12 +137,66 @@ void ExchangeWatch::add(const scenario::Master& master, const scenario::MasterSl
                       listed.line, any(leaves)});
 }
 
+/// An action after the slave's own step, of which a master knows only later, may still show. Of a kind that does
+/// not tell its steps the master's is all there is.
+void ExchangeWatch::enter(Entry& entry, Tick now) const {
+  entry.since = now;
+  if (entry.acted < entered_[slave_number(scenario_, entry.slave)].value_or(now))
+    entry.disturbed = entry.kept_away = false;
+}
+
+void ExchangeWatch::event_of_host(Entry& entry, const profibus::Event& event) {
+  const std::string_view code = profibus::code(event.reason);
+  const bool prm = code.substr(0, 4) == "PRM_", refusal = profibus::severity(event.reason) != profibus::Severity::kInfo;
+  if (event.reason == profibus::Reason::kPrmUnlock) {
+    entry.let_go = true;
+  } else if (prm || code.substr(0, 4) == "CFG_") {
+    entry.asked = true;
+    entry.let_go = entry.let_go && !prm;
+    entry.refused = refusal;
+  } else if (is_end(code) && entry.asked && !entry.let_go && !entry.disturbed && !entry.kept_away && !entry.may_leave) {
+    entry.ended = event;
+  }
+}
+
+/// A host that continues has left its slave alone for too long.
+void ExchangeWatch::telegram(const HeardTelegram& heard) {
+  const bus::WireTelegram& wire = heard.telegram;
+  if (!wire.right() || !wire.decoded.telegram.is_request()) return;
+  for (const scenario::Master& each : scenario_.masters)
+    if (each.address == wire.decoded.telegram.sa) return;
+  for (const scenario::Master2& each : scenario_.masters2)
+    if (each.address == wire.decoded.telegram.sa) return;
+  for (Entry& entry : entries_) {
+    if (!entry.ended || wire.start <= entry.ended->at) continue;
+    if (entry.left++ == 0) {
+      entry.first_left = entry.ended->at;
+      entry.why = profibus::code(entry.ended->reason);
+    }
+    entry.ended.reset();
+  }
+}
+
+void ExchangeWatch::host_gone() {
+  for (Entry& entry : entries_) {
+    entry.let_go = true;
+    entry.ended.reset();
+  }
+}
+
 void ExchangeWatch::event(std::size_t slave, const profibus::Event& event) {
   if (profibus::severity(event.reason) == profibus::Severity::kViolation) return;  // neither step nor end is one
   const char* const code = profibus::code(event.reason);
   if (is_end(code)) ends_[slave] = event;
   if (event.reason == profibus::Reason::kDpState && event.b == static_cast<unsigned>(profibus::DpState::kDataExch))
     entered_[slave] = event.at;
+  for (Entry& entry : entries_) {
+    if (!entry.of_host || entry.slave != scenario_.slaves[slave].name.text) continue;
+    event_of_host(entry, event);
+    if (event.reason != profibus::Reason::kDpState) continue;
+    entry.in = event.b == static_cast<unsigned>(profibus::DpState::kDataExch);
+    if (entry.in) enter(entry, event.at);
+  }
   const std::optional<std::size_t> step = step_of(code);
   if (!step) return;
   std::optional<profibus::Event>& stands = steps_[slave][*step];
@@ -143,11 +213,7 @@ void ExchangeWatch::master_state(Tick now, const std::string& master, const std:
   if (entry == entries_.end()) return;
   const bool in = state == bus::name(bus::SlaveState::kDataExchange);
   if (in) {
-    entry->since = now;
-    // What was done after the slave's own step, of which the master knows only now, may still show. Of a kind that does
-    // not tell its steps the master's is all there is.
-    if (entry->acted < entered_[slave_number(scenario_, entry->slave)].value_or(now))
-      entry->disturbed = entry->kept_away = false;
+    enter(*entry, now);
   } else if (entry->in && !entry->disturbed && !entry->kept_away && !entry->may_leave && entry->left++ == 0) {
     entry->first_left = now;
     entry->why = stations_.master(master).slave(*stations_.listed_address(member)).step_reason;
@@ -163,7 +229,8 @@ void ExchangeWatch::acts(const Action& action, Tick now) {
   if (effect == Effect::kNone) return;
   if (effect == Effect::kDisturbs && now + action.duration.value_or(0) >= scenario_.end) effect = Effect::kKeepsAway;
   for (Entry& entry : entries_) {
-    if (!concerns(action, scenario_.masters.front().name.text, entry.master, entry.slave)) continue;
+    const std::string first = scenario_.masters.empty() ? "" : scenario_.masters.front().name.text;
+    if (!concerns(action, first, entry.master, entry.slave)) continue;
     entry.disturbed = true;
     entry.acted = now;
     if (effect != Effect::kDisturbs) entry.kept_away = effect == Effect::kKeepsAway;
@@ -179,7 +246,8 @@ ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult& s
   result.implied = true;
   const bool there = entry.in && !entry.kept_away && slave.status.dp_state == profibus::DpState::kDataExch;
   result.left_out = entry.left == 0 && !there && entry.since && entry.kept_away;
-  result.passed = entry.left == 0 && there;
+  const bool host_ended = entry.since && !entry.refused && (entry.let_go || entry.ended);
+  result.passed = entry.left == 0 && (there || host_ended);
   const std::string state = there ? "in data exchange"
                             : entry.in || slave.status.dp_state != profibus::DpState::kDataExch
                                 ? name(slave.status.dp_state)
@@ -202,7 +270,8 @@ ExpectationResult ExchangeWatch::judged(const Entry& entry, const SlaveResult& s
 std::vector<ExpectationResult> ExchangeWatch::finish(const std::vector<SlaveResult>& slaves) const {
   std::vector<ExpectationResult> results;
   results.reserve(entries_.size());
-  for (const Entry& entry : entries_) results.push_back(judged(entry, slaves[slave_number(scenario_, entry.slave)]));
+  for (const Entry& entry : entries_)
+    if (!entry.of_host || entry.asked) results.push_back(judged(entry, slaves[slave_number(scenario_, entry.slave)]));
   return results;
 }
 

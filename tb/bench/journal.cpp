@@ -32,10 +32,11 @@ void Journal::log(LogEntry entry) {
 std::string Journal::in_log(const bus::Bytes& bytes) const { return bytes_text(bytes, form_.most_bytes()); }
 
 Journal::Tally Journal::tally(const std::string& station, const std::string& code, profibus::Severity severity,
-                              const std::string& place) {
+                              const std::string& place, bool judged) {
   Occurrence sample{0, station, code, severity, {}, place};
   const bool violation = severity == profibus::Severity::kViolation;
   sample.allowed = violation && scenario::allows(scenario_, code, station);
+  sample.judged = judged;
   Repeated* const repeated = violation                                  ? &violated_.entry(sample)
                              : severity == profibus::Severity::kRefusal ? &refusals_.entry(sample)
                                                                         : nullptr;
@@ -62,7 +63,7 @@ void Journal::count(const Tally& tally, Tick at) {
   const Occurrence& sample = tally.sample;
   const bool violation = sample.severity == profibus::Severity::kViolation;
   observers_.counted(at, sample.station, sample.code, violation, ++*tally.count);
-  if (violation) ++(sample.allowed ? allowed_ : violations_);
+  if (violation) ++(sample.allowed ? allowed_ : sample.judged ? violations_ : unjudged_);
 }
 
 /// Neither listed nor logged, and not the first of its kind.
@@ -84,7 +85,8 @@ void Journal::happened(const Tally& tally, Tick at, const std::string& words, co
   const std::optional<user_cpu::Place> place = where();
   if (tally.repeated != nullptr) tally.repeated->add(at, text, place);
   if (log_) {
-    LogEntry entry{at, sample.station, sample.allowed ? "allowed" : name(sample.severity), text(), sample.code};
+    const char* const kind = sample.allowed ? "allowed" : sample.judged ? name(sample.severity) : "check";
+    LogEntry entry{at, sample.station, kind, text(), sample.code};
     entry.where = place;
     log(entry);
   }
@@ -133,6 +135,12 @@ void Journal::flag(const bus::Flag& flag) {
       flag.at, flag.text, {}, [] { return std::nullopt; });
 }
 
+void Journal::host_early(Tick at, const bus::Bytes& telegram, bool judged) {
+  happened(
+      tally("host", scenario::kHostEarly, profibus::Severity::kViolation, {}, judged), at,
+      "before the answer to the request before has left: " + in_log(telegram), {}, [] { return std::nullopt; });
+}
+
 void Journal::error(std::size_t slave, const user_cpu::ProgramError& error) {
   happened(
       tally(name_of(slave), error.code, severity_of(kind_of(slave), error.code)), error.at, error.text, {},
@@ -173,6 +181,7 @@ void Journal::fill(RunResult& result) const {
   });
   result.occurrences_dropped = occurrences_dropped_;
   result.allowed = allowed_;
+  result.unjudged = unjudged_;
   result.refused = refusals_.list();
   result.violated = violated_.list();
 }

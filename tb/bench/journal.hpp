@@ -39,6 +39,9 @@ class Journal : public Observer {
   void outputs(std::size_t slave, Tick at, const bus::Bytes& outputs, bool changed) override;
   void user_failed(std::size_t slave, Tick at, const std::string& why, const std::string& registers) override;
 
+  /// serve's host has sent this telegram too early; `judged`: it fails the run.
+  void host_early(Tick at, const bus::Bytes& telegram, bool judged);
+
   std::uint64_t count(const std::string& station, const std::string& code) const;
   /// Violations that the scenario does not allow, without those of checks.
   std::uint64_t violations() const { return violations_; }
@@ -66,7 +69,7 @@ class Journal : public Observer {
     bool is_of(std::size_t other, const profibus::Event& another) const;
   };
   Tally tally(const std::string& station, const std::string& code, profibus::Severity severity,
-              const std::string& place = {});
+              const std::string& place = {}, bool judged = true);
   const Tally& tally(std::size_t slave, const profibus::Event& event);
   /// Room in the result's list of events.
   bool lists() const { return kept_.size() < RunResult::kKept; }
@@ -93,7 +96,7 @@ class Journal : public Observer {
     std::optional<profibus::Event> event;  ///< its text has not been made yet
   };
   std::vector<Kept> kept_;
-  std::uint64_t occurrences_dropped_ = 0, violations_ = 0, allowed_ = 0;
+  std::uint64_t occurrences_dropped_ = 0, violations_ = 0, allowed_ = 0, unjudged_ = 0;
   Repetitions refusals_, violated_;
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
   std::array<std::optional<EventTally>, 64> tallies_;                   ///< of the last events

@@ -39,7 +39,7 @@ const char* name(ChecksMode mode) {
 
 Repeated& Repetitions::entry(const Occurrence& like) {
   Repeated& entry = entries_[{like.station, like.code, like.place}];
-  if (entry.count == 0) entry = {like.station, like.code, like.place, {}, 0, 0, 0, like.allowed};
+  if (entry.count == 0) entry = {like.station, like.code, like.place, {}, 0, 0, 0, like.allowed, {}, like.judged};
   return entry;
 }
 

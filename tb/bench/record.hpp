@@ -32,6 +32,7 @@ struct Occurrence {
   std::string place = {};                     ///< the cell concerned, as written in the chip's documents; empty: none
   bool allowed = false;                       ///< a violation that the scenario lists
   std::optional<user_cpu::Place> where = {};  ///< of the user's act that caused it
+  bool judged = true;                         ///< if it is a violation
 };
 
 /// "info", "refusal", "violation".
@@ -45,6 +46,7 @@ struct Repeated {
   std::uint64_t count = 0;
   bool allowed = false;
   std::optional<user_cpu::Place> where = {};  ///< of the first
+  bool judged = true;
 
   /// `words` writes the text of the first time.
   template <class Words>
@@ -165,6 +167,7 @@ struct RunResult {
   std::uint64_t telegrams = 0, wrong_telegrams = 0;
   std::uint64_t violations = 0;       ///< those that are not allowed, including those of checks with ChecksMode::kFail
   std::uint64_t allowed = 0;          ///< those that the scenario allows, without those of checks
+  std::uint64_t unjudged = 0;         ///< those of a host, without RunOptions::strict
   std::vector<MasterResult> masters;  ///< of class 1
   std::vector<SlaveResult> slaves;
   std::vector<Occurrence> occurrences;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bus/baud.hpp"
 #include "bus/time_text.hpp"
@@ -61,7 +62,17 @@ void Script::run(Tick now) {
     agenda_.pop_back();
     carry_out(due, now);
   }
+  for (const scenario::Action& action : std::exchange(orders_, {})) {
+    observers_.tell(&Observer::acts, action, now);
+    act(action, now);
+  }
   waits_ = waits();
+}
+
+void Script::order(scenario::Action action) {
+  orders_.push_back(std::move(action));
+  changed_at_ = observers_.now();
+  announce();
 }
 
 void Script::carry_out(const Due& due, Tick now) {
@@ -171,7 +182,7 @@ void Script::act(const Action& action, Tick now) {
   if (!action.connection.empty()) return stations_.owner_of(action.connection.text).act(action, now);
   if (Class2Station* station = stations_.class2(action.master.text)) return act_on_class2(action, *station, now);
   if (action.what >= ActionKind::kSetOutputs && action.what <= ActionKind::kTelegram) return act_on_master(action, now);
-  if (action.what == ActionKind::kGlitch || action.what == ActionKind::kPlug || action.what == ActionKind::kUnplug)
+  if (action.what >= ActionKind::kGlitch || action.what == ActionKind::kPlug || action.what == ActionKind::kUnplug)
     return act_on_bus(action, now);
   act_on_user(action, now);
 }
@@ -231,8 +242,14 @@ void Script::act_on_bus(const Action& action, Tick now) {
     segment_.force(now, action.level);
     return plan(now + *action.duration, Kind::kEndGlitch, 0);
   }
-  const bool plugged = action.what == ActionKind::kPlug;
   SlaveStation& slave = stations_.slave(action.slave.text);
+  if (action.what == ActionKind::kAnswerFault) {
+    journal_.log(now, slave.name(), "script",
+                 fmt::format("its next {} answers: {}", action.times, scenario::word_of(action.answer_fault)));
+    AnswerFault& fault = *stations_.answer_faults.at(slave_number(scenario_, slave.name()));
+    return fault.damage(now, action.answer_fault, action.times, action.duration.value_or(0));
+  }
+  const bool plugged = action.what == ActionKind::kPlug;
   journal_.log(now, slave.name(), "script", plugged ? "plugged in" : "unplugged");
   segment_.plug(slave.chip().station(), now, plugged);
 }

@@ -31,6 +31,8 @@ class Script : public bus::Agent, public Observer {
   bool acts_on_events() const override { return waits_; }
   Tick next() const override;
   void run(Tick now) override;
+  /// An action from outside, done at the next step.
+  void order(scenario::Action action);
   /// Judges the expectations for the end; an expectation whose time did not come has failed, as have those for the end
   /// if interrupted.
   std::vector<ExpectationResult> finish(Tick now, bool interrupted);
@@ -77,6 +79,7 @@ class Script : public bus::Agent, public Observer {
   Journal& journal_;
   Replies& replies_;
   const Observers& observers_;
+  std::vector<scenario::Action> orders_;
   std::vector<Due> agenda_;           ///< latest first; equal times in the order of planning
   std::vector<std::size_t> waiting_;  ///< actions whose condition does not hold yet
   std::vector<ExpectationResult> expectations_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bus/master/master1.hpp"
+#include "tb/bench/answer_fault.hpp"
 #include "tb/bench/class2_station.hpp"
 #include "tb/bench/setup.hpp"
 #include "tb/bench/slave_station.hpp"
@@ -31,6 +32,7 @@ struct Stations {
   std::vector<std::unique_ptr<SlaveStation>> slaves;
   std::vector<MasterStation> masters;
   std::vector<std::unique_ptr<Class2Station>> masters2;
+  std::vector<std::unique_ptr<AnswerFault>> answer_faults;  ///< by slave; none if there can be no order
 
   SlaveStation& slave(const std::string& name) const;
   /// As above, null if the slave is not on this bench.

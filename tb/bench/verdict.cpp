@@ -70,7 +70,7 @@ const char* name(Verdict verdict) {
 }
 
 std::uint64_t violations_not_judged(const RunResult& result) {
-  std::uint64_t count = 0;
+  std::uint64_t count = result.unjudged;
   if (result.checks_mode != ChecksMode::kReport) return count;
   for (const CheckResult& each : result.checks) count += each.record.violations - each.allowed;
   return count;
@@ -82,6 +82,7 @@ std::string not_judged(const RunResult& result) {
   return counted(violations_not_judged(result), "violation", "not judged") +
          counted(static_cast<std::uint64_t>(left_out), "expectation", "not judged") +
          counted(allowed(result), "violation", "allowed") +
+         counted(result.pacing ? result.pacing->line.held_back : 0, "telegram", "of the host held back") +
          (result.expects_exchange ? "" : ", data exchange not expected") +
          (result.checks_mode == ChecksMode::kOff ? ", checks off" : counted(result.checks_off, "check", "off"));
 }

@@ -274,7 +274,8 @@ void run_fields(Fields& out, const RunResult& result) {
   out.field("wrong_telegrams", result.wrong_telegrams, "those with an error");
   out.field("violations", result.violations, "that the scenario does not allow; of checks in checks_mode fail only");
   out.word("checks_mode", name(result.checks_mode), {"fail", "report", "off"}, "effect of violations that checks find");
-  out.field("violations_not_judged", violations_not_judged(result), "of checks in checks_mode report");
+  out.field("violations_not_judged", violations_not_judged(result),
+            "of checks in checks_mode report; of the host, without --strict");
   out.object_if("pacing", result.pacing, pacing_fields, "serve only: how well the run kept real time");
   out.object_if("lockstep", result.lockstep, lockstep_fields, "engine lockstep only: model and RTL side by side");
   out.list("masters", result.masters, master_fields, "a master of class 1", "of class 1");

@@ -22,7 +22,7 @@ JunitCase case_of_run(const RunResult& result) {
 std::string violations_text(const RunResult& result) {
   std::string text;
   for (const Repeated& each : result.violated)
-    if (!each.allowed)
+    if (!each.allowed && each.judged)
       text += fmt::format("{} times {} {}{}{}, first at {}: {}\n", each.count, each.station, each.code,
                           each.place.empty() ? "" : " at ", each.place, bus::moment_text(each.first),
                           with_place(each.text, each.where));

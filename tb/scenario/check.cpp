@@ -25,6 +25,7 @@ class Checker {
     }
   }
 
+  void run(const Action& action) const { check_action(action); }
   void run() const {
     check_names();
     for (const Slave& slave : scenario_.slaves) check_slave(slave);
@@ -198,6 +199,9 @@ class Checker {
 
   void check_action(const Action& action) const {
     check_slave_name(action.slave);
+    if (action.what == ActionKind::kAnswerFault &&
+        (action.answer_fault == AnswerFaultKind::kLate) != action.duration.has_value())
+      fail(action.line, "for is the delay of fault: late, expected both or neither");
     const bool any_class = action.what == ActionKind::kStopMaster || action.what == ActionKind::kStartMaster;
     any_class ? check_any_master_name(action.master) : check_master_name(action.master);
     check_connection_name(action.connection);
@@ -250,5 +254,7 @@ class Checker {
 }  // namespace
 
 void check(const Scenario& scenario) { Checker(scenario).run(); }
+
+void check(const Scenario& scenario, const Action& action) { Checker(scenario).run(action); }
 
 }  // namespace dsdpv1::tb::scenario

@@ -122,7 +122,8 @@ ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
   o.list("masters", &Scenario::masters, master_keys(), {0, 4},
          "The DP masters class 1. Several at a time, and those beside masters of class 2, need `bus: {ring: true}`.");
   o.list("masters2", &Scenario::masters2, master2_keys(), {0, 4}, "The DP masters class 2.");
-  o.list("slaves", &Scenario::slaves, slave_keys(kind), {1, 125}, "The chips, each with its user CPU.",
+  o.list("slaves", &Scenario::slaves, slave_keys(kind), {0, 125},
+         "The chips, each with its user CPU; none only with `serve`.",
          [&kind](const YAML::Node& slave, const keys::Source& source) -> const keys::Object& {
            return slave_keys(kind_in(slave, kind, source));
          })

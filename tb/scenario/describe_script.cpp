@@ -24,6 +24,17 @@ const ObjectOf<Faults>& fault_keys() {
   return keys;
 }
 
+const std::vector<WordFor<AnswerFaultKind>>& answer_fault_words() {
+  using Kind = AnswerFaultKind;
+  static const std::vector<WordFor<Kind>> words = {
+      {Kind::kSilent, "silent", "nothing"},         {Kind::kFcs, "fcs", "its FCS is wrong"},
+      {Kind::kEd, "ed", "its last byte is not 16"}, {Kind::kParity, "parity", "its first character has wrong parity"},
+      {Kind::kLate, "late", "later by `for`"},      {Kind::kSa, "sa", "from another address"},
+      {Kind::kDa, "da", "to another address"},      {Kind::kSap, "sap", "from another SAP"},
+      {Kind::kDoubled, "doubled", "twice"},         {Kind::kCut, "cut", "half of its bytes"}};
+  return words;
+}
+
 /// Without the orders of the kind of chip.
 const std::vector<WordFor<ActionKind>>& action_words() {
   static const std::vector<WordFor<ActionKind>> words = {{ActionKind::kSetInputs, "set_inputs", ""},
@@ -58,7 +69,8 @@ const std::vector<WordFor<ActionKind>>& action_words() {
                                                          {ActionKind::kC2Abort, "c2_abort", ""},
                                                          {ActionKind::kC2Behaviour, "c2_behaviour", ""},
                                                          {ActionKind::kC2Raw, "c2_raw", ""},
-                                                         {ActionKind::kGlitch, "glitch", ""}};
+                                                         {ActionKind::kGlitch, "glitch", ""},
+                                                         {ActionKind::kAnswerFault, "answer_fault", ""}};
   return words;
 }
 
@@ -146,6 +158,10 @@ std::vector<Choice> action_choices(const ChipKind& kind) {
   for (const std::vector<Choice>& more : {master_choices(), class2_choices()})
     choices.insert(choices.end(), more.begin(), more.end());
   choices.push_back({"glitch", "The line is forced to a level for a while.", {"for"}, {"level"}});
+  choices.push_back({"answer_fault",
+                     "The slave's next answers reach the line like this; its chip does not know of it.",
+                     {"slave", "fault"},
+                     {"times", "for"}});
   for (const Order& order : kind.orders()) choices.push_back(order.choice);
   return choices;
 }
@@ -170,7 +186,8 @@ void describe_values(ObjectOf<Action>& o, const ChipKind& kind) {
   o.integer("ident", &A::ident, {0, 0xFFFF}, "", "Ident number in the telegram (default: the right one).");
   o.boolean("lock", &A::lock, "No_Add_Chg: no further change of the address.");
   o.bytes("cfg", &A::cfg, {1, kind.most_cfg()}, "The new configuration.");
-  o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond}, "Duration (default for reset_chip: 10us).");
+  o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond},
+         "Duration (default for reset_chip: 10us), or delay of an answer.");
   o.integer("times", &A::times, {1, 1000}, "", "Number of times.");
   o.word("of", &A::of,
          std::vector<WordFor<Verdict>>{{Verdict::kPrm, "prm", "parameters"}, {Verdict::kCfg, "cfg", "configuration"}},
@@ -189,6 +206,9 @@ void describe_values(ObjectOf<Action>& o, const ChipKind& kind) {
          "Behaviour of a class 2 master.");
   o.word("baud", &A::baud, baud_words(), "The new baud rate.");
   o.object("faults", &A::faults, fault_keys(), "Faults in the telegram.");
+  o.word("fault", &A::answer_fault, answer_fault_words(),
+         "The answer on the line. Answers without the part that is to be wrong (a short acknowledge has no FCS) do not "
+         "count.");
   o.boolean("level", &A::level, "true: the line is forced high, false: low.");
 }
 
@@ -248,6 +268,12 @@ ObjectOf<Action> describe_actions(const ChipKind& kind) {
 }
 
 }  // namespace
+
+std::string word_of(AnswerFaultKind kind) {
+  for (const WordFor<AnswerFaultKind>& each : answer_fault_words())
+    if (each.value == kind) return each.text;
+  return "";
+}
 
 const ObjectOf<Action>& action_keys(const ChipKind& kind) { return per_kind<Action>(kind, describe_actions); }
 

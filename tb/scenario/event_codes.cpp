@@ -63,6 +63,12 @@ std::vector<CodeText> flag_codes() {
   return list;
 }
 
+CodeText host_code() {
+  return {kHostEarly, "violation", "PROFIBUS facts",
+          "a telegram of serve's host came before the answer to its request before had left",
+          "The master must wait for the answer or the slot time before it sends again. It fails a run with --strict."};
+}
+
 const std::vector<std::string>& all_codes(const ChipKind& kind) {
   static std::map<const ChipKind*, std::vector<std::string>> all;
   std::vector<std::string>& list = all[&kind];
@@ -71,6 +77,7 @@ const std::vector<std::string>& all_codes(const ChipKind& kind) {
     for (const CodeText& each : table.codes) list.push_back(each.code);
   for (std::size_t flag = 0; flag < bus::kFlagKinds; ++flag)
     list.push_back(flag_code(static_cast<bus::FlagKind>(flag)));
+  list.emplace_back(kHostEarly);
   for (const checks::Rule& rule : kind.rules()) list.emplace_back(rule.id);
   return list;
 }

@@ -12,6 +12,9 @@ namespace dsdpv1::tb::scenario {
 std::string flag_code(bus::FlagKind kind);
 /// All of these with what they say.
 std::vector<CodeText> flag_codes();
+/// A host of serve sent before it had its answer; and what the table of codes says of it.
+constexpr const char* kHostEarly = "HOST_EARLY";
+CodeText host_code();
 /// The program of a user CPU stopped with a fault.
 constexpr const char* kFirmwareFault = "ARM_FAULT";
 /// All codes of the kind of chip and of the monitor, and the ids of the checks.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
@@ -108,7 +109,7 @@ YAML::Node root_of(const std::string& text, const std::string& file, const std::
 
 std::string read_file(const std::string& path) { return tb::read_file(path, kScenarioFile); }
 
-Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
+Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings, Least slaves) {
   const YAML::Node root = root_of(text, file, settings);
   const ChipKind& kind = kind_of(root, file);
   Scenario scenario;
@@ -122,12 +123,29 @@ Scenario parse(const std::string& text, const std::string& file, const std::vect
   }
   scenario.file = file;
   scenario.files = files_of(root, file);
+  if (scenario.slaves.empty() && slaves == Least::kOne)
+    throw InputError(file, root["slaves"].Mark().line + 1, "slaves has 0 items, expected 1 to 125");
   check(scenario);
   return scenario;
 }
 
-Scenario load(const std::string& path, const std::vector<Setting>& settings) {
-  return parse(read_file(path), path, settings);
+Scenario load(const std::string& path, const std::vector<Setting>& settings, Least slaves) {
+  return parse(read_file(path), path, settings, slaves);
+}
+
+Action parse_action(const std::string& json, const std::string& file, const Scenario& scenario) {
+  if (!nlohmann::json::accept(json)) throw InputError(file, 0, "is not JSON, expected an action: {\"do\": ...}");
+  YAML::Node node = parse_yaml(json, file);
+  if (node.IsMap() && (node["at"] || node["when"]))
+    throw InputError(file, 0, "at or when, expected neither: it is done at once");
+  if (node.IsMap()) node["at"] = "0us";
+  Action action;
+  keys::read_object(action_keys(*scenario.kind), &action, node, {file});
+  action.at.reset();
+  Scenario named = scenario;
+  named.file = file;
+  check(named, action);
+  return action;
 }
 
 std::size_t slave_number(const Scenario& scenario, const std::string& name) {

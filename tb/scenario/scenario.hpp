@@ -190,7 +190,13 @@ enum class ActionKind : std::uint8_t {
   kC2Behaviour,
   kC2Raw,
   kGlitch,
+  kAnswerFault,
 };
+
+/// How a slave's answer reaches the line.
+enum class AnswerFaultKind : std::uint8_t { kSilent, kFcs, kEd, kParity, kLate, kSa, kDa, kSap, kDoubled, kCut };
+/// Its word in scenarios.
+std::string word_of(AnswerFaultKind kind);
 
 /// Actions that the program on the user CPU must execute.
 constexpr bool is_for_user_cpu(ActionKind what) {
@@ -260,6 +266,7 @@ struct Action {
   bus::Behaviour behaviour = bus::Behaviour::kNormal;
   int baud = 0;
   Faults faults;
+  AnswerFaultKind answer_fault = AnswerFaultKind::kSilent;
   int line = 0;
 };
 
@@ -302,11 +309,18 @@ struct Scenario {
   int line = 0;
 };
 
+/// The least number of slaves.
+enum class Least : std::uint8_t { kNone, kOne };
+
 /// Reads and checks a scenario; throws InputError. GSD files are not opened here. The settings replace keys of the
 /// file.
-Scenario load(const std::string& path, const std::vector<Setting>& settings = {});
+Scenario load(const std::string& path, const std::vector<Setting>& settings = {}, Least slaves = Least::kOne);
 /// As load(), from text; `file` is used in errors and as the base of relative paths.
-Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings = {});
+Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings = {},
+               Least slaves = Least::kOne);
+/// An action for now, as JSON of one line with the keys of the script except at and when; `file` is used in errors.
+/// Throws InputError.
+Action parse_action(const std::string& json, const std::string& file, const Scenario& scenario);
 /// Scenario::files of a scenario that may be wrong otherwise.
 std::vector<std::string> files(const std::string& path, const std::vector<Setting>& settings = {});
 /// The text of a scenario's file; throws InputError if there is none.

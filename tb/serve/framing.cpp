@@ -1,5 +1,7 @@
 #include "tb/serve/framing.hpp"
 
+#include <utility>
+
 #include "bus/telegram/telegram.hpp"
 
 namespace dsdpv1::tb::serve {
@@ -28,14 +30,25 @@ Frame frame_of(const std::uint8_t* bytes, std::size_t count) {
   }
 }
 
-void Intake::take(const bus::Bytes& bytes, WallTime now) {
+std::optional<MarkedBytes::Byte> MarkedBytes::take(std::uint8_t read) {
+  constexpr std::uint8_t kMark = 0xFF;
+  if (seen_ == 0 && read != kMark) return Byte{read, false};
+  if (seen_ == 0 || (seen_ == 1 && read == 0)) {
+    ++seen_;
+    return std::nullopt;
+  }
+  return Byte{read, std::exchange(seen_, 0) == 2};
+}
+
+void Intake::take(const bus::Bytes& bytes, WallTime now, const std::vector<std::size_t>& wrong) {
   if (bytes.empty()) return;
+  for (const std::size_t place : wrong) wrong_.push_back(bytes_.size() + place);
   if (bytes_.empty()) begun_ = now;
   bytes_.push(bytes);
   last_ = now;
 }
 
-std::optional<bus::Bytes> Intake::next(WallTime now) {
+std::optional<Taken> Intake::next(WallTime now) {
   if (bytes_.empty()) return std::nullopt;
   const Frame frame = frame_of(bytes_.data(), bytes_.size());
   // First check: complete bytes are a telegram, however late this is called.
@@ -50,9 +63,13 @@ std::size_t Intake::missing() const {
   return frame.length > bytes_.size() ? frame.length - bytes_.size() : 1;
 }
 
-bus::Bytes Intake::take_out(std::size_t count) {
+Taken Intake::take_out(std::size_t count) {
   begun_ = last_;  // of the next telegram
-  return bytes_.take(count);
+  Taken taken{bytes_.take(count)};
+  if (!wrong_.empty() && wrong_.front() < count) taken.wrong_at = wrong_.front();
+  while (!wrong_.empty() && wrong_.front() < count) wrong_.pop_front();
+  for (std::size_t& place : wrong_) place -= count;
+  return taken;
 }
 
 }  // namespace dsdpv1::tb::serve

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <deque>
 #include <optional>
+#include <vector>
 
 #include "bus/bytes.hpp"
 #include "tb/serve/byte_queue.hpp"
@@ -25,6 +27,28 @@ struct Frame {
 };
 Frame frame_of(const std::uint8_t* bytes, std::size_t count);
 
+/// Bytes of a serial port whose driver marks errors (termios: PARMRK): FF 00 b is the byte b with wrong parity or stop
+/// bit, or the 00 of a break, and FF FF is FF.
+class MarkedBytes {
+ public:
+  struct Byte {
+    std::uint8_t value = 0;
+    bool wrong = false;
+  };
+  /// The byte that the next one read completes.
+  std::optional<Byte> take(std::uint8_t read);
+  void clear() { seen_ = 0; }
+
+ private:
+  int seen_ = 0;  ///< bytes of a mark
+};
+
+/// A telegram, or bytes that are none.
+struct Taken {
+  bus::Bytes bytes;
+  std::optional<std::size_t> wrong_at = {};  ///< the first with wrong parity or stop bit
+};
+
 class Intake {
  public:
   /// A telegram is passed on incomplete if its rest does not come for this long: longer than the latency of USB
@@ -33,11 +57,11 @@ class Intake {
   /// The limit for a telegram that arrives in small pieces: three times the duration of the longest one at 9.6 kbit/s.
   static constexpr std::chrono::milliseconds kMostPatience{1000};
 
-  /// The host has written `bytes`.
-  void take(const bus::Bytes& bytes, WallTime now);
+  /// The host has written `bytes`, those at `wrong`, in order, with errors.
+  void take(const bus::Bytes& bytes, WallTime now, const std::vector<std::size_t>& wrong = {});
   /// Returns the next complete telegram, or bytes that are none: those that cannot begin a telegram, all of them at
   /// once; an incomplete telegram, when it is given up. Call it until it returns nothing.
-  std::optional<bus::Bytes> next(WallTime now);
+  std::optional<Taken> next(WallTime now);
   /// A telegram has begun and is not complete.
   bool holding() const { return !bytes_.empty(); }
   /// When an incomplete telegram is given up. Only while holding.
@@ -46,13 +70,17 @@ class Intake {
   /// The number of bytes missing in the present telegram, according to its header; 0 without one.
   std::size_t missing() const;
   /// Drops the bytes received.
-  void clear() { bytes_.clear(); }
+  void clear() {
+    bytes_.clear();
+    wrong_.clear();
+  }
 
  private:
-  bus::Bytes take_out(std::size_t count);
+  Taken take_out(std::size_t count);
 
   ByteQueue bytes_;
-  WallTime begun_{}, last_{};  ///< time of the first byte, and of the last
+  std::deque<std::size_t> wrong_;  ///< places in bytes_
+  WallTime begun_{}, last_{};      ///< time of the first byte, and of the last
 };
 
 }  // namespace dsdpv1::tb::serve

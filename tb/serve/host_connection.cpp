@@ -33,6 +33,7 @@ void HostConnection::set_peer(int fd) {
   last_bytes_ = std::chrono::steady_clock::now();
   heard_ = last_read_ = told_of_loss_ = false;
   kept_.clear();
+  marked_.clear();
 }
 
 std::chrono::steady_clock::time_point HostConnection::silent_since() const {
@@ -60,9 +61,25 @@ bus::Bytes HostConnection::receive(std::size_t most) {
     last_bytes_ = std::chrono::steady_clock::now();
     if (!std::exchange(heard_, true)) first_bytes();
   }
+  wrong_.clear();
+  if (marks()) take_marks(bytes);
   if (!gone) flush();
-  if (!has_peer()) bytes.clear();
+  if (!has_peer()) {
+    bytes.clear();
+    wrong_.clear();
+  }
   return bytes;
+}
+
+void HostConnection::take_marks(bus::Bytes& bytes) {
+  std::size_t count = 0;
+  for (const std::uint8_t read : bytes) {
+    const std::optional<MarkedBytes::Byte> byte = marked_.take(read);
+    if (!byte) continue;
+    if (byte->wrong) wrong_.push_back(count);
+    bytes[count++] = byte->value;
+  }
+  bytes.resize(count);
 }
 
 bus::Bytes HostConnection::read(std::size_t most) {

@@ -10,6 +10,7 @@
 #include "bus/bytes.hpp"
 #include "io/input/descriptor.hpp"
 #include "tb/serve/byte_queue.hpp"
+#include "tb/serve/framing.hpp"
 
 namespace dsdpv1::tb::serve {
 
@@ -33,6 +34,8 @@ class HostConnection {
   /// Reads at most `most` received bytes: the rest stays in the system, and finally with the peer. Also handles the
   /// peer's arrival and departure; after a departure only bytes that can be read at once are returned.
   bus::Bytes receive(std::size_t most);
+  /// The places in what receive() returned last of bytes with wrong parity or stop bit, if the driver tells them.
+  const std::vector<std::size_t>& wrong() const { return wrong_; }
   /// Sends to the peer, at once or as soon as it accepts more; dropped without a peer.
   void send(const bus::Bytes& bytes);
   /// For poll(2): the events to wait for, bytes of the peer only while `reading`; the descriptor is -1 without a peer.
@@ -51,6 +54,8 @@ class HostConnection {
   virtual void lost(const std::string& why) = 0;
   /// The first bytes of a peer have arrived.
   virtual void first_bytes() {}
+  /// The driver marks errors: FF and 00 have another meaning (MarkedBytes).
+  virtual bool marks() const { return false; }
   /// Called around a write to a wire.
   virtual void before_write() {}
   virtual void after_write() {}
@@ -67,6 +72,7 @@ class HostConnection {
 
  private:
   bus::Bytes read(std::size_t most);
+  void take_marks(bus::Bytes& bytes);
   void flush();
   void forget_peer(const std::string& why);
 
@@ -75,6 +81,8 @@ class HostConnection {
   bool heard_ = false, told_of_loss_ = false;
   bool last_read_ = false;  ///< it has gone and its last bytes were read
   ByteQueue kept_;          ///< not yet accepted by the peer
+  MarkedBytes marked_;
+  std::vector<std::size_t> wrong_;
 };
 
 }  // namespace dsdpv1::tb::serve

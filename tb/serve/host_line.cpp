@@ -29,17 +29,31 @@ HostLine::HostLine(bus::Segment& segment, int baud)
   receiver_.on_character = [this](const bus::ReceivedCharacter& character) { heard(character); };
 }
 
-void HostLine::send(Tick at, bus::Bytes bytes) {
+bool HostLine::send(Tick at, bus::Bytes bytes, std::optional<std::size_t> wrong_at) {
   const std::optional<bus::Telegram> telegram = telegram_of(bytes);
   const bool answer = telegram && telegram->is_response();
   const bool wants_answer = telegram && telegram->is_request() && telegram->wants_answer();
+  if (answer) owed_ = false;
   ++statistics_.telegrams;
   waiting_bytes_ += bytes.size();
-  waiting_.push_back({at, std::move(bytes), answer, wants_answer, false});
+  waiting_.push_back({at, std::move(bytes), answer, wants_answer, false, wrong_at});
   announce();
+  return wants_answer;
+}
+
+bool HostLine::is_answer(const bus::Bytes& bytes) {
+  const std::optional<bus::Telegram> telegram = telegram_of(bytes);
+  return telegram && telegram->is_response();
+}
+
+bool HostLine::owes_answer(Tick now) const {
+  const bool waits = std::any_of(waiting_.begin(), waiting_.end(),
+                                 [](const Waiting& each) { return each.wants_answer && !each.of_nobody; });
+  return waits || (owed_ && (slot_end_ == 0 || slot_runs(now)));
 }
 
 void HostLine::forget() {
+  owed_ = false;
   for (Waiting& telegram : waiting_) telegram.of_nobody = true;
   heard_.clear();
   deaf_ = true;
@@ -50,6 +64,7 @@ bus::Bytes HostLine::take_heard(Tick now, bool whole_only) {
   const bool may_follow = receiver_.receiving() || now < last_activity_ + bits(2);
   if (whole_only && may_follow && heard_.size() < kMostWhole) return {};
   statistics_.heard_bytes += heard_.size();
+  owed_ = false;
   return std::exchange(heard_, {});
 }
 
@@ -88,9 +103,13 @@ void HostLine::start(Tick now) {
     statistics_.longest_held_back = std::max(statistics_.longest_held_back, now - telegram.at);
   }
   statistics_.sent_bytes += telegram.bytes.size();
-  sender_.send(now, bus::characters(telegram.bytes));
+  bus::WireFaults faults;
+  faults.wrong_parity_at = telegram.wrong_at;
+  sender_.send(now, bus::characters(telegram.bytes, faults));
   last_activity_ = sender_.end();
   slot_end_ = telegram.wants_answer ? last_activity_ + slot_ : 0;
+  owed_ = telegram.wants_answer && !telegram.of_nobody;
+  began_ = now;
   sender_.run(now);
 }
 

@@ -26,8 +26,17 @@ class HostLine : public bus::Agent, private bus::Listener {
   HostLine(const HostLine&) = delete;
   HostLine& operator=(const HostLine&) = delete;
 
-  /// Sends after earlier telegrams, not before `at` (not in the past).
-  void send(Tick at, bus::Bytes bytes);
+  /// Sends after earlier telegrams, not before `at` (not in the past). Returns true for a request that wants an answer.
+  /// `wrong_at`: a byte with wrong parity.
+  bool send(Tick at, bus::Bytes bytes, std::optional<std::size_t> wrong_at = {});
+  /// The bytes are an answer: of a station at the port.
+  static bool is_answer(const bus::Bytes& bytes);
+  /// The host has sent a request and cannot know yet whether it is answered: nothing of the answer has been taken, and
+  /// the slot time runs, or the request waits.
+  bool owes_answer(Tick now) const;
+  Tick slot() const { return slot_; }
+  /// It has sent a telegram that began at `start`: the last one.
+  bool began_at(Tick start) const { return start == began_; }
   /// The host has gone: its telegrams are still sent, but received bytes for it are dropped, as are answers to it.
   /// Reception resumes with a later host's telegram or a new telegram after T_SYN.
   void forget();
@@ -50,6 +59,7 @@ class HostLine : public bus::Agent, private bus::Listener {
     bus::Bytes bytes;
     bool answer, wants_answer;
     bool of_nobody;  ///< its host has hung up
+    std::optional<std::size_t> wrong_at;
   };
   void line_changed(Tick at, bool level) override;
   void heard(const bus::ReceivedCharacter& character);
@@ -64,6 +74,8 @@ class HostLine : public bus::Agent, private bus::Listener {
   Tick bit_, slot_;
   Tick last_activity_ = 0;  ///< end of the last character sent or received
   Tick slot_end_ = 0;       ///< until then an answer may begin
+  bool owed_ = false;       ///< to the last request
+  Tick began_ = -1;         ///< the last telegram
   bool deaf_ = false;       ///< received characters are for a host that has gone
   std::deque<Waiting> waiting_;
   std::size_t waiting_bytes_ = 0;

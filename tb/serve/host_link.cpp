@@ -21,6 +21,7 @@ HostLink::HostLink(std::unique_ptr<HostConnection> port, bus::Segment& segment, 
   port_->on_gone = [this] {
     intake_.clear();
     line_.forget();
+    on_gone();
   };
 }
 
@@ -36,12 +37,26 @@ std::size_t HostLink::room(Tick now) const {
   return std::max(kMostWaiting - std::min(waiting, kMostWaiting), intake_.missing());
 }
 
+/// A request tells the host's mistake if it came in any case less than the slot time after the one before, and the two
+/// naps that serve may take before it sends, and before it reads an answer.
+void HostLink::pass_on(Tick now, Tick at, Taken telegram) {
+  const bool soon = to_ticks(pace_->now() - asked_after_) < line_.slot() + 2 * kSlice;
+  if (!port_->timed() && soon && line_.owes_answer(now) && !HostLine::is_answer(telegram.bytes))
+    on_early(at, telegram.bytes);
+  if (line_.send(at, std::move(telegram.bytes), telegram.wrong_at)) asked_after_ = came_after_;
+}
+
 void HostLink::take(Tick now) {
   now_ = now;
-  intake_.take(port_->receive(room(now)), pace_->now());
+  const std::size_t most = room(now);
+  const WallTime looked = pace_->now();
+  const bus::Bytes bytes = port_->receive(most);
+  if (!bytes.empty()) came_after_ = all_read_;
+  if (bytes.size() < most) all_read_ = looked;
+  intake_.take(bytes, pace_->now(), port_->wrong());
   // A late read of the clock must not delay a telegram that came meanwhile.
   const Tick at = std::clamp(pace_->target(), now, now + kSlice);
-  while (auto telegram = intake_.next(pace_->now())) line_.send(held_since_ ? now : at, std::move(*telegram));
+  while (auto telegram = intake_.next(pace_->now())) pass_on(now, held_since_ ? now : at, std::move(*telegram));
   hold_time();
 }
 

@@ -42,6 +42,11 @@ class HostLink {
 
   /// The host as an agent.
   HostLine& line() { return line_; }
+  /// A telegram came from the host before the answer to its last request had left, which no delay explains: the host
+  /// cannot have known that none would come. Never called for a UART, whose driver may deliver late.
+  std::function<void(Tick at, const bus::Bytes& telegram)> on_early = [](Tick, const bus::Bytes&) {};
+  /// The host has hung up.
+  std::function<void()> on_gone = [] {};
   /// Prints one line about the port.
   std::function<void(Tick at, const std::string& text)> say = [](Tick, const std::string&) {};
   /// The same when simulated time is late; at most one in 5 s.
@@ -61,6 +66,7 @@ class HostLink {
   void end(Tick now);
 
  private:
+  void pass_on(Tick now, Tick at, Taken telegram);
   std::size_t room(Tick now) const;
   void hold_time();
   void tell_about_port(const std::string& text);
@@ -72,7 +78,10 @@ class HostLink {
   Intake intake_;
   std::optional<Pace> pace_;
   LineLimit lines_;
-  Tick now_ = 0;  ///< of the last step
+  Tick now_ = 0;            ///< of the last step
+  WallTime all_read_{};     ///< everything that came before was read
+  WallTime came_after_{};   ///< what was read last
+  WallTime asked_after_{};  ///< the host's last request
   std::optional<WallTime> held_since_;
   WallTime rest_until_{};  ///< nothing is read until then, so that simulated time catches up
   WallTime told_at_{};

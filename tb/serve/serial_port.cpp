@@ -23,6 +23,7 @@ class SerialPort : public HostConnection {
 
   std::string name() const override { return "serial port " + options_.device; }
   bool timed() const override { return true; }
+  bool marks() const override { return true; }
 
  protected:
   void look() override {
@@ -63,13 +64,12 @@ class SerialPort : public HostConnection {
     if (!take_alone(fd)) return failed("is in use by another program");
     if (!set_8e1(fd, options_.bits_per_second))
       return failed(fmt::format("refuses {} bit/s 8E1: {}", options_.bits_per_second, std::strerror(errno)));
-    const int speed = speed_of(fd);
-    if (speed * 50 < options_.bits_per_second * 49 || speed * 50 > options_.bits_per_second * 51) {
-      return failed(fmt::format("offers {} bit/s instead of {}, expected what its hardware can do (--baud)", speed,
-                                options_.bits_per_second));
-    }
     ask_for_low_latency(fd);
     rts_by_hand_ = options_.rts && !let_driver_switch_rts(fd);
+    if (!is_8e1(fd, options_.bits_per_second)) {  // after all that may have changed it
+      return failed(fmt::format("offers {} bit/s instead of {}, or not 8E1, expected what its hardware can do (--baud)",
+                                speed_of(fd), options_.bits_per_second));
+    }
     if (rts_by_hand_ && !set_rts(fd, false)) return failed(std::string("has no RTS (--rts): ") + std::strerror(errno));
     set_peer(fd);
     return "";

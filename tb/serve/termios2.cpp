@@ -6,6 +6,8 @@
 #include <linux/tty_flags.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 
 #ifndef TIOCM_RTS
 #define TIOCM_RTS 0x004
@@ -25,16 +27,34 @@ void make_raw(termios2& settings) {
   settings.c_cc[VTIME] = 0;
 }
 
+/// It has no parity and takes none.
+bool is_pseudo_terminal(int fd) {
+  constexpr unsigned kFirst = 136, kLast = 143;  // major numbers of the slaves (Linux, devices.txt)
+  struct stat found {};
+  return fstat(fd, &found) == 0 && major(found.st_rdev) >= kFirst && major(found.st_rdev) <= kLast;
+}
+
 }  // namespace
 
 bool set_8e1(int fd, int bits_per_second) {
   termios2 settings{};
   if (ioctl(fd, TCGETS2, &settings) != 0) return false;
   make_raw(settings);
+  settings.c_iflag &= ~static_cast<Flags>(IGNPAR);
+  settings.c_iflag |= static_cast<Flags>(INPCK | PARMRK);
   settings.c_cflag &= ~static_cast<Flags>(CSIZE | CSTOPB | PARODD | CMSPAR | CRTSCTS | CBAUD | (CBAUD << IBSHIFT));
   settings.c_cflag |= static_cast<Flags>(CS8 | PARENB | CLOCAL | CREAD | BOTHER | (BOTHER << IBSHIFT));
   settings.c_ispeed = settings.c_ospeed = static_cast<speed_t>(bits_per_second);
   return ioctl(fd, TCSETS2, &settings) == 0;
+}
+
+bool is_8e1(int fd, int bits_per_second) {
+  termios2 settings{};
+  if (ioctl(fd, TCGETS2, &settings) != 0) return false;
+  const auto speed = static_cast<int>(settings.c_ospeed);
+  const Flags parity = is_pseudo_terminal(fd) ? 0 : PARENB;
+  return (settings.c_cflag & static_cast<Flags>(CSIZE | CSTOPB | PARODD | PARENB)) == (CS8 | parity) &&
+         speed * 50 >= bits_per_second * 49 && speed * 50 <= bits_per_second * 51;
 }
 
 bool set_raw(int fd) {
@@ -59,7 +79,14 @@ void ask_for_low_latency(int fd) {
 bool let_driver_switch_rts(int fd) {
   serial_rs485 settings{};
   settings.flags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
-  return ioctl(fd, TIOCSRS485, &settings) == 0;
+  constexpr auto kWanted = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
+  if (ioctl(fd, TIOCSRS485, &settings) != 0) return false;
+  serial_rs485 taken{};
+  if (ioctl(fd, TIOCGRS485, &taken) != 0) return true;  // it does not say
+  if ((taken.flags & (kWanted | SER_RS485_RTS_AFTER_SEND)) == kWanted) return true;
+  settings.flags = 0;
+  ioctl(fd, TIOCSRS485, &settings);
+  return false;
 }
 
 bool set_rts(int fd, bool level) {

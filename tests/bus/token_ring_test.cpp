@@ -435,11 +435,15 @@ TEST(TokenWatch, ClaimsAfterTheTimeoutAndRepeatedTokensAreRight) {
   EXPECT_EQ(watch.holder(), 2);
 }
 
-TEST(TokenWatch, ASingleMasterMaySendWhatItLikesButNoToken) {
+TEST(TokenWatch, AMasterThatPassesTheTokenToItselfHoldsIt) {
   TokenWatch watch;
+  EXPECT_FALSE(watch.hear(make_telegram(3, 9, 0x49), 500, 50, 100)) << "there is no token";
   EXPECT_FALSE(watch.hear(make_token(1, 1), 1000, 50, 100));
-  EXPECT_FALSE(watch.hear(make_telegram(3, 9, 0x49), 2000, 50, 100));
+  EXPECT_TRUE(watch.hear(make_telegram(3, 9, 0x49), 2000, 50, 100));
+  EXPECT_FALSE(watch.hear(make_telegram(3, 1, 0x49), 2500, 50, 100)) << "it still has it";
   EXPECT_TRUE(watch.hear(make_token(9, 9), 3000, 50, 100));
+  EXPECT_FALSE(watch.hear(make_telegram(3, 7, 0x49), 4000, 600, 100)) << "claimed after T_TO";
+  EXPECT_TRUE(watch.hear(make_telegram(3, 9, 0x49), 5000, 50, 100)) << "and has it now";
 }
 
 TEST_F(TokenRingTest, ATokenThatIsNotOnTheLineAsSentIsGivenUp) {

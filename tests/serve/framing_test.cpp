@@ -35,7 +35,7 @@ TEST(Framing, ATelegramIsHeldUntilItIsComplete) {
     EXPECT_TRUE(intake.holding());
   }
   intake.take({kDiag.back()}, kNow);
-  EXPECT_EQ(intake.next(kNow), kDiag);
+  EXPECT_EQ(intake.next(kNow)->bytes, kDiag);
   EXPECT_FALSE(intake.holding());
 }
 
@@ -45,8 +45,8 @@ TEST(Framing, TelegramsInOnePieceAreTakenApart) {
   both.insert(both.end(), kDiag.begin(), kDiag.end());
   both.push_back(0x10);
   intake.take(both, kNow);
-  EXPECT_EQ(intake.next(kNow), kStatus);
-  EXPECT_EQ(intake.next(kNow), kDiag);
+  EXPECT_EQ(intake.next(kNow)->bytes, kStatus);
+  EXPECT_EQ(intake.next(kNow)->bytes, kDiag);
   EXPECT_FALSE(intake.next(kNow));
   EXPECT_TRUE(intake.holding());
 }
@@ -55,7 +55,7 @@ TEST(Framing, ATelegramThatBreaksOffIsHandedOverAfterAWhile) {
   Intake intake;
   intake.take({0x68, 0x05}, kNow);
   EXPECT_FALSE(intake.next(kNow + Intake::kPatience - std::chrono::milliseconds(1)));
-  EXPECT_EQ(intake.next(kNow + Intake::kPatience), (Bytes{0x68, 0x05}));
+  EXPECT_EQ(intake.next(kNow + Intake::kPatience)->bytes, (Bytes{0x68, 0x05}));
   EXPECT_FALSE(intake.holding());
 }
 
@@ -66,8 +66,8 @@ TEST(Framing, CompleteTelegramsAreTakenApartHoweverLateTheyAreLookedAt) {
   twice.insert(twice.end(), kStatus.begin(), kStatus.end());
   intake.take(twice, kNow);
   const WallTime late = kNow + 2 * Intake::kPatience;
-  EXPECT_EQ(intake.next(late), kStatus);
-  EXPECT_EQ(intake.next(late), kStatus);
+  EXPECT_EQ(intake.next(late)->bytes, kStatus);
+  EXPECT_EQ(intake.next(late)->bytes, kStatus);
   EXPECT_FALSE(intake.holding());
 }
 
@@ -80,7 +80,7 @@ TEST(Framing, TakingTelegramsFromTheFrontCostsTheSameHoweverManyWait) {
   const WallTime begin = tb::serve::WallClock::now();
   std::size_t taken = 0;
   while (const auto telegram = intake.next(kNow)) {
-    taken += *telegram == kStatus ? 1 : 0;
+    taken += telegram->bytes == kStatus ? 1 : 0;
     ASSERT_LT(tb::serve::WallClock::now() - begin, std::chrono::seconds(10)) << taken;
   }
   EXPECT_EQ(taken, kTelegrams);
@@ -102,7 +102,7 @@ TEST(Framing, ATelegramInEverSmallerPiecesIsGivenUpInTheEnd) {
     now += Intake::kPatience / 2;
     intake.take({0x00}, now);
   }
-  EXPECT_EQ(intake.next(now)->size(), 4U + 2 * (Intake::kMostPatience / Intake::kPatience));
+  EXPECT_EQ(intake.next(now)->bytes.size(), 4U + 2 * (Intake::kMostPatience / Intake::kPatience));
   intake.take({0x10}, now);
   EXPECT_EQ(intake.give_up_at(), now + Intake::kPatience) << "the next one has all its time";
 }
@@ -124,8 +124,31 @@ TEST(Framing, BytesThatBeginNoTelegramAreHandedOverAtOnce) {
                              Bytes{0x68, 0x05, 0x06}, Bytes{0x68, 0x05, 0x05, 0x10}}) {
     Intake intake;
     intake.take(bytes, kNow);
-    EXPECT_EQ(intake.next(kNow), bytes);
+    EXPECT_EQ(intake.next(kNow)->bytes, bytes);
   }
+}
+
+TEST(Framing, AMarkedByteIsPassedOnWithItsPlaceInTheTelegram) {
+  tb::serve::MarkedBytes marked;
+  Bytes bytes;
+  std::vector<std::size_t> wrong;
+  for (const int read : {0x10, 0xFF, 0xFF, 0xFF, 0x00, 0x02, 0x00, 0xFF, 0x00, 0x00}) {
+    const auto byte = marked.take(static_cast<std::uint8_t>(read));
+    if (!byte) continue;
+    if (byte->wrong) wrong.push_back(bytes.size());
+    bytes.push_back(byte->value);
+  }
+  EXPECT_EQ(bytes, (Bytes{0x10, 0xFF, 0x02, 0x00, 0x00})) << "FF FF is FF, FF 00 02 is 02";
+  EXPECT_EQ(wrong, (std::vector<std::size_t>{2, 4}));
+
+  Intake intake;
+  Bytes both = kDiag;
+  both.insert(both.end(), kStatus.begin(), kStatus.end());
+  intake.take(both, kNow, {1, 3, kDiag.size() + 2});
+  EXPECT_EQ(intake.next(kNow)->wrong_at, 1U) << "the first one";
+  EXPECT_EQ(intake.next(kNow)->wrong_at, 2U);
+  intake.take(kStatus, kNow);
+  EXPECT_FALSE(intake.next(kNow)->wrong_at);
 }
 
 }  // namespace

@@ -97,6 +97,47 @@ TEST_F(HostLineTest, AnAnswerOfTheHostWaitsForMinTsdrOnly) {
   EXPECT_TRUE(flags_.empty());
 }
 
+TEST_F(HostLineTest, AnAnswerOfTheHostThatIsLateHasNoTimeOfItsStation) {
+  monitor_.untimed = [this](Tick start) { return line_.began_at(start); };
+  send(100 * kBit, kRequest);
+  const Tick asked = timeline_.now();
+  line_.send(asked + 90 * kBit, kAnswer);
+  timeline_.run_until(1000 * kBit);
+  ASSERT_EQ(heard_.size(), 2U);
+  EXPECT_EQ(heard_[1].station, 8) << "an answer to the request";
+  EXPECT_FALSE(heard_[1].tsdr);
+  EXPECT_TRUE(flags_.empty());
+}
+
+TEST_F(HostLineTest, ACharacterThatCameWithWrongParityHasItOnTheSegmentToo) {
+  line_.send(100 * kBit, kRequest, 3);
+  timeline_.run_until(1000 * kBit);
+  ASSERT_EQ(heard_.size(), 1U);
+  EXPECT_TRUE(heard_[0].character_errors);
+  EXPECT_EQ(flags_.at(0), bus::FlagKind::kCharacterError);
+}
+
+TEST_F(HostLineTest, AnAnswerIsOwedUntilItIsTakenOrTheSlotTimeIsOver) {
+  const auto owes = [this] { return line_.owes_answer(timeline_.now()); };
+  EXPECT_TRUE(line_.send(100 * kBit, kRequest));
+  EXPECT_TRUE(owes()) << "it waits";
+  timeline_.run_until(170 * kBit);
+  EXPECT_TRUE(owes());
+  send(177 * kBit, kAnswer);
+  timeline_.run_until(timeline_.now() + 12 * kBit);
+  EXPECT_TRUE(owes()) << "not taken yet";
+  line_.take_heard(timeline_.now(), false);
+  EXPECT_FALSE(owes());
+  EXPECT_TRUE(line_.send(timeline_.now(), kRequest));
+  timeline_.run_until(timeline_.now() + (33 + 66 + 300) * kBit);
+  EXPECT_FALSE(owes()) << "nobody answered";
+  EXPECT_FALSE(line_.send(timeline_.now(), kUnanswered));
+  EXPECT_FALSE(owes());
+  EXPECT_TRUE(line_.send(timeline_.now(), kRequest));
+  line_.forget();
+  EXPECT_FALSE(owes()) << "its host has hung up";
+}
+
 TEST_F(HostLineTest, TheHostHearsOthersAndNotItself) {
   line_.send(100 * kBit, kRequest);
   timeline_.run_until(170 * kBit);

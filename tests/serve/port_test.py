@@ -126,16 +126,31 @@ def telegram_in_pieces(program):
 
 
 def requests_in_one_write(program):
-    """The second request waits for the first one's answer and for T_SYN."""
-    def body(serve):
-        fd = open_raw(serve.port)
-        ask(fd)
-        os.write(fd, STATUS_REQUEST * 5)
-        check(read_some(fd, 30) == STATUS_ANSWER * 5, "not all five were answered")
-        os.close(fd)
-    serve = with_serve(program, body)
-    check(serve.result["pacing"]["held_back"] >= 4, "nothing was held back")
-    check(not [line for line in serve.log if line.kind == "violation"], "violations")
+    """The second request waits for the first one's answer and for T_SYN, and was too early. Sent after the answers they are not."""
+    for options, kind, status in ((), "check", 0), (("--strict",), "violation", 1):
+        with Folder() as folder:
+            serve = Serve(program, folder, SCENARIO, *options)
+            try:
+                with open_host(serve, "--pty") as host:
+                    fd = host.fileno()
+                    ask(fd)
+                    ask(fd)
+                    for _ in range(100):  # serve is certain only if it has looked at the port just before
+                        os.write(fd, STATUS_REQUEST * 5)
+                        check(read_some(fd, 30) == STATUS_ANSWER * 5, "not all five were answered")
+                        with open(serve.growing_log(), encoding="UTF-8") as log:
+                            if "HOST_EARLY" in log.read():
+                                break
+                serve.end()
+            finally:
+                serve.kill()
+            check(serve.result["pacing"]["held_back"] >= 4, "nothing was held back")
+            early = [line for line in serve.log if line.text.startswith("HOST_EARLY")]
+            check(early and all(line.kind == kind and "10 08 02 49 53 16" in line.text for line in early), "early: %s" % early)
+            check(not [line for line in serve.log if line.kind == "violation" and line not in early], "violations")
+            check(serve.status == status, "%s ended with %s" % (options, serve.status))
+            violations = ("FAILED: %d violation" if options else "PASSED, %d violation") % len(early)
+            check(violations in serve.summary and "HOST_EARLY" in serve.summary, serve.summary)
 
 
 def broken_off_telegram(program):
@@ -155,6 +170,90 @@ def broken_off_telegram(program):
             body(serve)
             serve.end()
             check(serve.status == 1, "a broken telegram is a violation on the bus")
+        finally:
+            serve.kill()
+
+
+def telegram(fc, data, da=8, sa=2):
+    """Request with the SAPs that `data` begins with."""
+    body = bytes([da | 0x80, sa | 0x80, fc]) + data
+    return bytes([0x68, len(body), len(body), 0x68]) + body + bytes([sum(body) & 0xFF, 0x16])
+
+
+def configuration_fault(program):
+    """A host that parameterises the slave and sends another configuration has failed, although nothing was violated."""
+    def body(serve):
+        with open_host(serve, "--pty") as host:
+            ask(host.fileno())
+            for fc, data in (0x6D, bytes.fromhex("3D3E8000000B0CC900000000")), (0x5D, b"\x3e\x3e" + b"\x7f" * 16):  # 512 bytes each way
+                os.write(host.fileno(), telegram(fc, data))
+                check(read_some(host.fileno(), 1) == b"\xe5", "not acknowledged")
+    with Folder() as folder:
+        serve = Serve(program, folder, SCENARIO)
+        try:
+            body(serve)
+            serve.end()
+            check(serve.status == 1 and "comes to data exchange with the host" in serve.summary and "CFG_" in serve.summary, serve.summary)
+        finally:
+            serve.kill()
+
+
+def station_behind_the_port(program):
+    """Master and slave are both at the port, the scenario has none: the slave's time is not that of its answer."""
+    with Folder() as folder:
+        serve = Serve(program, folder, SCENARIO.split("slaves:")[0] + "slaves: []\n")
+        try:
+            with open_host(serve, "--pty") as host:
+                os.write(host.fileno(), (STATUS_REQUEST + STATUS_ANSWER) * 3)
+                serve.wait_for_log("(?s)(10 02 08 00 0A 16.*?){3}")
+            serve.end()
+            check(serve.status == 0 and not [line for line in serve.log if "TSDR" in line.text], [line.text for line in serve.log])
+        finally:
+            serve.kill()
+        called = subprocess.run([program, "run", "scenario.yaml"], cwd=folder, capture_output=True, text=True, check=False)
+        check(called.returncode == 2 and "slaves has 0 items, expected 1 to 125" in called.stderr, called.stderr)
+
+
+def control(program):
+    """Actions while serve runs: each line is answered, and the host sees what was done."""
+    def body(serve):
+        number = int(serve.said().split("takes actions at 127.0.0.1:")[1].split("\n")[0])
+        with open_host(serve, "--pty") as host, socket.create_connection(("127.0.0.1", number)) as peer, peer.makefile() as answers:
+            def does(line, answer="ok"):
+                peer.sendall(line.encode() + b"\n")
+                got = answers.readline().rstrip("\n")
+                check(got == answer, "%s: %s" % (line, got))
+            fd = host.fileno()
+            ask(fd)
+            does('{"do": "answer_fault", "slave": "echo", "fault": "silent", "times": 2}')
+            for answer in b"", b"", STATUS_ANSWER:
+                os.write(fd, STATUS_REQUEST)
+                check(read_some(fd, 6, 0.05 if not answer else DEADLINE) == answer, "not %r" % answer)
+            does('{"do": "answer_fault", "slave": "echo", "fault": "fcs"}')
+            os.write(fd, STATUS_REQUEST)
+            check(read_some(fd, 6) == STATUS_ANSWER[:4] + b"\x0b\x16", "no wrong FCS")
+            does('{"do": "unplug", "slave": "echo"}')
+            os.write(fd, STATUS_REQUEST)
+            check(read_some(fd, 6, 0.05) == b"", "it has not left the bus")
+            does('{"do": "plug", "slave": "echo"}')
+            ask(fd)
+            does('{"do": "set_inputs", "slave": "echo", "bytes": "01 02"}')
+            does('{"do": "glitch", "for": "1us"}')
+            does('{"do": "reset_chip", "slave": "echo"}')
+            ask(fd)
+            does('{"do": "answer_fault", "slave": "ech", "fault": "cut"}',
+                 "control:1: slave ech does not exist (did you mean echo?), expected echo")
+            does('{"do": "answer_fault", "slave": "echo", "fault": "late"}', "control:1: for is the delay of fault: late, expected both or neither")
+            does('{"do": "plug", "slave": "echo", "at": "1ms"}', "control: at or when, expected neither: it is done at once")
+            does("do: plug", 'control: is not JSON, expected an action: {"do": ...}')
+            does("x" * 65537, "a line of more than 65536 bytes, expected at most so many")
+            check(answers.readline() == "", "still connected")
+    with Folder() as folder:
+        serve = Serve(program, folder, SCENARIO + "allow: [{event: BUS_TELEGRAM_ERROR}, {event: BUS_GLITCH}]\n", "--control", "0")
+        try:
+            body(serve)
+            serve.end()
+            check(serve.status == 0, serve.summary)
         finally:
             serve.kill()
 
@@ -294,7 +393,8 @@ def too_slow_is_said(program):
     check("of real time" in serve.said() and serve.result["pacing"]["times_too_slow"] >= 1, serve.said())
 
 
-CASES = [pty_hang_up_and_next_opener, one_shot_hosts, telegram_in_pieces, requests_in_one_write, broken_off_telegram, live_capture, wrong_speed_is_said,
+CASES = [pty_hang_up_and_next_opener, one_shot_hosts, telegram_in_pieces, requests_in_one_write, broken_off_telegram, configuration_fault,
+         station_behind_the_port, control, live_capture, wrong_speed_is_said,
          tcp_one_after_the_other, serial_port, bad_ports, link_of_a_killed_run, ends_after_its_time, shipped_scenario, too_slow_is_said]
 
 

@@ -154,7 +154,7 @@ TEST(ImpliedExchange, OfAKindThatDoesNotTellItsStepsIsJudgedByTheMasters) {
   parameters.input_length = parameters.output_length = 2;
   stations.masters[0].master->add_slave(parameters);
   stations.masters[0].slaves[5] = "io";
-  tb::ExchangeWatch watch(scenario, stations);
+  tb::ExchangeWatch watch(scenario, stations, false);
   const auto step = [&watch](tb::Tick now, bus::SlaveState state) {
     watch.master_state(now, "plc", "io", bus::name(state));
   };
@@ -168,6 +168,88 @@ TEST(ImpliedExchange, OfAKindThatDoesNotTellItsStepsIsJudgedByTheMasters) {
   EXPECT_THAT(watch.finish({slave}).at(0).seen, HasSubstr("since "));
   step(500, bus::SlaveState::kDiagnose);
   EXPECT_THAT(watch.finish({slave}).at(0).seen, HasSubstr("left 1 time without the script"));
+}
+
+/// A host at serve's port has a slave that no master of the scenario has.
+class ExchangeWithAHost : public testing::Test {
+ protected:
+  ExchangeWithAHost() {
+    does(profibus::Reason::kPrmAccepted);
+    does(profibus::Reason::kCfgAccepted);
+    state(profibus::DpState::kDataExch);
+  }
+  void does(profibus::Reason reason) {
+    profibus::Event event{};
+    event.reason = reason;
+    event.at = ++now_;
+    watch_.event(0, event);
+  }
+  void state(profibus::DpState to) {
+    profibus::Event event{};
+    event.reason = profibus::Reason::kDpState;
+    event.at = ++now_;
+    event.b = static_cast<std::uint16_t>(to);
+    watch_.event(0, event);
+    slave_.status.dp_state = to;
+  }
+  void expire() {
+    does(profibus::Reason::kWatchdogExpired);
+    state(profibus::DpState::kWaitPrm);
+  }
+  void sends() {
+    bus::WireTelegram wire;
+    wire.start = ++now_;
+    wire.decoded = bus::decode(bus::encode(bus::make_telegram(5, 2, 0x49)));
+    watch_.telegram({now_, wire});
+  }
+  tb::ExpectationResult judged() { return watch_.finish({slave_}).at(0); }
+
+  const tb::scenario::Scenario scenario_ = tb::scenario::parse(
+      "name: x\nbaud: 12M\nend: 8ms\nslaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, "
+      "max_outputs: 2, cfg: \"31\"}}\n",
+      "x.yaml");
+  tb::Stations stations_;
+  tb::ExchangeWatch watch_{scenario_, stations_, true};
+  tb::SlaveResult slave_;
+  tb::Tick now_ = 0;
+};
+
+TEST_F(ExchangeWithAHost, IsExpectedOnceItHasParameterisedTheSlave) {
+  EXPECT_TRUE(judged().passed);
+  EXPECT_EQ(judged().line, 5);
+  EXPECT_TRUE(tb::ExchangeWatch(scenario_, stations_, true).finish({slave_}).empty()) << "not addressed";
+  EXPECT_TRUE(tb::ExchangeWatch(scenario_, stations_, false).finish({slave_}).empty()) << "no host";
+}
+
+TEST_F(ExchangeWithAHost, IsNotLeftByTheWatchdogWhileTheHostGoesOn) {
+  expire();
+  EXPECT_TRUE(judged().passed) << "the master may have been ended: " << judged().seen;
+  sends();
+  EXPECT_THAT(judged().seen, HasSubstr("left 1 time without the script, first at"));
+  EXPECT_THAT(judged().seen, HasSubstr("WD_EXPIRED; WAIT_PRM at the end"));
+  state(profibus::DpState::kDataExch);
+  EXPECT_FALSE(judged().passed) << "it came back too late";
+}
+
+TEST_F(ExchangeWithAHost, EndsWithAHostThatHangsUpOrReleasesTheSlave) {
+  watch_.host_gone();
+  expire();
+  sends();  // of the next host
+  EXPECT_TRUE(judged().passed) << judged().seen;
+  does(profibus::Reason::kPrmAccepted);
+  EXPECT_FALSE(judged().passed) << "the next host has it";
+  state(profibus::DpState::kDataExch);
+  does(profibus::Reason::kPrmUnlock);
+  state(profibus::DpState::kWaitPrm);
+  EXPECT_TRUE(judged().passed) << judged().seen;
+}
+
+TEST_F(ExchangeWithAHost, IsNotReachedWithAnotherConfigurationEvenIfTheHostHangsUp) {
+  does(profibus::Reason::kPrmAccepted);
+  does(profibus::Reason::kCfgDiffers);
+  state(profibus::DpState::kWaitPrm);
+  watch_.host_gone();
+  EXPECT_FALSE(judged().passed);
 }
 
 TEST(ImpliedExchange, OfASlaveThatIsListedByItsAddressIsExpectedToo) {

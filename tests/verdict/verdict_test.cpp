@@ -102,6 +102,14 @@ const Case kCases[] = {
        r.pacing->line.telegrams = 1;
      },
      0, "passed", "PASSED"},
+    {"ServeWithAHostThatWasTooEarly",
+     [](RunResult& r) {
+       r.pacing.emplace();
+       r.pacing->line.telegrams = 3;
+       r.pacing->line.held_back = 2;
+       r.unjudged = 1;
+     },
+     0, "passed", "PASSED, 1 violation not judged, 2 telegrams of the host held back"},
     {"Interrupted",
      [](RunResult& r) {
        exchange(r);

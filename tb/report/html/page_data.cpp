@@ -124,6 +124,7 @@ Json codes_of(const RunResult& result, const ChipKinds& kinds) {
     tables.insert(tables.end(), kind->codes().begin(), kind->codes().end());
   }
   tables.push_back({"", "", scenario::flag_codes()});
+  tables.push_back({"", "", {scenario::host_code()}});
   for (const CodeTable& table : tables)
     for (const CodeText& each : table.codes)
       if (used.erase(each.code) != 0) codes.push_back(code_of(each));

@@ -18,6 +18,9 @@ class RealTimeExecution : public Execution {
   void join();
   void run(Tick end, const std::function<bool()>& stopped) override;
 
+  /// Called in each round, between two steps of simulated time.
+  std::function<void()> on_round = [] {};
+  HostLink& link() { return link_; }
   /// Prints one line about the port or the pace.
   std::function<void(Tick at, const std::string& text)> say = [](Tick, const std::string&) {};
   Pacing pacing() const { return link_.pacing(); }
