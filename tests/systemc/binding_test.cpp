@@ -111,7 +111,7 @@ std::string attributes(const sc_core::sc_object& module) {
   return all;
 }
 
-TEST(Parameters, AreListedByTheModules) {
+TEST(ModuleParameters, AreListedByTheModules) {
   const std::string told = in_a_process_of_its_own([] {
     systemc::PinOptions slow;
     slow.chip.search_window_ms = 77;
@@ -129,7 +129,7 @@ TEST(Parameters, AreListedByTheModules) {
   EXPECT_THAT(told.substr(spc3), HasSubstr("\nint_delay 1\n"));
 }
 
-TEST(Parameters, AreSetByAnAdapterWithinTheirRanges) {
+TEST(ModuleParameters, AreSetByAnAdapterWithinTheirRanges) {
   Config config;
   int rows = 0;
   systemc::each_parameter(config, [&](const systemc::ParameterRow& row, std::uint32_t& value) {

@@ -33,7 +33,7 @@ struct Inputs {
   }
 };
 
-TEST(Ports, OutputsOfThePinModulesMayStayUnbound) {
+TEST(OptionalPorts, OutputsOfThePinModulesMayStayUnbound) {
   const std::string told = in_a_process_of_its_own([] {
     Inputs inputs;
     sc_core::sc_start(150, sc_core::SC_US);
@@ -47,7 +47,7 @@ std::string read(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Ports, AreTracedBeforeTheyAreBoundAndNotIfTheyStayUnbound) {
+TEST(OptionalPorts, AreTracedBeforeTheyAreBoundAndNotIfTheyStayUnbound) {
   const std::string path = testing::TempDir() + "ports_test_trace";
   in_a_process_of_its_own([&] {
     Inputs inputs;

@@ -48,21 +48,21 @@ std::size_t count(const std::string& text, const std::string& what) {
   return found;
 }
 
-TEST(Segment, MasterAndChipsOfTwoFamiliesExchangeDataUntilTheyAreDisturbed) {
+TEST(SegmentModule, MasterAndChipsOfTwoFamiliesExchangeDataUntilTheyAreDisturbed) {
   const std::string undisturbed = by_pins().all.substr(0, by_pins().all.find("line:"));
   EXPECT_NE(undisturbed.find("slave 9 is DATA_EXCH"), std::string::npos);
   EXPECT_NE(undisturbed.find("slave 11 is DATA_EXCH"), std::string::npos);
   EXPECT_GT(count(by_pins().all, " collided"), 100U) << "the disturbing station and the two chips with one address";
 }
 
-TEST(Segment, EachBitIsThatOfTheSameChipsByTheirPins) {
+TEST(SegmentModule, EachBitIsThatOfTheSameChipsByTheirPins) {
   EXPECT_EQ(first_difference(run({}).all, by_pins().all), "");
   const Told observed = run(with([](Choice& c) { c.observed = true; }));
   const Told both = run(with([](Choice& c) { c.observed = c.pins = true; }));
   EXPECT_EQ(first_difference(observed.all, both.all), "") << "all pins";
 }
 
-TEST(Segment, TheQuantumChangesNothing) {
+TEST(SegmentModule, TheQuantumChangesNothing) {
   for (const double quantum_us : {1., 10., 100.}) {
     Choice choice;
     choice.quantum_us = quantum_us;
@@ -70,7 +70,7 @@ TEST(Segment, TheQuantumChangesNothing) {
   }
 }
 
-TEST(Segment, AtAPicosecondEverythingIsAtTheSameTick) {
+TEST(SegmentModule, AtAPicosecondEverythingIsAtTheSameTick) {
   EXPECT_EQ(first_difference(run(with([](Choice& c) { c.femtoseconds = 1000; })).all, by_pins().all), "");
 }
 
@@ -91,7 +91,7 @@ struct ForeignStation : tlm::tlm_analysis_if<systemc_bench::HeardCharacter> {
   }
 };
 
-TEST(Segment, StationsOfAPlatformAreHeardAndCollideByCharacters) {
+TEST(SegmentModule, StationsOfAPlatformAreHeardAndCollideByCharacters) {
   const std::string said = in_a_process_of_its_own([] {
     systemc_bench::SegmentModule line("line");
     segment_platform::Device device("device", 17, {1, sc_core::SC_US});
@@ -120,7 +120,7 @@ TEST(Segment, StationsOfAPlatformAreHeardAndCollideByCharacters) {
   EXPECT_EQ(both.find("16 2 9"), std::string::npos) << "no answer: " << both;
 }
 
-TEST(Segment, AChipIsAStationOnce) {
+TEST(SegmentModule, AChipIsAStationOnce) {
   const std::string said = in_a_process_of_its_own([] {
     collect_reports();
     segment_platform::Platform platform({});
@@ -133,7 +133,7 @@ TEST(Segment, AChipIsAStationOnce) {
   EXPECT_EQ(said, "/dsdpv1/segment: vpc3 is already a station of a segment");
 }
 
-TEST(Segment, TelegramsAsAWholeSaveMostOfTheKernelsWork) {
+TEST(SegmentModule, TelegramsAsAWholeSaveMostOfTheKernelsWork) {
   const Told characters = run(with([](Choice& c) { c.disturbs = false; }));
   const Told pins = run(with([](Choice& c) { c.disturbs = false, c.pins = true; }));
   EXPECT_LT(characters.deltas * 4, pins.deltas * 3) << "the handshake's outputs remain";
