@@ -55,10 +55,11 @@ class Host {
 
  private:
   void take_out() {
-    while (std::optional<bus::Bytes> telegram = intake_.next(now_)) {
-      fuzz::promise(!telegram->empty(), "no telegram is empty");
-      handed_over_.insert(handed_over_.end(), telegram->begin(), telegram->end());
-      line_.send(timeline_.now(), std::move(*telegram));
+    while (std::optional<tb::serve::Taken> telegram = intake_.next(now_)) {
+      bus::Bytes& bytes = telegram->bytes;
+      fuzz::promise(!bytes.empty(), "no telegram is empty");
+      handed_over_.insert(handed_over_.end(), bytes.begin(), bytes.end());
+      line_.send(timeline_.now(), std::move(bytes));
     }
     fuzz::promise(!intake_.holding() || intake_.give_up_at() > now_, "what is held back is not due");
     fuzz::promise(intake_.size() < tb::serve::kLongestTelegram, "at most one telegram is held back");
