@@ -152,7 +152,7 @@ class Serve : public Command {
     run_.wave = wave_options("dsdpv1-sim serve", wave_, kinds);
     run_.capture = capture_request("dsdpv1-sim serve", capture_);
     run_.checks = checks_mode("dsdpv1-sim serve", checks_);
-    run_.open_ended = true;
+    run_.open_ended = run_.host = true;
   }
 
   void attach_gdb(const tb::scenario::Scenario& scenario) {

@@ -158,6 +158,33 @@ class SupplyReader {
   std::optional<Tick> high_since_;  ///< end of the answer before those of high priority
 };
 
+class RestartReader {
+ public:
+  void take(const bus::Telegram& request, const RecordedTelegram* answer) {
+    if (answer == nullptr) {
+      silent_ = silent_ || exchanging_;
+      return;
+    }
+    const bus::Bytes* diagnosis = diagnosis_of(request, answer);
+    if (diagnosis != nullptr && ((*diagnosis)[1] & kPrmReq) != 0) {
+      if (silent_) restarts_.push_back({before_, bus::kNever});
+      exchanging_ = silent_ = false;
+    }
+    if (exchanged(request, answer)) {
+      exchanging_ = true;
+      silent_ = false;
+      if (!restarts_.empty()) restarts_.back().until = std::min(restarts_.back().until, answer->end);
+    }
+    if (!silent_) before_ = answer->end;
+  }
+  std::vector<Restart> finish() { return std::move(restarts_); }
+
+ private:
+  std::vector<Restart> restarts_;
+  bool exchanging_ = false, silent_ = false;
+  Tick before_ = 0;  ///< end of the last answer before a silence
+};
+
 /// A third of the shortest time from the end of an answer to the next request whose answer shows new data. Clamped to
 /// 20 us, which a driver needs, and 1 ms.
 Tick cycle_for(const Recording& recording, const std::vector<Supply>& supplies) {
@@ -190,10 +217,12 @@ Firmware firmware_of(const Recording& recording) {
   InitReader init;
   ObjectReader objects;
   SupplyReader supplies(recording.telegrams.front().start);
+  RestartReader restarts;
   for_each_request(recording, [&](const bus::Telegram& request, const RecordedTelegram* answer) {
     init.take(request, answer);
     objects.take(request, answer);
     supplies.take(request, answer);
+    restarts.take(request, answer);
   });
   Firmware firmware;
   firmware.init = init.finish();
@@ -202,6 +231,7 @@ Firmware firmware_of(const Recording& recording) {
   firmware.objects = objects.finish();
   firmware.supplies = supplies.finish();
   firmware.cycle = cycle_for(recording, firmware.supplies);
+  firmware.restarts = restarts.finish();
   return firmware;
 }
 

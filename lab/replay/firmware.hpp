@@ -19,12 +19,19 @@ struct Supply {
   user_cpu::Command command() const;
 };
 
+/// The slave was silent in data exchange and then asked for parameters: it had restarted, or its user CPU had
+/// initialised it again.
+struct Restart {
+  Tick from = 0, until = 0;  ///< of the capture: ends of the last answer before, and of the first data exchange after
+};
+
 struct Firmware {
   scenario::InitData init;
   bus::Bytes inputs;  ///< the first ones
   std::vector<scenario::Dpv1Object> objects;
   std::vector<Supply> supplies;  ///< in order of time
-  Tick cycle = 0;                ///< of the user CPU's exchanges, quick enough for the supplies
+  std::vector<Restart> restarts;
+  Tick cycle = 0;  ///< of the user CPU's exchanges, quick enough for the supplies
 };
 
 Firmware firmware_of(const Recording& recording);

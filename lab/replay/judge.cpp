@@ -7,12 +7,13 @@
 
 #include "bus/baud.hpp"
 #include "bus/telegram/explain.hpp"
+#include "lab/replay/services.hpp"
 
 namespace dsdpv1::tb::replay {
 namespace {
 
 // Bits of the first byte of Slave_Diag.
-constexpr std::uint8_t kStationNotReady = 0x02, kFaultOfCfg = 0x04, kFaultNotSupported = 0x10, kFaultOfPrm = 0x40;
+constexpr std::uint8_t kStationNotReady = 0x02, kFaultNotSupported = 0x10, kFaultOfPrm = 0x40;
 constexpr std::size_t kHeadOfSd2 = 4;
 
 bus::Telegram telegram_of(const bus::Bytes& bytes) { return bus::decode(bytes).telegram; }
@@ -41,7 +42,7 @@ Judge::Judge(const Recording& recording, const Firmware& firmware, const JudgeOp
       min_tsdr_(recording.baud) {
   if (options.started) beginning_.comparable = beginning_.first_answer;
   supplied_.now = supplied_.before = firmware.inputs;
-  old_faults_ = kFaultOfCfg | kFaultNotSupported | kFaultOfPrm;
+  old_faults_ = kCfgFault | kFaultNotSupported | kFaultOfPrm;
 }
 
 std::vector<RequestResult> Judge::judge(const Listener& listener) {
@@ -56,7 +57,7 @@ std::vector<RequestResult> Judge::judge(const Listener& listener) {
     min_tsdr_.take(recording_.request(request).decoded.telegram, recording_.answer(request));
     follow_dpv1(results.back());
     results.back().verdict = verdict(i, results.back(), heard);
-    follow_faults(results.back());
+    follow_set_up(results.back());
   }
   return results;
 }
@@ -81,6 +82,7 @@ Verdict Judge::verdict(std::size_t index, RequestResult& result, const Heard* he
   if (heard == nullptr || !heard->whole) return Verdict::kDisturbed;
   if (!heard->has_rate) return Verdict::kNoRate;
   if (capture_ends_after(recording_.requests[index])) return Verdict::kCaptureEnds;
+  if (slave_restarts()) return Verdict::kRestart;
   const Verdict found = compare(result);
   return options_.from && result.start < *options_.from ? Verdict::kBeforeWindow : found;
 }
@@ -133,6 +135,13 @@ Verdict Judge::compare_tsdr(RequestResult& result) const {
   return Verdict::kTsdr;
 }
 
+/// Between a restart of the recorded slave and its next data exchange; the model does not restart.
+bool Judge::slave_restarts() const {
+  return std::any_of(
+      firmware_.restarts.begin(), firmware_.restarts.end(),
+      [this](const Restart& restart) { return request_end_ > restart.from && request_end_ < restart.until; });
+}
+
 /// True when the model's answer is right for a user CPU that has not yet delivered the new data.
 bool Judge::user_was_late(const RequestResult& result) const {
   if (!result.recorded->right || !result.model->right) return false;
@@ -145,6 +154,8 @@ bool Judge::user_was_late(const RequestResult& result) const {
     bytes[0] = static_cast<std::uint8_t>((bytes[0] & ~kStationNotReady) | (recorded.data[0] & kStationNotReady));
     return bytes == recorded.data && model.fc == recorded.fc;  // it judges in its own time
   }
+  if (result.service == "Set_Prm" || result.service == "Chk_Cfg")
+    return judging_ && refused(recorded) != refused(model);  // RR or RS until the blocks before are judged
   if (result.service != "Data_Exchange" && result.service != "Read_Inputs") return false;
   const bool news_of_inputs = supplied_.any_inputs && request_end_ - supplied_.inputs < time;
   const bool news_of_diagnosis = supplied_.any_diagnosis && request_end_ - supplied_.diagnosis < time;
@@ -162,17 +173,24 @@ bool Judge::only_old_faults_differ(const RequestResult& result) const {
   return model == recorded;
 }
 
-void Judge::follow_faults(const RequestResult& result) {
+void Judge::follow_set_up(const RequestResult& result) {
   if (result.service == "Set_Prm") old_faults_ &= static_cast<std::uint8_t>(~(kFaultOfPrm | kFaultNotSupported));
-  if (result.service == "Chk_Cfg") old_faults_ &= static_cast<std::uint8_t>(~kFaultOfCfg);
+  if (result.service == "Set_Prm" && result.recorded && !refused(telegram_of(result.recorded->bytes))) judging_ = true;
+  if (result.service == "Data_Exchange" && result.recorded && result.recorded->right)
+    judging_ = refused(telegram_of(result.recorded->bytes)) && judging_;
+  if (result.service == "Chk_Cfg") old_faults_ &= static_cast<std::uint8_t>(~kCfgFault);
 }
 
 /// DPV1: the user CPU decides when an answer is ready and why a request is refused. Once an answer came at another
 /// poll, the later exchanges differ, and the objects may have other content.
 bool Judge::is_users_dpv1(const RequestResult& result) {
   if (!is_acyclic(telegram_of(result.request)) || !result.recorded || !result.model) return false;
-  const bus::Bytes recorded = telegram_of(result.recorded->bytes).data, model = telegram_of(result.model->bytes).data;
-  if (recorded.empty() != model.empty()) dpv1_out_of_step_ = true;
+  const auto has_data = [](const Answer& answer) {
+    const bool cut_off = !answer.right && answer.bytes.front() == bus::sd::k2;
+    return cut_off || !telegram_of(answer.bytes).data.empty();
+  };
+  const bus::Bytes recorded = telegram_of(result.recorded->bytes).data;
+  if (has_data(*result.recorded) != has_data(*result.model)) dpv1_out_of_step_ = true;
   const auto refuses = [](const bus::Bytes& data) { return !data.empty() && (data[0] & 0x80U) != 0; };
   return dpv1_out_of_step_ || refuses(recorded);
 }

@@ -37,9 +37,10 @@ class Judge {
   Verdict compare(RequestResult& result);
   Verdict compare_bytes(RequestResult& result);
   Verdict compare_tsdr(RequestResult& result) const;
+  bool slave_restarts() const;
   bool user_was_late(const RequestResult& result) const;
   bool only_old_faults_differ(const RequestResult& result) const;
-  void follow_faults(const RequestResult& result);
+  void follow_set_up(const RequestResult& result);
   bool is_users_dpv1(const RequestResult& result);
   void follow_supplies(Tick until);
   void follow_dpv1(const RequestResult& result);
@@ -56,6 +57,7 @@ class Judge {
   MinTsdr min_tsdr_;
   std::optional<bool> dpv1_;
   bool dpv1_out_of_step_ = false;
+  bool judging_ = false;     ///< a Set_Prm was taken, and no data exchanged since: the user CPU may still judge
   std::uint8_t old_faults_;  ///< bits of Slave_Diag that may come from before the capture
 };
 

@@ -20,6 +20,7 @@ const char* name(Verdict verdict) {
     case Verdict::kBeforeWindow: return "before --from";
     case Verdict::kUserLate: return "the user CPU was not as quick";
     case Verdict::kUserDpv1: return "DPV1, the user CPU's own";
+    case Verdict::kRestart: return "the recorded slave had restarted";
     case Verdict::kOldFault: return "faults from before the capture";
   }
   return "";

@@ -26,9 +26,10 @@ enum class Verdict : std::uint8_t {
   kBeforeWindow,
   kUserLate,  ///< the user CPU had not yet delivered the inputs or the diagnosis, or judged at another time
   kUserDpv1,  ///< DPV1: the user CPU answered at another poll, or refused for another reason
+  kRestart,   ///< the slave had restarted, and did not exchange data again yet
   kOldFault,  ///< only fault bits differ, from a Set_Prm or Chk_Cfg before the capture
 };
-constexpr std::size_t kVerdicts = 15;
+constexpr std::size_t kVerdicts = 16;
 
 /// "equal", "both silent", "missing" ...
 const char* name(Verdict verdict);

@@ -54,4 +54,6 @@ void CharacterInput::put(const BusCharacter& character) {
   if (!level) edges.push({busy_until, true});
 }
 
+template class ListenedPort<BusCharacter>;
+
 }  // namespace dsdpv1::systemc

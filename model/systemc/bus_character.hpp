@@ -28,6 +28,8 @@ inline bool is_break(const BusCharacter& character) {
   return character.data == 0 && character.parity_ok && !character.stop_ok;
 }
 
+extern template class ListenedPort<BusCharacter>;
+
 /// A character of a chip whose tick 0 is at simulation tick `zero`, as its port `bus_out` carries it; not before time
 /// 0.
 BusCharacter on_bus(const LineCharacter& character, Tick zero);

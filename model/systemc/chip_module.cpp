@@ -48,4 +48,6 @@ bool ChipModule::take_broken_timing() { return std::exchange(broken_timing_, fal
 
 void ChipModule::heard(const profibus::Event& event) { broken_timing_ = broken_timing_ || spoils_data(event.reason); }
 
+template class ListenedPort<PinChange<Pin, Level>>;
+
 }  // namespace dsdpv1::systemc

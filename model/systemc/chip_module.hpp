@@ -17,6 +17,8 @@ struct Dsdpv1Core {
   static std::string describe(const profibus::Event& event);
 };
 
+extern template class ListenedPort<PinChange<Pin, Level>>;
+
 struct ChipOptions : ModuleOptions {
   Config chip{};
 };

@@ -101,4 +101,10 @@ void TimedModule::unschedule() {
   due_.cancel();
 }
 
+template class ListenedPort<profibus::Event>;
+template class ListenedPort<AccessReport>;
+template class ListenedPort<Tick>;
+template class ListenedPort<ModuleEnd>;
+template class ListenedPort<std::uint8_t>;
+
 }  // namespace dsdpv1::systemc

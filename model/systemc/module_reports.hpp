@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/profibus/event.hpp"
 #include "model/profibus/time.hpp"
 
 namespace dsdpv1::systemc {
@@ -66,5 +67,13 @@ class ListenedPort : public tlm::tlm_analysis_port<T> {
   std::vector<tlm::tlm_analysis_if<T>*> listeners_;
   int telling_ = 0;  ///< calls of tell_each in progress
 };
+
+// In the library alone: its bases are virtual, and the tables for their construction of two compilers do not fit each
+// other. So for every instantiation.
+extern template class ListenedPort<profibus::Event>;
+extern template class ListenedPort<AccessReport>;
+extern template class ListenedPort<Tick>;
+extern template class ListenedPort<ModuleEnd>;
+extern template class ListenedPort<std::uint8_t>;
 
 }  // namespace dsdpv1::systemc

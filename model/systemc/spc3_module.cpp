@@ -11,4 +11,6 @@ Spc3Module::Spc3Module(const sc_core::sc_module_name& name, const Spc3Options& o
   begin_pins(spc3::kOutputPins, spc3::kPinCount);
 }
 
+template class ListenedPort<PinChange<spc3::Pin, spc3::Level>>;
+
 }  // namespace dsdpv1::systemc

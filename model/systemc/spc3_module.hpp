@@ -17,6 +17,8 @@ struct Spc3Core {
   static std::string describe(const profibus::Event& event);
 };
 
+extern template class ListenedPort<PinChange<spc3::Pin, spc3::Level>>;
+
 struct Spc3Options : ModuleOptions {
   spc3::Config chip{};  ///< also the name, spc3::Variant
 };

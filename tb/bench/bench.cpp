@@ -52,7 +52,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       execution_(std::move(execution)),
       setup_(scenario),
       observers_(execution_->timeline()),
-      exchange_(scenario, stations_, options.open_ended),
+      exchange_(scenario, stations_, options.host),
       checks_(scenario, options.checks.value_or(scenario.checks.mode), observers_),
       hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty(), observers_),
       journal_(scenario, observers_, log_form(options.log, options.log_whole, options.open_ended, options.from)) {

@@ -49,6 +49,7 @@ struct RunOptions {
   std::function<bool(Tick now, std::uint64_t digest)> on_mark;
   std::vector<Observer*> observers;  ///< additional observers of all pins; they must outlive the bench
   bool open_ended = false;           ///< `poll` ends the run; expectations for the end are judged then
+  bool host = false;                 ///< a master outside the scenario may have slaves, see ExchangeWatch
   bool strict = false;               ///< with a host: its violations fail the run
   bool orders = false;               ///< Bench::order may be called
 };

@@ -249,7 +249,7 @@ TEST_F(Vpc3Spi, ResetEndsAFrame) {
   EXPECT_EQ(bench.twins.events.size(), 1U);
 }
 
-TEST(Vpc3Spi, SckBetweenHighAndFloatingIsNoEdge) {
+TEST(SpiEdges, SckBetweenHighAndFloatingIsNoEdge) {
   Bench bench(Variant::kVpc3);
   bench.power_on();
   SpiUser user(bench);

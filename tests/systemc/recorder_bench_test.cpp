@@ -114,7 +114,7 @@ masters:
     bus: {min_slave_interval: 0}
     slaves: [{slave: demo, outputs: "01 02 03 04 05 06 07 08"}]
 )",
-                                                                 "scenarios/recorder.yaml");
+                                                                 DSDPV1_SOURCE_DIR "/scenarios/recorder.yaml");
   return once;
 }
 

@@ -23,9 +23,10 @@ manual, rulings those of [spc3.md](spc3.md). Addresses are in Intel order.
 | `ACK_...` | the answers to Set_Prm, Chk_Cfg and Set_Slave_Address |
 | `IRQ_...` | IRR, IAR, IMR and EOI |
 | `BUS_...` | the pins of each access; no document at hand has the times, so the limits are those of this project |
+| `SPI_...` | the frames at SPI of a `vpc3` |
 | `LIVE_...` | in DATA_EX: outputs, inputs, user watchdog |
 
-These find the same as events of the chip ([reasons.md](reasons.md)), for each access: `BUS_READY` and `BEFORE_READY`, except as below; `BUS_LEVELS` and `UNKNOWN_ADDRESS`, `UNKNOWN_DATA`; `BUS_STROBES` and `BOTH_STROBES`; `USE_RAM` and `RAM_VIOLATION`; `USE_ORGANISATION` and `MODE0_ONLINE`, `ORGANISATION_ONLINE`.
+These find the same as events of the chip ([reasons.md](reasons.md)), for each access: `BUS_READY` and `BEFORE_READY`, except as below; `BUS_LEVELS` and `UNKNOWN_ADDRESS`, `UNKNOWN_DATA`; `BUS_STROBES` and `BOTH_STROBES`; `USE_RAM` and `RAM_VIOLATION`; `USE_ORGANISATION` and `MODE0_ONLINE`, `ORGANISATION_ONLINE`; `SPI_FRAME` and `SPI_INSTRUCTION`, `SPI_ADDRESS`, `SPI_MORE`, `SPI_CUT`.
 The pins do not show when a read is sampled, nor ready if XREADY comes sooner: by Early_Rdy, or still low from the access before. There only `BEFORE_READY` finds an access too early.
 A write of the value that a cell has already does not violate `USE_ORGANISATION`. `NOT_ALLOWED` (answer 11) violates `ACK_FOUNDED` only without an event that the user has seen:
 the master may have left meanwhile.

@@ -117,6 +117,7 @@ def shipped_scenarios(folder):
                                   ("watchdog", 5), ("two_slaves", 3), ("two_slaves", 40), ("set_slave_address", 126),
                                   ("min_tsdr_45k45", 5), ("dpv1_c2_two_masters", 5), ("baud_change", 5, "--baud", "12M"),
                                   ("judging_modes", 7, "--scenario", ROOT / "scenarios/judging_modes.yaml"),
+                                  ("dpv1_c1", 5), ("r", 5), ("arm_spi", 5), ("reinitialise", 5), ("rsu_uart_timing", 5),
                                   ("power_on_12m", 5, "--gsd", ROOT / "scenarios/dsdpv1.gsd"), ("diagnosis", 5, "--engine", "step")):
         sim(folder, "run", ROOT / f"scenarios/{name}.yaml", "-q", "--no-progress", "--capture", "run.pcapng")
         result, _ = replayed(folder, "run.pcapng", *options, slave=slave, status=None)
@@ -144,7 +145,7 @@ def logs(folder):
     expect("nothing is said", text.stdout, "")
     is_equal(folder, "text", "whole.log", "--baud", "1.5M")
     expect("no rate", sim(folder, "replay", "run.jsonl", "--as", "5", status=2).stderr,
-           "run.jsonl: is a log, which does not say its baud rate, name it with --baud\n")
+           "run.jsonl: does not say its baud rate, name it with --baud, expected 12M to 9.6k\n")
     (folder / "cut.log").write_text("   1.000 ns  bus  telegram  words  68 05 ... (49 bytes)\n", encoding="utf-8")
     expect("cut", sim(folder, "replay", "cut.log", "--as", "5", "--baud", "1.5M", status=2).stderr,
            "cut.log:1: has not all bytes, expected a log with all of them (--log-whole, .jsonl)\n")
