@@ -38,7 +38,7 @@ class CheckWatch : public Observer {
     if (checks::ChipChecks* own = of(slave)) own->looked(pin, at);
   }
   void accessed(std::size_t slave, Tick at, std::uint16_t address, std::uint8_t value, bool write) override {
-    if (checks::ChipChecks* own = of(slave)) own->accessed(at, address, value, write);
+    if (checks::ChipChecks* own = of(slave)) own->unseen_access(at, address, value, write);
   }
   void event(std::size_t slave, const profibus::Event& event) override {
     if (checks::ChipChecks* own = of(slave)) own->event(event);

@@ -48,7 +48,7 @@ class Checks : public checks::ChipChecks, private spc3_bus::AccessSink {
   void pin(Tick at, tb::PinNumber pin, tb::Level level) override;
   /// An access without pins; addresses in Intel order.
   void accessed(const RegisterAccess& access);
-  void accessed(Tick at, std::uint16_t address, std::uint8_t value, bool write) override {
+  void unseen_access(Tick at, std::uint16_t address, std::uint8_t value, bool write) override {
     accessed({at, address, value, write});
   }
   void telegram(Tick now, const bus::WireTelegram& telegram) override;

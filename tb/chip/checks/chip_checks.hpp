@@ -35,7 +35,7 @@ class ChipChecks {
   virtual void looked(tb::PinNumber /*pin*/, Tick /*at*/) {}
   /// An access that no pin shows, of a chip whose accesses can come so, at the tick at which it acts; a read with its
   /// answer.
-  virtual void accessed(Tick /*at*/, std::uint16_t /*address*/, std::uint8_t /*value*/, bool /*write*/) {}
+  virtual void unseen_access(Tick /*at*/, std::uint16_t /*address*/, std::uint8_t /*value*/, bool /*write*/) {}
   /// A telegram of any station that has ended, at `now`.
   virtual void telegram(Tick now, const bus::WireTelegram& telegram) = 0;
   /// Once, at the end of the run.
