@@ -18,8 +18,10 @@ endif()
 if(NOT TARGET dsdpv1::systemc_library)
   add_library(dsdpv1::systemc_library INTERFACE IMPORTED)
   target_link_libraries(dsdpv1::systemc_library INTERFACE ${dsdpv1_systemc_found})
-  # Headers of a system, also if the same project builds that SystemC: this project's warnings are not for them.
-  target_include_directories(dsdpv1::systemc_library SYSTEM INTERFACE $<TARGET_PROPERTY:${dsdpv1_systemc_found},INTERFACE_INCLUDE_DIRECTORIES>)
+  get_target_property(dsdpv1_systemc_imported ${dsdpv1_systemc_found} IMPORTED)
+  if(NOT dsdpv1_systemc_imported)  # the same project builds it: this project's warnings are not for its headers
+    target_include_directories(dsdpv1::systemc_library SYSTEM INTERFACE $<TARGET_PROPERTY:${dsdpv1_systemc_found},INTERFACE_INCLUDE_DIRECTORIES>)
+  endif()
 endif()
 
 # dsdpv1_systemc_links(STANDARD RESULT): whether a program in this C++ standard links with the SystemC found.
