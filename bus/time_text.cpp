@@ -39,4 +39,9 @@ std::string short_time(Tick ticks) { return in_unit(ticks, {3, 3, 3, 3}); }
 
 std::string moment_text(Tick ticks) { return in_unit(ticks, {9, 6, 3, 3}); }
 
+std::string nanoseconds_text(Tick ticks) {
+  const Tick thousandths = (ticks % kTicksPerNs * 1000 + kTicksPerNs / 2) / kTicksPerNs;
+  return fmt::format("{}.{:03}", ticks / kTicksPerNs, thousandths);
+}
+
 }  // namespace dsdpv1::bus

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "bus/printable.hpp"
+#include "bus/time_text.hpp"
 
 namespace dsdpv1::bus::capture {
 
@@ -36,13 +37,13 @@ void TelegramPrinter::print(const CapturedTelegram& telegram, const Decoded& dec
 }
 
 std::string TelegramPrinter::where(const CapturedTelegram& telegram) const {
-  const Tick start = telegram.start;
-  std::string place = packets_             ? fmt::format("packet {}", taken_)
-                      : telegram.line != 0 ? fmt::format("line {}", telegram.line)
-                                           : "";
+  std::string place;
+  if (packets_)
+    place = fmt::format("packet {}", taken_);
+  else if (telegram.line != 0)
+    place = fmt::format("line {}", telegram.line);
   if (!telegram.timed) return place;
-  const Tick thousandths = ((start % kTicksPerNs) * 1000 + kTicksPerNs / 2) / kTicksPerNs;
-  return fmt::format("{}{}{}.{:03} ns", place, place.empty() ? "" : ", ", start / kTicksPerNs, thousandths);
+  return fmt::format("{}{}{} ns", place, place.empty() ? "" : ", ", nanoseconds_text(telegram.start));
 }
 
 void TelegramPrinter::right(const std::string& where, const Decoded& decoded) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bus/printable.hpp"
+#include "bus/time_text.hpp"
 #include "io/input/units.hpp"
 #include "tb/bench/record.hpp"
 
@@ -50,10 +51,7 @@ std::string json_line(const LogEntry& entry) {
 
 }  // namespace
 
-std::string nanoseconds(bus::Tick tick) {
-  const bus::Tick thousandths = ((tick % bus::kTicksPerNs) * 1000 + bus::kTicksPerNs / 2) / bus::kTicksPerNs;
-  return fmt::format("{}.{:03}", tick / bus::kTicksPerNs, thousandths);
-}
+std::string nanoseconds(bus::Tick tick) { return bus::nanoseconds_text(tick); }
 
 LogEntry log_entry(const bus::WireTelegram& telegram, const std::string& words) {
   LogEntry entry{telegram.end, "bus", "telegram", words, {}, telegram.decoded.bytes};
