@@ -16,7 +16,7 @@ HEADERS = ("profibus_types.svh", "dpram_types.svh", "dsdpv1_types.svh")
 # Code of the build with faults alone
 FAULTS = re.compile(r"`ifdef SINGLE_FAULTS((?!`else).)*?`endif", re.S)
 # Code that only another chip's build enables; the DSDPV1's build ignores it
-OPTION = re.compile(r"`ifdef DPRAM_CRC_MAY_NOT_COUNT.*?`endif|\s*`(CRC_COUNTS_PORT|AND_CRC_COUNTS)\b", re.S)
+OPTION = re.compile(r"`ifdef DPRAM_CRC_MAY_NOT_COUNT.*?`endif|\s*`(CRC_COUNTS_PORT|AND_CRC_COUNTS|CONNECT_CRC_COUNTS)\b", re.S)
 PAGE = RTL.parent / "docs" / "rtl.md"
 MEASURED_ON = "Measured on RTL with the checksum `{}`."
 

@@ -16,7 +16,7 @@ module dpram_choice (
   input  logic        status_1_i,         // B00A
   input  logic [7:0]  status_3_i,         // B012
   input  logic        status_4_i,         // B013
-  output logic [4:0]  pick_o,             // ITEM_...
+  output item_t       pick_o,
   output logic        we_o,
   output logic [10:0] addr_o,
   output logic [7:0]  wdata_o

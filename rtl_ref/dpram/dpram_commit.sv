@@ -7,8 +7,8 @@ module dpram_commit (
   `FAULT_PORT
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic [4:0]  state_i,           // SEQ_...
-  input  logic [4:0]  item_i,            // ITEM_...
+  input  seq_t        state_i,
+  input  item_t       item_i,
   input  logic        initialised_i,     // else all blocks but the initialisation are dropped
   // bytes as they arrive
   input  logic        verdict_arrives_i,
@@ -89,10 +89,9 @@ module dpram_commit (
   assign verdict_o.configuration = verdict_cfg_q;
   assign verdict_o.wrong = verdict_wrong_q;
 
-  logic judges, answer_item;
-  assign answer_item = item_i == ITEM_C1_ANSWER || item_i == ITEM_C2_ANSWER;
-  assign judges = item_i == ITEM_INPUTS || item_i == ITEM_DIAG || answer_item;
-  assign judged_o = readable && (item_i == ITEM_INIT || (judges && initialised_i));
+  logic reads_block;
+  assign reads_block = is_user_block(item_i);
+  assign judged_o = readable && reads_block && (item_i == ITEM_INIT || initialised_i);
   assign judged_init_o = commits && item_i == ITEM_INIT;
   assign init_limits_o = too_long_i || !crc_wrong_i;
   always_comb begin

@@ -5,12 +5,10 @@
 
 module dpram_move (
   `FAULT_PORT
-  input  logic [4:0]  state_i,        // SEQ_...
-  input  logic [4:0]  item_i,         // ITEM_...
-  input  logic [7:0]  u_i,            // copies of B010, B011, B00E, B00F (9.1)
-  input  logic [7:0]  w_i,
-  input  logic [7:0]  e_i,
-  input  logic [7:0]  v_i,
+  input  seq_t        state_i,
+  input  item_t       item_i,
+  input  logic [7:0]  user_flags_i,   // B010 or B011 as the commit of this item writes it
+  input  logic [7:0]  chip_flags_i,   // B00E or B00F as the flag of this item writes it
   input  logic [10:0] boot_i,         // address of the start-up access
   input  logic        first_we_i,     // the first move of an item
   input  logic [10:0] first_addr_i,
@@ -24,40 +22,19 @@ module dpram_move (
   input  logic [7:0]  errors_i,       // B00B as it was read
   input  logic [7:0]  clear_i,        // bits of B00B to clear
   input  logic [7:0]  set_i,
-  output logic [7:0]  u_without_o,    // the copies after the commit or flag of this item
-  output logic [7:0]  w_without_o,
-  output logic [7:0]  e_with_o,
-  output logic [7:0]  v_with_o,
   output logic        we_o,
   output logic [10:0] addr_o,
   output logic [7:0]  wdata_o
 );
-  logic answer_item;
+  logic answers, requests;
+  assign answers = is_answer(item_i);
+  assign requests = is_request(item_i);
+
   logic [1:0] boot_low;
-  logic [7:0] crc_high, crc_low;
-  assign answer_item = item_i == ITEM_C1_ANSWER || item_i == ITEM_C2_ANSWER;
+  logic [7:0] crc_high, crc_low, version;
   assign boot_low = boot_i[1:0];
   assign {crc_high, crc_low} = crc_i;
-
-  logic [7:0] version;
-  logic request_item, c2_flag;
-  assign request_item = item_i == ITEM_C1_REQUEST || item_i == ITEM_C2_REQUEST;
-  assign c2_flag = item_i == ITEM_C2_REQUEST || `FAULT(88);
-  assign w_without_o = w_i & (item_i == ITEM_C1_ANSWER ? 8'hFE : 8'hFD);
-  assign v_with_o = v_i | (c2_flag ? DSDPV1_REG_CHIP_COMMAND_2_C2 : DSDPV1_REG_CHIP_COMMAND_2_C1);
   always_comb begin
-    case (item_i)
-      ITEM_INIT: u_without_o = u_i & 8'hFB;
-      ITEM_VERDICT_PRM: u_without_o = u_i & 8'h7F;
-      ITEM_VERDICT_CFG: u_without_o = u_i & 8'hBF;
-      ITEM_INPUTS: u_without_o = u_i & 8'hFE;
-      default: u_without_o = u_i & 8'hFD;
-    endcase
-    case (item_i)
-      ITEM_PRM: e_with_o = e_i | DSDPV1_REG_CHIP_COMMAND_1_PRM;
-      ITEM_CFG: e_with_o = e_i | DSDPV1_REG_CHIP_COMMAND_1_CFG;
-      default: e_with_o = e_i | DSDPV1_REG_CHIP_COMMAND_1_OUTPUT;
-    endcase
     case (boot_low)
       2'd0: version = DSDPV1_REG_VERSION_RESET;
       2'd1: version = DSDPV1_REG_VERSION_YEAR_RESET;
@@ -89,10 +66,10 @@ module dpram_move (
         addr_o = DSDPV1_REG_ACCESS_COUNT;
         wdata_o = 8'h01;
       end
-      SEQ_FLAGS_U: addr_o = DSDPV1_REG_USER_COMMAND_1;
-      SEQ_FLAGS_U2: addr_o = DSDPV1_REG_USER_COMMAND_2;
-      SEQ_FLAGS_E: addr_o = DSDPV1_REG_CHIP_COMMAND_1;
-      SEQ_FLAGS_E2: addr_o = DSDPV1_REG_CHIP_COMMAND_2;
+      SEQ_USER_1: addr_o = DSDPV1_REG_USER_COMMAND_1;
+      SEQ_USER_2: addr_o = DSDPV1_REG_USER_COMMAND_2;
+      SEQ_CHIP_1: addr_o = DSDPV1_REG_CHIP_COMMAND_1;
+      SEQ_CHIP_2: addr_o = DSDPV1_REG_CHIP_COMMAND_2;
       SEQ_ENABLE: addr_o = DSDPV1_REG_DPV1_ENABLE;
       SEQ_CHOICE: begin
         we_o = first_we_i;
@@ -101,8 +78,8 @@ module dpram_move (
       end
       SEQ_COMMIT: begin
         we_o = !`FAULT(53);
-        addr_o = answer_item ? DSDPV1_REG_USER_COMMAND_2 : DSDPV1_REG_USER_COMMAND_1;
-        wdata_o = answer_item ? w_without_o : u_without_o;
+        addr_o = answers ? DSDPV1_REG_USER_COMMAND_2 : DSDPV1_REG_USER_COMMAND_1;
+        wdata_o = user_flags_i;
       end
       SEQ_WRITE_INPUT_LENGTH, SEQ_WRITE_LENGTH: begin
         we_o = 1'b1;
@@ -125,8 +102,8 @@ module dpram_move (
       SEQ_READ_CRC_HIGH, SEQ_READ_CRC_LOW: addr_o = crc_addr_i;
       SEQ_FLAG: begin
         we_o = 1'b1;
-        addr_o = request_item ? DSDPV1_REG_CHIP_COMMAND_2 : DSDPV1_REG_CHIP_COMMAND_1;
-        wdata_o = request_item ? v_with_o : e_with_o;
+        addr_o = requests ? DSDPV1_REG_CHIP_COMMAND_2 : DSDPV1_REG_CHIP_COMMAND_1;
+        wdata_o = chip_flags_i;
       end
       SEQ_ERRORS: begin
         we_o = 1'b1;

@@ -10,7 +10,7 @@ always @* begin
   assert (state_q <= SEQ_ERRORS);
   assert (own_q == (state_q != SEQ_IDLE && state_q != SEQ_RELEASED));
   if (reads) assert (item_q == ITEM_INIT || item_q == ITEM_INPUTS || long_header);
-  if (state_q == SEQ_READ_HEADER) assert (long_header && header_q <= 2'd2);
+  if (state_q == SEQ_READ_HEADER) assert (long_header);
   if (state_q == SEQ_VERDICT) assert (item_q == ITEM_VERDICT_PRM || item_q == ITEM_VERDICT_CFG);
   if (state_q == SEQ_COMMIT) assert (item_q <= ITEM_C2_ANSWER);
   if (state_q == SEQ_WRITE_INPUT_LENGTH || state_q == SEQ_WRITE_LENGTH) assert (item_q == ITEM_CFG);
