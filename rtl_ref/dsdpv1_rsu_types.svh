@@ -29,6 +29,15 @@ localparam logic [1:0] TO_DIAGNOSIS = 2'd1;
 localparam logic [1:0] TO_C1 = 2'd2;
 localparam logic [1:0] TO_C2 = 2'd3;
 
+// The area that an exchange replies (6.4).
+typedef enum logic [2:0] {
+  AREA_OUTPUTS = 3'd0,
+  AREA_PARAMETERS = 3'd1,
+  AREA_CONFIGURATION = 3'd2,
+  AREA_C1 = 3'd3,
+  AREA_C2 = 3'd4
+} area_t;
+
 // A telegram as it is judged, from registers.
 typedef struct packed {
   logic [1:0]  ask;            // ASK_...

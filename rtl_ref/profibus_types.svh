@@ -119,6 +119,16 @@ localparam logic [2:0] ABORT_INVALID_PDU = 3'd2;
 localparam logic [2:0] ABORT_TIMEOUT = 3'd3;
 localparam logic [2:0] ABORT_ADDRESS = 3'd7;
 
+// States of a channel of MSAC_C2 (15.2).
+typedef enum logic [2:0] {
+  C2_FREE = 3'd0,
+  C2_INITIATED = 3'd1,
+  C2_OPEN = 3'd2,
+  C2_BUSY = 3'd3,
+  C2_ANSWERED = 3'd4,
+  C2_ABORTED = 3'd5
+} channel_t;
+
 // The requester in DPV1.
 localparam logic [1:0] MSAC_C1 = 2'd0;
 localparam logic [1:0] MSAC_30 = 2'd1;

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Bound into host_commit: states.
+// Bound into host_commit: states and areas.
 initial assume (!rst_ni);
-always @* assert (state_q <= CLEAR);
+always @* begin
+  assert (state_q <= CLEAR);
+  assert (area_q <= AREA_C2);
+end

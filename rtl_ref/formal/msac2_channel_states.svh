@@ -4,11 +4,11 @@
 // and Idle is not a valid request (request_check).
 initial assume (!rst_ni);
 always @* begin
-  if (answer_i) assume (state_q == BUSY);
+  if (answer_i) assume (state_q == C2_BUSY);
   if (initiate_i) assume (free_o);
   if (idle_i) assume (!right_i);
-  assert (state_q <= ABORTED);
-  if (state_q == OPEN || state_q == BUSY || state_q == ANSWERED) assert (code_q == MSAC_RIGHT);
-  if (state_q == BUSY) assert (!idle_q);
-  if (state_q == ABORTED) assert (reason_q == ABORT_SEQUENCE || reason_q == ABORT_INVALID_PDU || reason_q == ABORT_TIMEOUT);
+  assert (state_q <= C2_ABORTED);
+  if (state_q == C2_OPEN || state_q == C2_BUSY || state_q == C2_ANSWERED) assert (code_q == MSAC_RIGHT);
+  if (state_q == C2_BUSY) assert (!idle_q);
+  if (state_q == C2_ABORTED) assert (reason_q == ABORT_SEQUENCE || reason_q == ABORT_INVALID_PDU || reason_q == ABORT_TIMEOUT);
 end

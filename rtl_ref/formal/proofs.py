@@ -121,7 +121,7 @@ PROOFS = (
     states("msac1", "profibus/msac1.sv",
            ("state_b == ANSWERED && !`FAULT(66)) state_d = IDLE;", "state_b == ANSWERED) state_d = state_b + 2'd1;")),
     states("msac2_channel", "profibus/msac2_channel.sv",
-           ("default: state_d = FREE;", "default: state_d = state_b + 3'd1;"), cut_cells=("c:u_watch", "c:u_user")),
+           ("default: if (polls || requests) state_d = C2_FREE;", "default: if (polls || requests) state_d = state_b + 3'd1;"), cut_cells=("c:u_watch", "c:u_user")),
     states("msac2", "profibus/msac2.sv", ("busy[0] ? 2'b01 : busy[1] ? 2'b10 : 2'b00;", "busy;"),
            cut_cells=("c:*u_channel",)),
     serial("serial_ownership", "SPI: B014.1 is never 1 while the chip is in an access", "dsdpv1_rsu", {"dsdpv1_rsu": "serial_ownership"},
@@ -145,7 +145,7 @@ PROOFS = (
            edit=("dsdpv1_rsu/host_uart.sv", "assign fires = answers_q && !sends_q", "assign fires = !sends_q")),
     *(states(block, f"dsdpv1_rsu/{block}.sv", edit, chip="dsdpv1_rsu") for block, edit in (
         ("host_telegram", ("default: field_d = field_q + 4'd1;", "default: field_d = field_q + 4'd3;")),
-        ("host_commit", ("FLAG: state_d = spi_i ? CLEAR : CHOICE;", "FLAG: state_d = spi_i ? CLEAR : CHOICE | CLEAR;")),
+        ("host_commit", ("FLAG: if (spi_i) state_d = CLEAR; else state_d = CHOICE;", "FLAG: if (spi_i) state_d = CLEAR; else state_d = CHOICE | CLEAR;")),
         ("host_reply", ("LENGTH: state_d = no_length ? CRC_HIGH : DATA;", "LENGTH: state_d = no_length ? CRC_HIGH : state + 4'd5;")),
         ("host_uart", ("assign complete = samples && sample_q == 4'd10;", "assign complete = samples && sample_q == 4'd11;")),
     )),

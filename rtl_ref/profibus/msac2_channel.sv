@@ -3,7 +3,7 @@
 // A channel of MSAC_C2 (15.2; V2, V3, V8 to V13): its row of the RM registry, its state and its timers.
 //
 // At an edge: the user's answer, then the end of a timer, then the telegram: _q before the edge, _b after the timers, _d after
-// the telegram.
+// the telegram. msac2_reply makes the answer of what the telegram finds.
 `include "profibus_types.svh"
 
 module msac2_channel (
@@ -51,21 +51,12 @@ module msac2_channel (
   output logic [7:0]  d_length_o,
   output logic [9:0]  registry_o        // table 30: master address, in use, connected, exchanging
 );
-  localparam logic [2:0] FREE = 3'd0;
-  localparam logic [2:0] INITIATED = 3'd1;
-  localparam logic [2:0] OPEN = 3'd2;
-  localparam logic [2:0] BUSY = 3'd3;
-  localparam logic [2:0] ANSWERED = 3'd4;
-  localparam logic [2:0] ABORTED = 3'd5;
-
-  logic [2:0] state_q, state_b, state_d;
-  logic [1:0] code_q;
+  channel_t state_q, state_b, state_d;
+  logic [1:0] code_q;                        // of the answer to Initiate
   logic [2:0] reason_q, reason_b, reason_d;  // of the abort PDU
-  logic idle_q, long_q, from_master_q;
-  logic [6:0] master_q;
-  logic [7:0] length_q, length_b, s_length_q, d_length_q;
+  logic idle_q;                              // what waits is the answer to Idle
+  logic [7:0] length_q, length_b;
   logic [15:0] timeout_q;
-  logic [23:0] request_q;
 
   // ---- timers
   logic watch_start, watch_stop, watch_end, watch_i_q, aborts, user_stop, user_end, watch_late, user_late;
@@ -88,17 +79,18 @@ module msac2_channel (
     .end_o(user_end));
 
   always_comb begin
-    state_b = answer_i ? ANSWERED : state_q;
+    state_b = state_q;
     reason_b = reason_q;
+    if (answer_i) state_b = C2_ANSWERED;
     aborts = 1'b0;
-    if (watch_end && state_q == ABORTED) begin
-      if (!`FAULT(94)) state_b = FREE;
+    if (watch_end && state_q == C2_ABORTED) begin
+      if (!`FAULT(94)) state_b = C2_FREE;
     end else if (watch_end) begin
-      state_b = ABORTED;
+      state_b = C2_ABORTED;
       reason_b = ABORT_TIMEOUT;
       aborts = 1'b1;
     end else if (user_end && !answer_i) begin
-      state_b = ABORTED;
+      state_b = C2_ABORTED;
       reason_b = `FAULT(85) ? ABORT_SEQUENCE : ABORT_TIMEOUT;
       aborts = 1'b1;
     end
@@ -106,116 +98,106 @@ module msac2_channel (
   assign length_b = answer_i ? answer_length_i : length_q;
 
   // ---- the telegram
-  logic served, initiate_right, asks, starts;
-  assign served = state_b != FREE && (from_master_q || `FAULT(87)) && (ssap_ok_i || `FAULT(75));
-  assign initiate_right = code_q == MSAC_RIGHT;
-  assign asks = srd_i && served && state_b == OPEN && !poll_i && !abort_i;
+  logic from_master_q, served, requests, polls, ends, asks;
+  assign served = state_b != C2_FREE && (from_master_q || `FAULT(87)) && (ssap_ok_i || `FAULT(75));
+  assign requests = served && srd_i && !poll_i && !abort_i;
+  assign polls = served && srd_i && poll_i;
+  assign ends = served && !poll_i && abort_i && (srd_i || sdn_i);
+  assign asks = requests && state_b == C2_OPEN;
   assign accept_o = asks && right_i;
 
+  // Its state. In OPEN a request is for the user, Idle, or wrong
+  channel_t asked;
+  logic initiate_right, starts;
+  assign initiate_right = code_q == MSAC_RIGHT;
+  always_comb begin
+    if (right_i) asked = C2_BUSY;
+    else if (idle_i) asked = C2_ANSWERED;
+    else asked = C2_ABORTED;
+  end
   always_comb begin
     state_d = state_b;
-    reason_d = reason_b;
-    starts = aborts;
-    if (initiate_i) begin
-      state_d = INITIATED;
-      starts = 1'b1;
-    end else if (served && !poll_i && abort_i && (srd_i || sdn_i)) begin
-      state_d = FREE;
-    end else if (served && srd_i) begin
+    if (initiate_i) state_d = C2_INITIATED;
+    else if (ends) state_d = C2_FREE;
+    else begin
       case (state_b)
-        INITIATED: begin
-          if (!poll_i) begin
-            state_d = `FAULT(126) ? FREE : ABORTED;
-            reason_d = ABORT_SEQUENCE;
-          end else begin
-            state_d = initiate_right ? OPEN : FREE;
-          end
-          starts = 1'b1;
+        C2_INITIATED: begin
+          if (polls && initiate_right) state_d = C2_OPEN;
+          else if (polls || (requests && `FAULT(126))) state_d = C2_FREE;
+          else if (requests) state_d = C2_ABORTED;
         end
-        OPEN: if (!poll_i) begin
-          state_d = accept_o ? BUSY : idle_i ? ANSWERED : ABORTED;
-          reason_d = again_i && !`FAULT(127) ? ABORT_SEQUENCE : ABORT_INVALID_PDU;
-          starts = !(state_d == ABORTED && `FAULT(128));
-        end
-        BUSY: if (poll_i && !`FAULT(83)) starts = 1'b1;
-        ANSWERED: if (poll_i) begin
-          state_d = OPEN;
-          starts = 1'b1;
-`ifdef SINGLE_FAULTS
-          if (`FAULT(172)) starts = aborts;
-`endif
-        end
-        default: state_d = FREE;
+        C2_OPEN: if (requests) state_d = asked;
+        C2_BUSY: ;
+        C2_ANSWERED: if (polls) state_d = C2_OPEN;
+        default: if (polls || requests) state_d = C2_FREE;
       endcase
     end
-    if (init_i) state_d = FREE;
+    if (init_i) state_d = C2_FREE;
   end
-  assign watch_stop = state_d == FREE;
+
+  // Why it is aborted
+  always_comb begin
+    reason_d = reason_b;
+    if (requests && !initiate_i && state_b == C2_INITIATED) reason_d = ABORT_SEQUENCE;
+    if (requests && !initiate_i && state_b == C2_OPEN) reason_d = again_i && !`FAULT(127) ? ABORT_SEQUENCE : ABORT_INVALID_PDU;
+  end
+
+  // What starts F or I again
+  always_comb begin
+    starts = aborts;
+    if (initiate_i) starts = 1'b1;
+    else if (!ends) begin
+      case (state_b)
+        C2_INITIATED: if (polls || requests) starts = 1'b1;
+        C2_OPEN: if (requests) starts = !(`FAULT(128) && asked == C2_ABORTED);
+        C2_BUSY: if (polls && !`FAULT(83)) starts = 1'b1;
+        C2_ANSWERED: if (polls && !`FAULT(172)) starts = 1'b1;
+        default: ;
+      endcase
+    end
+  end
+  assign watch_stop = state_d == C2_FREE;
   assign watch_start = starts && !watch_stop;
   assign user_stop =
 `ifdef SINGLE_FAULTS
-      `FAULT(196) ? state_d == FREE || state_d == ABORTED :
+      `FAULT(196) ? state_d == C2_FREE || state_d == C2_ABORTED :
 `endif
-      state_d != BUSY;
+      state_d != C2_BUSY;
 
   // ---- the answer
-  logic wrong_address;  // of Initiate
-  logic [31:0] initiate_head;
-  assign wrong_address = code_q == MSAC_INVALID_PARAMETER && !`FAULT(111);
-  assign initiate_head = initiate_right ? {8'h00, 8'h01, 8'hF0, MSAC_INITIATE} : negative_answer(MSAC_INITIATE, code_q);
+  msac2_reply u_reply (
+    `FAULT_CONNECT
+    .state_i(state_b), .served_i(served), .poll_i(poll_i), .abort_i(abort_i), .code_i(code_q), .reason_i(reason_b), .idle_i(idle_q),
+    .initiate_length_i(length_q), .user_length_i(length_b), .reply_o(reply_o), .reply_fc_o(reply_fc_o), .reply_user_o(reply_user_o),
+    .reply_head_o(reply_head_o), .reply_length_o(reply_length_o));
 
-  always_comb begin
-    reply_o = ANS_SC;
-    reply_fc_o = FC_DL;
-    reply_user_o = 1'b0;
-    reply_head_o = abort_pdu(reason_b);
-    reply_length_o = 8'd3;
-    if (!served) begin
-      reply_o = ANS_SD1;
-      reply_fc_o = FC_RS;
-    end else if (poll_i || !abort_i) begin
-      case (state_b)
-        INITIATED: if (poll_i) begin
-          reply_o = ANS_SD2;
-          reply_head_o = wrong_address ? abort_pdu(ABORT_ADDRESS) : initiate_head;
-          reply_length_o = initiate_right ? length_q : wrong_address ? 8'd3 : 8'd4;
-        end
-        OPEN: ;
-        BUSY: if (!poll_i) begin
-          reply_o = ANS_SD1;
-          reply_fc_o = FC_RR;
-        end
-        ANSWERED: begin
-          reply_head_o = {24'd0, MSAC_IDLE};
-          reply_user_o = !idle_q;
-          reply_length_o = idle_q ? 8'd1 : length_b;
-          if (poll_i) begin
-            reply_o = ANS_SD2;
-          end else if (!`FAULT(86)) begin
-            reply_o = ANS_SD1;
-            reply_fc_o = FC_RR;
-          end
-        end
-        default: reply_o = ANS_SD2;
-      endcase
-    end
-  end
-
+  // ---- registers: the state
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q <= FREE;
-      {reason_q, code_q} <= 5'd0;
-      {idle_q, long_q, from_master_q, watch_i_q} <= 4'd0;
-      master_q <= 7'd0;
-      {length_q, s_length_q, d_length_q} <= 24'd0;
-      timeout_q <= 16'd0;
-      request_q <= 24'd0;
+      state_q <= C2_FREE;
+      reason_q <= 3'd0;
+      watch_i_q <= 1'b0;
     end else begin
       state_q <= state_d;
       reason_q <= reason_d;
+      if (watch_start) watch_i_q <= state_d == C2_OPEN;
+    end
+  end
+
+  // ... the master, from Initiate
+  logic long_q;
+  logic [6:0] master_q;
+  logic [7:0] s_length_q, d_length_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      from_master_q <= 1'b0;
+      code_q <= 2'd0;
+      long_q <= 1'b0;
+      master_q <= 7'd0;
+      {s_length_q, d_length_q} <= 16'd0;
+      timeout_q <= 16'd0;
+    end else begin
       from_master_q <= sa_i == master_q;
-      length_q <= length_b;
-      if (watch_start) watch_i_q <= state_d == OPEN;
       if (initiate_i) begin
         master_q <= sa_i;
         timeout_q <= timeout_i;
@@ -223,23 +205,36 @@ module msac2_channel (
         long_q <= long_i;
         s_length_q <= s_length_i;
         d_length_q <= d_length_i;
-        length_q <= length_i - 8'd4;  // four bytes in front of Add_Addr less than Initiate
-      end else if (asks) begin
-        request_q <= head_i;
-        idle_q <= idle_i;
-        length_q <= length_i;
       end
     end
   end
 
+  // ... what waits. The answer to Initiate has four bytes in front of Add_Addr less than Initiate
+  logic [23:0] request_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      idle_q <= 1'b0;
+      length_q <= 8'd0;
+      request_q <= 24'd0;
+    end else if (initiate_i) begin
+      length_q <= length_i - 8'd4;
+    end else if (asks) begin
+      request_q <= head_i;
+      idle_q <= idle_i;
+      length_q <= length_i;
+    end else begin
+      length_q <= length_b;
+    end
+  end
+
   logic in_use, connected, exchanging;
-  assign in_use = state_q != FREE;
-  assign exchanging = state_q == BUSY || state_q == ANSWERED;
-  assign connected = state_q == OPEN || exchanging;
+  assign in_use = state_q != C2_FREE;
+  assign exchanging = state_q == C2_BUSY || state_q == C2_ANSWERED;
+  assign connected = state_q == C2_OPEN || exchanging;
   assign registry_o = {master_q, in_use, connected, exchanging};
 
-  assign free_o = state_b == FREE;
-  assign busy_o = state_d == BUSY;
+  assign free_o = state_b == C2_FREE;
+  assign busy_o = state_d == C2_BUSY;
   assign request_o = request_q;
   assign length_o = length_q;
   assign long_o = long_q;
