@@ -112,7 +112,7 @@ PROOFS = (
            ("byte_i[3:0] == 4'd15 ? 4'd0 : byte_i[3:0]", "byte_i[3:0]")),
     states("dpram_sequencer", SEQUENCER, ("SEQ_COMMIT, SEQ_FLAG, SEQ_ERRORS: state_d = SEQ_CHOICE;", "SEQ_COMMIT, SEQ_FLAG: state_d = SEQ_CHOICE;\n      SEQ_ERRORS: state_d = state_q + 5'd1;"),
            more_binds={"dpram/dpram_block.sv": "dpram_block_states"}, cut_wires=("w:boot_q",)),
-    states("dp_slave", "profibus/dp_slave.sv", ("if (leave) begin\n      sync_d = 1'b0;", "if (leave) begin"),
+    states("dp_slave", "profibus/dp_slave.sv", ("&& !gc_unsync && !leave;", "&& !gc_unsync;"),
            top="station", more_binds={"profibus/station.sv": "every_request_answered"},
            cut_cells=("c:u_uart_rx", "c:u_uart_tx", "c:u_telegram_rx", "fdl/c:u_builder", "fdl/c:u_answers",
                       "*dp_slave*/c:u_buffers", "*dp_slave*/c:u_set_prm", "*dp_slave*/c:u_check_cfg",

@@ -3,7 +3,8 @@
 // The DP slave (section 11; S1 to S33): state, holding master, and what commits and services do to them.
 //
 // Three things can happen at an edge, in this order: a commit of the user's side, the end of DP_CONTROL, a telegram. Each has its
-// group of next values: _q before the edge, _b after commit and end, _d after the telegram.
+// group of next values: _q before the edge, _b after commit and end, _d after the telegram. dp_service decides what the telegram is, dp_master
+// who holds the slave, dp_address where it is; sap_buffers has the data.
 `include "profibus_types.svh"
 
 module dp_slave #(
@@ -55,9 +56,6 @@ module dp_slave #(
   input  logic [7:0]  answer_index_i,
   output logic [7:0]  answer_data_o
 );
-  localparam logic [6:0] NO_MASTER = 7'h7F;
-  localparam logic [6:0] DELIVERY_ADDRESS = 7'd126;
-
   // ---- what the user's side commands
   logic init, verdict_wrong;
   assign init = commands_i.initialise.commit;
@@ -70,16 +68,14 @@ module dp_slave #(
   end
 
   // ---- state
-  logic [1:0] state_q, state_b, state_d;
-  logic held_q, held_b, held_d;
-  logic [6:0] holder_q, holder_d, address_q, address_d;
-  logic locked_q, locked_d;  // No_Add_Chg
-  logic await_prm_q, await_prm_b, await_prm_d, await_cfg_q, await_cfg_b, await_cfg_d;
-  logic prm_fault_q, prm_fault_b, prm_fault_d, unsupported_q, unsupported_b, unsupported_d;
+  logic [1:0] state_q, state_b, state_d;               // DP_...
+  logic held_q, held_b, held_d;                        // by a master
+  logic await_prm_q, await_prm_b, await_prm_d;         // the user's verdict
+  logic await_cfg_q, await_cfg_b, await_cfg_d;
+  logic prm_fault_q, prm_fault_b, prm_fault_d;         // bits of Slave_Diag
+  logic unsupported_q, unsupported_b, unsupported_d;
   logic cfg_fault_q, cfg_fault_b, cfg_fault_d;
   logic sync_q, sync_b, sync_d, freeze_q, freeze_b, freeze_d;
-  logic initialised_q, pbf_q;
-  logic [15:0] count_q, count_d;
 
   // ---- the telegram's checks, and the user's diagnosis
   decision_t decision;
@@ -130,53 +126,35 @@ module dp_slave #(
   assign wd_commit_dp_o = accept_prm_b && wait_wd_on;
   assign wd_commit_baud_o = (accept_prm_b && !wait_wd_on) || ((refuse_prm_b || refuse_cfg_b) && dp_control_i);
 
+  // State and holder
+  logic releases;  // a refusal or the end
+  assign releases = refuse_prm_b || refuse_cfg_b || dp_end_i;
   always_comb begin
     state_b = state_q;
-    held_b = held_q;
-    await_prm_b = await_prm_q && !prm_counts;
-    await_cfg_b = await_cfg_q && !cfg_counts;
-    prm_fault_b = prm_fault_q;
-    unsupported_b = unsupported_q;
-    cfg_fault_b = cfg_fault_q;
-    sync_b = sync_q;
-    freeze_b = freeze_q;
-    if (accept_prm_b) begin
-      state_b = DP_WAIT_CFG;
-      held_b = 1'b1;
-      prm_fault_b = 1'b0;
-      unsupported_b = 1'b0;
-    end
-    if (commit_accept_cfg) begin
-      state_b = DP_DATA_EXCH;
-      cfg_fault_b = 1'b0;
-    end
-    if (refuse_prm_b) prm_fault_b = 1'b1;
-    if (refuse_cfg_b) cfg_fault_b = 1'b1;
+    if (accept_prm_b) state_b = DP_WAIT_CFG;
+    if (commit_accept_cfg) state_b = DP_DATA_EXCH;
     end_leave = dp_end_i && state_b == DP_DATA_EXCH;
-    if (refuse_prm_b || refuse_cfg_b || dp_end_i) begin
-      state_b = DP_WAIT_PRM;
-      held_b = 1'b0;
-      await_prm_b = 1'b0;
-      await_cfg_b = 1'b0;
-      sync_b = 1'b0;
-      freeze_b = 1'b0;
-    end
+    if (releases) state_b = DP_WAIT_PRM;
   end
+  assign held_b = (held_q || accept_prm_b) && !releases;
+  assign await_prm_b = await_prm_q && !prm_counts && !releases;
+  assign await_cfg_b = await_cfg_q && !cfg_counts && !releases;
+  assign sync_b = sync_q && !releases;
+  assign freeze_b = freeze_q && !releases;
 
-  // Is the telegram's SA the holder after the commits? Both comparisons stand still long before.
-  logic sa_is_holder_q, sa_is_waiting_q, from_holder, other_holder;
-  logic delivery_address_q;  // S33
-  always_ff @(posedge clk_i) begin
-    sa_is_holder_q <= sa_i == holder_q;
-    sa_is_waiting_q <= sa_i == wait_sa;
-    delivery_address_q <= address_q == DELIVERY_ADDRESS && !`FAULT(125);
-  end
-  assign from_holder = held_b && (accept_prm_b ? sa_is_waiting_q : sa_is_holder_q);
-  assign other_holder = held_b && !(accept_prm_b ? sa_is_waiting_q : sa_is_holder_q) && !`FAULT(34);
-  assign from_holder_o = from_holder;
+  // Bits of Slave_Diag
+  assign prm_fault_b = (prm_fault_q && !accept_prm_b) || refuse_prm_b;
+  assign unsupported_b = unsupported_q && !accept_prm_b;
+  assign cfg_fault_b = (cfg_fault_q && !commit_accept_cfg) || refuse_cfg_b;
 
   // ---- the telegram
-  logic in_data_exch, urgent;
+  logic in_data_exch, urgent, from_holder, other_holder, delivery_address, locked, good_prm, accept_prm;
+  logic [6:0] holder_b;
+  dp_master u_master (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init), .sa_i(sa_i), .accept_waiting_i(accept_prm_b), .waiting_sa_i(wait_sa),
+    .held_i(held_b), .accept_i(accept_prm), .holder_o(holder_b), .from_holder_o(from_holder), .other_holder_o(other_holder));
+  assign from_holder_o = from_holder;
   logic [7:0] input_length, input_length_now, output_length_now;
   assign in_data_exch = state_b == DP_DATA_EXCH;
   assign urgent = diag_waiting || (diag_stat && !`FAULT(123));
@@ -184,7 +162,7 @@ module dp_slave #(
   dp_service u_service (
     `FAULT_CONNECT
     .service_i(service_i), .dsap_i(dsap_i), .head_i(head_i[23:0]), .length_i(length_i), .state_i(state_b), .sync_i(sync_b),
-    .from_holder_i(from_holder), .other_holder_i(other_holder), .delivery_address_i(delivery_address_q), .locked_i(locked_q),
+    .from_holder_i(from_holder), .other_holder_i(other_holder), .delivery_address_i(delivery_address), .locked_i(locked),
     .fail_safe_i(in_force.fail_safe), .urgent_i(urgent), .initial_i(initial_q), .prm_fault_i(prm_fault),
     .prm_unsupported_i(prm_unsupported), .prm_unlock_i(prm_unlock), .prm_min_only_i(prm_min_only),
     .cfg_too_long_i(cfg_too_long), .cfg_same_i(cfg_same), .cfg_right_i(cfg_right), .input_length_i(input_length_now),
@@ -192,7 +170,7 @@ module dp_slave #(
     .group_i(in_force.group), .sync_req_i(in_force.sync_req), .freeze_req_i(in_force.freeze_req), .answer_o(answer_o),
     .decision_o(decision));
 
-  logic good_prm, accept_prm, good_cfg, accept_cfg, enter_wait_prm, leave, new_prm_fault, new_cfg_fault, new_unsupported;
+  logic good_cfg, accept_cfg, enter_wait_prm, leave, new_prm_fault, new_cfg_fault, new_unsupported;
   logic gc_sync, gc_unsync, gc_freeze, gc_unfreeze;
   assign good_prm = decision.good_prm;
   assign accept_prm = decision.accept_prm;
@@ -211,64 +189,58 @@ module dp_slave #(
   assign by_data_exchange = service_i.default_sap;
 `endif
 
+  // State and holder (S15, S18). In DATA_EXCH a right Chk_Cfg is mail and nothing else (S16)
+  logic good_cfg_waits, keeps_held;
+  assign good_cfg_waits = good_cfg && !in_data_exch;
+  assign leave = in_data_exch && (good_prm || enter_wait_prm);
   always_comb begin
-    leave = 1'b0;
     state_d = state_b;
-    held_d = held_b;
+    if (good_prm) state_d = accept_prm ? DP_WAIT_CFG : DP_WAIT_PRM;
+    if (good_cfg_waits && accept_cfg) state_d = DP_DATA_EXCH;
+    if (enter_wait_prm) state_d = DP_WAIT_PRM;
+  end
+  assign keeps_held =
+`ifdef SINGLE_FAULTS
+      (`FAULT(185) && by_data_exchange) ||
+`endif
+      !enter_wait_prm;
+  assign held_d = keeps_held && (held_b || (good_prm && accept_prm));
+
+  // Verdicts that are awaited
+  always_comb begin
     await_prm_d = await_prm_b;
     await_cfg_d = await_cfg_b;
-    prm_fault_d = prm_fault_b || new_prm_fault;
-    unsupported_d = unsupported_b || new_unsupported;
-    cfg_fault_d = cfg_fault_b || new_cfg_fault;
-    sync_d = sync_b;
-    freeze_d = freeze_b;
-    if (gc_unsync) sync_d = 1'b0;
-    else if (gc_sync) sync_d = 1'b1;
-    if (gc_unfreeze) freeze_d = 1'b0;
-    else if (gc_freeze) freeze_d = 1'b1;
-`ifdef SINGLE_FAULTS
-    if (`FAULT(175) && gc_sync && gc_freeze) sync_d = sync_b;
-`endif
-
-    // S15, S18
     if (good_prm) begin
-      leave = in_data_exch;
-      state_d = accept_prm ? DP_WAIT_CFG : DP_WAIT_PRM;
       await_prm_d = !accept_prm;
       await_cfg_d = 1'b0;
-      if (accept_prm) begin
-        held_d = 1'b1;
-        prm_fault_d = 1'b0;
-        unsupported_d = 1'b0;
-      end
     end
-    if (good_cfg && !in_data_exch) begin  // in DATA_EXCH it is mail and nothing else (S16)
-      await_cfg_d = !accept_cfg;
-      if (accept_cfg) begin
-        state_d = DP_DATA_EXCH;
-        cfg_fault_d = 1'b0;
-      end
-    end
+    if (good_cfg_waits) await_cfg_d = !accept_cfg;
     if (enter_wait_prm) begin
-      leave = in_data_exch;
-      state_d = DP_WAIT_PRM;
-      held_d = 1'b0;
       await_prm_d = 1'b0;
       await_cfg_d = 1'b0;
     end
-    if (leave) begin
-      sync_d = 1'b0;
-      freeze_d = 1'b0;
-    end
-`ifdef SINGLE_FAULTS
-    if (`FAULT(185) && enter_wait_prm && by_data_exchange) held_d = held_b;
-`endif
   end
 
+  // Bits of Slave_Diag
+  logic clears_prm_fault, clears_cfg_fault;
+  assign clears_prm_fault = good_prm && accept_prm;
+  assign clears_cfg_fault = good_cfg_waits && accept_cfg;
+  assign prm_fault_d = (prm_fault_b || new_prm_fault) && !clears_prm_fault;
+  assign unsupported_d = (unsupported_b || new_unsupported) && !clears_prm_fault;
+  assign cfg_fault_d = (cfg_fault_b || new_cfg_fault) && !clears_cfg_fault;
+
+  // Sync and Freeze (S24, S27)
+  logic syncs;
+  assign syncs =
+`ifdef SINGLE_FAULTS
+      !(`FAULT(175) && gc_freeze) &&
+`endif
+      gc_sync;
+  assign sync_d = (sync_b || syncs) && !gc_unsync && !leave;
+  assign freeze_d = (freeze_b || gc_freeze) && !gc_unfreeze && !leave;
+
   // Slave_Diag's standard bytes (section 11)
-  logic [6:0] holder_b;
   logic watchdog_on;
-  assign holder_b = accept_prm_b ? wait_sa : holder_q;
   assign watchdog_on = wd_commit_dp_o || (dp_control_i && !dp_end_i && !wd_commit_baud_o);
   assign answer_diag_o = {held_b ? {1'b0, holder_b} : 8'hFF, 8'h00,
                           2'b00, sync_b, freeze_b, watchdog_on, 1'b1, diag_stat,
@@ -290,74 +262,56 @@ module dp_slave #(
   assign wd_factor_2_o = in_force.wd_factor_2;
   assign wd_base_1ms_o = in_force.wd_base_1ms;
 
-  // S18: leaving DATA_EXCH is counted, for whatever reason
-  logic left;
-  assign left = (leave && !`FAULT(37)) || end_leave || (init && state_q == DP_DATA_EXCH);
-  assign count_d = left ? count_q + 16'd1 : count_q;
-
-  logic set_address;
-  logic [6:0] new_address, init_address;
-  logic [7:0] ssa_lock;
-  assign set_address = decision.set_address;
-  assign new_address = head_i[6:0];
-  assign ssa_lock = head_i[31:24];
-  assign init_address = commands_i.initialise.address;
-`ifdef SINGLE_FAULTS
-  logic lock_low;
-  assign lock_low = head_i[24];
-`endif
-  always_comb begin
-    holder_d = holder_b;
-    address_d = address_q;
-    locked_d = locked_q;
-    if (accept_prm) holder_d = sa_i;
-    if (set_address) begin
-      address_d = new_address;
-      locked_d = ssa_lock != 8'h00;
-`ifdef SINGLE_FAULTS
-      if (`FAULT(186)) locked_d = lock_low;
-`endif
-    end
-    if (init) begin
-      holder_d = NO_MASTER;
-      address_d = init_address;
-      locked_d = 1'b0;
-    end
-  end
-
+  // ---- registers: the state, which an initialisation begins
+  logic initialised_q, pbf_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= DP_OFFLINE;
-      {held_q, locked_q, await_prm_q, await_cfg_q, prm_fault_q, unsupported_q, cfg_fault_q} <= 7'd0;
-      {sync_q, freeze_q, initialised_q} <= 3'd0;
+      initialised_q <= 1'b0;
       pbf_q <= 1'b1;
-      holder_q <= NO_MASTER;
-      address_q <= NO_MASTER;
-      count_q <= 16'd0;
+    end else if (init) begin
+      state_q <= DP_WAIT_PRM;
+      initialised_q <= 1'b1;
+      pbf_q <= 1'b1;
     end else begin
-      holder_q <= holder_d;
-      address_q <= address_d;
-      locked_q <= locked_d;
-      count_q <= count_d;
-      if (init) begin
-        state_q <= DP_WAIT_PRM;
-        {held_q, await_prm_q, await_cfg_q, prm_fault_q, unsupported_q, cfg_fault_q, sync_q, freeze_q} <= 8'd0;
-        initialised_q <= 1'b1;
-        pbf_q <= 1'b1;
-      end else begin
-        state_q <= state_d;
-        held_q <= held_d;
-        await_prm_q <= await_prm_d;
-        await_cfg_q <= await_cfg_d;
-        prm_fault_q <= prm_fault_d;
-        unsupported_q <= unsupported_d;
-        cfg_fault_q <= cfg_fault_d;
-        sync_q <= sync_d;
-        freeze_q <= freeze_d;
-        pbf_q <= state_d != DP_DATA_EXCH;
-      end
+      state_q <= state_d;
+      pbf_q <= state_d != DP_DATA_EXCH;
     end
   end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {held_q, await_prm_q, await_cfg_q, sync_q, freeze_q} <= 5'd0;
+      {prm_fault_q, unsupported_q, cfg_fault_q} <= 3'd0;
+    end else if (init) begin
+      {held_q, await_prm_q, await_cfg_q, sync_q, freeze_q} <= 5'd0;
+      {prm_fault_q, unsupported_q, cfg_fault_q} <= 3'd0;
+    end else begin
+      held_q <= held_d;
+      await_prm_q <= await_prm_d;
+      await_cfg_q <= await_cfg_d;
+      sync_q <= sync_d;
+      freeze_q <= freeze_d;
+      prm_fault_q <= prm_fault_d;
+      unsupported_q <= unsupported_d;
+      cfg_fault_q <= cfg_fault_d;
+    end
+  end
+
+  // ---- how often DATA_EXCH was left, for whatever reason (S18)
+  logic left;
+  logic [15:0] count_q;
+  assign left = (leave && !`FAULT(37)) || end_leave || (init && state_q == DP_DATA_EXCH);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) count_q <= 16'd0;
+    else if (left) count_q <= count_q + 16'd1;
+  end
+
+  // ---- own address
+  logic [6:0] address;
+  dp_address u_address (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init), .init_address_i(commands_i.initialise.address), .set_i(decision.set_address),
+    .new_address_i(head_i[6:0]), .no_add_chg_i(head_i[31:24]), .address_o(address), .locked_o(locked), .delivery_o(delivery_address));
 
   // Global_Control for the user's side
   logic global_control_q;
@@ -394,7 +348,7 @@ module dp_slave #(
   assign status_o.initialised = initialised_q;
   assign status_o.state = state_q;
   assign status_o.left = count_q;
-  assign status_o.address = address_q;
+  assign status_o.address = address;
   assign status_o.global_control = global_control_q;
   assign status_o.global_control_command = control_command_q;
 endmodule
