@@ -100,17 +100,18 @@ module host_port (
   assign wdata_o = oldest[7:0];
 
   // ---- reads
-  logic reads, early_q, taken_q, driven_q;
+  logic reads, open_q, taken_q, driven_q;
   logic [7:0] d_q;
   assign reads = !rd_i && !csr_i;
   assign raddr_o = a_i;
 
-  // RD and CSR were low already at R: no access, until one of them rises
-  always_ff @(posedge clk_i or negedge reads) begin
-    if (!reads) early_q <= 1'b0;
-    else if (!listens_q) early_q <= 1'b1;
+  // An access that begins before R is none, until RD or CSR has risen. Its beginning is the clock, so that no edge of CLK changes the drivers of D.
+  always_ff @(posedge reads or negedge rst_ni) begin
+    if (!rst_ni) open_q <= 1'b0;
+    else open_q <= listens_q;
   end
 
+  // RD and CSR fall at any time: taken_q may be undecided for half a cycle, so it has one reader, driven_q. D loads until then, whatever taken_q is.
   always_ff @(posedge clk_i or negedge reads) begin
     if (!reads) taken_q <= 1'b0;
     else taken_q <= 1'b1;
@@ -122,12 +123,12 @@ module host_port (
   end
 
   always_ff @(negedge clk_i) begin
-    if (taken_q && !driven_q) d_q <= rdata_i;
+    if (!driven_q) d_q <= rdata_i;
 `ifdef SINGLE_FAULTS
     if (`FAULT(208) && taken_q) d_q <= rdata_i;
 `endif
   end
 
   assign d_o = d_q;
-  assign d_oe_o = reads && listens_q && !early_q;
+  assign d_oe_o = reads && open_q;
 endmodule

@@ -115,20 +115,20 @@ module dsdpv1_rsu #(
   logic [127:0] uart_gaps;
   assign uart_gaps = `LIMIT(UART_GAPS, uart_gaps_i);
 
-  logic begins, spi, uart, serial;
+  logic begins, spi, uart, serial, closed;
   logic [1:0] adr;
   logic [2:0] ubr, uiv;
   straps u_straps (
     .clk_i(clk_i), .rst_ni(rst_n), .mode_i(mode_i), .adr_i(adr_i), .ubr_i(ubr_i), .uiv_i(uiv_i), .begins_o(begins), .spi_o(spi),
-    .uart_o(uart), .adr_o(adr), .ubr_o(ubr), .uiv_o(uiv));
+    .uart_o(uart), .closed_o(closed), .adr_o(adr), .ubr_o(ubr), .uiv_o(uiv));
   assign serial = spi || uart;
 
-  // ---- the parallel port: dead in the other modes (R14)
+  // ---- the parallel port: dead in the other modes (R14). Up to R it listens in none, so registers alone close it.
   logic user_holds, chip_owns;
   handshake u_handshake (
     `FAULT_CONNECT
     .clk_i(clk_i), .r_req_i(r_req_i), .r_sta_i(r_sta_i), .l_req_o(l_req_o), .l_sta_o(l_sta_o), .user_holds_o(user_holds),
-    .owns_i(chip_owns && !serial));
+    .owns_i(chip_owns && !closed));
 
   logic user_we, host_we, chip_we;
   logic [10:0] user_waddr, host_waddr, user_raddr, chip_addr;
@@ -136,7 +136,7 @@ module dsdpv1_rsu #(
 
   host_port u_host_port (
     `FAULT_CONNECT
-    .clk_i(clk_i), .rst_ni(rst_n), .csr_i(csr_i || serial), .rd_i(rd_i), .wr_i(wr_i), .a_i(a_i), .d_i(d_i), .d_o(d_o),
+    .clk_i(clk_i), .rst_ni(rst_n), .csr_i(csr_i || closed), .rd_i(rd_i), .wr_i(wr_i), .a_i(a_i), .d_i(d_i), .d_o(d_o),
     .d_oe_o(d_oe_o), .we_o(user_we), .waddr_o(user_waddr), .wdata_o(user_wdata), .raddr_o(user_raddr), .rdata_i(rdata));
 
   dpram u_dpram (

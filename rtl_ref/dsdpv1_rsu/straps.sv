@@ -13,6 +13,7 @@ module straps (
   output logic       begins_o,  // this edge is R
   output logic       spi_o,     // already at R
   output logic       uart_o,
+  output logic       closed_o,  // after R, without a pin in between: the mode is not parallel
   output logic [1:0] adr_o,     // after R
   output logic [2:0] ubr_o,
   output logic [2:0] uiv_o
@@ -34,4 +35,5 @@ module straps (
   assign begins_o = !taken_q;
   assign spi_o = mode == MODE_SPI;
   assign uart_o = mode == MODE_UART;
+  assign closed_o = mode_taken == MODE_SPI || mode_taken == MODE_UART;
 endmodule
