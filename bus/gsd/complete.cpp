@@ -2,6 +2,7 @@
 // missing.
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -66,8 +67,21 @@ class Completion {
     gsd_.c1_read_write = flag("c1_read_write_supp");
     gsd_.c2_read_write = flag("c2_read_write_supp");
     gsd_.wd_base_1ms = flag("wd_base_1ms_supp");
+    fill_alarms();
     gsd_.modular = flag("modular_station");
     gsd_.fix_preset_modules = flag("fixpresetmodules");
+  }
+
+  void fill_alarms() {
+    // Bits of DPV1_Status_2
+    constexpr std::pair<const char*, unsigned> kAlarmTypes[] = {
+        {"update_alarm_supp", 0x04},     {"status_alarm_supp", 0x08},  {"manufacturer_specific_alarm_supp", 0x10},
+        {"diagnostic_alarm_supp", 0x20}, {"process_alarm_supp", 0x40}, {"pull_plug_alarm_supp", 0x80}};
+    for (const auto& [keyword, bit] : kAlarmTypes)
+      if (flag(keyword)) gsd_.alarms.types = static_cast<std::uint8_t>(gsd_.alarms.types | bit);
+    gsd_.alarms.extra_sap = flag("extra_alarm_sap_supp");
+    gsd_.alarms.type_mode = flag("alarm_type_mode_supp");
+    gsd_.alarms.sequence_count = number("alarm_sequence_mode_count").value_or(0);
   }
 
   void fill_numbers() {

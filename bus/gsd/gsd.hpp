@@ -39,6 +39,14 @@ struct GsdRange {
 };
 
 /// The data types of ExtUserPrmData. Values of several bytes are sent most significant byte first.
+/// Alarms of DPV1.
+struct GsdAlarms {
+  std::uint8_t types = 0;  ///< of ..._Alarm_supp, as bits of DPV1_Status_2
+  bool extra_sap = false;  ///< Extra_Alarm_SAP_supp
+  bool type_mode = false;  ///< Alarm_Type_Mode_supp
+  int sequence_count = 0;  ///< Alarm_Sequence_Mode_Count, 0 to 32
+};
+
 enum class GsdType : std::uint8_t {
   kBit,
   kBitArea,
@@ -141,6 +149,7 @@ struct Gsd {
   bool c1_read_write = false;  ///< C1_Read_Write_supp
   bool c2_read_write = false;  ///< C2_Read_Write_supp
   bool wd_base_1ms = false;    ///< WD_Base_1ms_supp
+  GsdAlarms alarms;
   std::optional<int> c1_max_data, c2_max_data, c2_channels;
   std::optional<int> c1_response_timeout, c2_response_timeout;  ///< units of 10 ms
 

@@ -100,6 +100,9 @@ bool enables_dpv1(const Gsd& gsd, const Bytes& user_prm);
 /// of the file. Returns why the file does not allow it, leaving `parameters` unchanged, or an empty text.
 std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters);
 
+/// The same for alarms: their types, SAP and mode.
+std::string enable_alarms(const Gsd& gsd, const AlarmParameters& alarms, SlaveParameters& parameters);
+
 /// Builds everything and checks the limits of the file and of the protocol: modules allowed in their slots, their
 /// number (Max_Module, 1 in a fixed station without it), Max_Input_Len, Max_Output_Len, Max_Data_Len, 244 bytes of
 /// Chk_Cfg, 237 of user parameters.

@@ -38,12 +38,15 @@ void take_positive(const Bytes& pdu, AcyclicResult& result) {
     return wrong(result, fmt::format("answer for slot {} index {}, asked was slot {} index {}", pdu[1], pdu[2],
                                      request.slot, request.index));
   }
-  const bool write = request.function == function_num::kWrite;
-  const std::size_t expected = write ? 0 : pdu[3];
+  const bool repeats = request.function == function_num::kWrite || request.function == function_num::kAlarmAck;
+  const std::size_t expected = repeats ? 0 : pdu[3];
   if (pdu.size() - kHeader != expected)
     return wrong(result, fmt::format("{} data bytes, the length byte says {}", pdu.size() - kHeader, expected));
-  if (write && pdu[3] != request.length)
-    return wrong(result, fmt::format("{} bytes acknowledged, written were {}", pdu[3], request.length));
+  if (repeats && pdu[3] != request.length) {
+    return wrong(result, request.function == function_num::kWrite
+                             ? fmt::format("{} bytes acknowledged, written were {}", pdu[3], request.length)
+                             : fmt::format("Alarm_Specifier 0x{:02X}, sent was 0x{:02X}", pdu[3], request.length));
+  }
   result.outcome = AcyclicOutcome::kPositive;
   result.data.assign(pdu.begin() + kHeader, pdu.end());
 }
@@ -54,11 +57,23 @@ std::string bytes_words(const Bytes& data) {
   return text;
 }
 
+std::string positive_words(const AcyclicResult& result) {
+  switch (result.request.function) {
+    case function_num::kWrite: return fmt::format("{} bytes written", result.request.length);
+    case function_num::kAlarmAck: return "acknowledged";
+    default: return bytes_words(result.data);
+  }
+}
+
+std::string subject(const AcyclicRequest& request) {
+  if (request.function == function_num::kAlarmAck)
+    return fmt::format("slot {} type {} sequence number {}", request.slot, request.index, request.length >> 3);
+  return fmt::format("slot {} index {}", request.slot, request.index);
+}
+
 std::string outcome_words(const AcyclicResult& result) {
   switch (result.outcome) {
-    case AcyclicOutcome::kPositive:
-      return result.request.function == function_num::kWrite ? fmt::format("{} bytes written", result.request.length)
-                                                             : bytes_words(result.data);
+    case AcyclicOutcome::kPositive: return positive_words(result);
     case AcyclicOutcome::kNegative:
       return "refused, " + error_words(result.error_decode, result.error_code_1, result.error_code_2);
     case AcyclicOutcome::kRefused:
@@ -105,8 +120,7 @@ const char* name(AcyclicOutcome outcome) {
 
 std::string describe(const AcyclicResult& result) {
   const AcyclicRequest& request = result.request;
-  return fmt::format("{} slot {} index {}: {}", function_name(request.function), request.slot, request.index,
-                     outcome_words(result));
+  return fmt::format("{} {}: {}", function_name(request.function), subject(request), outcome_words(result));
 }
 
 void judge_answer(const Bytes& pdu, AcyclicResult& result) {

@@ -19,10 +19,11 @@ constexpr Tick kTimeUnit10ms =
     10 * kTicksPerMs;  ///< unit of Send_Timeout and of C1_Response_Timeout and C2_Response_Timeout in GSD files
 
 struct AcyclicRequest {
-  std::uint8_t function = function_num::kRead;  ///< kRead, kWrite, kTransport (C2 only)
-  std::uint8_t slot = 0, index = 0;
-  std::uint8_t length = 0;  ///< kRead: bytes requested; a slave refuses more than 240. Others: length of `data`
-  Bytes data = {};          ///< kWrite, kTransport: at most 240 bytes
+  std::uint8_t function = function_num::kRead;  ///< kRead, kWrite, kTransport (C2 only), kAlarmAck (C1 only)
+  std::uint8_t slot = 0, index = 0;             ///< kAlarmAck: index is Alarm_Type
+  /// kRead: bytes requested; a slave refuses more than 240. kAlarmAck: Alarm_Specifier. Others: length of `data`.
+  std::uint8_t length = 0;
+  Bytes data = {};  ///< kWrite, kTransport: at most 240 bytes
 };
 
 AcyclicRequest read_request(std::uint8_t slot, std::uint8_t index, std::uint8_t length);

@@ -1,6 +1,9 @@
 #include "bus/master/c1.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace dsdpv1::bus {
 
@@ -20,7 +23,7 @@ Telegram C1Client::next_request() {
   polling_ = acknowledged_ || stale_;
   at_work_ = at_work_ || !polling_;
   return make_telegram(slave_, master_, fc::kRequest | fc::kSrdLow, polling_ ? Bytes{} : pdu_of(current().request),
-                       sap::kMs1, sap::kMs1);
+                       sap_, sap::kMs1);
 }
 
 void C1Client::done(Tick now, const FdlResult& result) {
@@ -64,9 +67,25 @@ void C1Client::polled(Tick now, const Telegram& answer) {
 
 void C1Client::leave(Tick now, const std::string& reason) {
   stale_ = false;
-  if (!at_work_) return;
-  current().reason = reason;
-  finish(now, AcyclicOutcome::kLost);
+  if (at_work_) {
+    current().reason = reason;
+    finish(now, AcyclicOutcome::kLost);
+  }
+  drop_acknowledgements(now, reason);
+}
+
+/// Leaving data exchange ends the alarms, too (AL8).
+void C1Client::drop_acknowledgements(Tick now, const std::string& reason) {
+  const auto stays = [](const AcyclicOperation& each) {
+    return each.result.request.function != function_num::kAlarmAck;
+  };
+  const auto first = std::stable_partition(operations_.begin(), operations_.end(), stays);
+  std::vector<AcyclicOperation> dropped(std::make_move_iterator(first), std::make_move_iterator(operations_.end()));
+  operations_.erase(first, operations_.end());
+  for (AcyclicOperation& each : dropped) {
+    each.result.reason = reason;
+    each.finish(now, AcyclicOutcome::kLost);
+  }
 }
 
 void C1Client::finish(Tick now, AcyclicOutcome outcome) {

@@ -137,12 +137,14 @@ void Master1::c1_write(std::uint8_t address, std::uint8_t slot, std::uint8_t ind
 }
 
 void Master1::c1_request(std::uint8_t address, const AcyclicRequest& request, AcyclicCallback done) {
-  slave_at(address).c1.push(
-      now_, request,
-      [this, address, done = std::move(done)](const AcyclicResult& result) {
-        if (done) done(result);
-        if (on_acyclic) on_acyclic(now_, address, result);
-      });
+  slave_at(address).c1.push(now_, request, told(address, std::move(done)));
+}
+
+AcyclicCallback Master1::told(std::uint8_t address, AcyclicCallback done) {
+  return [this, address, done = std::move(done)](const AcyclicResult& result) {
+    if (done) done(result);
+    if (on_acyclic) on_acyclic(now_, address, result);
+  };
 }
 
 std::size_t Master1::c1_open(std::uint8_t address) const { return slave_at(address).c1.open(); }

@@ -33,13 +33,18 @@ void Master1::add_slave(const SlaveParameters& parameters) {
   if (has_slave(parameters.address) || parameters.address == config_.address)
     throw std::invalid_argument(fmt::format("address {} is used twice", parameters.address));
   const std::uint8_t address = parameters.address;
-  auto slave = std::make_unique<Slave>(
-      Slave{SlaveHandler(parameters, config_.address, config_.personality),
-            C1Client(address, config_.address, parameters.c1_response_timeout * kTimeUnit10ms)});
+  const Tick timeout = parameters.c1_response_timeout * kTimeUnit10ms;
+  auto slave = std::make_unique<Slave>(Slave{SlaveHandler(parameters, config_.address, config_.personality),
+                                             C1Client(address, config_.address, timeout),
+                                             C1Client(address, config_.address, timeout, sap::kMs1Alarm)});
   SlaveHandler& handler = slave->handler;
   handler.set_clear(clear_);
-  handler.on_state = [this, address, &c1 = slave->c1](SlaveState from, SlaveState to) {
-    if (from == SlaveState::kDataExchange) c1.leave(now_, "data exchange was left");
+  if (parameters.alarms.acknowledged) {
+    C1Client& client = parameters.alarms.extra_sap ? slave->alarms : slave->c1;
+    handler.on_alarm = [this, address, &client](const AcyclicRequest& ack) { client.push(now_, ack, told(address)); };
+  }
+  handler.on_state = [this, address, &each = *slave](SlaveState from, SlaveState to) {
+    if (from == SlaveState::kDataExchange) leave_acyclic(each, "data exchange was left");
     if (on_state) on_state(now_, address, from, to);
   };
   handler.on_inputs = [this, address] {
@@ -77,12 +82,17 @@ void Master1::run(Tick now) {
     running_ = false;
     if (ring_) ring_->stop(now);
     fdl_.abort(now);
-    for (const auto& slave : slaves_) slave->c1.leave(now, "the master was stopped");
+    for (const auto& slave : slaves_) leave_acyclic(*slave, "the master was stopped");
   }
   if (start_requested_) begin_operation();
   fdl_.run(now);
   while (running_ && fdl_.idle() && start_next()) {
   }
+}
+
+void Master1::leave_acyclic(Slave& slave, const std::string& reason) {
+  slave.alarms.leave(now_, reason);
+  slave.c1.leave(now_, reason);
 }
 
 void Master1::begin_operation() {
@@ -185,8 +195,10 @@ bool Master1::start_slave() {
 bool Master1::start_acyclic() {
   while (acyclic_position_ < slaves_.size()) {
     Slave& slave = *slaves_[acyclic_position_++];
-    if (slave.handler.view().state != SlaveState::kDataExchange || !slave.c1.due(now_)) continue;
-    ask_c1(slave.c1);
+    if (slave.handler.view().state != SlaveState::kDataExchange) continue;
+    C1Client* const due = slave.alarms.due(now_) ? &slave.alarms : slave.c1.due(now_) ? &slave.c1 : nullptr;
+    if (due == nullptr) continue;
+    ask_c1(*due);
     return true;
   }
   phase_ = Phase::kPollSlot;

@@ -144,7 +144,7 @@ class Master1 : public Agent {
   /// One slave: the cyclic exchange and the acyclic one.
   struct Slave {
     SlaveHandler handler;
-    C1Client c1;
+    C1Client c1, alarms;  ///< SAP 51 and 50
   };
   Slave& slave_at(std::uint8_t address);
   const Slave& slave_at(std::uint8_t address) const;
@@ -167,6 +167,8 @@ class Master1 : public Agent {
   void ask(FdlRequest request, AnswerCallback done);
   void ask_slave(SlaveHandler& slave);
   void ask_c1(C1Client& c1);
+  void leave_acyclic(Slave& slave, const std::string& reason);
+  AcyclicCallback told(std::uint8_t address, AcyclicCallback done = {});
   void finished(const FdlResult& result);
   void record_live(std::uint8_t address, const FdlResult& result);
   bool work_to_do() const;

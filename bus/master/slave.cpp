@@ -82,7 +82,8 @@ void SlaveHandler::renew_outputs() {
 void SlaveHandler::release() { go(SlaveState::kReleasing); }
 
 void SlaveHandler::restart(const std::string& reason) {
-  diagnosis_due_ = false;
+  diagnosis_due_ = announced_ = false;
+  alarm_.clear();
   view_.reason = reason;
   go(SlaveState::kDiagnose, reason);
 }
@@ -279,7 +280,8 @@ void SlaveHandler::exchange_answer(const FdlResult& result) {
 void SlaveHandler::take_inputs(const Telegram& answer) {
   ++view_.counters.data_exchanges;
   // SC has no function code; DH and RDH announce a diagnosis.
-  diagnosis_due_ = answer.kind != TelegramKind::kSc && (answer.function() == fc::kDh || answer.function() == fc::kRdh);
+  announced_ = diagnosis_due_ =
+      answer.kind != TelegramKind::kSc && (answer.function() == fc::kDh || answer.function() == fc::kRdh);
   if (answer.data == view_.inputs) return;
   view_.inputs = answer.data;
   if (on_inputs) on_inputs();
@@ -290,7 +292,18 @@ void SlaveHandler::operating_diagnosis(const Telegram& answer) {
   const std::string wrong = fault();
   if (!wrong.empty()) return restart(wrong);
   if ((view_.diagnosis[0] & kNotReady) != 0) return restart("Station_Not_Ready");
+  take_alarm();
   diagnosis_due_ = (view_.diagnosis[1] & kStatDiag) != 0;  // EN 50170: fetched until the slave clears Stat_Diag
+}
+
+/// An alarm stays in the diagnosis until the slave's user changes that: it is acknowledged again only if the slave has
+/// announced it again.
+void SlaveHandler::take_alarm() {
+  const bool announced = std::exchange(announced_, false);
+  if (!parameters_.dpv1 || parameters_.alarms.enabled == 0) return;
+  const std::optional<AcyclicRequest> ack = alarm_ack_for(view_.diagnosis);
+  const Bytes before = std::exchange(alarm_, ack ? pdu_of(*ack) : Bytes());
+  if (ack && (announced || alarm_ != before) && on_alarm) on_alarm(*ack);
 }
 
 }  // namespace dsdpv1::bus

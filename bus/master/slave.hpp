@@ -65,8 +65,9 @@ class SlaveHandler {
   void restart(const std::string& reason);
 
   std::function<void(SlaveState from, SlaveState to)> on_state;
-  std::function<void()> on_inputs;     ///< inputs differ from the earlier ones
-  std::function<void()> on_diagnosis;  ///< called for an answer to Slave_Diag
+  std::function<void()> on_inputs;                      ///< inputs differ from the earlier ones
+  std::function<void()> on_diagnosis;                   ///< called for an answer to Slave_Diag
+  std::function<void(const AcyclicRequest&)> on_alarm;  ///< one to acknowledge
 
  private:
   void renew_outputs();
@@ -85,6 +86,7 @@ class SlaveHandler {
   void take_inputs(const Telegram& answer);
   void operating_diagnosis(const Telegram& answer);
   bool take_diagnosis(const Telegram& answer);
+  void take_alarm();
   bool refused(const Telegram& answer);
   std::string fault() const;
 
@@ -96,7 +98,8 @@ class SlaveHandler {
   OutputPattern pattern_ = OutputPattern::kFixed;
   std::uint8_t exchange_ = 0;  ///< OutputPattern::kCount
   std::minstd_rand random_;    ///< OutputPattern::kRandom
-  bool clear_ = false, diagnosis_due_ = false, cfg_refused_ = false;
+  bool clear_ = false, diagnosis_due_ = false, announced_ = false, cfg_refused_ = false;
+  Bytes alarm_;  ///< Alarm_Ack of the last diagnosis, empty without an alarm
 };
 
 }  // namespace dsdpv1::bus

@@ -6,10 +6,12 @@ namespace dsdpv1::bus {
 
 namespace {
 
+void add_bits(std::uint8_t& byte, unsigned bits) { byte = static_cast<std::uint8_t>(byte | bits); }
+
 void set_bit(Bytes& user_prm, unsigned mask, bool on) {
   if (!on) return;
   if (user_prm.empty()) user_prm.push_back(0);
-  user_prm[0] = static_cast<std::uint8_t>(user_prm[0] | mask);
+  add_bits(user_prm[0], mask);
 }
 
 Bytes completed_user_prm(const SlaveParameters& slave) {
@@ -18,6 +20,9 @@ Bytes completed_user_prm(const SlaveParameters& slave) {
   set_bit(user, 0x04, slave.wd_base_1ms);
   set_bit(user, 0x40, slave.fail_safe);
   set_bit(user, 0x80, slave.dpv1);
+  if (!slave.dpv1) return user;
+  add_bits(user[1], slave.alarms.enabled);
+  add_bits(user[2], static_cast<unsigned>(slave.alarms.mode));
   return user;
 }
 

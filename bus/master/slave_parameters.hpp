@@ -7,6 +7,7 @@
 
 #include "bus/baud.hpp"
 #include "bus/bytes.hpp"
+#include "bus/master/alarms.hpp"
 
 namespace dsdpv1::bus {
 
@@ -34,6 +35,7 @@ struct SlaveParameters {
   bool lock = true;                        ///< Lock_Req
   bool fail_safe = false;                  ///< sets Fail_Safe; the slave gets empty outputs instead of zeros in Clear
   bool dpv1 = false;                       ///< sets DPV1_Enable; user_prm is filled up to three bytes
+  AlarmParameters alarms = {};             ///< with `dpv1` only
   int c1_response_timeout = 100;           ///< C1_Response_Timeout, units of 10 ms: maximum wait for a C1 answer
   std::int64_t min_slave_interval_us = 0;  ///< Min_Slave_Intervall: polled no more often than this
   std::array<int, kBaudCount> max_tsdr = {};  ///< bit times by baud index, 0 = that of the baud rate; for monitors

@@ -85,6 +85,11 @@ const char* function_name(std::uint8_t function) {
   }
 }
 
+int alarms_in_mode(int mode) {
+  constexpr std::array<int, 8> kAlarms = {0, 2, 4, 8, 12, 16, 24, 32};
+  return kAlarms.at(static_cast<std::size_t>(mode));
+}
+
 std::string error_code_words(std::uint8_t error_code_1) {
   const unsigned row = error_code_1 >> 4, code = error_code_1 & 0x0FU;
   switch (row) {

@@ -15,6 +15,9 @@ constexpr std::uint8_t kIdle = 0x48, kTransport = 0x51, kImmediate = 0x56, kInit
 /// "DS_Read", "Initiate", ...; ignores bit 7; "unknown function" for others.
 const char* function_name(std::uint8_t function);
 
+/// Alarms open at once in all in Alarm_Mode 1 to 7 (DPV1_Status_3); 0 in mode 0, which allows one of each type.
+int alarms_in_mode(int mode);
+
 /// Error_Code_1: "access: invalid index"; "user specific ..." and "reserved ..." according to the table.
 std::string error_code_words(std::uint8_t error_code_1);
 constexpr std::uint8_t kDpv1Decode = 0x80;  ///< table 28: the only Error_Decode there; IEC 61158 has FE and FF too

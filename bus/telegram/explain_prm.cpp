@@ -2,6 +2,7 @@
 // DPV1_Status_3 says so (Prm_Structure; EN 50170 with its DPV1 extensions, IEC 61158-6).
 #include <fmt/format.h>
 
+#include "bus/telegram/dpv1_words.hpp"
 #include "bus/telegram/explain_data.hpp"
 
 namespace dsdpv1::bus::detail {
@@ -60,9 +61,9 @@ std::string status_2_words(std::uint8_t byte) {
 
 std::string status_3_words(std::uint8_t byte) {
   static constexpr const char* kNames[8] = {"", "", "", "Prm_Structure", "IsoM_Req", "", "", "PrmCmd"};
-  static constexpr int kAlarms[8] = {1, 2, 4, 8, 12, 16, 24, 32};
-  const unsigned mode = byte & 0x07U;
-  const std::string alarms = mode == 0 ? "one alarm of each type" : fmt::format("{} alarms in all", kAlarms[mode]);
+  const int mode = byte & 0x07;
+  const std::string alarms =
+      mode == 0 ? "one alarm of each type" : fmt::format("{} alarms in all", alarms_in_mode(mode));
   const auto others = static_cast<std::uint8_t>(byte & 0xF8U);
   return fmt::format("DPV1_Status_3: Alarm_Mode {} ({} at a time){}{}", mode, alarms, others == 0 ? "" : ", ",
                      others == 0 ? "" : bit_names(others, kNames));

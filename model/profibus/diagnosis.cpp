@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/profibus/alarm_reasons.hpp"
 #include "model/profibus/dp_slave.hpp"
 #include "model/profibus/user_side.hpp"
 
@@ -69,6 +70,25 @@ StoredDiagnosis UserSide::diagnosis(Cycle /*now*/, bool to_holder) {
   return {diagnosis_.bytes(), diagnosis_.ext_diag(), diagnosis_.stat_diag(), inputs_.held(), outputs_.held()};
 }
 
+bool UserSide::alarm_unread(Cycle now, int size) {
+  const int open = msac_.alarms.open();
+  if (open == 0 || !diagnosis_.unread()) return false;
+  log_.at_cycle(now, AlarmReason::kAlarmUnread, static_cast<unsigned>(size), static_cast<unsigned>(open));
+  return true;
+}
+
+bool UserSide::new_alarm(Cycle now, const std::uint8_t* bytes, int size) {
+  const DpSlave& slave = station_.slave();
+  if (slave.state() != DpState::kDataExch) {
+    log_.at_cycle(now, AlarmReason::kAlarmState, static_cast<unsigned>(slave.state()));
+    return false;
+  }
+  if (alarm_unread(now, size)) return false;
+  if (!msac_.alarms.raise(now, bytes, size, config().max_diag)) return false;
+  diagnosis_.set_user(kExtPresent, bytes, size);
+  return true;
+}
+
 bool UserSide::new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size) {
   if (!UserDiagnosis::known_type(type)) {
     log_.at_cycle(now, Reason::kDiagType, type);
@@ -78,6 +98,7 @@ bool UserSide::new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* b
     log_.at_cycle(now, Reason::kDiagLength, static_cast<unsigned>(size), static_cast<unsigned>(config().max_diag));
     return false;
   }
+  if (alarm_unread(now, size)) return false;
   log_.at_cycle(now, Reason::kDiagAccepted, type, static_cast<unsigned>(size));
   diagnosis_.set_user(type, bytes, size);
   return true;

@@ -50,6 +50,8 @@ class UserDiagnosis {
   /// After an initialisation: none.
   void reset() { *this = UserDiagnosis(); }
 
+  bool unread() const { return unread_; }
+
   static bool known_type(std::uint8_t type);
   /// Sets a valid block of the user (type checked before). All types except 00 are high priority until read.
   void set_user(std::uint8_t type, const std::uint8_t* bytes, int size);

@@ -1,5 +1,7 @@
 #include "model/profibus/dp_slave.hpp"
 
+#include "model/profibus/alarm_reasons.hpp"
+
 namespace dsdpv1::profibus {
 
 void DpSlave::reset() {
@@ -78,11 +80,11 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
     case sap::kCheckCfg: return check_cfg(now, request);
     case sap::kGlobalControl: return refuse_state(now, request, sap::kGlobalControl);  // an SRD: only SDN is supported
     case sap::kC1: return c1(now, request);
+    case sap::kAlarm: return alarm_sap(now, request);
     case Msac2::kManagerSap: return c2_initiate(now, request);
     default:
       if (c2_channel(request.dsap)) return msac_->c2.handle(now, request);
-      log_.at_cycle(now, Reason::kSapUnknown, static_cast<unsigned>(request.dsap), request.sa);
-      return Reply::status(fc::kRs);
+      return unknown_sap(now, request);
   }
 }
 
@@ -94,6 +96,11 @@ bool DpSlave::answers_afresh(const Request& request) const {
 
 bool DpSlave::c2_channel(int dsap) const {
   return msac_ != nullptr && dsap <= kC2FirstSap && dsap > kC2FirstSap - kC2Channels;
+}
+
+Reply DpSlave::unknown_sap(Cycle now, const Request& request) {
+  log_.at_cycle(now, Reason::kSapUnknown, static_cast<unsigned>(request.dsap), request.sa);
+  return Reply::status(fc::kRs);
 }
 
 Reply DpSlave::refuse_state(Cycle now, const Request& request, int sap) {
@@ -114,6 +121,17 @@ Reply DpSlave::c1(Cycle now, const Request& request) {
     return Reply::status(fc::kRs);
   }
   return msac_->c1.handle(now, request);
+}
+
+Reply DpSlave::alarm_sap(Cycle now, const Request& request) {
+  if (msac_ == nullptr || !msac_->alarms.on()) return unknown_sap(now, request);
+  if (state_ != DpState::kDataExch) return refuse_state(now, request, sap::kAlarm);
+  if (held_by_other(request)) return refuse_master(now, request, sap::kAlarm);
+  if (!prm_.dpv1) {
+    log_.at_cycle(now, AlarmReason::kAlarmSapOff, request.sa);
+    return Reply::status(fc::kRs);
+  }
+  return msac_->alarms.handle(now, request);
 }
 
 Reply DpSlave::c2_initiate(Cycle now, const Request& request) {

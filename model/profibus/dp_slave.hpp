@@ -16,8 +16,8 @@
 namespace dsdpv1::profibus {
 
 namespace sap {
-constexpr int kC1 = 51, kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59,
-              kSlaveDiag = 60, kSetPrm = 61, kCheckCfg = 62;
+constexpr int kAlarm = 50, kC1 = 51, kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58,
+              kGetCfg = 59, kSlaveDiag = 60, kSetPrm = 61, kCheckCfg = 62;
 }
 
 constexpr std::uint8_t kNoMaster = 255;
@@ -101,8 +101,10 @@ class DpSlave {
   Reply dispatch(Cycle now, const Request& request);
   void unanswered(Cycle now, const Request& request);
   Reply c1(Cycle now, const Request& request);
+  Reply alarm_sap(Cycle now, const Request& request);
   Reply c2_initiate(Cycle now, const Request& request);
   bool c2_channel(int dsap) const;
+  Reply unknown_sap(Cycle now, const Request& request);
   Reply refuse_state(Cycle now, const Request& request, int sap);
   Reply refuse_master(Cycle now, const Request& request, int sap);
   bool held_by_other(const Request& request) const { return master_ != kNoMaster && master_ != request.sa; }

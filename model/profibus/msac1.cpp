@@ -15,6 +15,7 @@ Reply Msac1::handle(Cycle now, const Request& request) {
     log_.at_cycle(now, Reason::kAcyclicOpen, kSap, function);
     return Reply::status(fc::kRr);
   }
+  if (function == dpv1::kAlarmAck && alarms_.on()) return alarm_ack(now, request);
   if (const std::uint8_t fault = request_fault(request.data, request.size, {capacity_, false}); fault != 0) {
     log_.at_cycle(now, Reason::kAcyclicRequestRefused, kSap, function, fault);
     negative_answer(function, fault, answer_);
@@ -28,8 +29,14 @@ Reply Msac1::handle(Cycle now, const Request& request) {
   return Reply::sc();
 }
 
+Reply Msac1::alarm_ack(Cycle now, const Request& request) {
+  if (!alarms_.acknowledge(now, request, answer_)) return Reply::status(fc::kRr);
+  state_ = State::kAnswered;
+  return Reply::sc();
+}
+
 Reply Msac1::poll(Cycle now) {
-  if (state_ != State::kAnswered) return Reply::sc();
+  if (state_ != State::kAnswered || waits_for_user()) return Reply::sc();
   log_.at_cycle(now, Reason::kC1Answer, answer_.bytes[0], static_cast<unsigned>(answer_.size));
   state_ = State::kIdle;
   return Reply::with_data(fc::kDl, answer_.bytes.data(), answer_.size);

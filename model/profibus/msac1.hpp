@@ -1,12 +1,13 @@
 #pragma once
-// MSAC_C1: DS_Read and DS_Write of the parameterising master on SAP 51 (7.2; rulings V1, V8, V9, V14).
-#include "model/profibus/acyclic.hpp"
+// MSAC_C1: DS_Read and DS_Write of the parameterising master on SAP 51 (7.2; rulings V1, V8, V9, V14), and Alarm_Ack.
+#include "model/profibus/alarms.hpp"
 
 namespace dsdpv1::profibus {
 
 class Msac1 {
  public:
-  Msac1(EventLog& log, int capacity, AcyclicMail& mail) : log_(log), capacity_(capacity), mail_(mail) {}
+  Msac1(EventLog& log, int capacity, AcyclicMail& mail, Alarms& alarms)
+      : log_(log), capacity_(capacity), mail_(mail), alarms_(alarms) {}
 
   void reset() { state_ = State::kIdle; }
   /// SAP 51: a request or a poll of the master entitled to it. The reply's data are valid until the next call.
@@ -18,8 +19,8 @@ class Msac1 {
 
   template <class Archive>
   void store(Archive& archive) {
-    auto& [log, capacity, mail, state, reply] = *this;
-    archive.given(log, capacity, mail);
+    auto& [log, capacity, mail, alarms, state, reply] = *this;
+    archive.given(log, capacity, mail, alarms);
     archive.within(State::kIdle, State::kAnswered, state);
     archive(reply);
   }
@@ -28,10 +29,13 @@ class Msac1 {
   enum class State : std::uint8_t { kIdle, kOpen, kAnswered };
 
   Reply poll(Cycle now);
+  Reply alarm_ack(Cycle now, const Request& request);
+  bool waits_for_user() const { return answer_.bytes[0] == dpv1::kAlarmAck && alarms_.with_user(); }
 
   EventLog& log_;
   const int capacity_;  ///< data bytes of a request
   AcyclicMail& mail_;
+  Alarms& alarms_;
   State state_ = State::kIdle;
   Pdu answer_;
 };

@@ -158,6 +158,7 @@ Take UserSide::parameters(Cycle now, const Request& request) {
   if (!check_user_length(now, user_size)) return Take::kRefused;
   mail_.prm.block.assign(request.data + kStandardSize, user_size);
   mail_.prm.due.set(now);
+  msac_.alarms.ask(request.data + kStandardSize, user_size);
   if (config().prm_mode != Judging::kUser) return Take::kAccepted;
   log_.at_cycle(now, Reason::kPrmJudged, request.sa, static_cast<unsigned>(user_size));
   return Take::kAwaited;

@@ -16,6 +16,7 @@ void UserSide::forget() {
   inputs_.reset(0);
   diagnosis_.reset();
   mail_ = UserMail();
+  msac_.alarms.reset();
   msac_.c1.reset();
   msac_.c2.reset();
   data_exchanges_ = outputs_replaced_ = 0;
@@ -46,6 +47,7 @@ void UserSide::entered(Cycle now, DpState from, DpState to) {
   outputs_.release();
   clear_outputs(now);
   msac_.c1.close(now);
+  msac_.alarms.close(now);
 }
 
 void UserSide::c2_answer(Cycle now, const std::uint8_t* pdu, int size) {

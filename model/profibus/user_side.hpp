@@ -19,6 +19,7 @@ struct Capacities {
   int cfg = kMaxCfg;           ///< Check_Cfg; more is answered with RR
   int io = kMaxIo;             ///< inputs, and outputs
   int acyclic = kMaxAcyclic;   ///< data of a C1 or C2 request or answer
+  int alarms = 0;              ///< open at once, at most 32; 0: the chip has none
 };
 
 class UserSide final : public SlaveStore {
@@ -28,7 +29,9 @@ class UserSide final : public SlaveStore {
       : log_(log),
         capacities_(capacities),
         station_(station),
-        msac_{{log, capacities.acyclic, mail_.c1}, {log, capacities.acyclic, mail_.c2}} {}
+        msac_{{log, capacities.alarms},
+              {log, capacities.acyclic, mail_.c1, msac_.alarms},
+              {log, capacities.acyclic, mail_.c2}} {}
   UserSide(const UserSide&) = delete;  // its parts refer to each other
   UserSide& operator=(const UserSide&) = delete;
 
@@ -51,6 +54,9 @@ class UserSide final : public SlaveStore {
   /// Returns false, with an event, if refused (D10).
   bool new_inputs(Cycle now, const std::uint8_t* bytes, int size);
   bool new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size);
+  /// A diagnosis whose first block is an alarm: it is open until the master acknowledges it, as msac().alarms.mail()
+  /// tells. Returns false, with an event, if refused (docs/alarms.md).
+  bool new_alarm(Cycle now, const std::uint8_t* bytes, int size);
   /// The answer to a C1 (C2) request, at most 4 + Capacities::acyclic bytes; refused with an event if it does not fit
   /// the request (V14).
   void c1_answer(Cycle now, const std::uint8_t* pdu, int size) { msac_.c1.answer(now, pdu, size); }
@@ -70,7 +76,7 @@ class UserSide final : public SlaveStore {
     archive.given(log, capacities, station);
     archive(mail, slave, cfg, outputs, inputs);
     slave.store_faults(archive);
-    archive(diagnosis, msac.c1, msac.c2, data_exchanges, outputs_replaced);
+    archive(diagnosis, msac.alarms, msac.c1, msac.c2, data_exchanges, outputs_replaced);
   }
 
  private:
@@ -95,6 +101,7 @@ class UserSide final : public SlaveStore {
   void hand_outputs(Cycle now);
   void sync(Cycle now, Gate gate);
   void freeze(Gate gate);
+  bool alarm_unread(Cycle now, int size);
   bool check_user_length(Cycle now, int user_size);
   bool check_cfg_bytes(Cycle now, const Request& request, const CfgLengths& lengths);
   bool check_cfg_equal(Cycle now, const Request& request, const Block<kMaxCfg>& expected);

@@ -28,6 +28,18 @@ std::vector<std::string> module_names(const bus::Gsd& gsd) {
   return names;
 }
 
+bus::AlarmParameters alarm_parameters(const scenario::MasterAlarms& asked) {
+  const auto bit = [](bool set, int position) { return set ? 1U << position : 0U; };
+  bus::AlarmParameters alarms;
+  alarms.enabled =
+      static_cast<std::uint8_t>(bit(asked.pull_plug, 7) | bit(asked.process, 6) | bit(asked.diagnostic, 5) |
+                                bit(asked.manufacturer, 4) | bit(asked.status, 3) | bit(asked.update, 2));
+  alarms.mode = asked.mode;
+  alarms.extra_sap = asked.extra_sap;
+  alarms.acknowledged = asked.acknowledge;
+  return alarms;
+}
+
 std::uint8_t limited(int value, int most) { return static_cast<std::uint8_t>(std::clamp(value, 0, most)); }
 
 /// The station's values from the GSD, before those of the scenario.
@@ -177,17 +189,35 @@ bus::SlaveParameters Setup::parameters(const scenario::MasterSlave& slave) {
   parameters.freeze = slave.freeze;
   parameters.fail_safe = slave.fail_safe;
   if (slave.dpv1) take_dpv1(parameters, slave, there);
+  if (slave.alarms) take_alarms(parameters, slave, there);
   return parameters;
+}
+
+const scenario::Name& Setup::gsd_path(const scenario::MasterSlave& slave, const scenario::Slave* there) {
+  return slave.gsd.empty() && there != nullptr ? there->gsd : slave.gsd;
 }
 
 void Setup::take_dpv1(bus::SlaveParameters& parameters, const scenario::MasterSlave& slave,
                       const scenario::Slave* there) {
-  const scenario::Name& path = slave.gsd.empty() && there != nullptr ? there->gsd : slave.gsd;
+  const scenario::Name& path = gsd_path(slave, there);
   if (path.empty()) {
     parameters.dpv1 = true;
     return;
   }
   if (const std::string why = bus::enable_dpv1(gsd(path), parameters); !why.empty()) fail(slave.line, "dpv1: " + why);
+}
+
+void Setup::take_alarms(bus::SlaveParameters& parameters, const scenario::MasterSlave& slave,
+                        const scenario::Slave* there) {
+  if (!slave.dpv1) fail(slave.alarms->line, "alarms: they need dpv1: true");
+  const bus::AlarmParameters alarms = alarm_parameters(*slave.alarms);
+  const scenario::Name& path = gsd_path(slave, there);
+  if (path.empty()) {
+    parameters.alarms = alarms;
+    return;
+  }
+  if (const std::string why = bus::enable_alarms(gsd(path), alarms, parameters); !why.empty())
+    fail(slave.alarms->line, "alarms: " + why);
 }
 
 Watchdog watchdog_factors(bus::Tick time) {

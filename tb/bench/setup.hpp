@@ -33,6 +33,8 @@ class Setup {
   void take_init(bus::SlaveParameters& parameters, const scenario::Slave& slave);
   void take_lengths(bus::SlaveParameters& parameters, int line) const;
   void take_dpv1(bus::SlaveParameters& parameters, const scenario::MasterSlave& slave, const scenario::Slave* there);
+  void take_alarms(bus::SlaveParameters& parameters, const scenario::MasterSlave& slave, const scenario::Slave* there);
+  static const scenario::Name& gsd_path(const scenario::MasterSlave& slave, const scenario::Slave* there);
 
   const scenario::Scenario& scenario_;
   std::map<std::string, bus::Gsd> files_;

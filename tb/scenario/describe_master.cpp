@@ -34,6 +34,25 @@ const ObjectOf<BusParameters>& bus_keys() {
 
 namespace {
 
+const ObjectOf<MasterAlarms>& master_alarm_keys() {
+  static const ObjectOf<MasterAlarms> keys = [] {
+    using A = MasterAlarms;
+    ObjectOf<A> o("master alarms", "Alarms of DPV1 that the master enables in Set_Prm (DPV1_Status_2 and 3).");
+    o.boolean("pull_plug", &A::pull_plug, "Pull and plug alarms.");
+    o.boolean("process", &A::process, "Process alarms.");
+    o.boolean("diagnostic", &A::diagnostic, "Diagnostic alarms.");
+    o.boolean("manufacturer", &A::manufacturer, "Alarms of the manufacturer's types 32 to 126.");
+    o.boolean("status", &A::status, "Status alarms.");
+    o.boolean("update", &A::update, "Update alarms.");
+    o.integer("mode", &A::mode, {0, 7}, "",
+              "Alarm_Mode: 0: one alarm of each type at a time; 1 to 7: 2, 4, 8, 12, 16, 24, 32 in all.");
+    o.boolean("extra_sap", &A::extra_sap, "true: acknowledges at SAP 50, false: at SAP 51, after reads and writes.");
+    o.boolean("acknowledge", &A::acknowledge, "false: never acknowledges, to test the slave's limits.");
+    return o;
+  }();
+  return keys;
+}
+
 const ObjectOf<MasterSlave>& master_slave_keys() {
   static const ObjectOf<MasterSlave> keys = [] {
     using S = MasterSlave;
@@ -55,6 +74,8 @@ const ObjectOf<MasterSlave>& master_slave_keys() {
     o.boolean("freeze", &S::freeze, "Freeze_Req of Set_Prm.");
     o.boolean("fail_safe", &S::fail_safe, "Fail_Safe of the first DPV1 byte of Set_Prm.");
     o.boolean("dpv1", &S::dpv1, "DPV1_Enable of the first DPV1 byte of Set_Prm.");
+    o.object("alarms", &S::alarms, master_alarm_keys(),
+             "Alarms that the master enables and acknowledges; needs `dpv1`.");
     o.bytes_or("outputs", &S::outputs, {0, 244},
                std::vector<WordFor<bus::OutputPattern>>{
                    {bus::OutputPattern::kCount, "count", "each byte is the number of the data exchange"},

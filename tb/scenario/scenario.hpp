@@ -38,6 +38,14 @@ struct BusParameters {
   int line = 0;
 };
 
+/// Alarms that a master enables in Set_Prm.
+struct MasterAlarms {
+  bool pull_plug = false, process = false, diagnostic = false, manufacturer = false, status = false, update = false;
+  int mode = 0;
+  bool extra_sap = false, acknowledge = true;
+  int line = 0;
+};
+
 /// A slave as a master sees it.
 struct MasterSlave {
   std::optional<int> address;  ///< absent: that of the scenario's slave
@@ -49,6 +57,7 @@ struct MasterSlave {
   int min_tsdr = 11;
   bus::Bytes groups;  ///< group numbers 1..8
   bool sync = false, freeze = false, fail_safe = false, dpv1 = false;
+  std::optional<MasterAlarms> alarms;
   std::optional<int> ident;
   bus::Bytes outputs;
   bus::OutputPattern pattern = bus::OutputPattern::kFixed;

@@ -95,6 +95,7 @@ class FakeDpSlave {
   bool cfg_fault = false;           ///< refuses the next configuration
   std::uint8_t extra_status_2 = 0;  ///< Stat_Diag
   std::uint16_t ident = 0x0B9A;
+  Bytes blocks;                ///< of Slave_Diag, after the standard bytes
   bool high_priority = false;  ///< until Slave_Diag
   int silent_for = 0;          ///< so many requests are not answered
   int broken_for = 0;          ///< so many answers have a wrong FCS
@@ -170,11 +171,14 @@ class FakeDpSlave {
     const unsigned status_1 = (exchanging ? 0U : 0x02U) | (cfg_fault_ ? 0x04U : 0U);
     const unsigned status_2 = 0x04U | (waiting ? 0x01U : 0U) | extra_status_2;
     if (state == State::kJudging && --judge_requests <= 0) state = State::kWaitCfg;
-    return answer(fc::kDl,
-                  {static_cast<std::uint8_t>(status_1), static_cast<std::uint8_t>(status_2), 0,
-                   static_cast<std::uint8_t>(waiting ? 255 : request.sa), static_cast<std::uint8_t>(ident >> 8),
-                   static_cast<std::uint8_t>(ident & 0xFF)},
-                  request);
+    Bytes data = {static_cast<std::uint8_t>(status_1),
+                  static_cast<std::uint8_t>(status_2),
+                  0,
+                  static_cast<std::uint8_t>(waiting ? 255 : request.sa),
+                  static_cast<std::uint8_t>(ident >> 8),
+                  static_cast<std::uint8_t>(ident & 0xFF)};
+    data.insert(data.end(), blocks.begin(), blocks.end());
+    return answer(fc::kDl, data, request);
   }
 
   Telegram set_prm(const Telegram& request) {

@@ -3,104 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-#include <vector>
-
-#include "model/profibus/station.hpp"
-#include "tests/core/event_recorder.hpp"
+#include "tests/core/user_side_bench.hpp"
 
 namespace dsdpv1::profibus {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
-
-constexpr int kBit = 4;  // 12 Mbit/s
-constexpr std::uint8_t kSlave = 5, kMaster = 1, kSrd = 0x4D, kSdn = 0x46;
-constexpr std::uint16_t kIdent = 0x1234;
-
-class UserSideTest : public testing::Test {
- protected:
-  static SlaveConfig initialisation() {
-    SlaveConfig config;
-    config.address = kSlave;
-    config.ident = kIdent;
-    config.sync_supported = config.address_change = config.dpv1 = true;
-    config.max_input = config.max_output = 8;
-    config.max_prm = 6;
-    config.max_cfg = 4;
-    config.prm_mode = config.cfg_mode = Judging::kUser;
-    const Bytes cfg = {0x11, 0x21};  // 2 inputs, 2 outputs
-    config.cfg.assign(cfg.data(), static_cast<int>(cfg.size()));
-    return config;
-  }
-
-  void SetUp() override {
-    user.reset();
-    user.initialise(1, initialisation());
-  }
-
-  void run(Cycle cycles) {
-    for (const Cycle end = now + cycles; now < end;) station.eval(++now);
-  }
-  void level(bool high, int bits = 1) {
-    station.set_rxd(now * kTicksPerCycle, high);
-    run(Cycle{bits} * kBit);
-  }
-  void character(unsigned value) {
-    level(false);
-    bool odd = false;
-    for (int bit = 0; bit < 8; ++bit) {
-      level((value >> bit & 1) != 0);
-      odd ^= (value >> bit & 1) != 0;
-    }
-    level(odd);
-    level(true);
-  }
-  /// An SD2 telegram after T_SYN, and the time for its answer.
-  void send(const Bytes& body) {
-    level(true, 40);
-    const auto le = static_cast<std::uint8_t>(body.size());
-    for (const unsigned head : {0x68U, unsigned{le}, unsigned{le}, 0x68U}) character(head);
-    for (const unsigned byte : body) character(byte);
-    character(std::accumulate(body.begin(), body.end(), 0U) & 0xFF);
-    character(0x16);
-    sent = now;
-    level(true, 400);
-  }
-  void service(int dsap, const Bytes& data, std::uint8_t fc = kSrd, int ssap = 62) {
-    const bool broadcast = fc == kSdn;
-    Bytes body = {static_cast<std::uint8_t>((broadcast ? 127 : kSlave) | 0x80), kMaster | 0x80, fc,
-                  static_cast<std::uint8_t>(dsap), static_cast<std::uint8_t>(ssap)};
-    body.insert(body.end(), data.begin(), data.end());
-    send(body);
-  }
-  void find_baud() { service(60, {}); }
-  void set_prm(const Bytes& user_bytes) {
-    Bytes data = {0xA0, 0, 0, 11, kIdent >> 8, kIdent & 0xFF, 0};  // Lock_Req, Sync_Req
-    data.insert(data.end(), user_bytes.begin(), user_bytes.end());
-    service(61, data);
-  }
-  void to_exchange() {
-    find_baud();
-    set_prm({0x80, 0, 0});
-    user.mail().prm.due.clear();
-    user.prm_verdict(now, true);
-    service(62, {0x11, 0x21});
-    user.mail().cfg.due.clear();
-    user.cfg_verdict(now, true);
-    ASSERT_EQ(user.mail().state.state, DpState::kDataExch);
-  }
-  /// Due since shortly after the end of the last telegram: at its decision.
-  void expect_told(const Due& due) const {
-    EXPECT_GE(due.since, sent);
-    EXPECT_LE(due.since, sent + 4 * kBit);
-  }
-
-  core_test::EventRecorder recorder;
-  UserSide user{recorder.log, {6, 4, 8, 10}, station};
-  Station station{recorder.log, {}, user, &user.msac()};
-  Cycle now = 1, sent = 0;
-};
 
 TEST_F(UserSideTest, HearsThatTheBaudRateIsFoundAndLostWithTheCycle) {
   EXPECT_EQ(user.mail().baud.index, kBaudUnknown);
