@@ -38,16 +38,18 @@ module host_reply (
   output logic        crc_first_o,
   input  logic [15:0] crc_i
 );
-  localparam logic [3:0] OFF = 4'd0;
-  localparam logic [3:0] FIRST = 4'd1;
-  localparam logic [3:0] SECOND = 4'd2;
-  localparam logic [3:0] ADDRESS_HIGH = 4'd3;
-  localparam logic [3:0] ADDRESS_LOW = 4'd4;
-  localparam logic [3:0] COUNT = 4'd5;
-  localparam logic [3:0] LENGTH = 4'd6;  // SPI's read and write: the outputs' length byte
-  localparam logic [3:0] DATA = 4'd7;
-  localparam logic [3:0] CRC_HIGH = 4'd8;
-  localparam logic [3:0] CRC_LOW = 4'd9;
+  typedef enum logic [3:0] {
+    OFF = 4'd0,
+    FIRST = 4'd1,
+    SECOND = 4'd2,
+    ADDRESS_HIGH = 4'd3,
+    ADDRESS_LOW = 4'd4,
+    COUNT = 4'd5,
+    LENGTH = 4'd6,  // SPI's read and write: the outputs' length byte
+    DATA = 4'd7,
+    CRC_HIGH = 4'd8,
+    CRC_LOW = 4'd9
+  } state_t;
 
   // ---- the telegram that is replied to, from its judgement on
   logic [1:0] ask_q, ask;

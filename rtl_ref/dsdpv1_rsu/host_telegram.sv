@@ -32,15 +32,17 @@ module host_telegram (
   output logic        alive_o,      // SPI: its frame has not ended before this edge
   output telegram_t   telegram_o
 );
-  localparam logic [3:0] OFF = 4'd0;  // nothing is heard until a frame or, after a silence, a telegram begins
-  localparam logic [3:0] START = 4'd1;
-  localparam logic [3:0] FUNCTION = 4'd2;
-  localparam logic [3:0] ADDRESS_HIGH = 4'd3;
-  localparam logic [3:0] ADDRESS_LOW = 4'd4;
-  localparam logic [3:0] LENGTH = 4'd5;
-  localparam logic [3:0] DATA = 4'd6;
-  localparam logic [3:0] CRC_HIGH = 4'd7;
-  localparam logic [3:0] CRC_LOW = 4'd8;
+  typedef enum logic [3:0] {
+    OFF = 4'd0,  // nothing is heard until a frame or, after a silence, a telegram begins
+    START = 4'd1,
+    FUNCTION = 4'd2,
+    ADDRESS_HIGH = 4'd3,
+    ADDRESS_LOW = 4'd4,
+    LENGTH = 4'd5,
+    DATA = 4'd6,
+    CRC_HIGH = 4'd7,
+    CRC_LOW = 4'd8
+  } field_t;
 
   logic [3:0] field_q, field_d, after_start;
   logic [1:0] ask_q, ask, to;

@@ -80,9 +80,11 @@ module host_uart (
   synchroniser #(.POWER_ON(1'b1)) u_rxd (.clk_i(clk_i), .d_i(rxd_i), .q_o(rxd));
 
   // ---- receiver
-  localparam logic [1:0] IDLE = 2'd0;
-  localparam logic [1:0] RECEIVING = 2'd1;
-  localparam logic [1:0] BREAK = 2'd2;
+  typedef enum logic [1:0] {
+    IDLE = 2'd0,
+    RECEIVING = 2'd1,
+    BREAK = 2'd2
+  } state_t;
   logic [1:0] state_q, state_d;
   logic [12:0] timer_q;
   logic [3:0] sample_q;  // of the next sample: 0 start bit, 1..8 data, 9 parity, 10 stop

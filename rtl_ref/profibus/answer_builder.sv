@@ -30,20 +30,22 @@ module answer_builder (
   output logic [7:0]  waddr_o,
   output logic [7:0]  wdata_o
 );
-  localparam logic [3:0] IDLE = 4'd0;
-  localparam logic [3:0] SD = 4'd1;
-  localparam logic [3:0] LE = 4'd2;
-  localparam logic [3:0] LER = 4'd3;
-  localparam logic [3:0] SD2 = 4'd4;
-  localparam logic [3:0] DA = 4'd5;
-  localparam logic [3:0] SA = 4'd6;
-  localparam logic [3:0] FC = 4'd7;
-  localparam logic [3:0] DSAP = 4'd8;
-  localparam logic [3:0] SSAP = 4'd9;
-  localparam logic [3:0] DIAG = 4'd10;
-  localparam logic [3:0] DATA = 4'd11;
-  localparam logic [3:0] FCS = 4'd12;
-  localparam logic [3:0] ED = 4'd13;
+  typedef enum logic [3:0] {
+    IDLE = 4'd0,
+    SD = 4'd1,
+    LE = 4'd2,
+    LER = 4'd3,
+    SD2 = 4'd4,
+    DA = 4'd5,
+    SA = 4'd6,
+    FC = 4'd7,
+    DSAP = 4'd8,
+    SSAP = 4'd9,
+    DIAG = 4'd10,
+    DATA = 4'd11,
+    FCS = 4'd12,
+    ED = 4'd13
+  } state_t;
 
   logic [3:0] state_q, state_d, after_header, after_ssap;
   logic [2:0] kind_q, source_q;
@@ -122,7 +124,7 @@ module answer_builder (
         value = 8'h16;
         state_d = IDLE;
       end
-      default: ;
+      default: state_d = IDLE;  // IDLE itself, and no such state
     endcase
   end
 

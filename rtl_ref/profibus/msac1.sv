@@ -34,9 +34,11 @@ module msac1 (
   output logic [31:0] reply_head_o,   // these four bytes, the first lowest
   output logic [7:0]  reply_length_o
 );
-  localparam logic [1:0] IDLE = 2'd0;
-  localparam logic [1:0] OPEN = 2'd1;
-  localparam logic [1:0] ANSWERED = 2'd2;
+  typedef enum logic [1:0] {
+    IDLE = 2'd0,
+    OPEN = 2'd1,
+    ANSWERED = 2'd2
+  } state_t;
 
   logic [1:0] state_q, state_b, state_d, code_q;
   logic mail_q, taken_q, served, asks, polls;

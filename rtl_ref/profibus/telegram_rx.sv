@@ -36,20 +36,24 @@ module telegram_rx (
   output logic [7:0]  data_index_o,
   output logic [7:0]  data_o
 );
-  localparam logic [1:0] NONE = 2'd0;
-  localparam logic [1:0] RECEIVING = 2'd1;
-  localparam logic [1:0] COMPLETE = 2'd2;
+  typedef enum logic [1:0] {
+    NONE = 2'd0,
+    RECEIVING = 2'd1,
+    COMPLETE = 2'd2
+  } state_t;
 
   // Fields in the order of a telegram
-  localparam logic [3:0] LE = 4'd0;
-  localparam logic [3:0] LER = 4'd1;
-  localparam logic [3:0] SD2 = 4'd2;
-  localparam logic [3:0] DA = 4'd3;
-  localparam logic [3:0] SA = 4'd4;
-  localparam logic [3:0] FC = 4'd5;
-  localparam logic [3:0] DATA = 4'd6;
-  localparam logic [3:0] FCS = 4'd7;
-  localparam logic [3:0] ED = 4'd8;
+  typedef enum logic [3:0] {
+    LE = 4'd0,
+    LER = 4'd1,
+    SD2 = 4'd2,
+    DA = 4'd3,
+    SA = 4'd4,
+    FC = 4'd5,
+    DATA = 4'd6,
+    FCS = 4'd7,
+    ED = 4'd8
+  } field_t;
 
   logic [1:0] state_q;
   logic [3:0] field_q;

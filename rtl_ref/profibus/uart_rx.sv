@@ -27,9 +27,11 @@ module uart_rx (
   output logic [5:0]  clock_bits_o,    // bit times since (end of the last character - 2 - lead), as of the next edge
   output logic [12:0] clock_phase_o    // cycles left of the running one, less one
 );
-  localparam logic [1:0] IDLE = 2'd0;
-  localparam logic [1:0] RECEIVING = 2'd1;
-  localparam logic [1:0] BREAK = 2'd2;
+  typedef enum logic [1:0] {
+    IDLE = 2'd0,
+    RECEIVING = 2'd1,
+    BREAK = 2'd2
+  } state_t;
 
   logic [1:0] state_q, state_d;
   logic [12:0] timer_q, timer_d;

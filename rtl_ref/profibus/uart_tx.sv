@@ -23,11 +23,13 @@ module uart_tx (
   output logic        pbtxd_o,
   output logic        pbrts_o
 );
-  localparam logic [2:0] IDLE = 3'd0;
-  localparam logic [2:0] WAIT = 3'd1;
-  localparam logic [2:0] LEAD = 3'd2;
-  localparam logic [2:0] SEND = 3'd3;
-  localparam logic [2:0] TRAIL = 3'd4;
+  typedef enum logic [2:0] {
+    IDLE = 3'd0,
+    WAIT = 3'd1,
+    LEAD = 3'd2,
+    SEND = 3'd3,
+    TRAIL = 3'd4
+  } state_t;
 
   logic [2:0] state_q;
   logic fresh_q;  // the edge after the decision
