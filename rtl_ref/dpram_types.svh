@@ -17,7 +17,6 @@
 `define CONNECT_CRC_COUNTS
 `define AND_CRC_COUNTS
 `endif
-/* verilator lint_off UNUSED */
 
 // The items of an access, in the order of 9.2.
 localparam integer ITEMS = 20;
@@ -90,5 +89,4 @@ function automatic logic is_user_block(input item_t item);
   is_user_block = item == ITEM_INIT || item == ITEM_INPUTS || item == ITEM_DIAG || item == ITEM_C1_ANSWER || item == ITEM_C2_ANSWER;
 endfunction
 
-/* verilator lint_on UNUSED */
 `endif

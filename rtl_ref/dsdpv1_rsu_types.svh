@@ -6,7 +6,6 @@
 `define DSDPV1_RSU_TYPES_SVH
 `define DPRAM_CRC_MAY_NOT_COUNT  // SP15; therefore this header is the first of dsdpv1_rsu/files.txt
 `include "dsdpv1_types.svh"
-/* verilator lint_off UNUSED */
 
 // MODE (R11); 00 and 11 are parallel.
 localparam logic [1:0] MODE_SPI = 2'b01;
@@ -62,5 +61,4 @@ typedef struct packed {
   logic       owns;        // B014.1 is set or cleared
 } judgement_t;
 
-/* verilator lint_on UNUSED */
 `endif

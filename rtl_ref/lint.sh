@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0 OR MIT
 # Lints the reference RTL, DSDPV1 and DSDPV1-RSU, with all three tools in all its builds (normal, with faults, with limits of run time, with both), compares
 # the numbers of the faults in the sources with the lists of faults, and looks for names that do not belong where they stand: a chip's, its
-# addresses' and registers' in profibus/, pins of a port in dpram/. Silent when all is well.
+# addresses' and registers' in profibus/, pins of a port in dpram/. Also each waiver of a warning: whether it has a reason and is needed (waivers.py).
+# Silent when all is well.
 set -eu
 cd "$(dirname "$0")"
 # quiet COMMAND...: fails also when the command says anything
@@ -30,6 +31,8 @@ for define in "" -DSINGLE_FAULTS -DDSDPV1_RUN_TIME_LIMITS "-DSINGLE_FAULTS -DDSD
     quiet yosys -q -e '.*' -p "read_verilog -sv $define -I. -I../registers $(echo $files); hierarchy -check -top $top; proc; check -assert"
   done
 done
+
+python3 -B waivers.py
 
 # numbers LIST FILE...: those of FAULT(n) in the files against those of the list
 numbers() {

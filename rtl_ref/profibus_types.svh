@@ -4,7 +4,6 @@
 // side. No address, size or register of a chip. Words and numbers are those of docs/microarchitecture.md.
 `ifndef PROFIBUS_TYPES_SVH
 `define PROFIBUS_TYPES_SVH
-/* verilator lint_off UNUSED */
 
 // Single faults for the test of the tests: one special build has an input fault_i that activates one of those listed in
 // faults.txt. In every other build `FAULT(n) is 0 and the port does not exist.
@@ -87,7 +86,6 @@ localparam logic [2:0] ANS_NONE = 3'd0;
 localparam logic [2:0] ANS_SC = 3'd1;
 localparam logic [2:0] ANS_SD1 = 3'd2;
 localparam logic [2:0] ANS_SD2 = 3'd3;
-localparam logic [2:0] ANS_REPEAT = 3'd4;
 
 // Function codes of answers.
 localparam logic [7:0] FC_OK = 8'h00;
@@ -355,5 +353,4 @@ typedef struct packed {
   logic [7:0]    data;  // of the mail that is being taken
 } user_hears_t;
 
-/* verilator lint_on UNUSED */
 `endif

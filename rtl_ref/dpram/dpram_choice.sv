@@ -7,9 +7,7 @@ module dpram_choice (
   `FAULT_PORT
   input  logic [ITEMS-1:0] candidates_i,  // due and after the item done last; the first lowest
   input  logic [6:0]  command_2_i,        // B011 as it was read, without bit 7
-  /* verilator lint_off UNUSEDSIGNAL */
   input  dp_mail_t    mail_i,             // the first bytes of each item of mail; candidates_i tells which ones wait
-  /* verilator lint_on UNUSEDSIGNAL */
   input  logic [7:0]  c1_function_i,
   input  logic [7:0]  c2_function_i,
   input  logic [15:0] count_i,            // B008, B009

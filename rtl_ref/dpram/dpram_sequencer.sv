@@ -23,9 +23,7 @@ module dpram_sequencer (
   input  logic [7:0]  rdata_i,
   // station
   output user_commands_t commands_o,
-  /* verilator lint_off UNUSEDSIGNAL */
   input  user_hears_t hears_i           // its address and Global_Control are not reported to the user
-  /* verilator lint_on UNUSEDSIGNAL */
 );
   seq_t state_q, state_d;
   item_t item_q, pick;

@@ -60,9 +60,9 @@ module dsdpv1 #(
   end
   assign rst_n = release_q[1];
 
-  /* verilator lint_off UNUSED */  // the upper bits of most
+  /* verilator lint_off UNUSEDSIGNAL */  // the upper bits of most
   logic [31:0] access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap, fcb_rule;
-  /* verilator lint_on UNUSED */
+  /* verilator lint_on UNUSEDSIGNAL */
   logic [31:0] search_window_ms, search_window_bits, baud_control_ms;
   assign access_interval = `LIMIT(ACCESS_INTERVAL, access_interval_i);
   assign ready_cycles = `LIMIT(READY_CYCLES, ready_cycles_i);

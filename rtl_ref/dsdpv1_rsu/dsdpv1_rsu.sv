@@ -90,10 +90,10 @@ module dsdpv1_rsu #(
   end
   assign rst_n = release_q[1];
 
-  /* verilator lint_off UNUSED */  // the upper bits of most
+  /* verilator lint_off UNUSEDSIGNAL */  // the upper bits of most
   logic [31:0] access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap, fcb_rule;
   logic [31:0] spi_reply_gap, spi_write_gap, serial_block_crc, u_timer, uart_min_tsdr, uart_cfg_length;
-  /* verilator lint_on UNUSED */
+  /* verilator lint_on UNUSEDSIGNAL */
   logic [31:0] search_window_ms, search_window_bits, baud_control_ms;
   assign access_interval = `LIMIT(ACCESS_INTERVAL, access_interval_i);
   assign ready_cycles = `LIMIT(READY_CYCLES, ready_cycles_i);
@@ -155,7 +155,7 @@ module dsdpv1_rsu #(
 
   // ---- the serial ports
   logic host_holds, host_owns;
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // for external views of the DPRAM alone
   logic [7:0] b014;  // for external views of the DPRAM: with SPI a register instead of the cell (5.4)
   /* verilator lint_on UNUSEDSIGNAL */
   assign b014 = {6'd0, host_owns, spi && chip_owns};

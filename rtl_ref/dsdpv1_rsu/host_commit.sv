@@ -13,7 +13,7 @@ module host_commit (
   input  logic        rst_ni,
   input  logic        spi_i,
   input  logic        start_i,      // a commit is judged at this edge
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // errors and B014 are host_judgement's
   input  telegram_t   telegram_i,
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic        owns_i,

@@ -8,7 +8,7 @@ module host_judgement (
   input  logic       spi_i,
   input  logic       judged_i,    // a telegram, at this edge
   input  logic       replies_i,   // SPI: its frame continues after this edge
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // data of a commit are host_commit's
   input  telegram_t  telegram_i,
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic       owns_i,      // the chip was in an access before this edge

@@ -13,7 +13,7 @@ module host_reply (
   input  logic        spi_i,
   input  logic [1:0]  adr_i,
   // judgement of this edge
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // commits and B014 are others'
   input  judgement_t  judgement_i,
   input  telegram_t   telegram_i,
   /* verilator lint_on UNUSEDSIGNAL */

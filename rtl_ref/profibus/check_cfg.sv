@@ -19,7 +19,7 @@ module check_cfg #(
   input  logic       accept_commit_i,  // a verdict puts the last one sent in use, at this edge
   input  logic [7:0] last_length_i,
   input  logic [7:0] in_use_length_i,
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // ident, address and the like are others'
   input  initialise_t initial_i,       // the initialisation in force: its configuration's length, limits, mode
   /* verilator lint_on UNUSEDSIGNAL */
   output logic [7:0] peek_index_o,     // for sap_buffers: bytes to compare with

@@ -20,7 +20,7 @@ module dp_service (
   input  logic        locked_i,           // No_Add_Chg
   input  logic        fail_safe_i,        // of the parameters in force
   input  logic        urgent_i,           // data exchange is to fetch diagnosis (D9)
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // ident, address and the like are others'
   input  initialise_t initial_i,          // the initialisation in force
   /* verilator lint_on UNUSEDSIGNAL */
   // checks of the telegram

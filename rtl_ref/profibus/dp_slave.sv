@@ -16,7 +16,7 @@ module dp_slave #(
   input  logic        clk_i,
   input  logic        rst_ni,
   // the user's side
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // answers to requests of DPV1 are msac's
   input  user_commands_t commands_i,    // answers to requests of DPV1 are msac's
   /* verilator lint_on UNUSEDSIGNAL */
   output dp_mail_t    mail_o,
@@ -80,7 +80,7 @@ module dp_slave #(
   // ---- the telegram's checks, and the user's diagnosis
   decision_t decision;
   prm_t prm;
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // WD_On is for the proof of S29
   prm_t in_force;
   /* verilator lint_on UNUSEDSIGNAL */
   logic [6:0] wait_sa;

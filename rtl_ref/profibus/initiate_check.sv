@@ -6,7 +6,7 @@
 module initiate_check (
   `FAULT_PORT
   input  logic        clk_i,
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // reserved bytes are ignored
   input  logic [63:0] head_i,       // first bytes of the telegram's data; reserved ones are ignored
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic [7:0]  length_i,

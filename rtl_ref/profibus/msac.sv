@@ -24,7 +24,7 @@ module msac (
   input  logic [7:0]  sa_i,
   input  logic [7:0]  ssap_i,
   input  logic [7:0]  dsap_i,
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // services of the DP slave are dp_service's
   input  service_t    service_i,
   /* verilator lint_on UNUSEDSIGNAL */
   output logic        replies_o,        // it is a service of this block: what follows is the answer
@@ -35,7 +35,7 @@ module msac (
   output acyclic_mail_t c1_o,           // requests for the user
   output acyclic_mail_t c2_o,
   input  answers_t    answers_i,        // the user's answers
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // blocks of the DP slave are sap_buffers'
   input  stage_t      stage_i,
   input  take_t       take_i,
   /* verilator lint_on UNUSEDSIGNAL */

@@ -79,7 +79,7 @@ module msac2 (
   endgenerate
 
   // The RM registry (table 30, 15.3), for waves: master address, SAP, in use, connected, exchanging
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // for waves alone
   logic [17:0] rm_30, rm_2f;
   /* verilator lint_on UNUSEDSIGNAL */
   assign rm_30 = {registry[9:3], SAP_MSAC_30, registry[2:0]};

@@ -18,11 +18,11 @@ module sap_buffers (
   input  logic [7:0] data_index_i,
   input  logic [7:0] data_i,
   // bytes from the user, on their way into spare banks
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // bytes of acyclic answers are msac_buffers'
   input  stage_t     stage_i,
   /* verilator lint_on UNUSEDSIGNAL */
   // commits
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // the other values are dp_slave's
   input  initialise_t init_i,
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic       init_leave_i,
@@ -35,7 +35,7 @@ module sap_buffers (
   input  logic       hold_outputs_i,  // sync holds
   input  logic       hold_inputs_i,   // freeze holds, before the edge
   input  logic       leave_i,
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // the other decisions are dp_slave's
   input  decision_t  decision_i,
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic [7:0] mail_prm_length_i,
@@ -60,7 +60,7 @@ module sap_buffers (
   output logic [7:0] answer_data_o,
   // mail for the user
   output dp_mail_t   mail_o,
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // acyclic mail is msac_buffers'
   input  take_t      take_i,
   /* verilator lint_on UNUSEDSIGNAL */
   output logic [7:0] mail_data_o

@@ -8,11 +8,11 @@ module set_prm #(
 ) (
   `FAULT_PORT
   input  logic        clk_i,
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // reserved bits are ignored
   input  logic [63:0] head_i,          // first bytes of the telegram's data; reserved bits are ignored
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic [7:0]  length_i,
-  /* verilator lint_off UNUSEDSIGNAL */
+  /* verilator lint_off UNUSEDSIGNAL */  // address, configuration and the like are others'
   input  initialise_t initial_i,       // the initialisation in force: ident, what is supported, limit, mode
   /* verilator lint_on UNUSEDSIGNAL */
   input  logic        dpv1_on_i,       // D17
