@@ -9,13 +9,23 @@
 
 namespace dsdpv1::profibus {
 
+/// What the answer to an Initiate offers, and the least Send_Timeout.
+struct C2Offer {
+  std::uint8_t most_data = 0;               ///< Max_Len_Data_Unit
+  std::array<std::uint8_t, 6> features{1};  ///< Features_Supported, Profile_Features, Profile_Ident; 1: read and write
+  int least_timeout = 0;                    ///< in 10 ms
+};
+
 class Msac2 {
  public:
   static constexpr int kManagerSap = 49;
 
-  Msac2(EventLog& log, int capacity, AcyclicMail& mail) : log_(log), capacity_(capacity), mail_(mail) {}
+  Msac2(EventLog& log, int capacity, AcyclicMail& mail)
+      : log_(log), capacity_(capacity), mail_(mail), offer_{static_cast<std::uint8_t>(capacity)} {}
 
   void reset();
+  /// Of the chip, or of its initialisation: it stays over reset(), and is no part of a saved state.
+  void offer(const C2Offer& offer) { offer_ = offer; }
   /// SAP 49: a channel for the sender, or RS. The reply's data are valid until the next call.
   Reply initiate(Cycle now, const Request& request);
   /// SAP 48 or 47: poll, request or abort.
@@ -33,8 +43,8 @@ class Msac2 {
 
   template <class Archive>
   void store(Archive& archive) {
-    auto& [log, capacity, mail, channels, turn, reply] = *this;
-    archive.given(log, capacity, mail);
+    auto& [log, capacity, mail, offered, channels, turn, reply] = *this;
+    archive.given(log, capacity, mail, offered);
     archive(channels);
     archive.within(kNobody, kC2Channels - 1, turn);
     archive.scratch(reply);
@@ -94,6 +104,7 @@ class Msac2 {
   EventLog& log_;
   const int capacity_;  ///< data bytes of a request or answer
   AcyclicMail& mail_;
+  C2Offer offer_;
   std::array<Channel, kC2Channels> channels_;
   int turn_ = kNobody;  ///< the channel whose request is with the user
   Pdu reply_;           ///< replies of the chip itself: immediate answers, initiate answers, aborts

@@ -65,15 +65,15 @@ Reply Msac2::initiate(Cycle now, const Request& request) {
   }
   Channel& channel = channel_at(free);
   channel.pdu.assign(request.data, request.size);
-  const int units = send_timeout(request.data);
+  const int units = std::max(send_timeout(request.data), offer_.least_timeout);
   log_.at_cycle(now, Reason::kC2Initiate, sap_of(free), request.sa, static_cast<unsigned>(units));
   channel.master = request.sa;
   enter(now, free, State::kInitiated);
   channel.timeout = units * kCyclesPerUnit;
   channel.idle_timeout = std::min(2 * units, kLargestTimer) * kCyclesPerUnit;
   channel.watch = now + channel.timeout;
-  put(reply_, {dpv1::kInitiateNow, static_cast<std::uint8_t>(sap_of(free)), request.data[kSendTimeout],
-               request.data[kSendTimeout + 1]});
+  put(reply_, {dpv1::kInitiateNow, static_cast<std::uint8_t>(sap_of(free)), static_cast<std::uint8_t>(units >> 8),
+               static_cast<std::uint8_t>(units & 0xFF)});
   return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
 }
 
@@ -92,7 +92,9 @@ Reply Msac2::connect(Cycle now, int number) {
     log_.at_cycle(now, Reason::kC2Connected, sap_of(number), channel.master);
     enter(now, number, State::kOpen);
     channel.watch = now + channel.idle_timeout;
-    put(reply_, {dpv1::kInitiate, static_cast<std::uint8_t>(capacity_), kReadWrite, 0, 0, 0, 0, 0});
+    const auto& offered = offer_.features;
+    put(reply_,
+        {dpv1::kInitiate, offer_.most_data, offered[0], offered[1], offered[2], offered[3], offered[4], offered[5]});
     exchange_addresses(initiate + kAddAddr, addr_size, reply_);
   }
   return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
