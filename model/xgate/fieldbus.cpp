@@ -19,7 +19,7 @@ void copy(const profibus::Block<N>& block, Frame& answer) {
   answer.data.assign(block.bytes.data(), block.size);
 }
 
-/// Whether an answer of the host has the form that its request asks for (4.4.1, tables 4.7 and 4.8).
+/// An answer of the host has the form of its request (4.4.1, tables 4.7 and 4.8).
 bool answer_right(const Mailbox& box, const profibus::Pdu& request) {
   if (box.size < dpv1::kHeader) return false;
   if ((box.data[0] & dpv1::kNegative) != 0) return box.size == dpv1::kHeader;

@@ -8,8 +8,8 @@ namespace dsdpv1::xgate {
 
 constexpr int kMostData = 255, kFrameHead = 4;
 constexpr std::uint8_t kFrameStart = 0x7E;
-constexpr std::uint8_t kInitialise = 0x04;  ///< the command that has a class of errors of its own (table 4.11)
-/// Of the byte `special`: an error, an alarm was acknowledged, and the segments, which are always 1 of 1.
+constexpr std::uint8_t kInitialise = 0x04;  ///< its errors are a separate class (table 4.11)
+/// Bits of `special`: an error; an alarm was acknowledged; the segments, always 1 of 1.
 constexpr std::uint8_t kErrorFlag = 0x80, kAlarmFlag = 0x40, kOneSegment = 0x11;
 
 struct Frame {

@@ -19,7 +19,7 @@ bool right_size(const Frame& frame) {
 Error read_cfg(const Frame& frame, const Config& config, Initialisation& read) {
   const int size = frame.at(3), input = frame.at(4), output = frame.at(5);
   read.any_cfg = size == 0;
-  if (read.any_cfg) return error::kNone;  // input and output are not looked at (4.2.1)
+  if (read.any_cfg) return error::kNone;  // input and output are ignored (4.2.1)
   if (input > profibus::kMaxIo || output > profibus::kMaxIo) return error::kIoLength;
   if (size > static_cast<int>(config.most_cfg)) return error::kConfiguration;
   read.cfg.assign(frame.data.bytes.data() + kCfgAt, size);

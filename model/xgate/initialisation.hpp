@@ -16,7 +16,7 @@ struct Initialisation {
   std::array<std::uint8_t, kDpv1Bytes> dpv1{};
   profibus::Block<profibus::kMaxCfg> cfg;
 
-  /// Of 4.2.2, in its order.
+  /// 4.2.2, in its order.
   bool reads_and_writes() const { return (dpv1[0] & 0x01) != 0; }
   int c2_timeout() const { return dpv1[6]; }
   int c1_size() const { return dpv1[7]; }
@@ -26,9 +26,9 @@ struct Initialisation {
   bool cfg_may_differ() const { return (dpv1[9] & 0x01) != 0; }
   std::uint8_t alarms() const { return dpv1[10]; }
   int most_alarms() const { return 1 << dpv1[11]; }
-  /// Whether the host has this alarm enabled.
+  /// The host has enabled this type of alarm.
   bool alarm_enabled(unsigned type) const;
-  /// Whether user parameters of `size` bytes are right (X9).
+  /// User parameters of `size` bytes are right (X9).
   bool prm_fits(int size) const;
 
   profibus::SlaveConfig slave() const;

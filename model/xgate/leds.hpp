@@ -10,7 +10,7 @@ namespace dsdpv1::xgate {
 enum class Led : std::uint8_t { kNetworkGreen, kNetworkRed, kModuleGreen, kModuleRed };
 constexpr int kLeds = 4;
 
-/// What a LED shows in self-control.
+/// A LED in self-control.
 struct Shown {
   bool on = false, blinks = false;
 };

@@ -17,7 +17,7 @@ class MailboxReader {
   MailboxReader(const Frame& frame, MailboxForm form) : frame_(frame), form_(form) {}
 
   bool at_end() const { return at_ == frame_.size(); }
-  /// False: the bytes are no whole mailbox, or its XOR is wrong. The reader is at its end then.
+  /// False: the mailbox is cut, or its XOR is wrong. The reader is at its end then.
   bool read(Mailbox& box);
 
  private:

@@ -135,7 +135,7 @@ class Module {
 };
 
 /// The complete state, for the same Config in this process or another. Throws StateError, leaving the module as it is,
-/// if the bytes are no state of such a module.
+/// if the bytes are not from save() of such a module.
 std::vector<std::uint8_t> save(Module& module);
 void restore(std::unique_ptr<Module>& module, const std::uint8_t* bytes, std::size_t size);
 
