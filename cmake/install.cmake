@@ -81,7 +81,8 @@ endfunction()
 function(dsdpv1_install_headers component)
   install(DIRECTORY ${ARGN} DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT ${component}
           FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1*.h" PATTERN "spc3*.h" PATTERN "dsdpv1_regs.svh"
-          PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE)
+          PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE
+          PATTERN "xgate" EXCLUDE)  # no installed library has it yet
 endfunction()
 
 # dsdpv1_install_former_header(COMPONENT ROOT FORMER NOW): installs at FORMER, the path before 0.2, a header that includes NOW. Will be removed with
