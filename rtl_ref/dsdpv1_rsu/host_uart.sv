@@ -35,8 +35,8 @@ module host_uart (
   input  logic         more_i
 );
   // Cycles of a bit (UA1), of its half and of the rest, less a number: tables for a synthesis
-  function automatic logic [12:0] bit_less(input logic [2:0] code, input logic [12:0] less);
-    case (code)
+  function automatic logic [12:0] bit_less(input logic [2:0] rate, input logic [12:0] less);
+    case (rate)
       3'd0: bit_less = 13'd5000 - less;
       3'd1: bit_less = 13'd2500 - less;
       3'd2: bit_less = 13'd1250 - less;
@@ -48,8 +48,8 @@ module host_uart (
     endcase
   endfunction
 
-  function automatic logic [12:0] half_less(input logic [2:0] code, input logic [12:0] less);
-    case (code)
+  function automatic logic [12:0] half_less(input logic [2:0] rate, input logic [12:0] less);
+    case (rate)
       3'd0: half_less = 13'd2500 - less;
       3'd1: half_less = 13'd1250 - less;
       3'd2: half_less = 13'd625 - less;
@@ -61,11 +61,11 @@ module host_uart (
     endcase
   endfunction
 
-  function automatic logic [12:0] rest_less(input logic [2:0] code, input logic [12:0] less);
-    case (code)
+  function automatic logic [12:0] rest_less(input logic [2:0] rate, input logic [12:0] less);
+    case (rate)
       3'd3: rest_less = 13'd417 - less;
       3'd4: rest_less = 13'd209 - less;
-      default: rest_less = half_less(code, less);
+      default: rest_less = half_less(rate, less);
     endcase
   endfunction
 

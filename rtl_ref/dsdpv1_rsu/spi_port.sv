@@ -55,9 +55,9 @@ module spi_port (
 `endif
       (gap_q >= write_gap_i || `FAULT(131)) && !deaf_i;
   assign begins_o = frame_begins && heard;
-  assign odd_o = odd_q;
 
   logic odd_q;
+  assign odd_o = odd_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       listening_q <= 1'b0;

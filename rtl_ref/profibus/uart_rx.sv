@@ -150,10 +150,10 @@ module uart_rx (
   end
 
   // The clock of the answer (8.3): at C + 1 it stands at lead + 3 - half cycles, written as bit times and the rest of one.
-  function automatic integer clock_start(input integer lead, input integer len);
+  function automatic integer clock_start(input integer lead_cycles, input integer len);
     integer ahead, bits;
     begin
-      ahead = lead + 3 - len / 2;
+      ahead = lead_cycles + 3 - len / 2;
       bits = (ahead + 1024 * len) / len - 1024;
       clock_start = bits * 8192 + len - 1 - (ahead - bits * len);
     end
