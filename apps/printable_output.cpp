@@ -4,17 +4,24 @@
 #include <iostream>
 #include <streambuf>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "apps/terminal.hpp"
 #include "bus/printable.hpp"
 
 namespace dsdpv1::app {
+namespace {
+
+constexpr std::string_view kUsualName = "dsdpv1-sim";
+
+}  // namespace
 
 /// Passes on whole lines, and what there is of one when it is flushed: a letter of several bytes must come in one
 /// piece.
 class PrintableOutput::Filter : public std::streambuf {
  public:
-  explicit Filter(std::ostream& stream) : stream_(stream), to_(stream.rdbuf(this)) {}
+  Filter(std::ostream& stream, std::string name) : stream_(stream), to_(stream.rdbuf(this)), name_(std::move(name)) {}
   ~Filter() override {
     pass_on(waiting_.size());
     stream_.rdbuf(to_);
@@ -43,10 +50,17 @@ class PrintableOutput::Filter : public std::streambuf {
  private:
   bool pass_on(std::size_t count) {
     std::string text = bus::printable_lines(std::string_view(waiting_).substr(0, count));
+    if (name_ != kUsualName) text = renamed(std::move(text));
     if (paints_) text = painted_lines(text);
     waiting_.erase(0, count);
     const auto size = static_cast<std::streamsize>(text.size());
     return to_->sputn(text.data(), size) == size;
+  }
+
+  std::string renamed(std::string text) const {
+    for (std::size_t at = text.find(kUsualName); at != std::string::npos; at = text.find(kUsualName, at + name_.size()))
+      text.replace(at, kUsualName.size(), name_);
+    return text;
   }
 
   /// If a line comes in pieces, only the first is checked.
@@ -65,12 +79,13 @@ class PrintableOutput::Filter : public std::streambuf {
 
   std::ostream& stream_;
   std::streambuf* to_;
+  const std::string name_;
   std::string waiting_;
   bool paints_ = false, at_beginning_ = true;
 };
 
-PrintableOutput::PrintableOutput()
-    : out_(std::make_unique<Filter>(std::cout)), err_(std::make_unique<Filter>(std::cerr)) {}
+PrintableOutput::PrintableOutput(const std::string& name)
+    : out_(std::make_unique<Filter>(std::cout, name)), err_(std::make_unique<Filter>(std::cerr, name)) {}
 
 PrintableOutput::~PrintableOutput() = default;
 

@@ -1,6 +1,7 @@
 #pragma once
 // Nothing that a scenario, a file name or firmware holds steers the user's terminal.
 #include <memory>
+#include <string>
 
 namespace dsdpv1::app {
 
@@ -9,7 +10,8 @@ namespace dsdpv1::app {
 /// stderr.
 class PrintableOutput {
  public:
-  PrintableOutput();
+  /// `name`: of this program, which stands where the lines name dsdpv1-sim.
+  explicit PrintableOutput(const std::string& name);
   ~PrintableOutput();
   PrintableOutput(const PrintableOutput&) = delete;
   PrintableOutput& operator=(const PrintableOutput&) = delete;

@@ -5,6 +5,7 @@
 #   checks    the rules of the user's side: dsdpv1::checks
 #   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus, dsdpv1::systemc_host
 #   recorder  what the bench records, for chips in SystemC platforms: dsdpv1::recorder; needs bus, checks and systemc
+#   bench     the bench and the commands, for chips of users' own: dsdpv1::bench, dsdpv1::commands; needs bus, checks and systemc
 #   capi      libdsdpv1.so: dsdpv1::capi
 #   dpi       for simulators: dsdpv1::dpi, dsdpv1::vpi, SystemVerilog
 #   python    the module dsdpv1, cocotbext.profibus; the component wheel has what a wheel holds (bindings/python/CMakeLists.txt)
@@ -124,7 +125,7 @@ function(dsdpv1_install_package)
                                 INSTALL_DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} NO_SET_AND_CHECK_MACRO)
   write_basic_package_version_file(${version} COMPATIBILITY SameMinorVersion)
   # Installed with every component, because each may be the only one.
-  foreach(component core driver bus checks systemc recorder capi dpi python tools)
+  foreach(component core driver bus checks systemc recorder bench capi dpi python tools)
     install(FILES ${config} ${version} ${PROJECT_SOURCE_DIR}/cmake/systemc.cmake
             DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT ${component})
   endforeach()
@@ -192,6 +193,21 @@ function(dsdpv1_install_recorder)
   install(FILES kinds/systemc/chip_recorder.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/kinds/systemc COMPONENT recorder)
   dsdpv1_install_pc(recorder dsdpv1-recorder "checks, summary, waves and captures of a chip in a SystemC platform" LIBS dsdpv1_recorder boost_context z dl
                     REQUIRES dsdpv1-systemc dsdpv1-checks fmt yaml-cpp pugixml)
+endfunction()
+
+# Called by apps/, whose targets these are.
+function(dsdpv1_install_bench)
+  dsdpv1_install_targets(bench bench dsdpv1_bench_whole dsdpv1_commands_whole)
+  set_target_properties(dsdpv1_bench_whole PROPERTIES EXPORT_NAME bench)
+  set_target_properties(dsdpv1_commands_whole PROPERTIES EXPORT_NAME commands)
+  foreach(room io tb bus/capture)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT bench FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc")
+  endforeach()
+  install(FILES ${PROJECT_SOURCE_DIR}/apps/program.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/apps COMPONENT bench)
+  dsdpv1_install_pc(bench dsdpv1-bench "bench for DP slave chips, and a kit for chips of one's own" LIBS dsdpv1_bench boost_context minizip lzma md z dl
+                    REQUIRES dsdpv1-checks dsdpv1-driver yaml-cpp pugixml)
+  dsdpv1_install_pc(bench dsdpv1-commands "the commands of dsdpv1-sim, for programs with chips of one's own" LIBS dsdpv1_commands
+                    REQUIRES dsdpv1-bench dsdpv1-systemc-bus)
 endfunction()
 
 function(dsdpv1_install_capi)
@@ -272,7 +288,7 @@ endfunction()
 # Builds everything that is installed, without tests: `./run examples`.
 function(dsdpv1_installed_target)
   add_custom_target(dsdpv1_installed)
-  foreach(target core driver bus checks systemc driver_systemc systemc_bus systemc_host recorder_whole capi dpi vpi modules python pages rtl_libraries firmware)
+  foreach(target core driver bus checks systemc driver_systemc systemc_bus systemc_host recorder_whole bench_whole commands_whole capi dpi vpi modules python pages rtl_libraries firmware)
     if(TARGET dsdpv1_${target})
       add_dependencies(dsdpv1_installed dsdpv1_${target})
     endif()

@@ -135,10 +135,25 @@ tb::CodeText find_reason(const std::vector<tb::CodeText>& all, const std::string
                   tb::did_you_mean(code, codes)));
 }
 
+/// The advice of kinds of chips that have other words for it than the first with this code.
+void print_others(std::string& text, const tb::CodeText& first) {
+  for (const tb::ChipKind* kind : tb::chip_kinds())
+    for (const tb::CodeTable& table : kind->codes())
+      for (const tb::CodeText& each : table.codes)
+        if (each.code == first.code && each.advice != first.advice)
+          text += tb::named_line("", std::string(kind->name()) + ": " + each.advice, 0);
+}
+
 std::string as_text(const tb::ChipKind& kind, const std::string& code) {
   const std::vector<tb::CodeText> all = all_codes(kind);
   std::string text;
-  print(text, code.empty() ? all : std::vector<tb::CodeText>{find_reason(all, code)});
+  if (code.empty()) {
+    print(text, all);
+    return text;
+  }
+  const tb::CodeText found = find_reason(all, code);
+  print(text, {found});
+  print_others(text, found);
   return text;
 }
 

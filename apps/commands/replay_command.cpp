@@ -93,9 +93,13 @@ class Replay : public Command {
         ->required()
         ->check(CLI::Range(0, 126));
     app.add_option("--gsd", gsd_, "The slave's GSD file, with its ident number and limits");
+    CLI::Option* chip =
+        app.add_option("--chip", chip_, "The model: a kind of chip of scenarios (default: the first of them)")
+            ->type_name("WORD");
     app.add_option("--scenario", scenario_,
                    "Use this scenario's slave with this address (or the only one), and its user CPU, instead of the "
-                   "capture's data");
+                   "capture's data")
+        ->excludes(chip);
     app.add_option("--inputs", inputs_,
                    "Data of the user CPU: recorded (inputs and diagnoses from the slave's answers) or scenario "
                    "(default: scenario with --scenario, else recorded)");
@@ -118,6 +122,9 @@ class Replay : public Command {
 
   void take_words() {
     if (!inputs_.empty()) check_word(kReplay + ": --inputs", inputs_, {"recorded", "scenario"});
+    std::vector<std::string> kinds;
+    for (const tb::ChipKind* each : tb::chip_kinds()) kinds.emplace_back(each->name());
+    if (!chip_.empty()) check_word(kReplay + ": --chip", chip_, kinds);
     if (inputs_ == "scenario" && scenario_.empty())
       throw tb::InputError(kReplay + ": --inputs scenario needs --scenario");
     if (!from_.empty()) options_.judge.from = time_of(kReplay + ": --from", from_, kAnyTime);
@@ -164,11 +171,17 @@ class Replay : public Command {
 
   tb::scenario::Scenario scenario_of(const std::optional<tb::scenario::Scenario>& given, const Recording& recording,
                                      const tb::replay::Firmware& firmware) const {
-    if (given) return tb::replay::alone(*given, recording);
-    if (gsd_.empty()) return tb::replay::scenario_of(recording, firmware, "");
+    if (given) {
+      tb::scenario::Scenario alone = tb::replay::alone(*given, recording);
+      if (options_.judge.supplied) tb::replay::take_inputs_of(firmware, alone);
+      return alone;
+    }
+    if (gsd_.empty()) return tb::replay::scenario_of(recording, firmware, "", kind());
     tb::read_file(gsd_, tb::kGsdFile);  // says what is wrong with the name that was given
-    return tb::replay::scenario_of(recording, firmware, std::filesystem::absolute(gsd_).string());
+    return tb::replay::scenario_of(recording, firmware, std::filesystem::absolute(gsd_).string(), kind());
   }
+
+  const tb::ChipKind& kind() const { return chip_.empty() ? *tb::chip_kinds().front() : *tb::find_chip_kind(chip_); }
 
   std::unique_ptr<tb::Execution> execution() const {
     if (run_.engine_name == "rtl") return cosim::make_rtl_execution(cosim::reference_rtl());
@@ -201,6 +214,7 @@ class Replay : public Command {
   std::string capture_;
   int slave_ = -1;  ///< address
   std::string gsd_, scenario_;
+  std::string chip_;                  ///< name of its kind; empty: the first
   std::string inputs_;                ///< recorded or scenario; empty: recorded without a scenario
   std::string baud_;                  ///< empty: found
   bus::capture::LogicSettings line_;  ///< as of decode

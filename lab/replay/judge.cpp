@@ -146,7 +146,7 @@ bool Judge::slave_restarts() const {
 bool Judge::user_was_late(const RequestResult& result) const {
   if (!result.recorded->right || !result.model->right) return false;
   constexpr Tick kDriver = 60 * bus::kTicksPerUs;
-  const Tick time = 2 * firmware_.cycle + kDriver;
+  const Tick time = 2 * options_.user_cycle + kDriver;
   const bus::Telegram recorded = telegram_of(result.recorded->bytes), model = telegram_of(result.model->bytes);
   if (result.service == "Slave_Diag") {
     bus::Bytes bytes = model.data;

@@ -15,6 +15,7 @@ struct JudgeOptions {
   std::optional<Tick> from = {};  ///< time of the capture
   bool started = false;           ///< the model was brought into the data exchange in which the capture begins
   bool supplied = true;           ///< the user CPU gives the recorded inputs and diagnoses
+  Tick user_cycle = 0;            ///< of its exchanges with the chip
 };
 
 class Judge {

@@ -39,6 +39,7 @@ Replay::Replay(const Recording& recording, const Firmware& firmware, const scena
       lead_in_(execution_.segment(), recording.baud, recording.slave, [this] { return listener_.model_has_rate(); }),
       bench_(scenario_, open_ended(std::move(run)), std::move(made_)),
       supplier_(bench_, scenario_, options.judge.supplied ? firmware.supplies : nothing_) {
+  options_.judge.user_cycle = scenario_.slaves.front().user_cpu.cycle;
   prepare_lead_in();
   lead_in_.on_end = [this](Tick free) { begin(free); };
   bench_.add_observer(listener_);

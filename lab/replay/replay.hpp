@@ -20,10 +20,13 @@ struct ReplayOptions {
   std::string gsd;      ///< absolute path, empty: none
 };
 
-/// A scenario with only the slave, initialised from the capture or the GSD.
-scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd);
+/// A scenario with only the slave, a chip of this kind, initialised from the capture or the GSD.
+scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd,
+                               const ChipKind& kind);
 /// The scenario with only the slave of this address, or its only slave, which gets the address. Throws InputError.
 scenario::Scenario alone(scenario::Scenario scenario, const Recording& recording);
+/// Its slave's user CPU begins with the first recorded inputs and makes no others.
+void take_inputs_of(const Firmware& firmware, scenario::Scenario& scenario);
 /// The slave's initialisation in words.
 std::string describe_station(const scenario::Scenario& scenario);
 

@@ -212,8 +212,10 @@ std::string text(const Result& result, const RunResult& run) {
   std::string text = line("capture", capture_text(result));
   text += resolution_text(result);
   text += line("model", result.station);
-  text += line("inputs", result.inputs_recorded ? "the recorded ones, and the recorded diagnoses"
-                                                : "those of the scenario's user CPU");
+  text += line("inputs", result.inputs_recorded
+                             ? "the recorded ones, and the recorded diagnoses"
+                             : "those of the scenario's user CPU, without the script; --inputs recorded: the "
+                               "capture's");
   text += line("lead-in", bus::moment_text(result.lead_in) + (result.started ? kStarted : ""));
   text += line("TSDR / bit times", fmt::format("recorded {}, model {} (min / median / max); {}",
                                                spread_text(result, recorded_spread(result)),

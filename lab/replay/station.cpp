@@ -21,8 +21,6 @@ std::string name_of(const Recording& recording) { return fmt::format("station_{}
 
 scenario::UserCpu user_of(const Firmware& firmware, const ChipKind& kind) {
   scenario::UserCpu user;
-  user.behaviour = scenario::Behaviour::kConstant;
-  user.constant = firmware.inputs;
   user.cycle = firmware.cycle;
   user.dpv1.objects = firmware.objects;
   user.own = kind.make_user_settings();
@@ -49,8 +47,8 @@ void allow_flags(scenario::Scenario& scenario) {
 
 }  // namespace
 
-scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd) {
-  const ChipKind& kind = *chip_kinds().front();
+scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd,
+                               const ChipKind& kind) {
   scenario::Scenario scenario;
   scenario.file = recording.name;
   scenario.name = "Replay of " + recording.name;
@@ -68,8 +66,15 @@ scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmw
   slave.init = init_of(firmware, !gsd.empty());
   slave.user_cpu = user_of(firmware, kind);
   scenario.slaves.push_back(std::move(slave));
+  take_inputs_of(firmware, scenario);
   allow_flags(scenario);
   return scenario;
+}
+
+void take_inputs_of(const Firmware& firmware, scenario::Scenario& scenario) {
+  scenario::UserCpu& user = scenario.slaves.front().user_cpu;
+  user.behaviour = scenario::Behaviour::kConstant;
+  user.constant = firmware.inputs;
 }
 
 scenario::Scenario alone(scenario::Scenario scenario, const Recording& recording) {

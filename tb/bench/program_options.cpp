@@ -42,4 +42,16 @@ user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const us
   return options;
 }
 
+std::uint8_t diagnosis_code(user_cpu::DiagnosisKind kind) {
+  using user_cpu::DiagnosisKind;
+  switch (kind) {
+    case DiagnosisKind::kExtended: return 0x00;
+    case DiagnosisKind::kExternal: return 0x81;
+    case DiagnosisKind::kExternalGone: return 0x01;
+    case DiagnosisKind::kStatic: return 0x82;
+    case DiagnosisKind::kStaticGone: return 0x02;
+  }
+  return 0;
+}
+
 }  // namespace dsdpv1::tb

@@ -10,6 +10,7 @@
 #include "bus/time_text.hpp"
 #include "io/input/units.hpp"
 #include "tb/bench/conditions.hpp"
+#include "tb/bench/program_options.hpp"
 
 namespace dsdpv1::tb {
 
@@ -158,23 +159,6 @@ std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
   }
   return expectations_;
 }
-
-namespace {
-
-/// The code as always shown in the log: bit 7 for a diagnosis that begins, the low bits for its kind.
-int diagnosis_code(user_cpu::DiagnosisKind kind) {
-  using user_cpu::DiagnosisKind;
-  switch (kind) {
-    case DiagnosisKind::kExtended: return 0x00;
-    case DiagnosisKind::kExternal: return 0x81;
-    case DiagnosisKind::kExternalGone: return 0x01;
-    case DiagnosisKind::kStatic: return 0x82;
-    case DiagnosisKind::kStaticGone: return 0x02;
-  }
-  return 0;
-}
-
-}  // namespace
 
 // --- actions ---------------------------------------------------------------------------------------------------------
 

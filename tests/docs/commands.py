@@ -5,7 +5,7 @@
     commands.py --files FOLDER PAGE
 
 All ```sh blocks of the page are one session of bash: in an empty folder for docs/tutorials/, else in the project's folder. A block in another language whose first line
-is a comment that begins with the name of a file is this file; a page with files has an empty folder, too, with these files. --files writes them into FOLDER. Each block has to
+is a comment that begins with the name of a file is this file, several blocks are its parts; a page with files has an empty folder, too, with these files. --files writes them into FOLDER. Each block has to
 end with 0, or with the N of <!-- exit N --> before it; the first command of a block that fails ends it. A ```text block that follows is what it
 prints, "..." standing for anything. The project is in ~/dsdpv1: the sources, the real ./run, and BUILD as build/default; nothing is built or installed.
 """
@@ -19,7 +19,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"(?:^<!-- exit (\d+) -->\n)?^```sh\n(.*?)^```\n(?:\s*^```text\n(.*?)^```$)?", re.M | re.S)
-FILE = re.compile(r"^```\w+\n((?:/\*|#) ([\w.]+): .*?)^```$", re.M | re.S)
+FILE = re.compile(r"^```\w+\n((?:/\*|//|#) ([\w.]+): .*?)^```$", re.M | re.S)
 NOT_SHARED = {"build", "out", "run", "packages.txt", ".git"}
 # A block that takes longer hangs, regardless of the times on a page.
 DEADLINE = 900
@@ -44,8 +44,11 @@ def blocks(page):
 
 
 def files(page):
-    """Text by name."""
-    return {found.group(2): found.group(1) for found in FILE.finditer(page)}
+    """Text by name; several blocks of one file are its parts."""
+    parts = {}
+    for found in FILE.finditer(page):
+        parts.setdefault(found.group(2), []).append(found.group(1))
+    return {name: "\n".join(texts) for name, texts in parts.items()}
 
 
 def write_files(page, folder):

@@ -29,7 +29,6 @@ constexpr std::uint16_t kIdent = 0x0B0C;
 const Bytes kStart = {command::kStart, kSlave, kIdent >> 8, kIdent & 0xFF, 0};
 const Bytes kRead = {command::kReadOutputs, 0, 0, 0, 0, 0, 0, 0, 0};
 
-Bytes to_bytes(const Data& data) { return {data.begin(), data.end()}; }
 Bytes write_frame(const Bytes& inputs) {
   Bytes frame = {command::kWriteInputs};
   frame.insert(frame.end(), inputs.begin(), inputs.end());
@@ -44,35 +43,32 @@ Bytes shown(const Bytes& outputs) {
 
 /// A chip on a segment; the test moves its pins directly.
 struct ByHand {
-  explicit ByHand(Engine engine = Engine::kSkip) : board(segment, engine) {
-    timeline.check_announcements();
-    timeline.add(board);
-  }
+  explicit ByHand(Engine engine = Engine::kSkip) : board(segment, timeline, engine) { timeline.check_announcements(); }
 
   void run(Tick ticks) { timeline.run_until(timeline.now() + ticks); }
-  void set(Pin pin, Level level, Tick after = 0) {
+  void set(PinNumber pin, Level level, Tick after = 0) {
     run(after);
     board.set(timeline.now(), pin, level);
   }
   void power_on() {
-    set(Pin::kReset, 1, kResetUp);
+    set(kit::kReset, 1, kResetUp);
     run(4 * kCycle);
   }
-  void select() { set(Pin::kXss, 0); }
+  void select() { set(kXss, 0); }
   /// Sends the first `bits` of `bytes`, then zeros; returns the bits on MISO.
   Bytes clock(const Bytes& bytes, std::size_t bits) {
     Bytes seen((bits + 7) / 8, 0);
     for (std::size_t i = 0; i < bits; ++i) {
-      set(Pin::kMosi, i / 8 < bytes.size() ? static_cast<Level>(bytes[i / 8] >> (7 - i % 8) & 1) : Level{0});
-      set(Pin::kSck, 1, kHalfSck);
-      seen[i / 8] = static_cast<std::uint8_t>(seen[i / 8] << 1 | (board.level(Pin::kMiso) > 0 ? 1 : 0));
-      set(Pin::kSck, 0, kHalfSck);
+      set(kMosi, i / 8 < bytes.size() ? static_cast<Level>(bytes[i / 8] >> (7 - i % 8) & 1) : Level{0});
+      set(kSck, 1, kHalfSck);
+      seen[i / 8] = static_cast<std::uint8_t>(seen[i / 8] << 1 | (board.level(kMiso) > 0 ? 1 : 0));
+      set(kSck, 0, kHalfSck);
     }
     return seen;
   }
   /// XSS rises, and the frame takes effect.
   void deselect() {
-    set(Pin::kXss, 1, kHalfSck);
+    set(kXss, 1, kHalfSck);
     deselected = timeline.now();
     run(3 * kCycle);
   }
@@ -84,8 +80,8 @@ struct ByHand {
   }
   Bytes frame(const Bytes& bytes) { return shift(bytes, bytes.size() * 8); }
 
-  Status status() const { return board.chip().status(); }
-  Level int_level() const { return board.level(Pin::kInt); }
+  tb::ChipStatus status() const { return board.status(); }
+  Level int_level() const { return board.level(kInt); }
   /// The reasons since the last call.
   std::vector<profibus::Reason> said() {
     std::vector<profibus::Reason> reasons;
@@ -107,18 +103,18 @@ struct MailboxPins : testing::Test, ByHand {
 };
 
 TEST_F(MailboxPins, LevelsAtRest) {
-  EXPECT_EQ(board.level(Pin::kMiso), kLevelZ);
+  EXPECT_EQ(board.level(kMiso), kReleased);
   EXPECT_EQ(int_level(), 1);
-  EXPECT_EQ(board.level(Pin::kPbtxd), 1);
-  EXPECT_EQ(board.level(Pin::kPbrts), 0);
+  EXPECT_EQ(board.level(kit::kTxd), 1);
+  EXPECT_EQ(board.level(kit::kRts), 0);
   EXPECT_THAT(board.pin_changes(), IsEmpty());
 }
 
 TEST_F(MailboxPins, MisoIsDrivenWhileSelectedAndASelectWithoutABitIsNoFrame) {
   select();
-  EXPECT_EQ(board.level(Pin::kMiso), 0);
+  EXPECT_EQ(board.level(kMiso), 0);
   deselect();
-  EXPECT_EQ(board.level(Pin::kMiso), kLevelZ);
+  EXPECT_EQ(board.level(kMiso), kReleased);
   EXPECT_THAT(said(), IsEmpty());
 }
 
@@ -133,11 +129,11 @@ TEST_F(MailboxPins, AStartActsAtTheSecondRisingEdgeBehindXss) {
     ASSERT_LT(before, board.events().size());
     ASSERT_EQ(board.events()[before].reason, Reason::kStarted);
     EXPECT_EQ(board.events()[before].at, (deselected / kCycle + 2) * kCycle);
-    EXPECT_EQ(describe(board.events()[before]), "started: address 5, ident 0B0C");
+    EXPECT_EQ(kind().describe(board.events()[before]), "started: address 5, ident 0B0C");
   }
-  EXPECT_EQ(status().dp_state, DpState::kWaitPrm);
+  EXPECT_EQ(status().dp_state, profibus::DpState::kWaitPrm);
   EXPECT_EQ(status().address, kSlave);
-  EXPECT_EQ(status().baud_index, profibus::kBaudUnknown);
+  EXPECT_EQ(status().baud, std::nullopt);
 }
 
 TEST_F(MailboxPins, OutputsAreZerosBeforeAnyMaster) {
@@ -167,13 +163,13 @@ TEST_F(MailboxPins, FramesOfAWrongLengthAreDropped) {
       EXPECT_EQ(board.events().back().b, right);
     }
   }
-  EXPECT_EQ(status().dp_state, DpState::kOffline);
+  EXPECT_EQ(status().dp_state, profibus::DpState::kOffline);
 }
 
 TEST_F(MailboxPins, LessThanACommandIsDropped) {
   shift({0xFF}, 7);
   ASSERT_THAT(said(), ElementsAre(Reason::kFrameLength));
-  EXPECT_EQ(describe(board.events().back()), "frame dropped: 7 bits with the command 00, which has 8");
+  EXPECT_EQ(kind().describe(board.events().back()), "frame dropped: 7 bits with the command 00, which has 8");
 }
 
 TEST_F(MailboxPins, UnknownCommandsAreDropped) {
@@ -181,14 +177,14 @@ TEST_F(MailboxPins, UnknownCommandsAreDropped) {
     frame({static_cast<std::uint8_t>(code), 1, 2, 3, 0});
     ASSERT_THAT(said(), ElementsAre(Reason::kCommandUnknown)) << code;
   }
-  EXPECT_EQ(describe(board.events().back()), "frame dropped: FF is no command (40 bits)");
+  EXPECT_EQ(kind().describe(board.events().back()), "frame dropped: FF is no command (40 bits)");
 }
 
 TEST_F(MailboxPins, AStartWithAnImpossibleAddressOrFlagsIsRefused) {
   frame({command::kStart, 126, 0, 1, 0});
   frame({command::kStart, 5, 0, 1, 0x80});
   EXPECT_THAT(said(), ElementsAre(Reason::kStartRefused, Reason::kStartRefused));
-  EXPECT_EQ(status().dp_state, DpState::kOffline);
+  EXPECT_EQ(status().dp_state, profibus::DpState::kOffline);
   frame({command::kStart, 125, 0, 1, 0});
   EXPECT_EQ(status().address, 125);
 }
@@ -196,20 +192,20 @@ TEST_F(MailboxPins, AStartWithAnImpossibleAddressOrFlagsIsRefused) {
 TEST_F(MailboxPins, ResetEndsEverythingAtOnceAndAFrameThatBeganInItIsNone) {
   frame(kStart);
   select();
-  set(Pin::kReset, 0, 10);
-  EXPECT_EQ(board.level(Pin::kMiso), kLevelZ);
-  EXPECT_EQ(status().dp_state, DpState::kOffline);
+  set(kit::kReset, 0, 10);
+  EXPECT_EQ(board.level(kMiso), kReleased);
+  EXPECT_EQ(status().dp_state, profibus::DpState::kOffline);
   said();
   power_on();
-  EXPECT_EQ(board.level(Pin::kMiso), kLevelZ) << "XSS fell in front of this reset";
+  EXPECT_EQ(board.level(kMiso), kReleased) << "XSS fell in front of this reset";
   clock(kStart, 40);
   deselect();
-  set(Pin::kReset, 0);
+  set(kit::kReset, 0);
   frame(kStart);
   power_on();
   EXPECT_THAT(said(), IsEmpty());
   frame(kStart);
-  EXPECT_EQ(status().dp_state, DpState::kWaitPrm);
+  EXPECT_EQ(status().dp_state, profibus::DpState::kWaitPrm);
 }
 
 // --- with a master ---------------------------------------------------------------------------------------------------
@@ -277,8 +273,8 @@ struct MailboxOnTheBus : testing::Test, Plant {
 
 TEST_F(MailboxOnTheBus, IsBroughtUpWithoutAWordOfItsUser) {
   start_and_bring_up();
-  EXPECT_EQ(status().dp_state, DpState::kDataExch);
-  EXPECT_EQ(status().baud_index, profibus::BaudIndex::fastest());
+  EXPECT_EQ(status().dp_state, profibus::DpState::kDataExch);
+  EXPECT_EQ(status().baud, 0);
   EXPECT_EQ(status().master, kMaster);
   EXPECT_GT(status().data_exchanges, 10U);
   EXPECT_GT(status().telegrams_received, status().telegrams_answered);
@@ -308,7 +304,7 @@ TEST_F(MailboxOnTheBus, IntFallsWithOutputsAndRisesWhenTheyWereRead) {
   EXPECT_EQ(int_level(), 0);
   EXPECT_EQ(frame(kRead), shown(outputs));
   EXPECT_EQ(int_level(), 1);
-  ASSERT_EQ(board.pin_changes().back().pin, Pin::kInt);
+  ASSERT_EQ(board.pin_changes().back().pin, kInt);
   EXPECT_EQ(board.pin_changes().back().at, (deselected / kCycle + 2) * kCycle);
   EXPECT_EQ(frame(kRead), shown(outputs)) << "they can be read again";
 }
@@ -346,7 +342,7 @@ TEST_F(MailboxOnTheBus, TheWatchdogClearsTheOutputsAndSaysSo) {
   EXPECT_EQ(frame(kRead), shown(Bytes(kDataBytes, 0x11)));
   run(60 * kTicksPerMs);
   EXPECT_EQ(board.count(profibus::Reason::kWatchdogExpired), 1U);
-  EXPECT_EQ(status().dp_state, DpState::kWaitPrm);
+  EXPECT_EQ(status().dp_state, profibus::DpState::kWaitPrm);
   EXPECT_EQ(int_level(), 0);
   EXPECT_EQ(frame(kRead), shown(Bytes(kDataBytes, 0)));
   EXPECT_EQ(int_level(), 1);
@@ -356,7 +352,7 @@ TEST_F(MailboxOnTheBus, AStartHidesNoOutputsFromTheUser) {
   start_and_bring_up();
   stop_master();
   run(60 * kTicksPerMs);  // the watchdog: zeros are to be read
-  ASSERT_EQ(status().dp_state, DpState::kWaitPrm);
+  ASSERT_EQ(status().dp_state, profibus::DpState::kWaitPrm);
   ASSERT_EQ(int_level(), 0);
   frame(kStart);
   EXPECT_EQ(int_level(), 0) << "the slave has forgotten its mail, but the user has not read the zeros";
@@ -369,7 +365,7 @@ TEST_F(MailboxOnTheBus, AStartInDataExchangeBeginsAnew) {
   master.set_outputs(kSlave, Bytes(kDataBytes, 0x33));
   run(kTicksPerMs);
   frame(kStart);
-  EXPECT_EQ(status().dp_state, DpState::kWaitPrm);
+  EXPECT_EQ(status().dp_state, profibus::DpState::kWaitPrm);
   EXPECT_EQ(int_level(), 0);
   EXPECT_EQ(frame(kRead), shown(Bytes(kDataBytes, 0)));
   run(5 * kTicksPerMs);
@@ -413,46 +409,44 @@ TEST_F(MailboxOnTheBus, TheSlaveItselfRefusesUserParametersAndDpv1) {
 
 struct UsersPlant : Plant {
   explicit UsersPlant(Engine engine = Engine::kSkip, int baud = 0, const UserConfig& config = {})
-      : Plant(engine, baud), user(board, config) {
-    timeline.add(user);
+      : Plant(engine, baud), user(make_user(board.chip(), config)) {
+    timeline.add(*user);
   }
-  User user;
+  void set_inputs(const Bytes& bytes) { user->command(timeline.now(), user_cpu::command::SetInputs{bytes}); }
+  user_cpu::ProgramCounters counters() const { return *user->counters().program; }
+  std::unique_ptr<user_cpu::StationCpu> user;
 };
 
 struct MailboxUser : testing::Test, UsersPlant {};
 
 TEST_F(MailboxUser, StartsTheChipAndKeepsItsPeriod) {
   run(20 * kTicksPerUs);
-  EXPECT_EQ(status().dp_state, DpState::kWaitPrm);
+  EXPECT_EQ(status().dp_state, profibus::DpState::kWaitPrm);
   run(1010 * kTicksPerUs);  // the tenth round ends about 15 us after its beginning
-  EXPECT_EQ(user.counters().frames, 1U + 2U * 10U);
-  EXPECT_EQ(user.counters().inputs_written, 10U);
-  EXPECT_EQ(user.counters().outputs_received, 0U) << "no master";
+  EXPECT_EQ(counters().inputs_written, 10U);
+  EXPECT_EQ(counters().outputs_received, 0U) << "no master";
   EXPECT_EQ(board.count(Reason::kStarted), 1U);
   EXPECT_EQ(board.events().size(), 3U) << "STARTED, DP_STATE, BAUD_SEARCH: no frame is refused";
 }
 
 TEST_F(MailboxUser, OutputsComeBackAsInputs) {
   ASSERT_TRUE(bring_up());
-  const Data data = {0x80, 0x01, 0xFF, 0x00, 0x55, 0xAA, 0x12, 0x34};
-  master.set_outputs(kSlave, to_bytes(data));
+  const Bytes data = {0x80, 0x01, 0xFF, 0x00, 0x55, 0xAA, 0x12, 0x34};
+  master.set_outputs(kSlave, data);
   run(kTicksPerMs);
-  EXPECT_EQ(user.outputs(), data);
-  EXPECT_EQ(master_inputs(), to_bytes(data));
-  EXPECT_GT(user.counters().outputs_received, 5U);
+  EXPECT_EQ(user->outputs(), data);
+  EXPECT_EQ(master_inputs(), data);
+  EXPECT_GT(counters().outputs_received, 5U);
   EXPECT_THAT(flags, IsEmpty());
 }
 
-TEST_F(MailboxUser, InputsOfItsOwnReachTheMasterUntilItLoopsBackAgain) {
+TEST_F(MailboxUser, InputsOfItsOwnReachTheMaster) {
   ASSERT_TRUE(bring_up());
   master.set_outputs(kSlave, Bytes(kDataBytes, 0x77));
-  user.set_inputs({1, 2, 3, 4, 5, 6, 7, 8});
+  set_inputs({1, 2, 3, 4, 5, 6, 7, 8});
   run(kTicksPerMs);
   EXPECT_EQ(master_inputs(), (Bytes{1, 2, 3, 4, 5, 6, 7, 8}));
-  EXPECT_EQ(to_bytes(user.outputs()), Bytes(kDataBytes, 0x77));
-  user.loop_back();
-  run(kTicksPerMs);
-  EXPECT_EQ(master_inputs(), Bytes(kDataBytes, 0x77));
+  EXPECT_EQ(user->outputs(), Bytes(kDataBytes, 0x77));
 }
 
 TEST(MailboxUserConfig, OtherClockAndPeriodServeAsWell) {
@@ -469,11 +463,13 @@ TEST(MailboxUserConfig, OtherClockAndPeriodServeAsWell) {
 
 // --- the engines -----------------------------------------------------------------------------------------------------
 
-std::string words(const PinChange& change) {
-  return std::string(name(change.pin)) + "=" + std::to_string(change.level) + " at tick " + std::to_string(change.at);
+std::string words(const tb::PinEdge& change) {
+  return std::string(kind().pins()[change.pin].name) + "=" + std::to_string(change.level) + " at tick " +
+         std::to_string(change.at);
 }
 std::string words(const profibus::Event& event) {
-  return std::string(profibus::code(event.reason)) + " at tick " + std::to_string(event.at) + ": " + describe(event);
+  return std::string(profibus::code(event.reason)) + " at tick " + std::to_string(event.at) + ": " +
+         kind().describe(event);
 }
 
 template <typename T>
@@ -507,21 +503,21 @@ TEST_P(MailboxEngines, StepAndSkipGiveTheSamePinsAndEvents) {
     ASSERT_TRUE(plant.bring_up());
     plant.master.set_outputs(kSlave, Bytes(kDataBytes, 0x5A));
     plant.run(kTicksPerMs + 77);
-    plant.user.set_inputs({9, 8, 7, 6, 5, 4, 3, 2});
+    plant.set_inputs({9, 8, 7, 6, 5, 4, 3, 2});
     plant.run(kTicksPerMs + 131);
     EXPECT_GT(plant.status().data_exchanges, 5U);
     plant.master.stop();
     plant.run(55 * kTicksPerMs);
-    plant.set(Pin::kReset, 0, 11);
+    plant.set(kit::kReset, 0, 11);
     plant.run(kTicksPerMs);
   };
   UsersPlant step(Engine::kStep, GetParam()), skip(Engine::kSkip, GetParam());
   play(step);
   play(skip);
   EXPECT_EQ(step.board.count(profibus::Reason::kWatchdogExpired), 1U);
-  EXPECT_GT(step.board.count(Pin::kInt, 0), 5U);
-  EXPECT_GT(step.board.count(Pin::kPbrts, 1), 20U);
-  EXPECT_GT(step.board.count(Pin::kMiso, 1), 20U);
+  EXPECT_GT(step.board.count(kInt, 0), 5U);
+  EXPECT_GT(step.board.count(kit::kRts, 1), 20U);
+  EXPECT_GT(step.board.count(kMiso, 1), 20U);
   expect_same(step, skip);
 }
 
@@ -554,15 +550,15 @@ class RandomFrames {
     chip_.select();
     for (int i = 0; i < bits; ++i) {
       const auto byte = static_cast<std::size_t>(i) / 8;
-      chip_.set(Pin::kMosi, byte < bytes.size() ? static_cast<Level>(bytes[byte] >> (7 - i % 8) & 1) : Level{1});
-      chip_.set(Pin::kSck, 1, up_to(half));
-      chip_.set(Pin::kSck, 0, up_to(half));
+      chip_.set(kMosi, byte < bytes.size() ? static_cast<Level>(bytes[byte] >> (7 - i % 8) & 1) : Level{1});
+      chip_.set(kSck, 1, up_to(half));
+      chip_.set(kSck, 0, up_to(half));
     }
-    chip_.set(Pin::kXss, 1, up_to(half));
+    chip_.set(kXss, 1, up_to(half));
   }
   void reset() {
-    chip_.set(Pin::kReset, 0);
-    chip_.set(Pin::kReset, 1, up_to(2000));
+    chip_.set(kit::kReset, 0);
+    chip_.set(kit::kReset, 1, up_to(2000));
     chip_.run(5 * kCycle);
     frame(kStart, 40);
     chip_.run(5 * kTicksPerMs);
@@ -594,20 +590,21 @@ const std::regex kValue("\\{[abc](:(2x|3x|4x|state|rate|sap|rm|high|low|low2x))?
 
 TEST(MailboxReasons, EveryReasonHasACodeOfItsOwnAndNoPlaceholderIsLeft) {
   std::set<std::string> codes;
-  for (const profibus::Reason reason : reasons()) {
-    EXPECT_TRUE(codes.insert(code(reason)).second) << code(reason);
-    EXPECT_EQ(std::regex_replace(text_template(reason), kValue, "").find('{'), std::string::npos) << code(reason);
-    EXPECT_EQ(advice(reason).find('{'), std::string::npos) << code(reason);
+  for (const tb::CodeText& each : kind().codes().front().codes) {
+    EXPECT_TRUE(codes.insert(each.code).second) << each.code;
+    EXPECT_EQ(std::regex_replace(each.text, kValue, "").find('{'), std::string::npos) << each.code;
+    EXPECT_EQ(each.advice.find('{'), std::string::npos) << each.code;
   }
+  EXPECT_EQ(codes.size(), kind().reasons().size());
   EXPECT_EQ(codes.count("STARTED") + codes.count("PRM_IDENT"), 2U) << "a room is missing";
 }
 
 TEST(MailboxReasons, TheSlavesReasonsSpeakOfTheMailboxInItsOwnWords) {
   EXPECT_EQ(
-      advice(profibus::Reason::kPrmIdent),
+      profibus::advice(profibus::Reason::kPrmIdent, kind().parts().words),
       "Use the GSD file of this device, or initialise with the ident number of the GSD file (bytes 2 and 3 of the "
       "start frame).");
-  EXPECT_EQ(describe({0, profibus::Reason::kDpState, 0, 1}), "DP state OFFLINE to WAIT_PRM");
+  EXPECT_EQ(kind().describe({0, profibus::Reason::kDpState, 0, 1}), "DP state OFFLINE to WAIT_PRM");
 }
 
 }  // namespace

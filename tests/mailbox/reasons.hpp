@@ -1,34 +1,24 @@
 #pragma once
-// The reasons of the mailbox: those of its SPI port, and all reasons of the chip in its wording.
-#include <vector>
-
-#include "model/profibus/chip_reasons.hpp"
+// The reasons of the mailbox's SPI port. No document has rulings for this chip.
+#include "model/profibus/reason.hpp"
 
 namespace dsdpv1::mailbox {
 
-namespace detail {
-enum class ReasonIndex : std::size_t {
-#define X(id, ...) id,
-#include "tests/mailbox/reasons.inc"
-#undef X
-  kCount
-};
-extern const profibus::ReasonRow kReasonRows[static_cast<std::size_t>(ReasonIndex::kCount)];
-}  // namespace detail
+using profibus::Severity;
 
-/// The reasons of the SPI port: `mailbox::Reason::kStarted`.
+inline constexpr profibus::ReasonRow kReasonRows[] = {
+    {Severity::kInfo, "STARTED", "", "started: address {a}, ident {b:4x}", "Nothing: the baud rate search begins."},
+    {Severity::kRefusal, "START_REFUSED", "", "start refused: address {a} is above 125, or the flags {b:2x} are not 00",
+     "Give a station address from 0 to 125, and 00 as the flags."},
+    {Severity::kViolation, "SPI_FRAME_LENGTH", "", "frame dropped: {a} bits with the command {c:2x}, which has {b}",
+     "Send one whole frame a select: 9 bytes for 01 and 02, 5 bytes for 03."},
+    {Severity::kViolation, "SPI_COMMAND", "", "frame dropped: {a:2x} is no command ({b} bits)",
+     "The commands are 01 (write inputs), 02 (read outputs) and 03 (start)."}};
+
+/// `mailbox::Reason::kStarted`.
 struct Reason {
-#define X(id, ...) \
-  static constexpr profibus::Reason id{detail::kReasonRows[static_cast<std::size_t>(detail::ReasonIndex::id)]};
-#include "tests/mailbox/reasons.inc"
-#undef X
+  static constexpr profibus::Reason kStarted{kReasonRows[0]}, kStartRefused{kReasonRows[1]},
+      kFrameLength{kReasonRows[2]}, kCommandUnknown{kReasonRows[3]};
 };
-
-/// All reasons of the chip: SPI port, DP slave.
-std::vector<profibus::Reason> reasons();
-extern const profibus::Words kWords;
-inline constexpr profibus::Describe<kWords> describe{};
-inline constexpr profibus::TextTemplate<kWords> text_template{};
-inline constexpr profibus::Advice<kWords> advice{};
 
 }  // namespace dsdpv1::mailbox

@@ -36,35 +36,20 @@ profibus::SlaveConfig slave_config(std::uint8_t address, std::uint16_t ident) {
 }  // namespace
 
 void SpiPort::reset() {
-  enabled_ = selected_ = unread_ = false;
+  selected_ = unread_ = false;
   acts_at_ = profibus::kNever;
-}
-
-bool SpiPort::level(Pin pin) const {
-  switch (pin) {
-    case Pin::kXss: return xss_;
-    case Pin::kSck: return sck_;
-    default: return mosi_;
-  }
 }
 
 // --- the edges -------------------------------------------------------------------------------------------------------
 
-void SpiPort::set(Tick at, Pin pin, bool high) {
-  if (high == level(pin)) return;
-  switch (pin) {
-    case Pin::kXss: return chip_select(at, high);
-    case Pin::kSck:
-      sck_ = high;
-      if (!selected_) return;
-      return high ? shift_in() : shift_out();
-    default: mosi_ = high; return;
-  }
+void SpiPort::input(Tick at, PinNumber pin, Level level) {
+  if (pin == kXss) chip_select(at, level != 0);
+  if (pin == kSck && selected_) level != 0 ? shift_in() : shift_out();
+  chip_.drive(at, kMiso, selected_ ? miso_ : kReleased);
 }
 
 void SpiPort::chip_select(Tick at, bool high) {
-  xss_ = high;
-  if (!high && enabled_) begin();
+  if (!high) begin();
   if (high && selected_) end(at);
 }
 
@@ -87,7 +72,7 @@ void SpiPort::end(Tick at) {
 
 void SpiPort::shift_in() {
   const std::size_t byte = bits_ / kByteBits;
-  if (byte < shift_.size()) shift_[byte] = static_cast<std::uint8_t>(shift_[byte] << 1 | (mosi_ ? 1 : 0));
+  if (byte < shift_.size()) shift_[byte] = static_cast<std::uint8_t>(shift_[byte] << 1 | chip_.level(kMosi));
   if (bits_ < kMostBits) ++bits_;
   if (bits_ == kByteBits && shift_[0] == command::kReadOutputs) load_outputs();
 }
@@ -99,9 +84,9 @@ void SpiPort::shift_out() {
 
 // All 8 bytes at once: later data from the master is for the next frame and keeps INT low.
 void SpiPort::load_outputs() {
-  const profibus::IoBlock& outputs = user_.outputs();
+  const profibus::IoBlock& outputs = chip_.user().outputs();
   for (std::size_t i = 0; i < kDataBytes; ++i) to_send_ = to_send_ << kByteBits | outputs.bytes[i];
-  profibus::Due& due = user_.mail().output.due;
+  profibus::Due& due = chip_.user().mail().output.due;
   unread_ = unread_ || due.waiting();
   due.clear();
 }
@@ -114,16 +99,16 @@ void SpiPort::eval(Cycle now) {
   const std::uint8_t code = frame_bits_ < kByteBits ? std::uint8_t{0} : frame_[0];
   const unsigned size = frame_bits_ < kByteBits ? kByteBits : frame_size(code);
   if (size == 0)
-    log_.at_cycle(now, Reason::kCommandUnknown, code, frame_bits_);
+    chip_.say(now, Reason::kCommandUnknown.row(), code, frame_bits_);
   else if (frame_bits_ != size)
-    log_.at_cycle(now, Reason::kFrameLength, frame_bits_, size, code);
+    chip_.say(now, Reason::kFrameLength.row(), frame_bits_, size, code);
   else
     execute(now);
 }
 
 void SpiPort::execute(Cycle now) {
   switch (frame_[0]) {
-    case command::kWriteInputs: user_.new_inputs(now, frame_.data() + 1, kDataBytes); return;
+    case command::kWriteInputs: chip_.user().new_inputs(now, frame_.data() + 1, kDataBytes); return;
     case command::kReadOutputs: unread_ = false; return;
     default: return start(now);
   }
@@ -132,14 +117,14 @@ void SpiPort::execute(Cycle now) {
 void SpiPort::start(Cycle now) {
   const std::uint8_t address = frame_[1], flags = frame_[4];
   if (address > kHighestAddress || flags != 0) {
-    log_.at_cycle(now, Reason::kStartRefused, address, flags);
+    chip_.say(now, Reason::kStartRefused.row(), address, flags);
     return;
   }
   const auto ident = static_cast<std::uint16_t>(frame_[2] << 8 | frame_[3]);
-  log_.at_cycle(now, Reason::kStarted, address, ident);
+  chip_.say(now, Reason::kStarted.row(), address, ident);
   // The slave forgets its mail; its outputs are still unread.
-  unread_ = unread_ || user_.mail().output.due.waiting();
-  user_.initialise(now, slave_config(address, ident));
+  unread_ = unread_ || outputs_wait();
+  chip_.user().initialise(now, slave_config(address, ident));
 }
 
 }  // namespace dsdpv1::mailbox

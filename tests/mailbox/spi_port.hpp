@@ -13,8 +13,6 @@
 #include <array>
 #include <cstdint>
 
-#include "model/profibus/event_log.hpp"
-#include "model/profibus/user_side.hpp"
 #include "tests/mailbox/pins.hpp"
 
 namespace dsdpv1::mailbox {
@@ -31,26 +29,23 @@ constexpr std::uint8_t kWriteInputs = 0x01, kReadOutputs = 0x02, kStart = 0x03;
 constexpr int kDataFrame = 1 + kDataBytes;  ///< bytes of 01 and 02: the command and the data
 constexpr int kStartFrame = 1 + 4;          ///< bytes of 03: the command, address, ident (2), flags
 
-class SpiPort {
+using Data = std::array<std::uint8_t, kDataBytes>;
+
+class SpiPort : public kit::UserPort {
  public:
-  SpiPort(profibus::EventLog& log, profibus::UserSide& user) : log_(log), user_(user) {}
+  explicit SpiPort(kit::Chip& chip) : chip_(chip) {}
 
-  /// In reset the port takes no frame; after `release` the next fall of XSS begins the first one.
-  void reset();
-  void release() { enabled_ = true; }
-  /// A change of XSS, SCK or MOSI at `at`.
-  void set(Tick at, Pin pin, bool high);
-  bool level(Pin pin) const;
-
-  /// The rising edge of `now`: a complete frame takes effect. Must be called before the station's.
-  void eval(Cycle now);
-  Cycle next() const { return acts_at_; }
-
-  Level miso() const { return selected_ ? miso_ : kLevelZ; }
+  /// A frame that began before the reset is none.
+  void reset() override;
+  void input(Tick at, PinNumber pin, Level level) override;
+  /// A complete frame takes effect.
+  void eval(Cycle now) override;
   /// INT: low from the edge at which the slave has new outputs until the frame that has read them acts.
-  bool int_level() const { return !unread_ && !user_.mail().output.due.waiting(); }
+  void show(Cycle now) override { chip_.drive_at(now, kInt, unread_ || outputs_wait() ? 0 : 1); }
+  Cycle next() const override { return acts_at_; }
 
  private:
+  bool outputs_wait() const { return chip_.user().mail().output.due.waiting(); }
   void chip_select(Tick at, bool high);
   void begin();
   void end(Tick at);
@@ -60,10 +55,7 @@ class SpiPort {
   void execute(Cycle now);
   void start(Cycle now);
 
-  profibus::EventLog& log_;
-  profibus::UserSide& user_;
-  bool enabled_ = false, xss_ = true, sck_ = false, mosi_ = false;
-
+  kit::Chip& chip_;
   bool selected_ = false;
   unsigned bits_ = 0;  // in this select
   std::array<std::uint8_t, kDataFrame> shift_{};

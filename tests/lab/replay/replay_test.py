@@ -37,6 +37,15 @@ DIAGNOSIS = """
 script:
   - {{at: {half}us, do: set_diagnosis, slave: demo, type: external, bytes: "03 A5 5A"}}
 """
+# Outputs come back as inputs, each 300 us.
+SLOW_LOOP = """name: loop
+baud: 12M
+end: 12ms
+masters: [{{name: plc, slaves: [{{slave: a, outputs: 01 02 03 04}}]}}]
+slaves: [{{name: a, address: 5, init: {{ident: 0x0B0D, max_inputs: 4, max_outputs: 4, cfg: 13 23}}, user_cpu: {{cycle: 300us, start_delay: {delay}us}}}}]
+script: [{{at: 9ms, do: set_outputs, slave: a, bytes: 11 22 33 44}}]
+"""
+
 failures = []
 
 
@@ -214,6 +223,20 @@ def changed_byte(folder):
     expect("how often", (result["verdicts"]["other bytes"], len(result["differences"])), (1, 1))
     expect("in words", f"first difference  at {moment_ms(packets[at - 1].ns)}, telegram {at} of the capture: byte 9" in text, True)
     expect("given, it is none", replayed(folder, "planted.pcapng")[0]["equal"], True)
+
+
+def recorded_inputs(folder):
+    """A user CPU that loops back makes inputs at its own time: with the recorded ones it makes none, and its cycle is its pace."""
+    scenario = SLOW_LOOP.format(delay=0)
+    (folder / "run.yaml").write_text(scenario, encoding="utf-8")
+    sim(folder, "run", "run.yaml", "-q", "--no-progress", "--capture", "run.pcapng")
+    for delay in (0, 100, 200):
+        (folder / "late.yaml").write_text(SLOW_LOOP.format(delay=delay), encoding="utf-8")
+        result, text = replayed(folder, "run.pcapng", "--scenario", "late.yaml", "--inputs", "recorded")
+        expect(f"{delay} us later", (result["equal"], result["compared"] > 100), (True, True))
+    expect("says whose", "the recorded ones" in text, True)
+    result, text = replayed(folder, "run.pcapng", "--scenario", "late.yaml", status=1)
+    expect("its own, at another time", (result["equal"], "without the script" in text), (False, True))
 
 
 def missing_answer(folder):
@@ -421,7 +444,7 @@ def outputs(folder):
            "dsdpv1-sim replay: --json would replace the capture, run.pcapng, expected a separate file\n")
 
 
-CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, repetitions, repetitions_in_rtl, changed_byte,
+CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, repetitions, repetitions_in_rtl, changed_byte, recorded_inputs,
                                           missing_answer, answer_without_syn, shifted_answer, unlock, other_ident, in_the_middle, old_faults, without_lead_in, window, outputs)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as folder_name:

@@ -101,6 +101,7 @@ def golden(cell):
 
 def replay(cell):
     cell.passes("run", "x.yaml", "-q", "--capture", "x.pcapng")
+    cell.passes("replay", "x.pcapng", "--as", "5", "--chip", cell.kind, "--no-progress")
     done = cell.passes("replay", "x.pcapng", "--as", "5", "--scenario", "x.yaml", "--no-progress")
     cell.expect("replay", done.stdout.rstrip().rpartition("\n")[2].startswith("EQUAL"), True, done.stdout[-500:])
 
@@ -262,7 +263,7 @@ ROWS = [  # what, how, the function
     ("`--wave-inside`", "states of MAC, DP, watchdog and buffers in words", inside),
     ("`--save`, `--restore`, `--rewind-on`", "yes", saved),
     ("`traces`, `--golden`", "yes", golden),
-    ("`replay`", "with `--scenario`; without it the model is a DSDPV1", replay),
+    ("`replay`", "with `--chip`, or `--scenario`", replay),
     ("`sweep`, `regress`", "yes", campaigns),
     ("`serve`", "yes", serve),
     ("`compare`, `decode`, `gsd`", "yes: about lines and files", without_chip),

@@ -1,0 +1,91 @@
+#pragma once
+// The chip of a kind of the kit on the segment, and the user CPU at its pins.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "tb/chip/user_cpu/fiber.hpp"
+#include "tb/chip/user_cpu/program_inputs.hpp"
+#include "tb/kit/slave_kit.hpp"
+
+namespace dsdpv1::kit {
+
+/// The chip's pins as its user CPU has them.
+class OwnPins : public user_cpu::UserSide {
+ public:
+  virtual void set(Tick at, PinNumber pin, Level level) = 0;
+  virtual Level level(PinNumber pin) const = 0;
+};
+
+class OnSegment : public tb::PinChip, private OwnPins {
+ public:
+  OnSegment(const Kind& kind, const tb::ChipRequest& request, std::unique_ptr<tb::PinDevice> device,
+            bus::Segment& segment)
+      : PinChip(request.name, std::move(device), kind.pins(), kind.board_pins(), request.watched, segment),
+        parts_(kind.parts()) {}
+
+  void reset_host(Tick at) override;
+  user_cpu::UserSide* user_side() override { return static_cast<OwnPins*>(this); }
+
+ private:
+  void set(Tick at, PinNumber pin, Level level) override { set_pin(at, pin, level); }
+  Level level(PinNumber pin) const override { return PinChip::level(pin); }
+
+  const Parts& parts_;
+};
+
+/// Runs the program of a kind; each wait that others act in is a turn of the bench.
+class Program : public user_cpu::StationCpu, private Cpu {
+ public:
+  /// All references must outlive it.
+  Program(const Parts& parts, OwnPins& pins, const tb::OwnSettings& settings, const user_cpu::ProgramOptions& options,
+          Tick start);
+
+  // user_cpu::StationCpu
+  Tick next() const override;
+  void run(Tick now) override;
+  void interrupt_changed(Tick at, bool level) override;
+  void command(Tick now, const user_cpu::Command& command) override;
+  user_cpu::UserCounters counters() const override { return counters_; }
+  std::uint64_t outputs_received() const override { return counters_.program->outputs_received; }
+  const std::vector<std::uint8_t>& outputs() const override { return outputs_; }
+
+ private:
+  // Cpu
+  const user_cpu::StationConfig& station() const override { return options_.station; }
+  Tick period() const override { return options_.period; }
+  const tb::OwnSettings& settings() const override { return settings_; }
+  Tick now() const override { return now_; }
+  void wait_until(Tick at) override;
+  bool wait_interrupt(Tick until) override;
+  void set(PinNumber pin, Level level) override { pins_.set(now_, pin, level); }
+  Level level(PinNumber pin) const override { return pins_.level(pin); }
+  std::vector<std::uint8_t> inputs(std::size_t length) override;
+  std::optional<Diagnosis> diagnosis() override { return std::exchange(diagnosis_, std::nullopt); }
+  void received(std::vector<std::uint8_t> outputs) override;
+  void written() override;
+
+  void begin(Tick at);
+  void carry_out(const user_cpu::command::SetInputs& set) { inputs_.set(set.bytes); }
+  void carry_out(const user_cpu::command::SetDiagnosis& set);
+  void carry_out(const user_cpu::command::Reinitialise& again);
+  void carry_out(const user_cpu::command::Stop&) { stopped_ = true; }
+  void carry_out(const user_cpu::command::Resume&) { stopped_ = false; }
+  template <class Refused>
+  void carry_out(const Refused&) {}  // Kind::check_slave refuses it
+
+  const Parts& parts_;
+  OwnPins& pins_;
+  const tb::OwnSettings& settings_;
+  user_cpu::ProgramOptions options_;
+  user_cpu::ProgramInputs inputs_{options_};
+  user_cpu::UserCounters counters_;
+  std::vector<std::uint8_t> outputs_;
+  std::optional<Diagnosis> diagnosis_;
+  Tick now_ = 0, due_ = 0;
+  Tick interrupt_at_ = bus::kNever;  ///< the pin has left its level of rest, which wait_interrupt has not told yet
+  bool waits_interrupt_ = false, stopped_ = false;
+  std::unique_ptr<user_cpu::Fiber> fiber_;
+};
+
+}  // namespace dsdpv1::kit
