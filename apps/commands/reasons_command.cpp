@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "apps/commands/command.hpp"
 #include "apps/options/outputs.hpp"
@@ -137,11 +139,17 @@ tb::CodeText find_reason(const std::vector<tb::CodeText>& all, const std::string
 
 /// The advice of kinds of chips that have other words for it than the first with this code.
 void print_others(std::string& text, const tb::CodeText& first) {
+  std::vector<std::pair<std::string, std::string>> others;  // advice, names of the kinds
   for (const tb::ChipKind* kind : tb::chip_kinds())
     for (const tb::CodeTable& table : kind->codes())
-      for (const tb::CodeText& each : table.codes)
-        if (each.code == first.code && each.advice != first.advice)
-          text += tb::named_line("", std::string(kind->name()) + ": " + each.advice, 0);
+      for (const tb::CodeText& each : table.codes) {
+        if (each.code != first.code || each.advice == first.advice) continue;
+        if (others.empty() || others.back().first != each.advice)
+          others.emplace_back(each.advice, kind->name());
+        else
+          others.back().second += std::string(", ") + kind->name();
+      }
+  for (const auto& [advice, kinds] : others) text += tb::named_line("", fmt::format("{}: {}", kinds, advice), 0);
 }
 
 std::string as_text(const tb::ChipKind& kind, const std::string& code) {

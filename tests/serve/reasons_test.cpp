@@ -35,13 +35,21 @@ TEST(Reasons, EveryCodeOfScenariosAndLogsHasATextAnAdviceAndARulingOrClause) {
 TEST(Reasons, OneCodeIsPrintedAlone) {
   const app_test::Called printed = call("reasons PRM_IDENT", DSDPV1_SOURCE_DIR);
   EXPECT_EQ(printed.status, 0) << printed.err;
-  EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 4);
+  EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 5);
   EXPECT_NE(printed.out.find("    see S6 (docs/chip.md#s6), T19-4 (docs/conformance.md#t19-4)\n"), std::string::npos)
       << printed.out;
   EXPECT_EQ(printed.out.rfind(
                 "PRM_IDENT (refusal)\n    such as: Prm_Fault: ident 0CC9, this slave is 1234\n    Use the GSD", 0),
             0U)
       << printed.out;
+}
+
+TEST(Reasons, OneCodeHasTheAdviceOfEachKindOfChip) {
+  EXPECT_NE(
+      call("reasons PRM_IDENT", DSDPV1_SOURCE_DIR)
+          .out.find("\n    apc3, spc3, vpc3: Use the GSD file of this device, or initialise with the ident number of "
+                    "the GSD file (3AH, 3BH).\n"),
+      std::string::npos);
 }
 
 TEST(Reasons, NothingIsLeftToBeFilledIn) {

@@ -575,7 +575,7 @@ class Master {
 };
 
 constexpr std::uint8_t kSrd = 0x5D, kSrdOther = 0x7D;  // with FCV; FCB 0 and 1
-constexpr std::uint8_t kStatus = 0x49;                 // FDL status: the request after it is no repetition (S26)
+constexpr std::uint8_t kStatus = 0x49;                 // FDL status: no request after it is a repetition (S26)
 constexpr unsigned kIdent = 0x0CC9;                    // ident number of the scenarios' slaves
 
 /// Parameters of Set_Prm; `options` is DPV1_Status_1. Their Min T_SDR differs from the slave's present one.

@@ -170,7 +170,7 @@ def reference_rtl(folder):
 
 
 def repetitions(folder, engine="skip"):
-    """Whether a request with the FCB of the one before but with other bytes is a repetition, the scenario's fcb_rule says (S26)."""
+    """The scenario's fcb_rule decides about a request with the FCB of the one before but with other bytes (S26)."""
     telegram = 'script: [{at: 20ms, do: telegram, bytes: "68 07 07 68 05 02 5D 09 08 07 06 82 16"}]\n'
     text = SCENARIO.format(baud="12M", end=30000, behaviour="loop_back", cycle=50, interval=600) + telegram
     for rule in ("letter", "content"):
@@ -296,7 +296,7 @@ def unlock(folder):
     """A Set_Prm that unlocks the slave does not change its min_TSDR (S17): it still answers after 11 bit times. One with neither Lock nor Unlock
     does (S28)."""
     def again(packet):
-        """The same request as the first of a series, so that it is no repetition (S26)."""
+        """The same request as the first of a series, so that it is not a repetition (S26)."""
         request = pcapng.Packet(packet.block()[8:-4])
         request.change(6, 0x6D)
         return request
