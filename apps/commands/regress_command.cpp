@@ -135,7 +135,7 @@ class Regress : public Command {
     return description_;
   }
 
-  /// Of the scenarios in cosim; those that cannot be read are refused by their runs.
+  /// The kinds of chips in the scenarios of cosim; those that cannot be read are refused by their runs.
   static std::string chip_of(const tb::regress::Plan& plan) {
     std::string chip, first;
     for (const Run& run : plan.runs) {

@@ -45,7 +45,7 @@ using tb::regress::Verdict;
 constexpr int kNotStarted = 127;
 constexpr tb::FileKind kCoverageFile{"a tracefile of coverage", 256};  // some 30 bytes a toggle
 
-/// Those of the RTL of its own, the scenario's, and the golden. A scenario that cannot be read is refused by its run,
+/// The files of the own RTL, of the scenario and of the golden. A scenario that cannot be read is refused by its run,
 /// which says why.
 std::vector<std::string> files_of(const Run& run, const Description& description) {
   std::vector<std::string> files;

@@ -93,7 +93,7 @@ class VerifyRtl : public Command {
     return only_.empty() || std::find(only_.begin(), only_.end(), what) != only_.end();
   }
 
-  /// What no run could say in place of all.
+  /// Errors that concern all runs alike.
   void check_settings() const {
     if (!set_.empty() && !wants("stimuli") && !wants("random"))
       throw tb::InputError("dsdpv1-sim verify-rtl: --set is for stimuli and random, expected one of them in --only");
@@ -184,7 +184,7 @@ class VerifyRtl : public Command {
     for (const std::string& file : files) runs.push_back({file, "replay", "pins", "", set_, {"--chip", chip_.chip}});
   }
 
-  /// In pieces, each with a seed of its own, so that an interruption costs one of them.
+  /// In pieces, each with its seed, so that an interruption costs one of them.
   void add_random(std::vector<Run>& runs) const {
     const auto& ports = chip_.kind().random()->words().ports;
     const std::uint64_t each = cycles_ / ports.size();

@@ -10,7 +10,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-/// The byte of an octal or hexadecimal escape, as the characters after the backslash; `at` moves behind them.
+/// The byte of an octal or hexadecimal escape, as the characters after the backslash; `at` moves past them.
 char numbered_escape(std::string_view text, std::size_t& at) {
   const bool hexadecimal = text[at] == 'x';
   const std::size_t begin = at + (hexadecimal ? 1 : 0);
