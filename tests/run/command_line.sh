@@ -15,7 +15,7 @@ refuses() {
 }
 
 help=$("$run" --help) || fail "--help: exit $?"
-for command in demo test edit sim nightly accept-campaign rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal mutants fuzz bench traces cosim registers docs build format lint generate conformance release deps; do
+for command in demo test edit sim nightly accept-campaign rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal rtl-gates mutants fuzz bench traces cosim registers docs build format lint generate conformance release deps; do
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
@@ -51,6 +51,7 @@ refuses "unknown argument now, expected --out FOLDER" demo now
 refuses "debug is one argument too many, expected one of default fast" build fast debug
 refuses "--record is one argument too many, expected one of --check --record" release --check --record
 refuses "rtl-formal takes no arguments" rtl-formal quickly
+refuses "rtl-gates: argument --cells: invalid choice: 'asic'" rtl-gates --list --cells asic
 refuses "invalid choice: 'sdv'" registers --format sdv
 refuses "nightly takes no arguments" nightly quickly
 refuses "rtl-coverage takes no arguments" rtl-coverage again
