@@ -90,7 +90,7 @@ def cppcheck():
     with tempfile.TemporaryDirectory() as folder:
         for part in ("driver", "registers"):
             shutil.copytree(ROOT / part, pathlib.Path(folder, part), ignore=shutil.ignore_patterns("*.py", "systemc"))
-        sources = [source.relative_to(ROOT).as_posix() for folder in ("driver", "driver/spc3") for source in sorted((ROOT / folder).glob("*.c"))]
+        sources = [source.relative_to(ROOT).as_posix() for folder in ("driver", "driver/spc3", "driver/xgate") for source in sorted((ROOT / folder).glob("*.c"))]
         told(folder, *options, "--dump", *sources)
         alone = told(folder, sys.executable, str(addon()), "--no-summary", *(f"{source}.dump" for source in sources))
         return alone + told(folder, *options, "--addon=misra", "--enable=style", "--template=[{file}:{line}] [{id}]", *sources)

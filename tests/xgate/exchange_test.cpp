@@ -119,6 +119,22 @@ TEST_F(XgateExchange, C2OfTheModuleAndOfTheHost) {
   EXPECT_EQ(exchange(), outputs);
 }
 
+TEST_F(XgateExchange, C2RequestThatTheHostAnswersTooLate) {
+  know();
+  initiate();
+  bench.service(48, {0x5E, 1, 2, 1}, 50);
+  EXPECT_EQ(exchange().at(1), 0x30);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(bench.int_low());
+    bench.run(251 * profibus::kCyclesPerMs);
+    if (i < 3) EXPECT_TRUE(bench.service(48, {}, 50).empty());
+  }
+  EXPECT_FALSE(bench.int_low()) << "Send_Timeout was 1 s";
+  expect(0x30, box(2, {0x5E, 1, 2, 1, 7}), error::kParameter);
+  EXPECT_EQ(exchange().at(1), 0x20);
+  EXPECT_EQ(bench.service(48, {}, 50), Bytes({0x58, 0, 0x13})) << "the abort";
+}
+
 TEST_F(XgateExchange, C2TimeoutIsAtLeastTheHosts) {
   ASSERT_EQ(bench.ask(0x13, {0, 1}), frame(0x13, {}));
   Bytes data = ModuleBench::initialisation();

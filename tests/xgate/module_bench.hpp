@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -90,7 +91,12 @@ class ModuleBench {
     const Cycle end = now + cycles;
     while (true) {
       const Cycle next = way == Way::kStep ? now + 1 : std::max(module->next(), now + 1);
-      if (next > end) break;
+      const Cycle byte = coming.empty() ? profibus::kNever : coming.front().first;
+      if (std::min(next, byte) > end) break;
+      if (byte < next) {
+        deliver(byte);
+        continue;
+      }
       now = next;
       module->eval(now);
       ++evaluated;
@@ -134,6 +140,13 @@ class ModuleBench {
       run(byte_time);
       module->receive(now, byte);
       look();
+    }
+  }
+  /// Bytes that come while the bench runs: the first ends at `first`.
+  void put_later(Cycle first, const Bytes& bytes) {
+    for (const std::uint8_t byte : bytes) {
+      coming.emplace_back(first, byte);
+      first += kByte;
     }
   }
   /// The bytes of the answer.
@@ -238,6 +251,8 @@ class ModuleBench {
   Config config;
   Way way;
   std::unique_ptr<Module> module;
+  std::deque<std::pair<Cycle, std::uint8_t>> coming;  ///< the host's bytes
+  std::function<void()> on_heard;                     ///< at each byte of the module
   Cycle now = 0, byte_time = kByte;
   std::uint64_t evaluated = 0;
   std::array<int, kFirstLed + kLeds> levels{};
@@ -249,11 +264,19 @@ class ModuleBench {
   Bytes answered;  ///< to the last telegram
 
  private:
+  void deliver(Cycle at) {
+    now = at;
+    const std::uint8_t byte = coming.front().second;
+    coming.pop_front();
+    module->receive(now, byte);
+    look();
+  }
   static void hear_byte(void* self, Cycle begins, Cycle ends, std::uint8_t byte) {
     auto& bench = *static_cast<ModuleBench*>(self);
     bench.heard.push_back(byte);
     bench.begins.push_back(begins);
     bench.heard_until = ends;
+    if (bench.on_heard) bench.on_heard();
   }
   static void take_event(void* self, const profibus::Event& event) {
     static_cast<ModuleBench*>(self)->events.push_back(event);
