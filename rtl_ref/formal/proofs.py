@@ -25,6 +25,7 @@ class Proof:
     faults: tuple = ()       # the defects, a twin each: of dsdpv1/faults.txt or dsdpv1_rsu/faults.txt,
     edit: tuple = ()         # and file, old text, new text
     chip: str = "dsdpv1"     # whose files
+    clocks: bool = False     # each clock is an input, and a step is no edge of any
 
 
 def states(block, file, edit, **more):
@@ -149,4 +150,33 @@ PROOFS = (
         ("host_reply", ("LENGTH: state_d = no_length ? CRC_HIGH : DATA;", "LENGTH: state_d = no_length ? CRC_HIGH : state + 4'd5;")),
         ("host_uart", ("assign complete = samples && sample_q == 4'd10;", "assign complete = samples && sample_q == 4'd11;")),
     )),
+    # ---- telegrams and answers
+    Proof("right_fcs", "a decided telegram has the right FCS and ED", "telegram_rx", {"profibus/telegram_rx.sv": "right_fcs"}, engine="induction",
+          depth=1, twin_depth=12, faults=(10, 11)),
+    Proof("answer_needs_telegram", "no answer without a telegram that has FCS and ED", "fdl", {"profibus/fdl.sv": "answer_needs_telegram"},
+          cut_cells=("c:u_builder", "c:u_answers"), edit=("profibus/fdl.sv", "kind_q <= sd_i == SD_SD1 || sd_i == SD_SD2 ||", "kind_q <= sd_i == SD_SD1 || sd_i == SD_SD4 ||")),
+    Proof("uart_rx_deadline", "the deadline of a character is six edges after it or more", "uart_rx", {"profibus/uart_rx.sv": "uart_rx_deadline"},
+          edit=("profibus/uart_rx.sv", ": bit_len + half;", ": half;")),
+    # ---- banks
+    Proof("banks", "the bank of reception is none in use", "bus_banks", {"profibus/bus_banks.sv": "banks"},
+          edit=("profibus/bus_banks.sv", "| bit_in_use | bit_transfer;", "| bit_in_use;")),
+    Proof("banks_user", "a block of the user is read into a bank not in use, nor being sent", "user_banks", {"profibus/user_banks.sv": "banks_user"},
+          edit=("profibus/user_banks.sv", "sends_inputs_i ? sent_i : in2_q", "in2_q")),
+    Proof("banks_dpv1", "the banks of DPV1 are a permutation", "msac_buffers", {"profibus/msac_buffers.sv": "banks_dpv1"},
+          cut_cells=("c:u_transfer", "c:u_user", "c:u_initiate"),
+          edit=("profibus/msac_buffers.sv", "c2f_q <= spare_q;\n        spare_q <= c2f_q;", "c2f_q <= spare_q;\n        spare_q <= c30_q;")),
+    Proof("sync_holds", "Sync: what the user gets stands", "bus_banks", {"profibus/bus_banks.sv": "sync_holds"}, faults=(31,)),
+    Proof("freeze_holds", "Freeze: what masters get stands", "user_banks", {"profibus/user_banks.sv": "freeze_holds"}, faults=(28,)),
+    Proof("hold_until", "Sync and Freeze hold until Global_Control ends them or DATA_EXCH is left", "dp_slave", {"profibus/dp_slave.sv": "hold_until"},
+          cut_cells=("c:u_buffers", "c:u_set_prm", "c:u_check_cfg", "c:u_diagnosis", "c:u_parameters"),
+          edit=("profibus/dp_slave.sv", "!gc_unfreeze && !leave;", "!gc_unfreeze && !gc_unsync && !leave;")),
+    # ---- what ends
+    Proof("dp_control_ends", "DP_CONTROL ends without a telegram of the holder", "watchdog", {"profibus/watchdog.sv": "dp_control_ends"},
+          cut_wires=("w:dp_base",), engine="induction", depth=1, twin_depth=16, edit=("profibus/watchdog.sv", "if (inner_q == 8'd0) outer_d = outer_q - 8'd1;", "")),
+    Proof("search_moves", "the search for the rate always moves on", "baud_search", {"profibus/baud_search.sv": "search_moves"},
+          cut_wires=("w:window_of_rate",), edit=("profibus/baud_search.sv", "window_q == 32'd1;", "window_q == 32'd0;")),
+    # ---- the DPRAM
+    Proof("writes_as_owner", "the chip writes the DPRAM only while it owns it, and B006 first", "dsdpv1", {CHIP: "writes_as_owner"},
+          cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"), cut_wires=("w:u_sequencer.boot_q",), defines=ANY_PARAMETERS,
+          edit=(SEQUENCER, "own_q <= state_d != SEQ_IDLE && state_d", "own_q <= state_d != SEQ_IDLE && state_d != SEQ_FLAG && state_d")),
 )
