@@ -44,7 +44,7 @@ static bool answers(uint8_t command, uint8_t answer) {
 
 /* The module repeats the flag in each answer until a command has it (4.3.1). */
 static void take_flag(xgate_module* module) {
-  if (((module->answer.special & kAlarmFlag) == 0) || module->clear_acknowledged) return;
+  if ((module->answer.special & kAlarmFlag) == 0) return;
   module->clear_acknowledged = true;
   if (module->application.acknowledged != NULL) module->application.acknowledged(module->application.context);
 }

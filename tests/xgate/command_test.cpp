@@ -186,6 +186,10 @@ TEST_P(XgateCommand, StepAnsweredAsTheExample) {
 TEST_P(XgateCommand, LightsAndWatchdog) {
   expect_done(0x15, {0b01'01'01'01, 0});
   for (int pin = kFirstLed; pin < kFirstLed + kLeds; ++pin) EXPECT_EQ(bench.levels[static_cast<std::size_t>(pin)], 1);
+  bench.reset(true);
+  EXPECT_EQ(bench.levels[kFirstLed], 0) << "in self-control again";
+  bench.reset(false);
+  bench.run(2'000);
   expect_done(0x15, {0, 0});
   for (int pin = kFirstLed; pin < kFirstLed + kLeds; ++pin) EXPECT_EQ(bench.levels[static_cast<std::size_t>(pin)], 0);
   expect(0x16, {0x80, 0}, error::kTime);

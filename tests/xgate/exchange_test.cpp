@@ -107,6 +107,8 @@ TEST_F(XgateExchange, C2OfTheModuleAndOfTheHost) {
   bench.service(51, {0x5E, 3, 4, 1}, 51);
   EXPECT_EQ(exchange(), frame(0x30, box(2, {0x51, 1, 2, 1, 0x33}) + box(1, {0x5E, 3, 4, 1}))) << "oldest first";
   bench.service(-1, {9, 9, 9});
+  expect(0x30, box(1, {0x5E, 3, 4, 1, 5}) + box(2, {0x51, 9, 2, 2, 6, 7}),
+         error::kParameter);  // nothing of it is taken
   EXPECT_EQ(bench.ask(0x30, box(1, {0x5E, 3, 4, 1, 5}) + box(2, {0x51, 1, 2, 2, 6, 7})), outputs);
   EXPECT_EQ(bench.poll(51, 51), Bytes({0x5E, 3, 4, 1, 5}));
   EXPECT_EQ(bench.poll(48, 50), Bytes({0x51, 1, 2, 2, 6, 7}));
@@ -117,6 +119,19 @@ TEST_F(XgateExchange, C2OfTheModuleAndOfTheHost) {
   bench.service(48, {0x58, 0, 0x12, 0}, 50);
   EXPECT_FALSE(bench.int_low()) << "the master's abort takes the request away";
   EXPECT_EQ(exchange(), outputs);
+}
+
+TEST_F(XgateExchange, SleepDropsRequests) {
+  know();
+  initiate();
+  bench.service(48, {0x5E, 1, 2, 1}, 50);
+  EXPECT_TRUE(bench.int_low());
+  EXPECT_EQ(bench.ask(0x12, {1}), frame(0x12, {}));
+  EXPECT_FALSE(bench.int_low());
+  EXPECT_EQ(bench.ask(0x12, {0}), frame(0x12, {}));
+  bench.diagnosis();
+  bench.service(48, {}, 50);
+  EXPECT_NE(bench.answered, Bytes{0xE5}) << "the channel is free";
 }
 
 TEST_F(XgateExchange, C2RequestThatTheHostAnswersTooLate) {
@@ -238,6 +253,12 @@ TEST_F(XgateExchange, AnyConfigurationIsReadFirst) {
   EXPECT_EQ(any.ask(0x23), frame(0x23, cfg));
   EXPECT_EQ(any.ask(0x20, Bytes(30)), frame(0x21, Bytes(30)));
   EXPECT_EQ(any.ask(0x20, Bytes(29)), any.wrong(0x20, error::kTooFew));
+  any.ask(0x13, {1, 2});
+  any.set_prm({});
+  any.service(62, {0x10, 0x20});
+  EXPECT_EQ(any.ask(0x20, {1}), any.wrong(0x20, error::kExchange)) << "another configuration";
+  EXPECT_EQ(any.ask(0x23), frame(0x23, {0x10, 0x20}));
+  EXPECT_EQ(any.ask(0x20, {1}), frame(0x21, {0}));
   any.ask(0x13, {1, 2});
   any.set_prm({});
   any.service(62, {0x40});

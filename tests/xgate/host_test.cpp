@@ -158,6 +158,16 @@ TEST_P(XgateHost, LongAnswersLeaveOneAfterTheOther) {
   EXPECT_EQ(requests_seen.size(), 2U);
   EXPECT_EQ(bench.poll(51, 51), reply);
   EXPECT_EQ(bench.poll(48, 50), reply);
+  bench.service(51, {0x5E, 1, 2, 240}, 51);
+  bench.service(48, {0x5E, 1, 2, 240}, 50);
+  reply[1] = 9;
+  exchange();
+  EXPECT_EQ(result, XGATE_ERR_MODULE);
+  reply[1] = 1;
+  exchange();
+  EXPECT_EQ(result, XGATE_OK) << "nothing is left of the answers that were refused";
+  EXPECT_EQ(bench.poll(51, 51), reply);
+  EXPECT_EQ(bench.poll(48, 50), reply);
 }
 
 TEST_P(XgateHost, AnAnswerThatTheModuleRefusesIsAskedForAgain) {
@@ -185,6 +195,11 @@ TEST_P(XgateHost, AlarmsAndDiagnosis) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(exchange().size(), 3U);
   EXPECT_EQ(acknowledgements, 1);
   EXPECT_FALSE(bench.int_low());
+  ASSERT_EQ(xgate_diagnose(&host, alarm.data(), 4), XGATE_OK);
+  bench.diagnosis();
+  bench.service(50, Bytes{0x5C, 7, 0x02, 0x28}, 51);
+  for (int i = 0; i < 3; ++i) exchange();
+  EXPECT_EQ(acknowledgements, 2);
   ASSERT_EQ(xgate_diagnose(&host, channel.data(), 3), XGATE_OK);
   EXPECT_EQ(bench.diagnosis(), Bytes({0x08, 0x04, 0, kMaster, 0x0F, 0x01}) + channel);
   ASSERT_EQ(xgate_diagnose(&host, nullptr, 0), XGATE_OK);
@@ -232,7 +247,8 @@ TEST_P(XgateHost, DamagedAndLostBytesAreRepeated) {
 TEST_P(XgateHost, Outputs131) {
   to_exchange(Bytes(8, 0x2F) + Bytes{0x22, 0x10}, 1, 131);
   Bytes outputs(131);
-  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = static_cast<std::uint8_t>(i);
+  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = static_cast<std::uint8_t>(i + 9);
+  outputs[3] = 0x7E ^ 0x20 ^ 0x83 ^ 0x11 ^ 9 ^ 10 ^ 11;  // as the XOR of an error
   bench.service(-1, outputs);
   EXPECT_EQ(exchange({1}), outputs);
   EXPECT_EQ(exchange({1}), outputs);

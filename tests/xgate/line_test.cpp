@@ -62,6 +62,7 @@ TEST(XgateReset, NothingBeforeTheFirmwareRuns) {
   EXPECT_TRUE(bench.hear().empty());
   EXPECT_EQ(bench.module->state(), ModuleState::kReady);
   EXPECT_EQ(bench.ask(0x20, {1, 2, 3}), bench.wrong(0x20, error::kNotConnected)) << "as new";
+  EXPECT_EQ(bench.ask(0x13, {1, 1}), bench.wrong(0x13, error::kResource)) << "without a command 04";
 }
 
 TEST(XgateReset, ConfigurationModeHasNoFrames) {

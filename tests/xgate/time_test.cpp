@@ -38,6 +38,12 @@ void live(ModuleBench& bench) {
   ask(0x30, box(1, {0x5E, 1, 2, 2, 7, 7}) + box(2, {0xDF, 0x80, 0xB6, 0}));
   bench.service(51, {}, 51);
   bench.service(48, {}, 50);
+  bench.service(49, {0x57, 0, 0, 0, 0, 100, 1, 0, 0, 0, 0, 0, 0, 0}, 50);  // a second channel
+  bench.service(47, {}, 50);
+  bench.service(48, {0x5E, 1, 2, 1}, 50);
+  bench.service(47, Bytes{0x5F, 1, 2, 31} + Bytes(31), 50);  // too long, and waits for the first
+  ask(0x20, {1, 2, 3});
+  ask(0x30, box(2, {0x5E, 1, 2, 1, 9}));
   ask(0x31, box(4, {0x04, 0x02, 7, 0x29}));
   bench.put({0x7E, 0x31});
   bench.diagnosis();
