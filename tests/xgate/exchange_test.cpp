@@ -103,6 +103,7 @@ TEST_F(XgateExchange, C2OfTheModuleAndOfTheHost) {
   know();
   EXPECT_EQ(initiate(), Bytes({0x57, 30, 1, 0, 0, 0, 0x12, 0x34, 0, 0})) << "of 4.2.2";
   bench.service(48, {0x51, 1, 2, 1, 0x33}, 50);
+  expect(0x30, box(2, {0x51, 1, 2, 1, 6}), error::kParameter);  // the host has not seen it
   EXPECT_EQ(exchange(), frame(0x30, box(2, {0x51, 1, 2, 1, 0x33})));
   bench.service(51, {0x5E, 3, 4, 1}, 51);
   EXPECT_EQ(exchange(), frame(0x30, box(2, {0x51, 1, 2, 1, 0x33}) + box(1, {0x5E, 3, 4, 1}))) << "oldest first";

@@ -63,17 +63,15 @@ class XgateHost : public testing::TestWithParam<Choice> {
   std::vector<Bytes> parameters_seen, requests_seen;
   Bytes reply = {0x5E, 1, 2, 2, 7, 8};
   int acknowledgements = 0;
-  int frames = 0;    ///< that the host has sent
-  int damage = 0;    ///< of so many frames to come an answer's byte is changed
+  int frames = 0;  ///< that the host has sent
+  int damage = 0;  ///< of so many frames to come an answer's byte is changed
+  int damaged_byte = 6;
   bool cut = false;  ///< instead it is lost
 
  private:
   static XgateHost& self(void* context) { return *static_cast<XgateHost*>(context); }
   static void send(void* context, const std::uint8_t* bytes, std::uint16_t length) {
     XgateHost& test = self(context);
-    test.taken_ = 0;
-    test.bench.heard.clear();
-    test.bench.begins.clear();
     test.frames += length == 4 && bytes[0] == 0x7E ? 1 : 0;
     test.received_ = 0;
     const Bytes sent(bytes, bytes + length);
@@ -86,9 +84,9 @@ class XgateHost : public testing::TestWithParam<Choice> {
     XgateHost& test = self(context);
     const int byte = test.spi() ? test.bench.transfer(std::uint8_t{0}) : test.next(ms);
     if (byte < 0 || (byte == 0xFF && test.received_ == 0)) return byte;
-    if (++test.received_ != 6 || test.damage == 0) return byte;
+    if (++test.received_ != test.damaged_byte || test.damage == 0) return byte;
     --test.damage;
-    return test.cut ? receive(context, ms) : byte ^ 0x04;
+    return test.cut ? receive(context, ms) : byte ^ 0x02;
   }
   int next(int ms) {
     const Cycle end = bench.now + ms * profibus::kCyclesPerMs;
@@ -225,8 +223,9 @@ TEST_P(XgateHost, DamagedAndLostBytesAreRepeated) {
   to_exchange();
   bench.service(-1, {9, 8, 7});
   exchange();
-  for (const bool lost : {false, true}) {
-    cut = lost;
+  for (const int place : {6, 3, -6}) {  // 3: a length that is too short; -6: it is lost
+    damaged_byte = std::abs(place);
+    cut = place < 0;
     damage = 2;
     frames = 0;
     EXPECT_EQ(exchange(), Bytes({9, 8, 7}));
