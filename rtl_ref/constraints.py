@@ -33,7 +33,7 @@ class Line:
         return [(kind, pattern.replace("${h}", ".")) for kind, *lists in NAMES.findall(text) for pattern in "".join(lists).split()]
 
     def covers(self, signal, target, taker):
-        """Whether this says what the crossing of a signal to a register or pin needs."""
+        """True where this constrains the crossing of a signal to a register or pin."""
         register = taker.split(" ")[-1]
         if self.command == "set_input_delay":
             return f"-clock {target} " in self.text and fits(signal, self.names())

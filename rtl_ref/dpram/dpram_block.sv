@@ -101,7 +101,7 @@ module dpram_block (
   assign read_length = no_data_q ? 8'd0 : rdata_i;
   assign too_long = rdata_i > limit && !no_data_q && !`FAULT(50);
 
-  // Of a request the choice writes the first byte
+  // The choice writes the first byte of a request
   always_comb begin
     case (pick_i)
       ITEM_PRM: first_left = prm_length;

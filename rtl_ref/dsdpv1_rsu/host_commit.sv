@@ -95,7 +95,7 @@ module host_commit (
     .header_o(header_more));
   assign acyclic = area_q == AREA_C1 || area_q == AREA_C2;
 
-  // Whether DATA_EXCH holds and whether the area's flag is taken away is fixed with the choice; SPI always takes it
+  // The choice fixes two bits of the reply: DATA_EXCH, and whether the area's flag is taken away; SPI always takes it
   logic clears_q, exchanges_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

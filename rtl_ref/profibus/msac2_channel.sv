@@ -142,7 +142,7 @@ module msac2_channel (
     if (requests && !initiate_i && state_b == C2_OPEN) reason_d = again_i && !`FAULT(127) ? ABORT_SEQUENCE : ABORT_INVALID_PDU;
   end
 
-  // What starts F or I again
+  // Start of F or I
   always_comb begin
     starts = aborts;
     if (initiate_i) starts = 1'b1;

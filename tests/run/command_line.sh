@@ -15,7 +15,7 @@ refuses() {
 }
 
 help=$("$run" --help) || fail "--help: exit $?"
-for command in demo test edit sim nightly accept-campaign rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal rtl-gates mutants fuzz bench traces cosim registers docs build format lint generate conformance release deps; do
+for command in demo test edit sim nightly accept-campaign rtl-random rtl-faults rtl-synth rtl-board rtl-coverage rtl-formal rtl-gates mutants fuzz bench traces cosim registers docs build format lint generate conformance release deps; do
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
@@ -23,7 +23,7 @@ wide=$(awk 'length($0) > 80' <<<"$help")
 [ -z "$wide" ] || fail "--help is wider than 80 columns: $wide"
 [ "$("$run")" = "$help" ] || fail "without arguments it does not print the help"
 
-for command in demo test nightly docs rtl-synth reproducible release build conformance deps; do
+for command in demo test nightly docs rtl-synth rtl-board reproducible release build conformance deps; do
   help=$("$run" "$command" --help) || fail "$command --help: exit $?"
   [[ $help == "  $command "* ]] || fail "$command --help does not explain it: $help"
   [ "$(grep -c '^  [^ ]' <<<"$help")" -eq 1 ] || fail "$command --help explains others, too: $help"
