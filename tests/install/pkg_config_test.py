@@ -10,12 +10,13 @@ import subprocess
 import sys
 import tempfile
 
-# Name of the .pc files, source, arguments of the program. dsdpv1-core is used by package_test.py.
+# Name of the .pc files, source, arguments of the program: words, or files of the data. dsdpv1-core is used by package_test.py.
 PROGRAMS = [
     (["dsdpv1-checks"], "tests/bus/consumer.cpp", []),
     (["dsdpv1-systemc-bus"], "tests/systemc_bus/consumer.cpp", []),
     (["dsdpv1-systemc"], "examples/tlm_platform.cpp", []),
     (["dsdpv1-capi", "dsdpv1-driver"], "examples/c_api.c", ["scenarios/dsdpv1.gsd"]),
+    (["dsdpv1-commands"], "examples/own_slave/own_slave.cpp", ["run", "examples/own_slave/own_slave.yaml"]),
 ]
 
 
@@ -30,7 +31,7 @@ def build_and_run(number, program, cxx, cc, places, environment, folder):
     binary = folder / f"program{number}"
     command = [compiler, standard, places[kind] / rest, *pkg_config(environment, "--cflags", "--libs", *modules), "-o", binary]
     subprocess.run(command, cwd=folder, check=True)
-    subprocess.run([binary, *(places["data"] / each for each in arguments)], cwd=folder, env=environment, check=True,
+    subprocess.run([binary, *(places["data"] / each if "." in each else each for each in arguments)], cwd=folder, env=environment, check=True,
                    stdout=subprocess.DEVNULL, timeout=300)
 
 
