@@ -20,7 +20,9 @@ fs::path source_tree(fs::path folder) {
 std::string data_folder() {
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   const fs::path installed = folder.parent_path() / DSDPV1_DATADIR;
-  return fs::is_directory(installed / "scenarios") ? installed : source_tree(folder);
+  if (fs::is_directory(installed / "scenarios")) return installed;
+  const fs::path tree = source_tree(folder);
+  return fs::is_directory(tree / "scenarios") ? tree : installed;  // a user's program has neither
 }
 
 std::string golden_folder() { return fs::path(data_folder()) / "traces"; }

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // own_slave.cpp: a slave chip with 16 registers on an 8-bit bus, 4 bytes of outputs, 4 of inputs, and INT
 #include <array>
 #include <iterator>

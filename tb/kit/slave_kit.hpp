@@ -7,7 +7,7 @@
 //
 //   int main(int argc, char** argv) {
 //     static const kit::Kind kind(parts());
-//     return app::program(argc, argv, {&kind});   // apps/program.hpp: all commands
+//     return app::program(argc, argv, "own_slave", {&kind});  // apps/program.hpp: all commands
 //   }
 #include <cstdint>
 #include <functional>
@@ -158,7 +158,7 @@ class Kind : public tb::ChipKind {
   /// output.
   explicit Kind(Parts parts);
 
-  const Parts& parts() const { return parts_; }
+  const Parts& made_of() const { return parts_; }
 
   const char* name() const override { return parts_.name; }
   const char* title() const override { return parts_.title; }

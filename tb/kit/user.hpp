@@ -22,7 +22,7 @@ class OnSegment : public tb::PinChip, private OwnPins {
   OnSegment(const Kind& kind, const tb::ChipRequest& request, std::unique_ptr<tb::PinDevice> device,
             bus::Segment& segment)
       : PinChip(request.name, std::move(device), kind.pins(), kind.board_pins(), request.watched, segment),
-        parts_(kind.parts()) {}
+        parts_(kind.made_of()) {}
 
   void reset_host(Tick at) override;
   user_cpu::UserSide* user_side() override { return static_cast<OwnPins*>(this); }

@@ -16,10 +16,6 @@ namespace dsdpv1::mailbox {
 
 using tb::Engine;
 
-inline bool same(const tb::PinEdge& a, const tb::PinEdge& b) {
-  return a.at == b.at && a.pin == b.pin && a.level == b.level;
-}
-
 class Board : private tb::ChipListener {
  public:
   Board(bus::Segment& segment, bus::Timeline& timeline, Engine engine) {

@@ -601,7 +601,7 @@ TEST(MailboxReasons, EveryReasonHasACodeOfItsOwnAndNoPlaceholderIsLeft) {
 
 TEST(MailboxReasons, TheSlavesReasonsSpeakOfTheMailboxInItsOwnWords) {
   EXPECT_EQ(
-      profibus::advice(profibus::Reason::kPrmIdent, kind().parts().words),
+      profibus::advice(profibus::Reason::kPrmIdent, kind().made_of().words),
       "Use the GSD file of this device, or initialise with the ident number of the GSD file (bytes 2 and 3 of the "
       "start frame).");
   EXPECT_EQ(kind().describe({0, profibus::Reason::kDpState, 0, 1}), "DP state OFFLINE to WAIT_PRM");
