@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/input/input_error.hpp"
+#include "model/profibus/alarm_reasons.hpp"
 #include "model/profibus/chip_reasons.hpp"
 #include "tb/bench/program_options.hpp"
 #include "tb/bench/record.hpp"
@@ -43,10 +44,16 @@ tb::PinTable table_of(const Parts& parts) {
   return table;
 }
 
+std::vector<profibus::Reason> reasons_of(const Parts& parts) {
+  const profibus::ReasonTable alarms =
+      parts.capacities.alarms > 0 ? profibus::alarm_reasons() : profibus::ReasonTable{nullptr, 0};
+  return profibus::reasons_of({parts.reasons, alarms, profibus::reasons()});
+}
+
 std::vector<tb::CodeTable> codes_of(const Parts& parts) {
   tb::CodeTable chip{
       parts.title, fmt::format("Codes of the chip {}, with those of every DP slave in its words.", parts.name), {}};
-  for (const profibus::Reason reason : profibus::reasons_of({parts.reasons, profibus::reasons()}))
+  for (const profibus::Reason reason : reasons_of(parts))
     chip.codes.push_back({profibus::code(reason), tb::name(profibus::severity(reason)), reason.row().source,
                           profibus::text_template(reason, parts.words), profibus::advice(reason, parts.words)});
   return {std::move(chip)};
@@ -58,7 +65,7 @@ Kind::Kind(Parts parts) : parts_(std::move(parts)) {
   check(parts_);
   pins_ = table_of(parts_);
   board_pins_ = {kReset, kRxd, kTxd, kRts, parts_.interrupt.value_or(kNoPin)};
-  reasons_ = profibus::reasons_of({parts_.reasons, profibus::reasons()});
+  reasons_ = reasons_of(parts_);
   codes_ = codes_of(parts_);
 }
 
