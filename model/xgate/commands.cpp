@@ -1,7 +1,7 @@
 // The commands 01 to 31 (4.5.1), in its order.
 #include <algorithm>
 
-#include "model/xgate/module.hpp"
+#include "model/xgate/firmware.hpp"
 
 namespace dsdpv1::xgate {
 namespace {
@@ -25,25 +25,25 @@ void put(Frame& answer, const Words& words) { answer.data.assign(words.data(), s
 }  // namespace
 
 /// `least` to `most` bytes of data.
-struct Module::Command {
+struct Firmware::Command {
   std::uint8_t code;
   int least, most;
   bool exchanges;  ///< needs data exchange
-  Error (Module::*run)(Cycle now, const Frame& frame);
+  Error (Firmware::*run)(Cycle now, const Frame& frame);
 };
 
-const Module::Command Module::kCommands[] = {
-    {0x01, 1, 1, false, &Module::read_device},     {0x02, 13, 13, false, &Module::write_device},
-    {0x03, 3, 3, false, &Module::set_rate},        {0x04, 0, kMostData, false, &Module::initialise},
-    {0x12, 1, 1, false, &Module::set_mode},        {0x13, 2, 2, false, &Module::set_step},
-    {0x15, 2, 2, false, &Module::set_leds},        {0x16, 2, 2, false, &Module::set_watchdog},
-    {0x20, 0, kMostData, true, &Module::exchange}, {0x21, 0, kMostData, true, &Module::exchange_known},
-    {0x22, 0, 0, false, &Module::read_prm},        {0x23, 0, 0, false, &Module::read_cfg},
-    {0x24, 0, 0, false, &Module::read_lengths},    {0x30, 0, kMostData, true, &Module::answer_requests},
-    {0x31, 0, kMostData, true, &Module::diagnose},
+const Firmware::Command Firmware::kCommands[] = {
+    {0x01, 1, 1, false, &Firmware::read_device},     {0x02, 13, 13, false, &Firmware::write_device},
+    {0x03, 3, 3, false, &Firmware::set_rate},        {0x04, 0, kMostData, false, &Firmware::initialise},
+    {0x12, 1, 1, false, &Firmware::set_mode},        {0x13, 2, 2, false, &Firmware::set_step},
+    {0x15, 2, 2, false, &Firmware::set_leds},        {0x16, 2, 2, false, &Firmware::set_watchdog},
+    {0x20, 0, kMostData, true, &Firmware::exchange}, {0x21, 0, kMostData, true, &Firmware::exchange_known},
+    {0x22, 0, 0, false, &Firmware::read_prm},        {0x23, 0, 0, false, &Firmware::read_cfg},
+    {0x24, 0, 0, false, &Firmware::read_lengths},    {0x30, 0, kMostData, true, &Firmware::answer_requests},
+    {0x31, 0, kMostData, true, &Firmware::diagnose},
 };
 
-Error Module::run(Cycle now, const Frame& frame) {
+Error Firmware::run(Cycle now, const Frame& frame) {
   if ((frame.special & kSegments) != kOneSegment) return error::kTooFew;  // X19
   if ((frame.special & kAlarmFlag) != 0) bus_.clear_acknowledged();
   const auto* const command = std::find_if(std::begin(kCommands), std::end(kCommands),
@@ -57,12 +57,12 @@ Error Module::run(Cycle now, const Frame& frame) {
 
 // --- 01 to 03: the device --------------------------------------------------------------------------------------------
 
-Error Module::read_device(Cycle /*now*/, const Frame& frame) {
+Error Firmware::read_device(Cycle /*now*/, const Frame& frame) {
   switch (frame.at(0)) {
-    case 0x01: put(answer_, config.vendor); break;
-    case 0x02: put(answer_, config.device); break;
-    case 0x03: put(answer_, config.hardware); break;
-    case 0x04: put(answer_, config.software); break;
+    case 0x01: put(answer_, config_.vendor); break;
+    case 0x02: put(answer_, config_.device); break;
+    case 0x03: put(answer_, config_.hardware); break;
+    case 0x04: put(answer_, config_.software); break;
     case kSerialNumber: put(answer_, serial_); break;
     case kName: put(answer_, name_); break;
     default: return error::kParameter;
@@ -70,14 +70,14 @@ Error Module::read_device(Cycle /*now*/, const Frame& frame) {
   return error::kNone;
 }
 
-Error Module::write_device(Cycle /*now*/, const Frame& frame) {
+Error Firmware::write_device(Cycle /*now*/, const Frame& frame) {
   if (frame.at(0) != kSerialNumber && frame.at(0) != kName) return error::kParameter;
   Words& words = frame.at(0) == kSerialNumber ? serial_ : name_;
   std::copy_n(frame.data.bytes.begin() + 1, words.size(), words.begin());
   return error::kNone;
 }
 
-Error Module::set_rate(Cycle /*now*/, const Frame& frame) {
+Error Firmware::set_rate(Cycle /*now*/, const Frame& frame) {
   const std::uint32_t rate = frame.at(0) | std::uint32_t{frame.at(1)} << 8 | std::uint32_t{frame.at(2)} << 16;
   if (rate < kLeastRate || rate > kMostRate) return error::kRate;
   link_.set_rate(rate);
@@ -86,17 +86,17 @@ Error Module::set_rate(Cycle /*now*/, const Frame& frame) {
 
 // --- 04, 12, 13: states ----------------------------------------------------------------------------------------------
 
-Error Module::initialise(Cycle now, const Frame& frame) {
+Error Firmware::initialise(Cycle now, const Frame& frame) {
   if (bus_.exchanging() || (state_ != ModuleState::kReady && !started())) return error::kResource;
   Initialisation read;
-  if (const Error wrong = read_initialisation(frame, config, read)) return wrong;
+  if (const Error wrong = read_initialisation(frame, config_, read)) return wrong;
   given_ = true;
   state_ = ModuleState::kStarted;
   bus_.start(now, read);
   return error::kNone;
 }
 
-Error Module::set_mode(Cycle now, const Frame& frame) {
+Error Firmware::set_mode(Cycle now, const Frame& frame) {
   const std::uint8_t mode = frame.at(0);
   if (mode > kStop) return error::kParameter;
   if (state_ == ModuleState::kStopped) return mode == kStop ? error::kNone : error::kResource;  // only /Rst starts it
@@ -109,13 +109,13 @@ Error Module::set_mode(Cycle now, const Frame& frame) {
   return error::kNone;
 }
 
-void Module::wake(Cycle now) {
+void Firmware::wake(Cycle now) {
   if (state_ != ModuleState::kAsleep) return;
   state_ = given_ ? ModuleState::kStarted : ModuleState::kReady;
   if (given_) bus_.restart(now);
 }
 
-Error Module::set_step(Cycle now, const Frame& frame) {
+Error Firmware::set_step(Cycle now, const Frame& frame) {
   const unsigned step = frame.at(1);
   if (frame.at(0) > kAgain || step < kToInit || step > kToExchange) return error::kParameter;
   if (state_ != ModuleState::kReady && !started()) return error::kResource;
@@ -128,11 +128,11 @@ Error Module::set_step(Cycle now, const Frame& frame) {
   } else if (const Error wrong = step_again(now, step)) {
     return wrong;
   }
-  if (config.step_answer == StepAnswer::kExample) answer_.command = kInitialise;
+  if (config_.step_answer == StepAnswer::kExample) answer_.command = kInitialise;
   return error::kNone;
 }
 
-Error Module::step_again(Cycle now, unsigned step) {
+Error Firmware::step_again(Cycle now, unsigned step) {
   switch (step) {
     case kToInit: bus_.restart(now); break;
     case kToParameters: bus_.leave_master(now); break;
@@ -143,12 +143,12 @@ Error Module::step_again(Cycle now, unsigned step) {
 
 // --- 15, 16 ----------------------------------------------------------------------------------------------------------
 
-Error Module::set_leds(Cycle /*now*/, const Frame& frame) {
+Error Firmware::set_leds(Cycle /*now*/, const Frame& frame) {
   leds_.set(frame.at(0), frame.at(1));
   return error::kNone;
 }
 
-Error Module::set_watchdog(Cycle now, const Frame& frame) {
+Error Firmware::set_watchdog(Cycle now, const Frame& frame) {
   const bool on = (frame.at(0) & kWatchdogOn) != 0;
   if (on && frame.at(1) == 0) return error::kTime;
   dog_on_ = on;
@@ -159,13 +159,13 @@ Error Module::set_watchdog(Cycle now, const Frame& frame) {
 
 // --- 20 to 31: data --------------------------------------------------------------------------------------------------
 
-void Module::answer_outputs() {
+void Firmware::answer_outputs() {
   answer_.command = kExchange;
   bus_.outputs(answer_);
 }
 
 /// 20 may be answered by requests of the master, or by the flag of new user parameters (4.5.1, 9, 10 and 14).
-Error Module::exchange(Cycle now, const Frame& frame) {
+Error Firmware::exchange(Cycle now, const Frame& frame) {
   if (const Error wrong = bus_.set_inputs(now, frame)) return wrong;
   if (bus_.requests_open()) {
     answer_.command = kRequests;
@@ -177,7 +177,7 @@ Error Module::exchange(Cycle now, const Frame& frame) {
   return error::kNone;
 }
 
-Error Module::exchange_known(Cycle now, const Frame& frame) {
+Error Firmware::exchange_known(Cycle now, const Frame& frame) {
   if (const Error wrong = bus_.set_inputs(now, frame)) return wrong;
   bus_.prm_is_known();
   answer_outputs();
@@ -185,25 +185,25 @@ Error Module::exchange_known(Cycle now, const Frame& frame) {
   return error::kNone;
 }
 
-Error Module::read_prm(Cycle /*now*/, const Frame& /*frame*/) {
+Error Firmware::read_prm(Cycle /*now*/, const Frame& /*frame*/) {
   return bus_.prm(answer_) ? error::kNone : error::kResource;
 }
 
-Error Module::read_cfg(Cycle /*now*/, const Frame& /*frame*/) {
+Error Firmware::read_cfg(Cycle /*now*/, const Frame& /*frame*/) {
   return bus_.cfg(answer_) ? error::kNone : error::kResource;
 }
 
-Error Module::read_lengths(Cycle /*now*/, const Frame& /*frame*/) {
+Error Firmware::read_lengths(Cycle /*now*/, const Frame& /*frame*/) {
   return bus_.lengths(answer_) ? error::kNone : error::kResource;
 }
 
-Error Module::answer_requests(Cycle now, const Frame& frame) {
+Error Firmware::answer_requests(Cycle now, const Frame& frame) {
   if (const Error wrong = bus_.answer_requests(now, frame)) return wrong;
   answer_outputs();
   return error::kNone;
 }
 
-Error Module::diagnose(Cycle now, const Frame& frame) {
+Error Firmware::diagnose(Cycle now, const Frame& frame) {
   if (const Error wrong = bus_.diagnosis(now, frame)) return wrong;
   answer_outputs();
   return error::kNone;

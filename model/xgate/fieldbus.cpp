@@ -8,8 +8,6 @@
 namespace dsdpv1::xgate {
 namespace {
 
-constexpr profibus::Capacities kCapacities{profibus::kMaxUserPrm, profibus::kMaxCfg, profibus::kMaxIo,
-                                           profibus::kMaxAcyclic, profibus::Alarms::kMost};
 constexpr std::uint8_t kDpv1Enable = 0x80, kCheckCfgMode = 0x01;  // DPV1_Status_1, 2
 constexpr std::uint8_t kDiagPresent = 0x81, kDiagGone = 0x01;     // UserDiagnosis, D9
 namespace dpv1 = profibus::dpv1;
@@ -30,11 +28,7 @@ bool answer_right(const Mailbox& box, const profibus::Pdu& request) {
 
 }  // namespace
 
-Fieldbus::Fieldbus(profibus::EventLog& log, const Config& config)
-    : log_(log), config_(config), user_(log, kCapacities, station_), station_(log, {}, user_, &user_.msac()) {}
-
 void Fieldbus::reset() {
-  user_.reset();
   given_ = {};
   forget();
 }
@@ -78,7 +72,6 @@ void Fieldbus::offer() {
 // --- from PROFIBUS ---------------------------------------------------------------------------------------------------
 
 void Fieldbus::eval(Cycle now) {
-  station_.eval(now);
   judge_prm(now);
   judge_cfg(now);
   take_acknowledgement();
@@ -129,16 +122,28 @@ void Fieldbus::take_acknowledgement() {
   due.clear();
 }
 
-/// Requests beyond what the host has said in 4.2.2 are answered by the module.
+Cycle Fieldbus::next() const {
+  const profibus::UserMail& mail = user_.mail();
+  const Cycle blocks = std::min({mail.prm.due.since, mail.cfg.due.since, user_.msac().alarms.mail().due.since});
+  const Cycle first = refusable(c1(), given_.c1_size()) ? c1().due.since : profibus::kNever,
+              second = refusable(c2(), given_.c2_size()) ? c2().due.since : profibus::kNever;
+  const Cycle since = std::min({blocks, first, second});
+  return since == profibus::kNever ? since : since + 1;
+}
+
+/// A request beyond what the host has said in 4.2.2: the module answers it.
+bool Fieldbus::refusable(const profibus::AcyclicMail& mail, int most) const {
+  return mail.due.waiting() && (!given_.reads_and_writes() || mail.pdu.size > dpv1::kHeader + most);
+}
+
 void Fieldbus::refuse_requests(Cycle now) {
   while (refuse_request(now, 1, c1(), given_.c1_size()) || refuse_request(now, 2, c2(), given_.c2_size()))
     continue;  // another one of C2 may have had to wait
 }
 
 bool Fieldbus::refuse_request(Cycle now, int area, const profibus::AcyclicMail& mail, int most) {
-  if (!mail.due.waiting()) return false;
+  if (!refusable(mail, most)) return false;
   const bool long_one = mail.pdu.size > dpv1::kHeader + most;
-  if (given_.reads_and_writes() && !long_one) return false;
   profibus::Pdu answer;
   profibus::negative_answer(mail.pdu.bytes[0], long_one ? dpv1::kWriteLength : dpv1::kNotSupported, answer);
   give(now, area, answer.bytes.data(), answer.size);
@@ -187,11 +192,11 @@ void Fieldbus::requests(Frame& answer) {
   const Mailbox boxes[] = {{static_cast<std::uint8_t>(config_.c1_id), c1().pdu.bytes.data(), c1().pdu.size},
                            {static_cast<std::uint8_t>(config_.c2_id), c2().pdu.bytes.data(), c2().pdu.size}};
   const auto show_c1 = [&] {
-    if (c1().due.waiting() && append(answer, boxes[0], config_)) c1_shown_ = c1().due.since;
+    if (for_host(c1(), given_.c1_size()) && append(answer, boxes[0], config_)) c1_shown_ = c1().due.since;
   };
   const bool c1_first = c1().due.since <= c2().due.since;
   if (c1_first) show_c1();
-  if (c2().due.waiting() && append(answer, boxes[1], config_)) c2_shown_ = c2().due.since;
+  if (for_host(c2(), given_.c2_size()) && append(answer, boxes[1], config_)) c2_shown_ = c2().due.since;
   if (!c1_first) show_c1();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // The module's side of PROFIBUS: a DPV1 slave (X1) whose parameters and configuration are judged by what the host has
-// given, and what of it waits for the host.
+// given, and what of it waits for the host. Mail of the slave at one edge is taken at the next.
 #include "model/profibus/station.hpp"
 #include "model/profibus/user_side.hpp"
 #include "model/xgate/initialisation.hpp"
@@ -8,17 +8,20 @@
 
 namespace dsdpv1::xgate {
 
+/// What the module's slave holds.
+constexpr profibus::Capacities kCapacities{profibus::kMaxUserPrm, profibus::kMaxCfg, profibus::kMaxIo,
+                                           profibus::kMaxAcyclic, profibus::Alarms::kMost};
+
 class Fieldbus {
  public:
-  Fieldbus(profibus::EventLog& log, const Config& config);
-  Fieldbus(const Fieldbus&) = delete;  // its parts refer to each other
-  Fieldbus& operator=(const Fieldbus&) = delete;
+  /// `user`, of `station`, has kCapacities.
+  Fieldbus(profibus::EventLog& log, const Config& config, profibus::UserSide& user, profibus::Station& station)
+      : log_(log), config_(config), user_(user), station_(station) {}
 
-  profibus::Station& station() { return station_; }
-  const profibus::Station& station() const { return station_; }
   profibus::DpState state() const { return user_.mail().state.state; }
   bool exchanging() const { return state() == profibus::DpState::kDataExch; }
 
+  /// The slave has been reset.
   void reset();
   /// Through OFFLINE to WAIT_PRM with what the host gives.
   void start(Cycle now, const Initialisation& given);
@@ -27,8 +30,9 @@ class Fieldbus {
   void stop(Cycle now);
   void leave_master(Cycle now);
 
+  /// Takes what the slave has left before the edge `now`, before the slave's own edge.
   void eval(Cycle now);
-  Cycle next() const { return std::min(station_.next(), station_.unseen()); }
+  Cycle next() const;
 
   // --- commands of the host -----------------------------------------------------------------------------------------
   /// Why data cannot be exchanged now (X9 to X11).
@@ -41,7 +45,7 @@ class Fieldbus {
   bool prm(Frame& answer);
   bool cfg(Frame& answer);
   bool lengths(Frame& answer) const;
-  bool requests_open() const { return c1().due.waiting() || c2().due.waiting(); }
+  bool requests_open() const { return for_host(c1(), given_.c1_size()) || for_host(c2(), given_.c2_size()); }
   void requests(Frame& answer);
   Error answer_requests(Cycle now, const Frame& frame);
   Error diagnosis(Cycle now, const Frame& frame);
@@ -54,8 +58,7 @@ class Fieldbus {
   void store(Archive& archive) {
     auto& [log, config, user, station, given, prm, cfg, has_prm, new_prm, has_cfg, cfg_known, acknowledged, fault,
            c1_shown, c2_shown] = *this;
-    archive.given(log, config);
-    station.store(archive, user);
+    archive.given(log, config, user, station);
     archive(given, prm, cfg, has_prm, new_prm, has_cfg, cfg_known, acknowledged, fault);
     archive.cycles(c1_shown, c2_shown);
     if constexpr (Archive::kReads) offer();
@@ -67,6 +70,10 @@ class Fieldbus {
     int area;  ///< 1 or 2
   };
 
+  bool refusable(const profibus::AcyclicMail& mail, int most) const;
+  bool for_host(const profibus::AcyclicMail& mail, int most) const {
+    return mail.due.waiting() && !refusable(mail, most);
+  }
   const profibus::AcyclicMail& c1() const { return user_.mail().c1; }
   const profibus::AcyclicMail& c2() const { return user_.mail().c2; }
   void forget();
@@ -83,8 +90,8 @@ class Fieldbus {
 
   profibus::EventLog& log_;
   const Config& config_;
-  profibus::UserSide user_;
-  profibus::Station station_;
+  profibus::UserSide& user_;
+  profibus::Station& station_;
   Initialisation given_;
   profibus::Block<profibus::kMaxUserPrm> prm_;
   profibus::Block<profibus::kMaxCfg> cfg_;
