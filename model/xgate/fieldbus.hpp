@@ -8,7 +8,7 @@
 
 namespace dsdpv1::xgate {
 
-/// What the module's slave holds.
+/// The module's slave has these.
 constexpr profibus::Capacities kCapacities{profibus::kMaxUserPrm, profibus::kMaxCfg, profibus::kMaxIo,
                                            profibus::kMaxAcyclic, profibus::Alarms::kMost};
 

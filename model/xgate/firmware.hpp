@@ -1,5 +1,5 @@
 #pragma once
-// What the microcontroller of an XGate-DPS10 does (docs/xgate.md), beside a station with its user's side: the chip's
+// The microcontroller of an XGate-DPS10 (docs/xgate.md), beside a station with its user's side: the chip's
 // owner has both (module.hpp). It is evaluated at an edge before the station.
 #include "model/xgate/fieldbus.hpp"
 #include "model/xgate/host_link.hpp"

@@ -92,8 +92,13 @@ TEST_F(XgateExchange, AnAnswerNeedsARequestThatTheHostHasSeen) {
 
 TEST_F(XgateExchange, LengthsOfCommand04) {
   know();
+  const auto falls = [&] {
+    return std::count_if(bench.changes.begin(), bench.changes.end(),
+                         [](const Change& change) { return change.pin == kInt && change.level == 0; });
+  };
+  const auto before = falls();
   bench.service(51, Bytes{0x5F, 1, 2, 21} + Bytes(21), 51);
-  EXPECT_FALSE(bench.int_low()) << "C1 length is 20";
+  EXPECT_EQ(falls(), before) << "C1 length is 20: the host does not hear of it";
   EXPECT_EQ(bench.poll(51, 51), Bytes({0xDF, 0x80, 0xB1, 0}));
   bench.service(51, Bytes{0x5F, 1, 2, 20} + Bytes(20), 51);
   EXPECT_TRUE(bench.int_low());

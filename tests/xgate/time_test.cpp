@@ -44,6 +44,11 @@ void live(ModuleBench& bench) {
   bench.service(47, Bytes{0x5F, 1, 2, 31} + Bytes(31), 50);  // too long, and waits for the first
   ask(0x20, {1, 2, 3});
   ask(0x30, box(2, {0x5E, 1, 2, 1, 9}));
+  bench.service(48, {}, 50);
+  bench.service(48, Bytes{0x5F, 1, 2, 31} + Bytes(31), 50);
+  bench.service(48, {}, 50);
+  bench.service(51, Bytes{0x5F, 1, 2, 21} + Bytes(21), 51);
+  bench.service(51, {}, 51);
   ask(0x31, box(4, {0x04, 0x02, 7, 0x29}));
   bench.put({0x7E, 0x31});
   bench.diagnosis();
