@@ -89,7 +89,7 @@ class Step:
         """Its result, from the last time if nothing has changed."""
         folder = self.folder(out)
         record = folder / "result.json"
-        key = checksum([self.name, *self.inputs(), *(need.result["key"] for need in self.needs)])
+        key = checksum([self.name, *self.inputs(), *(need.result["netlist"] for need in self.needs)])
         if record.exists():
             self.result = json.loads(record.read_text(encoding="utf-8"))
             self.kept = self.result["key"] == key
@@ -155,7 +155,7 @@ class Plan:
     def netlist(self, chip, cells, name, parameters):
         def run(folder):
             count, seconds = netlists.synthesize(chip, cells, parameters, folder, call)
-            return {"cells": count, "seconds": seconds, "says": f"{count} cells"}
+            return {"cells": count, "netlist": checksum([folder / "netlist.v"]), "seconds": seconds, "says": f"{count} cells"}
 
         step = self.add(chip, cells, name, run, lambda: [figures.checksum(chip), TOOLS.versions("yosys"), netlists.script(chip, cells, parameters)])
         step.parameters = parameters
@@ -328,8 +328,12 @@ def run_all(plan, jobs):
     for step in plan.steps:
         groups.setdefault((step.chip, step.cells), []).append(step)
 
+    stopped = threading.Event()  # by Ctrl-C, or a defect of this script
+
     def run_group(steps):
         for step in steps:
+            if stopped.is_set():
+                return
             report.begins(step)
             try:
                 missing = [need.name for need in step.needs if need.result is None]
@@ -342,8 +346,12 @@ def run_all(plan, jobs):
                 report.ends(step, failure)
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for done in [pool.submit(run_group, steps) for steps in groups.values()]:
-            done.result()
+        try:
+            for done in [pool.submit(run_group, steps) for steps in groups.values()]:
+                done.result()
+        except BaseException:
+            stopped.set()
+            raise
     return report.bad
 
 
@@ -439,3 +447,5 @@ if __name__ == "__main__":
     except Refused as error:
         print(f"rtl-gates: {error}", file=sys.stderr)
         sys.exit(2)
+    except KeyboardInterrupt:
+        sys.exit(130)
