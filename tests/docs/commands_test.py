@@ -29,6 +29,10 @@ class Commands(unittest.TestCase):
     def test_the_folder_is_empty_and_the_project_is_at_home(self):
         self.assertEqual(page("```sh\nls\nls ~/dsdpv1/README.md\n~/dsdpv1/run --version | cut -c -6\n```\n```text\n.../README.md\ndsdpv1\n```\n"), "")
 
+    def test_the_parts_of_a_file(self):
+        text = "```c\n// a.c: the first\nint a;\n```\nwords\n```yaml\n# b.yaml: another\n```\n```c\n// a.c: the second\nint b;\n```\n"
+        self.assertEqual(commands.files(text), {"a.c": "// a.c: the first\nint a;\n\n// a.c: the second\nint b;\n", "b.yaml": "# b.yaml: another\n"})
+
     def test_the_files_of_a_page(self):
         self.assertEqual(page("```c\n/* a.c: first */\nint a;\n```\n```yaml\n# b.yaml: second\n```\n```c\nint c;\n```\n```sh\nls; tail -1 a.c\n```\n```text\na.c\nb.yaml\nint a;\n```\n"), "")
 
