@@ -47,13 +47,10 @@ def fits(name, patterns):
 
 
 def read(top):
-    """The commands of a top's file, and of those that it reads."""
-    reason, lines = False, []
+    """The commands of a top's file, and of the file that comes first."""
+    reason, lines = False, read("dsdpv1") if top == "dsdpv1_rsu" else []
     for number, text in enumerate((RTL / f"{top}.sdc").read_text(encoding="utf-8").splitlines(), 1):
-        other = re.match(r"source .* (\w+)\.sdc\]", text)
-        if other:
-            lines += read(other[1])
-        elif re.match(r"(create|set)_", text):
+        if re.match(r"(create|set)_", text):
             lines.append(Line(f"{top}.sdc:{number}", text, reason))
         reason = text.startswith("#") and not text.startswith("# ----")
     return lines
