@@ -66,7 +66,7 @@ class Replay : public Command {
     take_words();
     const auto given = given_scenario();
     const Recording recording = record();
-    const tb::replay::Firmware firmware = tb::replay::firmware_of(recording);
+    const tb::replay::Firmware firmware = tb::replay::firmware_of(recording, told_kind(given, recording));
     const tb::scenario::Scenario scenario = scenario_of(given, recording, firmware);
     take_run_words(kinds(scenario));
     check_files(scenario);
@@ -94,7 +94,8 @@ class Replay : public Command {
         ->check(CLI::Range(0, 126));
     app.add_option("--gsd", gsd_, "The slave's GSD file, with its ident number and limits");
     CLI::Option* chip =
-        app.add_option("--chip", chip_, "The model: a kind of chip of scenarios (default: the first of them)")
+        app.add_option("--chip", chip_,
+                       "The model: a kind of chip of scenarios (default: the first of them that can be the slave)")
             ->type_name("WORD");
     app.add_option("--scenario", scenario_,
                    "Use this scenario's slave with this address (or the only one), and its user CPU, instead of the "
@@ -111,7 +112,9 @@ class Replay : public Command {
         ->check(CLI::Range(0.0, 10'000.0));
     app.add_option("--from", from_, "Compare from this time of the capture on; earlier telegrams are also played");
     app.add_option("--to", to_, "End at this time of the capture");
-    app.add_option("--baud", baud_, "Baud rate (default: the capture's, or detected in a recording)");
+    app.add_option(
+        "--baud", baud_,
+        "Play the telegrams of this baud rate only (default: the capture's rates, or the one detected in a recording)");
     app.add_option("--signal", line_.signal, "As for decode");
     app.add_flag("--invert", line_.inverted, "As for decode");
     app.add_flag("--no-lead-in", no_lead_in_,
@@ -169,6 +172,12 @@ class Replay : public Command {
     return recording;
   }
 
+  /// That of --scenario or --chip; null without them.
+  const tb::ChipKind* told_kind(const std::optional<tb::scenario::Scenario>& given, const Recording& recording) const {
+    if (given) return tb::replay::alone(*given, recording).slaves.front().kind;
+    return chip_.empty() ? nullptr : tb::find_chip_kind(chip_);
+  }
+
   tb::scenario::Scenario scenario_of(const std::optional<tb::scenario::Scenario>& given, const Recording& recording,
                                      const tb::replay::Firmware& firmware) const {
     if (given) {
@@ -176,12 +185,14 @@ class Replay : public Command {
       if (options_.judge.supplied) tb::replay::take_inputs_of(firmware, alone);
       return alone;
     }
-    if (gsd_.empty()) return tb::replay::scenario_of(recording, firmware, "", kind());
+    if (gsd_.empty()) return tb::replay::scenario_of(recording, firmware, "", kind(firmware));
     tb::read_file(gsd_, tb::kGsdFile);  // says what is wrong with the name that was given
-    return tb::replay::scenario_of(recording, firmware, std::filesystem::absolute(gsd_).string(), kind());
+    return tb::replay::scenario_of(recording, firmware, std::filesystem::absolute(gsd_).string(), kind(firmware));
   }
 
-  const tb::ChipKind& kind() const { return chip_.empty() ? *tb::chip_kinds().front() : *tb::find_chip_kind(chip_); }
+  const tb::ChipKind& kind(const tb::replay::Firmware& firmware) const {
+    return chip_.empty() ? tb::replay::kind_for(firmware) : *tb::find_chip_kind(chip_);
+  }
 
   std::unique_ptr<tb::Execution> execution() const {
     if (run_.engine_name == "rtl") return cosim::make_rtl_execution(cosim::reference_rtl());

@@ -30,6 +30,8 @@ class Spc3Kind : public ChipKind {
   const PinTable& pins() const override { return spc3_pins(variant_); }
   const BoardPins& board_pins() const override { return kSpc3BoardPins; }
   int cells() const override { return row(variant_).ram_size; }
+  bool has_prm_buffer() const override { return true; }   // A4
+  bool takes_cfg_early() const override { return true; }  // A49
 
   const keys::Object& chip_keys() const override { return spc3_chip_keys(variant_); }
   bool is_strap(const std::string& key) const override { return key == "bus"; }

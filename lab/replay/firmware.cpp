@@ -3,20 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "bus/gsd/cfg.hpp"
 #include "io/input/input_error.hpp"
 #include "lab/replay/services.hpp"
 #include "lab/replay/start_up.hpp"
+#include "lab/replay/user_verdicts.hpp"
 
 namespace dsdpv1::tb::replay {
 namespace {
 
 namespace sap = bus::sap;
 
+constexpr std::uint8_t kUserJudges = 2;  // mode of tables 13 and 14
 constexpr std::uint8_t kRead = 0x5E, kWrite = 0x5F, kTransport = 0x51;
 
 int ident_at(const bus::Bytes& bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
@@ -32,9 +36,11 @@ struct Sent {
 class InitReader {
  public:
   void take(const bus::Telegram& request, const RecordedTelegram* answer) {
-    if (is_service(request, sap::kSetPrm) && acknowledged(answer) && request.data.size() >= 7) sent_.prm = request;
+    if (is_service(request, sap::kSetPrm) && acknowledged(answer) && request.data.size() >= kPrmHead)
+      sent_.prm = request;
     if (is_service(request, sap::kChkCfg) && acknowledged(answer)) sent_.cfg = request.data;
     if (exchanged(request, answer) && !in_force_ && sent_.prm) in_force_ = sent_;
+    if (is_service(request, sap::kSetPrm)) take_no_room(request.data.size(), right_answer(answer));
     if (is_service(request, sap::kSetSlaveAddress) && acknowledged(answer)) take_address(request.data);
     if (const bus::Telegram* telegram = right_answer(answer)) take_answer(request, *telegram);
     if (const bus::Bytes* diagnosis = diagnosis_of(request, answer)) take_diagnosis(*diagnosis);
@@ -45,13 +51,40 @@ class InitReader {
     if (sent.prm && (in_force_ || !init_.ident)) init_.ident = ident_at(sent.prm->data, 4);
     if (!init_.cfg) init_.cfg = sent.cfg;
     if (sent.prm && bus::dpv1_enabled(*sent.prm).value_or(false)) init_.dpv1 = true;
+    if (init_.max_prm) use_lengths();
     return std::move(init_);
   }
 
  private:
   void take_answer(const bus::Telegram& request, const bus::Telegram& answer) {
+    take_lengths(request, answer);
     if (is_service(request, sap::kGetCfg) && !answer.data.empty() && !init_.cfg) init_.cfg = answer.data;
     if (request.dsap && *request.dsap <= sap::kMs1 && !refused(answer)) init_.dpv1 = true;
+  }
+  void take_lengths(const bus::Telegram& request, const bus::Telegram& answer) {
+    const auto take = [](int& most, std::size_t size) { most = std::max(most, static_cast<int>(size)); };
+    if (is_service(request, sap::kSlaveDiag) && answer.data.size() > kDiagHead)
+      take(most_diag_, answer.data.size() - kDiagHead);
+    if (is_service(request, sap::kGetCfg)) take(most_cfg_, answer.data.size());
+    if (!is_service(request, sap::kChkCfg) || answer.kind != bus::TelegramKind::kSc) return;
+    take(most_cfg_, request.data.size());
+    const bus::CfgLengths lengths = bus::cfg_lengths(request.data);
+    take(most_inputs_, static_cast<std::size_t>(lengths.input));
+    take(most_outputs_, static_cast<std::size_t>(lengths.output));
+  }
+  /// A chip with buffers has no room for the longest blocks of all services.
+  void use_lengths() {
+    init_.max_diag = most_diag_;
+    init_.max_cfg = most_cfg_;
+    init_.max_inputs = most_inputs_;
+    init_.max_outputs = most_outputs_;
+  }
+  /// RR: the chip's buffer is shorter. Its user's other reasons show in the diagnosis (S14).
+  void take_no_room(std::size_t length, const bus::Telegram* answer) {
+    const bool no_room =
+        answer != nullptr && answer->kind == bus::TelegramKind::kSd1 && answer->function() == bus::fc::kRr;
+    if (no_room && length > kPrmHead)
+      init_.max_prm = std::min(init_.max_prm.value_or(0xFF), static_cast<int>(length - kPrmHead) - 1);
   }
   void take_address(const bus::Bytes& data) {
     init_.set_slave_address = true;
@@ -63,6 +96,7 @@ class InitReader {
   }
 
   scenario::InitData init_;
+  int most_diag_ = 0, most_cfg_ = 1, most_inputs_ = 0, most_outputs_ = 0;  ///< bytes
   Sent sent_;
   std::optional<Sent> in_force_;
 };
@@ -109,11 +143,7 @@ class SupplyReader {
     if (const bus::Bytes* diagnosis = diagnosis_of(request, answer)) take_diagnosis(*diagnosis);
     if (answer != nullptr) before_ = answer->end;
   }
-  /// In order of time.
-  std::vector<Supply> finish() {
-    std::stable_sort(supplies_.begin(), supplies_.end(), [](const Supply& a, const Supply& b) { return a.at < b.at; });
-    return std::move(supplies_);
-  }
+  std::vector<Supply> finish() { return std::move(supplies_); }
   const std::optional<bus::Bytes>& first_inputs() const { return first_inputs_; }
 
  private:
@@ -121,7 +151,7 @@ class SupplyReader {
     if (!first_inputs_)
       first_inputs_ = inputs;
     else if (inputs != inputs_)
-      supplies_.push_back({before_, {}, inputs});
+      supplies_.push_back({before_, user_cpu::command::SetInputs{inputs}});
     inputs_ = inputs;
   }
 
@@ -136,7 +166,8 @@ class SupplyReader {
     const auto flags = static_cast<std::uint8_t>((diagnosis[0] & kExtDiag) | (diagnosis[1] & kStatDiag));
     bus::Bytes own(diagnosis.begin() + kDiagHead, diagnosis.end());
     const bool news = flags != flags_ || own != own_ || high_since_;
-    if (news) supplies_.push_back({high_since_.value_or(before_), kind_of(flags), own});
+    if (news)
+      supplies_.push_back({high_since_.value_or(before_), user_cpu::command::SetDiagnosis{kind_of(flags), own}});
     high_since_.reset();
     flags_ = flags;
     own_ = std::move(own);
@@ -158,13 +189,26 @@ class SupplyReader {
   std::optional<Tick> high_since_;  ///< end of the answer before those of high priority
 };
 
+/// The time of its watchdog; absent: off, or no Set_Prm for DP.
+std::optional<Tick> watchdog_of(const bus::Bytes& prm) {
+  constexpr std::uint8_t kBase1ms = 0x04;  // table 21
+  if (prm.size() < kPrmHead || (prm[0] & kWdOn) == 0) return std::nullopt;
+  const bool fine = prm.size() > kPrmHead && (prm[kPrmHead] & kBase1ms) != 0;
+  return prm[1] * prm[2] * (fine ? 1 : 10) * bus::kTicksPerMs;
+}
+
 class RestartReader {
  public:
-  void take(const bus::Telegram& request, const RecordedTelegram* answer) {
+  void take(const bus::Telegram& request, const RecordedTelegram& asked, const RecordedTelegram* answer) {
     if (answer == nullptr) {
       silent_ = silent_ || exchanging_;
       return;
     }
+    if (is_service(request, sap::kSetPrm) && acknowledged(answer)) {
+      exchanging_ = false;
+      watchdog_ = watchdog_of(request.data);
+    }
+    if (refuses_exchange(request, asked, answer)) silent_ = true;
     const bus::Bytes* diagnosis = diagnosis_of(request, answer);
     if (diagnosis != nullptr && ((*diagnosis)[1] & kPrmReq) != 0) {
       if (silent_) restarts_.push_back({before_, bus::kNever});
@@ -180,10 +224,25 @@ class RestartReader {
   std::vector<Restart> finish() { return std::move(restarts_); }
 
  private:
+  /// RS, as outside of data exchange (S13), while the watchdog cannot have ended it.
+  bool refuses_exchange(const bus::Telegram& request, const RecordedTelegram& asked,
+                        const RecordedTelegram* answer) const {
+    const bus::Telegram* telegram = right_answer(answer);
+    const bool in_time = !watchdog_ || asked.end - before_ < *watchdog_;
+    return exchanging_ && in_time && is_data_exchange(request) && telegram != nullptr &&
+           telegram->kind == bus::TelegramKind::kSd1 && telegram->function() == bus::fc::kRs;
+  }
+
   std::vector<Restart> restarts_;
   bool exchanging_ = false, silent_ = false;
+  std::optional<Tick> watchdog_;
   Tick before_ = 0;  ///< end of the last answer before a silence
 };
+
+void sort(std::vector<Supply>& supplies) {
+  std::stable_sort(
+      supplies.begin(), supplies.end(), [](const Supply& a, const Supply& b) { return a.at < b.at; });
+}
 
 /// A third of the shortest time from the end of an answer to the next request whose answer shows new data. Clamped to
 /// 20 us, which a driver needs, and 1 ms.
@@ -199,12 +258,16 @@ Tick cycle_for(const Recording& recording, const std::vector<Supply>& supplies) 
   return std::clamp(shortest / 3, kLeast, kMost);
 }
 
-}  // namespace
-
-user_cpu::Command Supply::command() const {
-  if (diagnosis) return user_cpu::command::SetDiagnosis{*diagnosis, bytes};
-  return user_cpu::command::SetInputs{bytes};
+/// A verdict on parameters for another ident number is the chip's (S6).
+void add_verdicts(Firmware& firmware, const VerdictReader& verdicts) {
+  if (verdicts.judges_prm(firmware.init.ident)) firmware.init.prm_mode = kUserJudges;
+  if (verdicts.judges_cfg(firmware.init.cfg)) firmware.init.cfg_mode = kUserJudges;
+  for (const UserVerdict& each : verdicts.verdicts())
+    if (each.cfg || each.ident == firmware.init.ident)
+      firmware.supplies.push_back({each.at, user_cpu::command::SendVerdict{each.cfg, each.refuse}});
 }
+
+}  // namespace
 
 const bus::Bytes* inputs_of(const bus::Telegram& request, const RecordedTelegram* answer) {
   const bus::Telegram* telegram = right_answer(answer);
@@ -213,26 +276,50 @@ const bus::Bytes* inputs_of(const bus::Telegram& request, const RecordedTelegram
   return inputs ? &telegram->data : nullptr;
 }
 
-Firmware firmware_of(const Recording& recording) {
+Firmware firmware_of(const Recording& recording, const ChipKind* kind) {
   InitReader init;
   ObjectReader objects;
   SupplyReader supplies(recording.telegrams.front().start);
   RestartReader restarts;
-  for_each_request(recording, [&](const bus::Telegram& request, const RecordedTelegram* answer) {
+  VerdictReader verdicts(recording.telegrams.front().start, kind != nullptr && kind->takes_cfg_early());
+  for (const RecordedRequest& each : recording.requests) {
+    const RecordedTelegram& asked = recording.request(each);
+    const RecordedTelegram* answer = recording.answer(each);
+    const bus::Telegram& request = asked.decoded.telegram;
     init.take(request, answer);
     objects.take(request, answer);
     supplies.take(request, answer);
-    restarts.take(request, answer);
-  });
+    restarts.take(request, asked, answer);
+    verdicts.take(request, answer);
+  }
   Firmware firmware;
   firmware.init = init.finish();
+  firmware.short_prm_buffer = firmware.init.max_prm.has_value();
   if (!firmware.init.cfg && begins_in_the_middle(recording)) firmware.init.cfg = cfg_of_exchange(recording);
   firmware.inputs = supplies.first_inputs().value_or(bus::Bytes{});
   firmware.objects = objects.finish();
   firmware.supplies = supplies.finish();
+  sort(firmware.supplies);
   firmware.cycle = cycle_for(recording, firmware.supplies);
+  add_verdicts(firmware, verdicts);
+  sort(firmware.supplies);
   firmware.restarts = restarts.finish();
   return firmware;
+}
+
+bool leaves_verdict(const scenario::UserCpu& user, const user_cpu::StationConfig& station, bool cfg) {
+  return (cfg ? station.cfg_mode : station.prm_mode) == kUserJudges &&
+         (cfg ? user.judge_cfg : user.judge_prm) == scenario::Judgement::kNever;
+}
+
+std::vector<Supply> supplies_for(const std::vector<Supply>& supplies, const scenario::UserCpu& user,
+                                 const user_cpu::StationConfig& station, bool data) {
+  std::vector<Supply> needed;
+  std::copy_if(supplies.begin(), supplies.end(), std::back_inserter(needed), [&](const Supply& each) {
+    const auto* verdict = std::get_if<user_cpu::command::SendVerdict>(&each.command);
+    return verdict == nullptr ? data : leaves_verdict(user, station, verdict->cfg);
+  });
+  return needed;
 }
 
 Beginning beginning_of(const Recording& recording) {

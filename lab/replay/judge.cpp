@@ -12,8 +12,6 @@
 namespace dsdpv1::tb::replay {
 namespace {
 
-// Bits of the first byte of Slave_Diag.
-constexpr std::uint8_t kStationNotReady = 0x02, kFaultNotSupported = 0x10, kFaultOfPrm = 0x40;
 constexpr std::size_t kHeadOfSd2 = 4;
 
 bus::Telegram telegram_of(const bus::Bytes& bytes) { return bus::decode(bytes).telegram; }
@@ -34,15 +32,17 @@ std::string meaning_of(const bus::Bytes& bytes, std::size_t at, std::optional<bo
 
 }  // namespace
 
-Judge::Judge(const Recording& recording, const Firmware& firmware, const JudgeOptions& options)
+Judge::Judge(const Recording& recording, const Firmware& firmware, const std::vector<Supply>& supplies,
+             const JudgeOptions& options)
     : recording_(recording),
       firmware_(firmware),
+      supplies_(supplies),
       options_(options),
       beginning_(beginning_of(recording)),
       min_tsdr_(recording.baud) {
   if (options.started) beginning_.comparable = beginning_.first_answer;
   supplied_.now = supplied_.before = firmware.inputs;
-  old_faults_ = kCfgFault | kFaultNotSupported | kFaultOfPrm;
+  old_faults_ = kCfgFault | kNotSupported | kPrmFault;
 }
 
 std::vector<RequestResult> Judge::judge(const Listener& listener) {
@@ -71,13 +71,14 @@ RequestResult Judge::result_of(const RecordedRequest& request, const Heard* hear
   result.service = bus::explain_service(telegram.decoded.telegram);
   if (result.service.empty()) result.service = "FDL status";
   if (const RecordedTelegram* answer = recording_.answer(request))
-    result.recorded = Answer{answer->start, answer->start - telegram.end, answer->right(), answer->bytes};
+    result.recorded =
+        Answer{answer->start, answer->start - telegram.end, telegram.baud, answer->right(), answer->bytes};
   if (heard != nullptr) result.model = heard->answer;
   return result;
 }
 
 Verdict Judge::verdict(std::size_t index, RequestResult& result, const Heard* heard) {
-  if (index < beginning_.first_answer) return Verdict::kBeforeFirstAnswer;
+  if (index < beginning_.first_answer || recording_.requests[index].searching) return Verdict::kBeforeFirstAnswer;
   if (index < beginning_.comparable) return Verdict::kNotParameterised;
   if (heard == nullptr || !heard->whole) return Verdict::kDisturbed;
   if (!heard->has_rate) return Verdict::kNoRate;
@@ -113,21 +114,23 @@ Verdict Judge::compare_bytes(RequestResult& result) {
   if (equal) return Verdict::kEqual;
   if (users_dpv1) return Verdict::kUserDpv1;
   if (only_old_faults_differ(result)) return Verdict::kOldFault;
-  if (options_.supplied && user_was_late(result)) return Verdict::kUserLate;
+  if (user_was_late(result)) return Verdict::kUserLate;
   result.why = difference_words(result);
   return Verdict::kBytes;
 }
 
 Verdict Judge::compare_tsdr(RequestResult& result) const {
-  const double recorded = bits(result.recorded->tsdr), model = bits(result.model->tsdr);
-  const double unsure = std::max(2 * bits(recording_.resolution), 0.5);  // both ends of a recorded time
+  const double recorded = result.recorded->tsdr_bits(), model = result.model->tsdr_bits();
+  const bus::Baud& rate = bus::baud(result.recorded->baud);
+  const double resolution = static_cast<double>(recording_.resolution) / static_cast<double>(rate.bit);
+  const double unsure = std::max(2 * resolution, 0.5);  // both ends of a recorded time
   if (options_.tsdr.tolerance_bits) {
     if (std::abs(recorded - model) <= *options_.tsdr.tolerance_bits) return Verdict::kEqual;
     result.why = fmt::format("TSDR: recorded {:.2f} bit times, model {:.2f}, expected at most {:g} apart", recorded,
                              model, *options_.tsdr.tolerance_bits);
     return Verdict::kTsdr;
   }
-  const int min_tsdr = min_tsdr_.least(), max_tsdr = bus::baud(recording_.baud).max_tsdr_bits;
+  const int max_tsdr = rate.max_tsdr_bits, min_tsdr = std::min(min_tsdr_.least(), max_tsdr);
   const auto right = [&](double tsdr) { return tsdr >= min_tsdr - unsure && tsdr <= max_tsdr + unsure; };
   if (right(recorded) && right(model)) return Verdict::kEqual;
   result.why = fmt::format("TSDR: recorded {:.2f} bit times, model {:.2f}, expected min_TSDR {} to max_TSDR {}",
@@ -147,6 +150,9 @@ bool Judge::user_was_late(const RequestResult& result) const {
   if (!result.recorded->right || !result.model->right) return false;
   constexpr Tick kDriver = 60 * bus::kTicksPerUs;
   const Tick time = 2 * options_.user_cycle + kDriver;
+  const auto is_news = [&](const std::optional<Tick>& at) { return at && request_end_ - *at < time; };
+  if (is_news(supplied_.verdict)) return true;
+  if (!options_.supplied) return false;
   const bus::Telegram recorded = telegram_of(result.recorded->bytes), model = telegram_of(result.model->bytes);
   if (result.service == "Slave_Diag") {
     bus::Bytes bytes = model.data;
@@ -157,10 +163,8 @@ bool Judge::user_was_late(const RequestResult& result) const {
   if (result.service == "Set_Prm" || result.service == "Chk_Cfg")
     return judging_ && refused(recorded) != refused(model);  // RR or RS until the blocks before are judged
   if (result.service != "Data_Exchange" && result.service != "Read_Inputs") return false;
-  const bool news_of_inputs = supplied_.any_inputs && request_end_ - supplied_.inputs < time;
-  const bool news_of_diagnosis = supplied_.any_diagnosis && request_end_ - supplied_.diagnosis < time;
-  if (recorded.data != model.data && !(news_of_inputs && model.data == supplied_.before)) return false;
-  return recorded.fc == model.fc || news_of_diagnosis;
+  if (recorded.data != model.data && !(is_news(supplied_.inputs) && model.data == supplied_.before)) return false;
+  return recorded.fc == model.fc || is_news(supplied_.diagnosis);
 }
 
 /// A fault stays until the next Set_Prm or Chk_Cfg (S6, S17); the model has not seen the one before the capture.
@@ -174,7 +178,7 @@ bool Judge::only_old_faults_differ(const RequestResult& result) const {
 }
 
 void Judge::follow_set_up(const RequestResult& result) {
-  if (result.service == "Set_Prm") old_faults_ &= static_cast<std::uint8_t>(~(kFaultOfPrm | kFaultNotSupported));
+  if (result.service == "Set_Prm") old_faults_ &= static_cast<std::uint8_t>(~(kPrmFault | kNotSupported));
   if (result.service == "Set_Prm" && result.recorded && !refused(telegram_of(result.recorded->bytes))) judging_ = true;
   if (result.service == "Data_Exchange" && result.recorded && result.recorded->right)
     judging_ = refused(telegram_of(result.recorded->bytes)) && judging_;
@@ -196,17 +200,17 @@ bool Judge::is_users_dpv1(const RequestResult& result) {
 }
 
 void Judge::follow_supplies(Tick until) {
-  for (; next_supply_ < firmware_.supplies.size() && firmware_.supplies[next_supply_].at < until; ++next_supply_) {
-    const Supply& supply = firmware_.supplies[next_supply_];
-    if (supply.diagnosis) {
+  for (; next_supply_ < supplies_.size() && supplies_[next_supply_].at < until; ++next_supply_) {
+    const Supply& supply = supplies_[next_supply_];
+    if (const auto* inputs = std::get_if<user_cpu::command::SetInputs>(&supply.command)) {
+      supplied_.before = supplied_.now;
+      supplied_.now = inputs->bytes;
+      supplied_.inputs = supply.at;
+    } else if (std::holds_alternative<user_cpu::command::SetDiagnosis>(supply.command)) {
       supplied_.diagnosis = supply.at;
-      supplied_.any_diagnosis = true;
-      continue;
+    } else {
+      supplied_.verdict = supply.at;
     }
-    supplied_.before = supplied_.now;
-    supplied_.now = supply.bytes;
-    supplied_.inputs = supply.at;
-    supplied_.any_inputs = true;
   }
 }
 
@@ -227,10 +231,6 @@ std::string Judge::difference_words(const RequestResult& result) const {
     return fmt::format("length: recorded {} bytes, model {}", recorded.size(), model.size());
   const std::string words = meaning_of(recorded, at, dpv1_), others = meaning_of(model, at, dpv1_);
   return fmt::format("byte {}: recorded {:02X} ({}), model {:02X} ({})", at, recorded[at], words, model[at], others);
-}
-
-double Judge::bits(Tick ticks) const {
-  return static_cast<double>(ticks) / static_cast<double>(bus::baud(recording_.baud).bit);
 }
 
 }  // namespace dsdpv1::tb::replay

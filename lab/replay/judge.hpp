@@ -21,14 +21,14 @@ struct JudgeOptions {
 class Judge {
  public:
   /// All arguments must outlive it.
-  Judge(const Recording& recording, const Firmware& firmware, const JudgeOptions& options);
+  Judge(const Recording& recording, const Firmware& firmware, const std::vector<Supply>& supplies,
+        const JudgeOptions& options);
   std::vector<RequestResult> judge(const Listener& listener);
 
  private:
   struct Supplied {
-    Tick inputs = 0, diagnosis = 0;  ///< time of the last change, 0 for none
-    bool any_inputs = false, any_diagnosis = false;
-    bus::Bytes before;  ///< the inputs before that change
+    std::optional<Tick> inputs, diagnosis, verdict;  ///< time of the last one
+    bus::Bytes before;                               ///< the inputs before that change
     bus::Bytes now;
   };
   RequestResult result_of(const RecordedRequest& request, const Heard* heard) const;
@@ -46,10 +46,10 @@ class Judge {
   void follow_supplies(Tick until);
   void follow_dpv1(const RequestResult& result);
   std::string difference_words(const RequestResult& result) const;
-  double bits(Tick ticks) const;
 
   const Recording& recording_;
   const Firmware& firmware_;
+  const std::vector<Supply>& supplies_;  ///< given to the user CPU
   const JudgeOptions& options_;
   Beginning beginning_;
   std::size_t next_supply_ = 0;

@@ -14,7 +14,7 @@ namespace dsdpv1::tb::replay {
 /// The model's reaction to a telegram of the capture.
 struct Heard {
   bool whole = false;     ///< it was on the line undisturbed
-  bool has_rate = false;  ///< the model had its baud rate at the telegram's end
+  bool has_rate = false;  ///< the model had the telegram's baud rate at its end
   std::optional<Answer> answer;
 };
 
@@ -27,8 +27,10 @@ class Listener : public Observer {
   void telegram(const HeardTelegram& heard) override;
   /// The capture is played from now on, its times shifted by this.
   void begin(Tick shift) { shift_ = shift; }
+  /// Until the next `begin`.
+  void pause() { shift_.reset(); }
 
-  bool model_has_rate() const { return chip_ != nullptr && chip_->status().baud.has_value(); }
+  bool model_has_rate(int baud) const { return chip_ != nullptr && chip_->status().baud == baud; }
   /// By position in Recording::telegrams.
   const Heard* of(std::size_t telegram) const;
   /// Telegrams of the model without a request, or after its answer.

@@ -7,8 +7,7 @@
 namespace dsdpv1::tb::replay {
 namespace {
 
-constexpr std::size_t kHead = 7, kMinTsdrByte = 3;    // of Set_Prm
-constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40;  // in its first byte, table 19
+constexpr std::size_t kMinTsdrByte = 3;  // of Set_Prm
 
 }  // namespace
 
@@ -27,9 +26,9 @@ void MinTsdr::take(const bus::Telegram& request, const RecordedTelegram* answer)
 void MinTsdr::set_prm(const bus::Telegram& request, const RecordedTelegram* answer) {
   const bool heard = answer != nullptr && answer->right();
   if (heard && !acknowledged(answer)) return;
-  if (request.data.size() < kHead || (request.data[0] & kUnlock) != 0) return;
+  if (request.data.size() < kPrmHead || (request.data[0] & kUnlockReq) != 0) return;
   const std::uint8_t bits = request.data[kMinTsdrByte];
-  const bool parameterises = (request.data[0] & kLock) != 0;
+  const bool parameterises = (request.data[0] & kLockReq) != 0;
   if (bits == 0) {
     if (parameterises) asked_.reset();
     return;

@@ -28,31 +28,35 @@ Tick resolution_of(const std::vector<RecordedTelegram>& telegrams) {
 
 }  // namespace
 
-Recorder::Recorder(std::string name, std::uint8_t slave, std::optional<int> baud)
-    : baud_(baud), chosen_(baud.has_value()), address_(slave) {
+std::vector<int> Recording::bauds() const {
+  std::vector<int> rates;
+  for (const RecordedTelegram& each : telegrams)
+    if (std::find(rates.begin(), rates.end(), each.baud) == rates.end()) rates.push_back(each.baud);
+  return rates;
+}
+
+Recorder::Recorder(std::string name, std::uint8_t slave, std::optional<int> baud) : baud_(baud), address_(slave) {
   recording_.name = std::move(name);
   recording_.slave = slave;
 }
 
 void Recorder::telegram(const bus::capture::CapturedTelegram& telegram) {
   if (telegram.bytes.empty()) return;
-  if (!telegram.baud && !baud_)
+  if (!telegram.baud && !baud_ && recording_.telegrams.empty())
     throw InputError(recording_.name, 0, "does not say its baud rate, name it with --baud, expected 12M to 9.6k");
-  if (!baud_) baud_ = telegram.baud;
-  if (telegram.baud.value_or(*baud_) == *baud_) return take(telegram);
-  if (!chosen_)
-    throw InputError(recording_.name, 0,
-                     fmt::format("telegrams at {} and {}, choose one with --baud", bus::baud(*baud_).name,
-                                 bus::baud(*telegram.baud).name));
+  const int before = recording_.telegrams.empty() ? 0 : recording_.telegrams.back().baud;
+  const int baud = telegram.baud.value_or(baud_.value_or(before));
+  if (!baud_ || baud == *baud_) return take(telegram, baud);
   ++recording_.left_out;
 }
 
-void Recorder::take(const bus::capture::CapturedTelegram& telegram) {
+void Recorder::take(const bus::capture::CapturedTelegram& telegram, int baud) {
   RecordedTelegram recorded;
   recorded.start = telegram.start;
-  const Tick nominal = static_cast<Tick>(telegram.bytes.size()) * bus::kCharacterBits * bus::baud(*baud_).bit;
+  const Tick nominal = static_cast<Tick>(telegram.bytes.size()) * bus::kCharacterBits * bus::baud(baud).bit;
   recorded.end = telegram.end > telegram.start ? telegram.end : telegram.start + nominal;
   recorded.damage = telegram.damage;
+  recorded.baud = baud;
   recorded.bytes = telegram.bytes;
   recorded.decoded = bus::decode(telegram.bytes);
   auto& all = recording_.telegrams;
@@ -64,9 +68,10 @@ void Recorder::take(const bus::capture::CapturedTelegram& telegram) {
 }
 
 Recording Recorder::finish() {
-  recording_.baud = baud_.value_or(0);
+  if (!recording_.telegrams.empty()) recording_.baud = recording_.telegrams.front().baud;
   divide();
   check();
+  follow_rate();
   // In a recording of levels a telegram begins with an edge, at an unknown sampling rate.
   if (recording_.levels.empty()) recording_.resolution = resolution_of(recording_.telegrams);
   return std::move(recording_);
@@ -105,8 +110,9 @@ void Recorder::right(std::size_t index) {
 void Recorder::wrong(std::size_t index) {
   if (!pending_) return;
   RecordedTelegram& recorded = recording_.telegrams[index];
-  const bus::Baud& rate = bus::baud(recording_.baud);
-  const Tick waited = recorded.start - recording_.telegrams[pending_->request].end;
+  const RecordedTelegram& request = recording_.telegrams[pending_->request];
+  const bus::Baud& rate = bus::baud(request.baud);
+  const Tick waited = recorded.start - request.end;
   recorded.of_slave = pending_->of_slave && waited < rate.slot_bits * rate.bit;
   if (recorded.of_slave) answered(index);
   pending_.reset();
@@ -122,6 +128,16 @@ void Recorder::follow_address(const RecordedTelegram& answer) {
   const bool accepted = answer.right() && answer.decoded.telegram.kind == bus::TelegramKind::kSc;
   if (accepted && request.dsap == bus::sap::kSetSlaveAddress && !request.data.empty())
     address_ = request.data[0] & 0x7FU;
+}
+
+void Recorder::follow_rate() {
+  int known = recording_.baud;
+  for (RecordedRequest& each : recording_.requests) {
+    const int baud = recording_.request(each).baud;
+    each.searching = baud != known && !each.answer;
+    each.found = baud != known && each.answer;
+    if (each.answer) known = baud;
+  }
 }
 
 // --- whether it can be used

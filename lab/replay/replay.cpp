@@ -18,11 +18,16 @@ RunOptions open_ended(RunOptions options) {
 }  // namespace
 
 Tick Replay::Supplier::next() const {
+  if (lead_in_) return lead_in_->at;
   return shift_ && next_ < supplies_.size() ? std::max(supplies_[next_].at + *shift_, begin_) : bus::kNever;
 }
 
 void Replay::Supplier::run(Tick now) {
-  while (next() <= now) bench_.command(slave_, supplies_[next_++].command());
+  if (lead_in_) {
+    bench_.command(slave_, lead_in_->command);
+    return lead_in_.reset();
+  }
+  while (next() <= now) bench_.command(slave_, supplies_[next_++].command);
 }
 
 Replay::Replay(const Recording& recording, const Firmware& firmware, const scenario::Scenario& scenario,
@@ -32,16 +37,22 @@ Replay::Replay(const Recording& recording, const Firmware& firmware, const scena
       scenario_(scenario),
       options_(options),
       placed_(place(recording)),
+      station_(Setup(scenario).station(scenario.slaves.front())),
+      supplies_(supplies_for(firmware.supplies, scenario.slaves.front().user_cpu, station_, options.judge.supplied)),
       listener_(recording, placed_),
       made_(std::move(execution)),
       execution_(*made_),
       line_(make_line(execution_.segment(), recording, placed_)),
-      lead_in_(execution_.segment(), recording.baud, recording.slave, [this] { return listener_.model_has_rate(); }),
+      lead_in_(execution_.segment(), recording.baud, recording.slave,
+               [this](int baud) { return listener_.model_has_rate(baud); }),
       bench_(scenario_, open_ended(std::move(run)), std::move(made_)),
-      supplier_(bench_, scenario_, options.judge.supplied ? firmware.supplies : nothing_) {
+      supplier_(bench_, scenario_, supplies_) {
   options_.judge.user_cycle = scenario_.slaves.front().user_cpu.cycle;
   prepare_lead_in();
+  lead_in_.on_sent = [this](const bus::Telegram& telegram, Tick end) { judge_lead_in(telegram, end); };
   lead_in_.on_end = [this](Tick free) { begin(free); };
+  line_->on_baud = [this](int baud) { bench_.set_line_baud(baud); };
+  line_->may_go_on = [this](std::size_t placed) { return may_go_on(placed); };
   bench_.add_observer(listener_);
   bus::Timeline& timeline = execution_.timeline();
   timeline.add(lead_in_);
@@ -51,25 +62,45 @@ Replay::Replay(const Recording& recording, const Firmware& firmware, const scena
 
 void Replay::prepare_lead_in() {
   if (!options_.lead_in) return lead_in_.leave_out();
-  std::vector<bus::Telegram> telegrams = start_up_of(recording_, Setup(scenario_).station(scenario_.slaves.front()));
+  std::vector<bus::Telegram> telegrams = start_up_of(recording_, station_);
   options_.judge.started = !telegrams.empty();
   lead_in_.then_send(std::move(telegrams));
+}
+
+void Replay::judge_lead_in(const bus::Telegram& telegram, Tick end) {
+  const bool cfg = telegram.dsap == bus::sap::kChkCfg;
+  const bool judged = cfg || telegram.dsap == bus::sap::kSetPrm;
+  if (judged && leaves_verdict(scenario_.slaves.front().user_cpu, station_, cfg))
+    supplier_.accept(end + bus::kTicksPerMs, cfg);
 }
 
 /// The line is idle for the lead-in's pause, because the capture may begin with an answer.
 void Replay::begin(Tick free) {
   constexpr int kIdle = 2 * bus::kSynBits;
-  const Tick first = placed_.empty() ? 0 : placed_.front().start;
-  const Tick at = free + kIdle * bus::baud(recording_.baud).bit;
+  const Tick first = placed_.empty() ? 0 : placed_[next_].start;
+  const int baud = placed_.empty() ? recording_.baud : recording_.telegrams[placed_[next_].telegram].baud;
+  const Tick at = free + kIdle * bus::baud(baud).bit;
   shift_ = at - first;
   listener_.begin(*shift_);
   supplier_.begin(*shift_, at);
   line_->begin(first, at);
 }
 
+/// The recorded slave has found another rate. The capture waits until the model has.
+bool Replay::may_go_on(std::size_t placed) {
+  const int baud = recording_.telegrams[placed_[placed].telegram].baud;
+  if (!options_.lead_in || listener_.model_has_rate(baud)) return true;
+  next_ = placed;
+  shift_.reset();
+  listener_.pause();
+  supplier_.pause();
+  lead_in_.search(baud, execution_.timeline().now());
+  return false;
+}
+
 /// Leaves time for a last answer.
 bool Replay::over(Tick now) const {
-  const bus::Baud& rate = bus::baud(recording_.baud);
+  const bus::Baud& rate = bus::baud(recording_.telegrams.back().baud);
   constexpr int kLongestAnswer = 256 * bus::kCharacterBits;
   return shift_ && now > recording_.end() + *shift_ + (rate.slot_bits + kLongestAnswer) * rate.bit;
 }
@@ -90,7 +121,7 @@ Result Replay::result(bool interrupted) {
   result.capture = recording_.name;
   result.form = recording_.levels.empty() ? "telegrams" : "levels";
   result.slave = recording_.slave;
-  result.baud = recording_.baud;
+  result.bauds = recording_.bauds();
   result.resolution = recording_.resolution;
   result.telegrams = recording_.telegrams.size();
   result.left_out = recording_.left_out;
@@ -101,7 +132,7 @@ Result Replay::result(bool interrupted) {
   result.started = options_.judge.started;
   result.inputs_recorded = options_.judge.supplied;
   result.rule = options_.judge.tsdr;
-  result.requests = Judge(recording_, firmware_, options_.judge).judge(listener_);
+  result.requests = Judge(recording_, firmware_, supplies_, options_.judge).judge(listener_);
   result.unasked = listener_.unasked();
   result.interrupted = interrupted;
   return result;

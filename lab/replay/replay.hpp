@@ -20,6 +20,8 @@ struct ReplayOptions {
   std::string gsd;      ///< absolute path, empty: none
 };
 
+/// The first kind of chip that can behave as the recorded slave did.
+const ChipKind& kind_for(const Firmware& firmware);
 /// A scenario with only the slave, a chip of this kind, initialised from the capture or the GSD.
 scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd,
                                const ChipKind& kind);
@@ -50,7 +52,14 @@ class Replay {
    public:
     Supplier(Bench& bench, const scenario::Scenario& scenario, const std::vector<Supply>& supplies)
         : bench_(bench), slave_(scenario.slaves.front().name.text), supplies_(supplies) {}
-    /// `at`: begin of the capture; nothing is given before.
+    /// Accepts the parameters or the configuration of the lead-in.
+    void accept(Tick at, bool cfg) {
+      lead_in_ = Supply{at, user_cpu::command::SendVerdict{cfg}};
+      announce();
+    }
+    /// Nothing is given until the next `begin`.
+    void pause() { shift_.reset(); }
+    /// `at`: the capture begins or continues; nothing is given before.
     void begin(Tick shift, Tick at) {
       shift_ = shift;
       begin_ = at;
@@ -63,13 +72,16 @@ class Replay {
     Bench& bench_;
     std::string slave_;
     const std::vector<Supply>& supplies_;
+    std::optional<Supply> lead_in_;
     std::optional<Tick> shift_;
     Tick begin_ = 0;
     std::size_t next_ = 0;
   };
 
   void prepare_lead_in();
+  void judge_lead_in(const bus::Telegram& telegram, Tick end);
   void begin(Tick free);
+  bool may_go_on(std::size_t placed);
   bool over(Tick now) const;
   Result result(bool interrupted);
 
@@ -78,7 +90,8 @@ class Replay {
   const scenario::Scenario& scenario_;
   ReplayOptions options_;
   std::vector<PlacedTelegram> placed_;
-  std::vector<Supply> nothing_;
+  user_cpu::StationConfig station_;
+  std::vector<Supply> supplies_;
   Listener listener_;
   std::unique_ptr<Execution> made_;
   Execution& execution_;
@@ -87,6 +100,7 @@ class Replay {
   Bench bench_;
   Supplier supplier_;
   std::optional<Tick> shift_;
+  std::size_t next_ = 0;  ///< position in placed_ with which the line begins or continues
   RunResult run_result_;
 };
 

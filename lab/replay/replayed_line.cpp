@@ -21,22 +21,38 @@ class TelegramLine : public ReplayedLine, private bus::Listener {
  public:
   TelegramLine(bus::Segment& segment, const Recording& recording, const std::vector<PlacedTelegram>& placed)
       : recording_(recording), placed_(placed), sender_(segment, segment.attach("recording", this)) {
-    sender_.set_timing(bus::baud(recording.baud).bit);
+    set_baud(recording.baud);
   }
 
   Tick next() const override { return sender_.busy() ? sender_.next() : ReplayedLine::next(); }
   void run(Tick now) override {
-    if (!sender_.busy()) begin_next(now);
+    if (!sender_.busy() && !begin_next(now)) return;
     sender_.run(now);
   }
 
  private:
   bool has_next() const override { return next_ < placed_.size(); }
   Tick next_recorded() const override { return placed_[next_].start; }
-  void begin_next(Tick now) {
+  /// False: the line has stopped.
+  bool begin_next(Tick now) {
     const RecordedTelegram& telegram = recording_.telegrams[placed_[next_].telegram];
+    if (telegram.baud != baud_) {
+      set_baud(telegram.baud);
+      if (on_baud) on_baud(telegram.baud);
+    }
+    const bool waits = placed_[next_].found && !waited_ && may_go_on && !may_go_on(next_);
+    waited_ = waits;
+    if (waits) {
+      stop();
+      return false;
+    }
     ++next_;
     sender_.send(now, bus::characters(telegram.bytes, faults_of(telegram)));
+    return true;
+  }
+  void set_baud(int baud) {
+    baud_ = baud;
+    sender_.set_timing(bus::baud(baud).bit);
   }
 
   void line_changed(Tick, bool) override {}
@@ -49,6 +65,8 @@ class TelegramLine : public ReplayedLine, private bus::Listener {
   const Recording& recording_;
   const std::vector<PlacedTelegram>& placed_;
   bus::UartSender sender_;
+  int baud_ = 0;
+  bool waited_ = false;  ///< for the rate of the next telegram
   std::size_t next_ = 0;
 };
 
@@ -92,6 +110,16 @@ class LevelLine : public ReplayedLine {
   std::size_t next_ = 0;
 };
 
+void mark_found(std::vector<PlacedTelegram>& placed, const Recording& recording) {
+  auto at = placed.begin();
+  for (const RecordedRequest& each : recording.requests) {
+    if (!each.found) continue;
+    at = std::find_if(at, placed.end(), [&](const PlacedTelegram& one) { return one.telegram == each.telegram; });
+    if (at == placed.end()) return;
+    at->found = true;
+  }
+}
+
 }  // namespace
 
 std::vector<PlacedTelegram> place(const Recording& recording) {
@@ -105,6 +133,7 @@ std::vector<PlacedTelegram> place(const Recording& recording) {
     placed.push_back({i, start, start + telegram.end - telegram.start});
     free = placed.back().end;
   }
+  if (!levels) mark_found(placed, recording);
   return placed;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Replays a capture on a segment, without one slave's telegrams.
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace dsdpv1::tb::replay {
 struct PlacedTelegram {
   std::size_t telegram;  ///< position in Recording::telegrams
   Tick start, end;
+  bool found = false;  ///< RecordedRequest::found
 };
 
 /// In order of time.
@@ -23,7 +25,7 @@ std::vector<PlacedTelegram> place(const Recording& recording);
 /// Plays once `begin` was called.
 class ReplayedLine : public bus::Agent {
  public:
-  /// The first start bit of the capture, at `first` there, falls at `at`.
+  /// The next start bit of the capture, at `first` there, falls at `at`.
   void begin(Tick first, Tick at) {
     shift_ = at - first;
     begun_ = true;
@@ -31,7 +33,14 @@ class ReplayedLine : public bus::Agent {
   }
   Tick next() const override { return begun_ && has_next() ? next_recorded() + shift_ : bus::kNever; }
 
+  /// Called before a telegram at another rate than the one before.
+  std::function<void(int baud)> on_baud;
+  /// Called before a telegram whose rate the recorded slave has found. False: the line stops until the next `begin`,
+  /// with this telegram (position in the placed ones) as the next.
+  std::function<bool(std::size_t placed)> may_go_on;
+
  protected:
+  void stop() { begun_ = false; }
   virtual bool has_next() const = 0;
   virtual Tick next_recorded() const = 0;
   Tick shift() const { return shift_; }

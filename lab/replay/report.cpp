@@ -29,8 +29,11 @@ std::string line(const std::string& heading, const std::string& what) {
   return fmt::format("{:<17} {}\n", heading, what);
 }
 
-double bits(const Result& result, Tick ticks) {
-  return static_cast<double>(ticks) / static_cast<double>(bus::baud(result.baud).bit);
+/// "12M", "12M and 1.5M".
+std::string rates_text(const Result& result) {
+  std::string text;
+  for (const int baud : result.bauds) text += (text.empty() ? "" : " and ") + std::string(bus::baud(baud).name);
+  return text;
 }
 
 std::string in_words(const bus::Bytes& bytes) {
@@ -41,23 +44,24 @@ std::string in_words(const bus::Bytes& bytes) {
   return fmt::format("{} ({})", words, bytes_text(bytes, kMostBytes));
 }
 
-std::string answer_text(const Result& result, const std::optional<Answer>& answer) {
+std::string answer_text(const std::optional<Answer>& answer) {
   if (!answer) return "no answer";
-  return fmt::format("{}, TSDR {:.2f} bit times", in_words(answer->bytes), bits(result, answer->tsdr));
+  return fmt::format("{}, TSDR {:.2f} bit times", in_words(answer->bytes), answer->tsdr_bits());
 }
 
 // --- TSDR ------------------------------------------------------------------------------------------------------------
 
+/// Bit times.
 struct Spread {
-  Tick min = 0, median = 0, max = 0;
+  double min = 0, median = 0, max = 0;
 };
 
 /// TSDR of the compared requests that both have answered; absent without one.
 template <class Side>
 std::optional<Spread> spread_of(const Result& result, const Side& side) {
-  std::vector<Tick> times;
+  std::vector<double> times;
   for (const RequestResult& each : result.requests)
-    if (is_compared(each.verdict) && each.recorded && each.model) times.push_back(side(each).tsdr);
+    if (is_compared(each.verdict) && each.recorded && each.model) times.push_back(side(each).tsdr_bits());
   if (times.empty()) return std::nullopt;
   std::sort(times.begin(), times.end());
   return Spread{times.front(), times[times.size() / 2], times.back()};
@@ -73,15 +77,17 @@ std::optional<Spread> model_spread(const Result& result) {
       result, [](const RequestResult& each) -> const Answer& { return *each.model; });
 }
 
-std::string spread_text(const Result& result, const std::optional<Spread>& spread) {
+std::string spread_text(const std::optional<Spread>& spread) {
   if (!spread) return "-";
-  return fmt::format("{:.2f} / {:.2f} / {:.2f}", bits(result, spread->min), bits(result, spread->median),
-                     bits(result, spread->max));
+  return fmt::format("{:.2f} / {:.2f} / {:.2f}", spread->min, spread->median, spread->max);
 }
 
 std::string rule_text(const Result& result) {
   if (result.rule.tolerance_bits) return fmt::format("at most {:g} bit times apart", *result.rule.tolerance_bits);
-  return fmt::format("both from min_TSDR to max_TSDR, {} bit times", bus::baud(result.baud).max_tsdr_bits);
+  std::string most;
+  for (const int baud : result.bauds)
+    most += fmt::format("{}{}", most.empty() ? "" : " and ", bus::baud(baud).max_tsdr_bits);
+  return fmt::format("both from min_TSDR to max_TSDR, {} bit times", most);
 }
 
 // --- tables ----------------------------------------------------------------------------------------------------------
@@ -139,8 +145,8 @@ std::string first_text(const Result& result) {
   if (const RequestResult* first = result.first_difference())
     return line("first difference", fmt::format("at {}, telegram {} of the capture: {}", bus::moment_text(first->start),
                                                 first->telegram + 1, first->why)) +
-           line("  request", in_words(first->request)) + line("  recorded", answer_text(result, first->recorded)) +
-           line("  model", answer_text(result, first->model));
+           line("  request", in_words(first->request)) + line("  recorded", answer_text(first->recorded)) +
+           line("  model", answer_text(first->model));
   return "";
 }
 
@@ -152,17 +158,19 @@ std::string unasked_text(const Result& result) {
 }
 
 std::string capture_text(const Result& result) {
-  std::string text = fmt::format("{}: {} telegrams from {} to {} at {}, {}", bus::printable(result.capture),
-                                 result.telegrams, bus::moment_text(result.begin), bus::moment_text(result.end),
-                                 bus::baud(result.baud).name, result.form);
+  std::string text =
+      fmt::format("{}: {} telegrams from {} to {} at {}, {}", bus::printable(result.capture), result.telegrams,
+                  bus::moment_text(result.begin), bus::moment_text(result.end), rates_text(result), result.form);
   if (result.left_out != 0) text += fmt::format(", {} at other rates left out", result.left_out);
   return text;
 }
 
 std::string resolution_text(const Result& result) {
-  if (bits(result, result.resolution) < 0.5) return "";
+  const double resolution =
+      static_cast<double>(result.resolution) / static_cast<double>(bus::baud(result.bauds.front()).bit);
+  if (resolution < 0.5) return "";
   return line("times", fmt::format("the capture's are whole multiples of {}, {:.1f} bit times",
-                                   time_text(result.resolution), bits(result, result.resolution)));
+                                   time_text(result.resolution), resolution));
 }
 
 std::string verdict_text(const Result& result, const RunResult& run) {
@@ -177,33 +185,32 @@ std::string verdict_text(const Result& result, const RunResult& run) {
 
 double nanoseconds_of(Tick at) { return static_cast<double>(at) / static_cast<double>(bus::kTicksPerNs); }
 
-nlohmann::ordered_json to_json(const Result& result, const std::optional<Answer>& answer) {
+nlohmann::ordered_json to_json(const std::optional<Answer>& answer) {
   if (!answer) return nullptr;
   return {{"at_ns", nanoseconds_of(answer->start)},
-          {"tsdr_bits", bits(result, answer->tsdr)},
+          {"tsdr_bits", answer->tsdr_bits()},
           {"bytes", bytes_text(answer->bytes, answer->bytes.size())}};
 }
 
-nlohmann::ordered_json to_json(const Result& result, const std::optional<Spread>& spread) {
+nlohmann::ordered_json to_json(const std::optional<Spread>& spread) {
   if (!spread) return nullptr;
-  return {
-      {"min", bits(result, spread->min)}, {"median", bits(result, spread->median)}, {"max", bits(result, spread->max)}};
+  return {{"min", spread->min}, {"median", spread->median}, {"max", spread->max}};
 }
 
-nlohmann::ordered_json to_json(const Result& result, const RequestResult& request) {
+nlohmann::ordered_json to_json(const RequestResult& request) {
   return {{"telegram", request.telegram + 1},
           {"at_ns", nanoseconds_of(request.start)},
           {"service", request.service},
           {"verdict", name(request.verdict)},
           {"why", request.why},
           {"request", bytes_text(request.request, request.request.size())},
-          {"recorded", to_json(result, request.recorded)},
-          {"model", to_json(result, request.model)}};
+          {"recorded", to_json(request.recorded)},
+          {"model", to_json(request.model)}};
 }
 
-std::string cells(const Result& result, const std::optional<Answer>& answer) {
+std::string cells(const std::optional<Answer>& answer) {
   if (!answer) return "\t";
-  return fmt::format("{:.3f}\t{}", bits(result, answer->tsdr), bytes_text(answer->bytes, answer->bytes.size()));
+  return fmt::format("{:.3f}\t{}", answer->tsdr_bits(), bytes_text(answer->bytes, answer->bytes.size()));
 }
 
 }  // namespace
@@ -217,9 +224,9 @@ std::string text(const Result& result, const RunResult& run) {
                              : "those of the scenario's user CPU, without the script; --inputs recorded: the "
                                "capture's");
   text += line("lead-in", bus::moment_text(result.lead_in) + (result.started ? kStarted : ""));
-  text += line("TSDR / bit times", fmt::format("recorded {}, model {} (min / median / max); {}",
-                                               spread_text(result, recorded_spread(result)),
-                                               spread_text(result, model_spread(result)), rule_text(result)));
+  text += line("TSDR / bit times",
+               fmt::format("recorded {}, model {} (min / median / max); {}", spread_text(recorded_spread(result)),
+                           spread_text(model_spread(result)), rule_text(result)));
   for (const auto& [verdict, count] : left_aside(result))
     text += line("not compared", fmt::format("{}: {}", count, name(verdict)));
   text += first_text(result) + unasked_text(result);
@@ -235,7 +242,8 @@ std::string json(const Result& result) {
   root["capture"] = bus::printable(result.capture);
   root["form"] = result.form;
   root["slave"] = result.slave;
-  root["baud"] = bus::baud(result.baud).name;
+  root["baud"] = bus::baud(result.bauds.front()).name;
+  for (const int baud : result.bauds) root["bauds"].push_back(bus::baud(baud).name);
   root["resolution_ns"] = nanoseconds_of(result.resolution);
   root["station"] = result.station;
   root["parameterised_by_lead_in"] = result.started;
@@ -243,15 +251,15 @@ std::string json(const Result& result) {
   root["compared"] = result.compared();
   for (std::size_t i = 0; i < kVerdicts; ++i)
     root["verdicts"][name(static_cast<Verdict>(i))] = result.count(static_cast<Verdict>(i));
-  root["tsdr_bits"]["recorded"] = to_json(result, recorded_spread(result));
-  root["tsdr_bits"]["model"] = to_json(result, model_spread(result));
+  root["tsdr_bits"]["recorded"] = to_json(recorded_spread(result));
+  root["tsdr_bits"]["model"] = to_json(model_spread(result));
   root["first_difference"] =
-      result.first_difference() == nullptr ? nlohmann::ordered_json() : to_json(result, *result.first_difference());
+      result.first_difference() == nullptr ? nlohmann::ordered_json() : to_json(*result.first_difference());
   root["differences"] = nlohmann::ordered_json::array();
   for (const RequestResult& each : result.requests)
-    if (is_difference(each.verdict)) root["differences"].push_back(to_json(result, each));
+    if (is_difference(each.verdict)) root["differences"].push_back(to_json(each));
   root["unasked"] = nlohmann::ordered_json::array();
-  for (const Answer& each : result.unasked) root["unasked"].push_back(to_json(result, std::optional(each)));
+  for (const Answer& each : result.unasked) root["unasked"].push_back(to_json(std::optional(each)));
   return root.dump(2) + "\n";
 }
 
@@ -260,8 +268,8 @@ std::string table(const Result& result) {
       "telegram\tat_ns\tservice\tverdict\trequest\trecorded_tsdr_bits\trecorded\tmodel_tsdr_bits\tmodel\twhy\n";
   for (const RequestResult& each : result.requests)
     text += fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", each.telegram + 1, nanoseconds(each.start), each.service,
-                        name(each.verdict), bytes_text(each.request, each.request.size()), cells(result, each.recorded),
-                        cells(result, each.model), each.why);
+                        name(each.verdict), bytes_text(each.request, each.request.size()), cells(each.recorded),
+                        cells(each.model), each.why);
   return text;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bus/baud.hpp"
+
 namespace dsdpv1::tb::replay {
 
 const char* name(Verdict verdict) {
@@ -20,7 +22,7 @@ const char* name(Verdict verdict) {
     case Verdict::kBeforeWindow: return "before --from";
     case Verdict::kUserLate: return "the user CPU was not as quick";
     case Verdict::kUserDpv1: return "DPV1, the user CPU's own";
-    case Verdict::kRestart: return "the recorded slave had restarted";
+    case Verdict::kRestart: return "the recorded slave had left data exchange";
     case Verdict::kOldFault: return "faults from before the capture";
   }
   return "";
@@ -29,6 +31,8 @@ const char* name(Verdict verdict) {
 bool is_difference(Verdict verdict) { return verdict >= Verdict::kMissing && verdict <= Verdict::kTsdr; }
 
 bool is_compared(Verdict verdict) { return verdict <= Verdict::kTsdr; }
+
+double Answer::tsdr_bits() const { return static_cast<double>(tsdr) / static_cast<double>(bus::baud(baud).bit); }
 
 const RequestResult* Result::first_difference() const {
   const auto found = std::find_if(requests.begin(), requests.end(),

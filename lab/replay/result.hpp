@@ -26,7 +26,7 @@ enum class Verdict : std::uint8_t {
   kBeforeWindow,
   kUserLate,  ///< the user CPU had not yet delivered the inputs or the diagnosis, or judged at another time
   kUserDpv1,  ///< DPV1: the user CPU answered at another poll, or refused for another reason
-  kRestart,   ///< the slave had restarted, and did not exchange data again yet
+  kRestart,   ///< the slave had left data exchange without a reason on the line, and is not in it again
   kOldFault,  ///< only fault bits differ, from a Set_Prm or Chk_Cfg before the capture
 };
 constexpr std::size_t kVerdicts = 16;
@@ -39,8 +39,11 @@ bool is_compared(Verdict verdict);
 /// An answer of either side.
 struct Answer {
   Tick start = 0, tsdr = 0;
+  int baud = 0;  ///< of the request
   bool right = false;
   bus::Bytes bytes;
+
+  double tsdr_bits() const;
 };
 
 struct RequestResult {
@@ -61,7 +64,7 @@ struct TsdrRule {
 struct Result {
   std::string capture, form;  ///< `form`: "telegrams", "levels of line"
   std::uint8_t slave = 0;
-  int baud = 0;
+  std::vector<int> bauds;  ///< in the order of time
   Tick resolution = 1;
   std::size_t telegrams = 0, left_out = 0;
   Tick begin = 0, end = 0;  ///< of the capture

@@ -5,10 +5,15 @@
 
 namespace dsdpv1::tb::replay {
 
+// Set_Prm: bytes before those of the user, and bits of the first one (table 19).
+constexpr std::size_t kPrmHead = 7;
+constexpr std::uint8_t kLockReq = 0x80, kUnlockReq = 0x40, kWdOn = 0x08;
 // Bits of the first two bytes of Slave_Diag (table 22).
-constexpr std::uint8_t kCfgFault = 0x04, kExtDiag = 0x08;
+constexpr std::uint8_t kStationNotReady = 0x02, kCfgFault = 0x04, kExtDiag = 0x08, kNotSupported = 0x10,
+                       kPrmFault = 0x40;
 constexpr std::uint8_t kPrmReq = 0x01, kStatDiag = 0x02, kWatchdogOn = 0x08;
-constexpr std::size_t kDiagHead = 6;  ///< bytes before those of the user
+constexpr std::uint8_t kNoMaster = 0xFF;  ///< Master_Add of Slave_Diag
+constexpr std::size_t kDiagHead = 6;      ///< bytes before those of the user
 
 /// SRD to this SAP; SDA to it is refused, and SDN not answered (S20).
 inline bool is_service(const bus::Telegram& request, std::uint8_t dsap) {

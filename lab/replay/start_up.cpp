@@ -11,7 +11,7 @@ namespace {
 namespace sap = bus::sap;
 
 constexpr std::uint8_t kNewSeries = bus::fc::kRequest | bus::fc::kSrdHigh | bus::fc::kFcb;
-constexpr std::uint8_t kLockReq = 0x80, kSyncReq = 0x20, kFreezeReq = 0x10, kWatchdog = 0x08, kDpv1 = 0x80;
+constexpr std::uint8_t kSyncReq = 0x20, kFreezeReq = 0x10, kDpv1 = 0x80;
 
 const RecordedRequest* first_exchange(const Recording& recording) {
   const auto found =
@@ -50,7 +50,7 @@ bus::Bytes set_prm_of(const Recording& recording, const user_cpu::StationConfig&
   if (station.sync) data[0] |= kSyncReq;
   if (station.freeze) data[0] |= kFreezeReq;
   if (watchdog_on(recording)) {
-    data[0] |= kWatchdog;
+    data[0] |= kWdOn;
     data[1] = data[2] = 0xFF;
   }
   if (station.prm_mode == 1) data.resize(data.size() + station.max_prm);

@@ -22,6 +22,7 @@ std::string name_of(const Recording& recording) { return fmt::format("station_{}
 scenario::UserCpu user_of(const Firmware& firmware, const ChipKind& kind) {
   scenario::UserCpu user;
   user.cycle = firmware.cycle;
+  user.judge_prm = user.judge_cfg = scenario::Judgement::kNever;  // the verdicts are supplied
   user.dpv1.objects = firmware.objects;
   user.own = kind.make_user_settings();
   return user;
@@ -46,6 +47,15 @@ void allow_flags(scenario::Scenario& scenario) {
 }
 
 }  // namespace
+
+const ChipKind& kind_for(const Firmware& firmware) {
+  const ChipKinds& kinds = chip_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const ChipKind* kind) {
+    return !firmware.short_prm_buffer || kind->has_prm_buffer();
+  });
+  const ChipKind* kind = found == kinds.end() ? kinds.front() : *found;
+  return *kind;
+}
 
 scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd,
                                const ChipKind& kind) {
@@ -104,8 +114,9 @@ scenario::Scenario alone(scenario::Scenario scenario, const Recording& recording
 std::string describe_station(const scenario::Scenario& scenario) {
   const user_cpu::StationConfig station = Setup(scenario).station(scenario.slaves.front());
   const scenario::Slave& slave = scenario.slaves.front();
-  return fmt::format("address {}, ident {:04X}, configuration {}{}", slave.address, station.ident,
-                     bytes_text(station.cfg), station.dpv1 ? ", DPV1" : "");
+  const std::string kind = slave.kind == chip_kinds().front() ? "" : fmt::format(", {}", slave.kind->title());
+  return fmt::format("address {}, ident {:04X}, configuration {}{}{}", slave.address, station.ident,
+                     bytes_text(station.cfg), station.dpv1 ? ", DPV1" : "", kind);
 }
 
 }  // namespace dsdpv1::tb::replay

@@ -79,6 +79,8 @@ class Bench : private Observer {
   void command(const std::string& slave, const user_cpu::Command& command) {
     stations_.slave(slave).command(now(), command);
   }
+  /// The rate of telegrams that no master of the scenario sends. Index of bus/baud.hpp.
+  void set_line_baud(int baud) { monitor_->set_baud(baud); }
   /// Adds an observer after all others; it receives what is watched anyway. RunOptions::observers receive all pins,
   /// which costs time.
   void add_observer(Observer& observer) { observers_.add(observer); }

@@ -131,6 +131,10 @@ class ChipKind {
   virtual const BoardPins& board_pins() const = 0;
   /// Cells of the memory shared by chip and user.
   virtual int cells() const { return 0; }
+  /// The user gives it a buffer for Set_Prm; a longer one is answered RR.
+  virtual bool has_prm_buffer() const { return false; }
+  /// It takes a Chk_Cfg while the user judges the parameters.
+  virtual bool takes_cfg_early() const { return false; }
   /// Bytes of the longest configuration; default: the protocol's maximum.
   virtual int most_cfg() const { return 244; }
 

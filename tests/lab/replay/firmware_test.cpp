@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <variant>
+
 #include "tests/lab/replay/captures.hpp"
 
 namespace dsdpv1::replay_test {
@@ -13,15 +15,18 @@ using tb::replay::Firmware;
 using tb::replay::firmware_of;
 using testing::IsEmpty;
 using testing::SizeIs;
+using user_cpu::command::SetDiagnosis;
+using user_cpu::command::SetInputs;
 
 namespace sap = bus::sap;
 
 const Bytes kPrm = {0x80, 0, 0, 11, 0x12, 0x34, 0};
 
-Bytes diagnosis(std::uint8_t first, std::uint8_t second, const Bytes& own = {}) {
-  Bytes bytes = {first, second, 0, kMaster, 0x12, 0x34};
-  bytes.insert(bytes.end(), own.begin(), own.end());
-  return bytes;
+/// Inputs and diagnoses that the user CPU gets.
+Firmware data_of(const tb::replay::Recording& recording) {
+  Firmware firmware = firmware_of(recording);
+  firmware.supplies = supplies_for(firmware.supplies, {}, {}, true);
+  return firmware;
 }
 
 void start_up(Capture& capture) {
@@ -59,6 +64,8 @@ TEST(Firmware, ConfigurationFaultMeansThatItWantsItsOwn) {
   start_up(capture);
   capture.add(to_slave(sap::kSlaveDiag));
   capture.add(from_slave(sap::kSlaveDiag, diagnosis(0x04, 0x05)));
+  capture.add(to_slave(sap::kGetCfg));
+  capture.add(from_slave(sap::kGetCfg, {0x22}));
   EXPECT_EQ(firmware_of(capture.finish()).init.cfg_mode, 1);
 }
 
@@ -69,11 +76,10 @@ TEST(Firmware, NewInputsAreGivenWhenTheAnswerBeforeHasEnded) {
   const bus::Tick end = exchange(capture, {1});
   exchange(capture, {2});
   exchange(capture, {2});
-  const Firmware firmware = firmware_of(capture.finish());
+  const Firmware firmware = data_of(capture.finish());
   ASSERT_THAT(firmware.supplies, SizeIs(1));
   EXPECT_EQ(firmware.supplies[0].at, end);
-  EXPECT_EQ(firmware.supplies[0].bytes, Bytes{2});
-  EXPECT_FALSE(firmware.supplies[0].diagnosis);
+  EXPECT_EQ(std::get<SetInputs>(firmware.supplies[0].command).bytes, Bytes{2});
 }
 
 TEST(Firmware, DiagnosisIsGivenBeforeTheFirstAnswerOfHighPriority) {
@@ -85,11 +91,12 @@ TEST(Firmware, DiagnosisIsGivenBeforeTheFirstAnswerOfHighPriority) {
   capture.add(to_slave(sap::kSlaveDiag));
   capture.add(from_slave(sap::kSlaveDiag, diagnosis(0x08, 0x04, {3, 0xA5, 0x5A})));
   exchange(capture, {1});
-  const Firmware firmware = firmware_of(capture.finish());
+  const Firmware firmware = data_of(capture.finish());
   ASSERT_THAT(firmware.supplies, SizeIs(1));
   EXPECT_EQ(firmware.supplies[0].at, end);
-  EXPECT_EQ(firmware.supplies[0].diagnosis, user_cpu::DiagnosisKind::kExternal);
-  EXPECT_EQ(firmware.supplies[0].bytes, (Bytes{3, 0xA5, 0x5A}));
+  const auto& given = std::get<SetDiagnosis>(firmware.supplies[0].command);
+  EXPECT_EQ(given.kind, user_cpu::DiagnosisKind::kExternal);
+  EXPECT_EQ(given.bytes, (Bytes{3, 0xA5, 0x5A}));
 }
 
 TEST(Firmware, DiagnosisThatGoesIsOneToo) {
@@ -100,10 +107,11 @@ TEST(Firmware, DiagnosisThatGoesIsOneToo) {
     capture.add(to_slave(sap::kSlaveDiag));
     capture.add(from_slave(sap::kSlaveDiag, bytes));
   }
-  const Firmware firmware = firmware_of(capture.finish());
+  const Firmware firmware = data_of(capture.finish());
   ASSERT_THAT(firmware.supplies, SizeIs(2));
-  EXPECT_EQ(firmware.supplies[1].diagnosis, user_cpu::DiagnosisKind::kExternalGone);
-  EXPECT_THAT(firmware.supplies[1].bytes, IsEmpty());
+  const auto& given = std::get<SetDiagnosis>(firmware.supplies[1].command);
+  EXPECT_EQ(given.kind, user_cpu::DiagnosisKind::kExternalGone);
+  EXPECT_THAT(given.bytes, IsEmpty());
 }
 
 TEST(Firmware, ObjectsAreWhatWasReadAndWritten) {
@@ -124,6 +132,41 @@ TEST(Firmware, ObjectsAreWhatWasReadAndWritten) {
   EXPECT_EQ(firmware.objects[0].data, (Bytes{7, 8, 9}));
   EXPECT_EQ(firmware.objects[1].index, 4);
   EXPECT_EQ(firmware.objects[1].data, Bytes(5));
+}
+
+TEST(Firmware, SlaveThatRefusesTheExchangeInTimeHasLeftIt) {
+  for (const std::uint8_t watchdog : {std::uint8_t{0}, std::uint8_t{1}}) {
+    Capture capture;
+    Bytes prm = kPrm;
+    if (watchdog != 0) prm[0] |= 0x08;
+    prm[1] = prm[2] = watchdog;  // 10 ms
+    capture.add(to_slave(sap::kSetPrm, prm));
+    capture.add(bus::make_sc());
+    const bus::Tick end = exchange(capture, {1});
+    capture.add(bus::encode(outputs({1})), 20'000, 0);  // after 13 ms
+    capture.add(bus::make_telegram(kMaster, kSlave, bus::fc::kRs));
+    capture.add(to_slave(sap::kSlaveDiag));
+    capture.add(from_slave(sap::kSlaveDiag, diagnosis(0x02, 0x05)));
+    const bus::Tick again = exchange(capture, {1});
+    const Firmware firmware = firmware_of(capture.finish());
+    ASSERT_THAT(firmware.restarts, SizeIs(watchdog != 0 ? 0 : 1));
+    if (watchdog != 0) continue;
+    EXPECT_EQ(firmware.restarts[0].from, end);
+    EXPECT_EQ(firmware.restarts[0].until, again);
+  }
+}
+
+TEST(Firmware, NoResourceForASetPrmIsABufferOfItsLength) {
+  Capture capture;
+  capture.add(to_slave(sap::kSetPrm, Bytes(7 + 40)));
+  capture.add(bus::make_telegram(kMaster, kSlave, bus::fc::kRr));
+  start_up(capture);
+  const Firmware firmware = firmware_of(capture.finish());
+  EXPECT_TRUE(firmware.short_prm_buffer);
+  EXPECT_EQ(firmware.init.max_prm, 39);
+  EXPECT_EQ(firmware.init.max_inputs, 2);  // of configuration 11
+  EXPECT_EQ(firmware.init.max_outputs, 0);
+  EXPECT_EQ(firmware.init.max_cfg, 1);
 }
 
 TEST(Beginning, OfAStartIsTheFirstAnswer) {

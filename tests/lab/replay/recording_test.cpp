@@ -103,6 +103,30 @@ TEST(Recording, ASilentSlaveCannotBePlayed) {
       HasSubstr("station 5 (--as) never answers, and nobody else answers, expected a capture with a slave that does"));
 }
 
+TEST(Recording, FollowsTheRateThatTheSlaveHasFound) {
+  Capture capture;
+  const auto exchange = [&capture](bool answered) {
+    capture.add(outputs({1}));
+    if (answered) capture.add(inputs({1}));
+  };
+  exchange(true);
+  exchange(false);
+  capture.set_baud(0);
+  exchange(false);
+  exchange(true);
+  exchange(true);
+  const Recording recording = capture.finish();
+  EXPECT_EQ(recording.baud, kBaud);
+  EXPECT_THAT(recording.bauds(), ElementsAre(kBaud, 0));
+  std::vector<int> searching, found;
+  for (const auto& each : recording.requests) {
+    searching.push_back(each.searching ? 1 : 0);
+    found.push_back(each.found ? 1 : 0);
+  }
+  EXPECT_THAT(searching, ElementsAre(0, 0, 1, 0, 0));
+  EXPECT_THAT(found, ElementsAre(0, 0, 0, 1, 0));
+}
+
 TEST(Recording, ResolutionIsTheLargestUnitOfAllStarts) {
   tb::replay::Recorder recorder("made.pcap", kSlave, kBaud);
   for (int i = 0; i < 2; ++i) {

@@ -111,6 +111,47 @@ TEST(ReplayedLine, SymbolErrorIsSentAsOne) {
   EXPECT_THAT(heard.flags, ElementsAre(bus::FlagKind::kCharacterError));
 }
 
+TEST(ReplayedLine, StopsAtTheTelegramWhoseRateTheSlaveHasFoundUntilItMayGoOn) {
+  Capture capture;
+  capture.add(outputs({1}));
+  capture.add(inputs({1}));
+  capture.set_baud(0);
+  capture.add(outputs({2}));
+  capture.add(outputs({3}));
+  capture.add(inputs({3}));
+  const Recording recording = capture.finish();
+  bus::Timeline timeline;
+  bus::Segment segment;
+  bus::Monitor monitor(segment);
+  monitor.set_baud(recording.baud);
+  std::vector<Bytes> telegrams;
+  std::vector<Tick> starts;
+  monitor.on_telegram = [&](const bus::WireTelegram& each) {
+    telegrams.push_back(each.decoded.bytes);
+    starts.push_back(each.start);
+  };
+  const auto placed = place(recording);
+  const auto line = tb::replay::make_line(segment, recording, placed);
+  line->on_baud = [&monitor](int baud) { monitor.set_baud(baud); };
+  std::vector<std::size_t> asked;
+  line->may_go_on = [&asked](std::size_t at) {
+    asked.push_back(at);
+    return false;
+  };
+  timeline.add(monitor);
+  timeline.add(*line);
+  line->begin(placed[0].start, bus::kTicksPerMs);
+  timeline.run_until(2 * bus::kTicksPerMs);
+  EXPECT_THAT(telegrams, ElementsAre(recording.telegrams[0].bytes, recording.telegrams[2].bytes));
+  constexpr Tick kAgain = 3 * bus::kTicksPerMs;
+  line->begin(placed[2].start, kAgain);
+  timeline.run_until(2 * kAgain);
+  EXPECT_THAT(asked, ElementsAre(2));
+  ASSERT_EQ(telegrams.size(), 3U);
+  EXPECT_EQ(telegrams[2], recording.telegrams[3].bytes);
+  EXPECT_EQ(starts[2], kAgain);
+}
+
 TEST(ReplayedLine, CoarseTimesDoNotMakeTelegramsOverlap) {
   Recording recording = two_slaves();
   recording.telegrams[3].start -= 20 * bus::baud(kBaud).bit;
