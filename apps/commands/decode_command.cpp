@@ -16,6 +16,7 @@
 #include "bus/capture/telegram_printer.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"
+#include "bus/telegram/explain_memory.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/units.hpp"
 #include "io/output/output_file.hpp"
@@ -47,8 +48,17 @@ std::string baud_name(const capture::CapturedTelegram& telegram) {
 
 std::string cell(const std::optional<std::uint8_t>& value) { return value ? fmt::format("{}", *value) : ""; }
 
-std::string row(std::uint64_t number, const capture::CapturedTelegram& telegram, const bus::Decoded& decoded,
-                const std::string& why) {
+/// A telegram with what is known of it.
+struct Read {
+  const capture::CapturedTelegram& telegram;
+  bus::Decoded decoded;
+  std::string why;  ///< what is wrong with it, empty for a right one
+  bus::ExplainContext context;
+};
+
+std::string row(std::uint64_t number, const Read& read) {
+  const capture::CapturedTelegram& telegram = read.telegram;
+  const bus::Decoded& decoded = read.decoded;
   std::string text =
       fmt::format("{}\t{}\t{}", number, telegram.timed ? tb::nanoseconds(telegram.start) : "", baud_name(telegram));
   const bus::Telegram& fields = decoded.telegram;
@@ -57,14 +67,15 @@ std::string row(std::uint64_t number, const capture::CapturedTelegram& telegram,
                         has_addresses(fields) ? fmt::format("{}", fields.sa) : "",
                         has_addresses(fields) ? fmt::format("{}", fields.da) : "",
                         has_fc(fields) ? fmt::format("{:02X}", fields.fc) : "", cell(fields.dsap), cell(fields.ssap),
-                        has_fc(fields) ? bus::explain_service(fields) : "");
+                        has_fc(fields) ? bus::explain_service(fields, read.context) : "");
   else
     text += "\t\t\t\t\t\t\t";
-  return text + fmt::format("\t{}\t{}\n", why, tb::bytes_text(telegram.bytes, telegram.bytes.size()));
+  return text + fmt::format("\t{}\t{}\n", read.why, tb::bytes_text(telegram.bytes, telegram.bytes.size()));
 }
 
-nlohmann::ordered_json object(std::uint64_t number, const capture::CapturedTelegram& telegram,
-                              const bus::Decoded& decoded, const std::string& why) {
+nlohmann::ordered_json object(std::uint64_t number, const Read& read) {
+  const capture::CapturedTelegram& telegram = read.telegram;
+  const bus::Decoded& decoded = read.decoded;
   nlohmann::ordered_json json;
   json["number"] = number;
   if (telegram.line != 0) json["line"] = telegram.line;
@@ -78,11 +89,11 @@ nlohmann::ordered_json object(std::uint64_t number, const capture::CapturedTeleg
     if (has_fc(fields)) json["fc"] = fields.fc;
     if (fields.dsap) json["dsap"] = *fields.dsap;
     if (fields.ssap) json["ssap"] = *fields.ssap;
-    if (has_fc(fields)) json["service"] = bus::explain_service(fields);
-    json["words"] = bus::explain_line(fields);
+    if (has_fc(fields)) json["service"] = bus::explain_service(fields, read.context);
+    json["words"] = bus::explain_line(fields, read.context);
     json["data"] = tb::bytes_text(fields.data, fields.data.size());
   }
-  if (!why.empty()) json["wrong"] = why;
+  if (!read.why.empty()) json["wrong"] = read.why;
   for (const std::string& remark : telegram.remarks) json["remarks"].push_back(bus::printable(remark));
   json["bytes"] = tb::bytes_text(telegram.bytes, telegram.bytes.size());
   return json;
@@ -109,12 +120,11 @@ class TelegramFiles {
     open(pcapng_, names.pcapng, "");
   }
 
-  /// `why`: what is wrong with it, empty for a right one.
-  void take(const capture::CapturedTelegram& telegram, const bus::Decoded& decoded, const std::string& why) {
+  void take(const Read& read) {
     ++count_;
-    if (table_) table_->write(row(count_, telegram, decoded, why));
-    if (json_) json_->write((count_ == 1 ? "\n" : ",\n") + object(count_, telegram, decoded, why).dump());
-    if (pcapng_) packet(telegram);
+    if (table_) table_->write(row(count_, read));
+    if (json_) json_->write((count_ == 1 ? "\n" : ",\n") + object(count_, read).dump());
+    if (pcapng_) packet(read.telegram);
   }
   /// Throws tb::InputError where something could not be written.
   void finish() {
@@ -151,11 +161,12 @@ class Printer {
 
   void take(const capture::CapturedTelegram& telegram) {
     ++count_;
-    const bus::Decoded decoded = bus::decode(telegram.bytes);
-    const std::string why = capture::what_is_wrong(telegram, decoded);
-    files_.take(telegram, decoded, why);
-    if (!why.empty()) right_ = false;
-    if (!quiet_) printer_.print(telegram, decoded, why);
+    Read read{telegram, bus::decode(telegram.bytes), "", {}};
+    read.why = capture::what_is_wrong(telegram, read.decoded);
+    if (read.why.empty()) read.context = memory_.take(read.decoded.telegram);
+    files_.take(read);
+    if (!read.why.empty()) right_ = false;
+    if (!quiet_) printer_.print(telegram, read.decoded, read.why, read.context);
   }
 
   int finish() {
@@ -166,6 +177,7 @@ class Printer {
 
  private:
   capture::TelegramPrinter printer_;
+  bus::ExplainMemory memory_;
   bool quiet_, right_ = true;
   TelegramFiles& files_;
   std::uint64_t count_ = 0;

@@ -25,12 +25,13 @@ std::string what_is_wrong(const CapturedTelegram& telegram, const Decoded& decod
   return damage.empty() ? why : why.empty() ? damage : damage + ", " + why;
 }
 
-void TelegramPrinter::print(const CapturedTelegram& telegram, const Decoded& decoded, const std::string& why) {
+void TelegramPrinter::print(const CapturedTelegram& telegram, const Decoded& decoded, const std::string& why,
+                            const ExplainContext& context) {
   ++taken_;
   if (telegram.bytes.empty() || (telegram.line != 0 && decoded.error == DecodeError::kStartDelimiter))
     garbage(where(telegram), telegram.bytes);
   else if (why.empty())
-    right(where(telegram), decoded);
+    right(where(telegram), decoded, context);
   else
     wrong(where(telegram), why, decoded, telegram.bytes);
   for (const std::string& remark : telegram.remarks) out_ << "        " << printable(remark) << "\n";
@@ -46,11 +47,9 @@ std::string TelegramPrinter::where(const CapturedTelegram& telegram) const {
   return fmt::format("{}{}{} ns", place, place.empty() ? "" : ", ", nanoseconds_text(telegram.start));
 }
 
-void TelegramPrinter::right(const std::string& where, const Decoded& decoded) {
-  const Telegram& telegram = decoded.telegram;
-  if (const std::optional<bool> dpv1 = dpv1_enabled(telegram)) dpv1_.at(telegram.da) = dpv1;
-  write(fmt::format("telegram {}", ++right_), where, explain_line(telegram),
-        explain_bytes(decoded, dpv1_.at(telegram.sa)));
+void TelegramPrinter::right(const std::string& where, const Decoded& decoded, const ExplainContext& context) {
+  write(fmt::format("telegram {}", ++right_), where, explain_line(decoded.telegram, context),
+        explain_bytes(decoded, context));
 }
 
 void TelegramPrinter::wrong(const std::string& where, const std::string& why, const Decoded& decoded,

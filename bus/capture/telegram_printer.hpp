@@ -1,9 +1,7 @@
 #pragma once
 // Prints telegrams byte by byte for `dsdpv1-sim decode`.
-#include <array>
 #include <cstdint>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +18,13 @@ class TelegramPrinter {
   /// `out` must outlive it. `packets`: telegrams are packets of a file, and numbered as such.
   explicit TelegramPrinter(std::ostream& out, bool packets = false) : out_(out), packets_(packets) {}
 
-  /// `why` is its what_is_wrong. Remembers the DPV1 setting of a right Set_Prm, so that later diagnoses are read
-  /// accordingly.
-  void print(const CapturedTelegram& telegram, const Decoded& decoded, const std::string& why);
+  /// `why` is its what_is_wrong.
+  void print(const CapturedTelegram& telegram, const Decoded& decoded, const std::string& why,
+             const ExplainContext& context);
 
  private:
   std::string where(const CapturedTelegram& telegram) const;
-  void right(const std::string& where, const Decoded& decoded);
+  void right(const std::string& where, const Decoded& decoded, const ExplainContext& context);
   void wrong(const std::string& where, const std::string& why, const Decoded& decoded, const Bytes& all);
   void garbage(const std::string& where, const Bytes& bytes);
   void write(const std::string& what, const std::string& where, const std::string& line,
@@ -34,7 +32,6 @@ class TelegramPrinter {
 
   std::ostream& out_;
   bool packets_;
-  std::array<std::optional<bool>, 128> dpv1_ = {};  ///< by slave
   std::uint64_t taken_ = 0, right_ = 0;
 };
 

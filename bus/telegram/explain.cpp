@@ -53,18 +53,18 @@ const char* station_type(std::uint8_t fc) {
 /// The master's SAP: SSAP of a request, DSAP of an answer.
 std::optional<std::uint8_t> master_sap(const Telegram& t) { return t.is_request() ? t.ssap : t.dsap; }
 
-/// The SAPs below that of Initiate belong to C2 between them and the master's SAP 50 (table 24), else to anything: S7
-/// and MPI use them, too.
-bool is_msac2(const Telegram& t, std::uint8_t slave_sap) {
-  return slave_sap < sap::kMs2Rm && master_sap(t) == sap::kMs2Master;
+/// The SAPs below that of Initiate belong to C2 between them and the master's SAP 50 (table 24) or that of an Initiate,
+/// else to anything: S7 and MPI use them, too.
+bool is_msac2(const Telegram& t, std::uint8_t slave_sap, const ExplainContext& context) {
+  return slave_sap < sap::kMs2Rm && (context.msac2 || master_sap(t) == sap::kMs2Master);
 }
 
-bool is_dpv1(const Telegram& t, std::uint8_t slave_sap) {
-  return is_msac2(t, slave_sap) || (slave_sap >= sap::kMs2Rm && slave_sap <= sap::kMs1);
+bool is_dpv1(const Telegram& t, std::uint8_t slave_sap, const ExplainContext& context) {
+  return is_msac2(t, slave_sap, context) || (slave_sap >= sap::kMs2Rm && slave_sap <= sap::kMs1);
 }
 
 /// nullptr without one.
-const char* service_name(const Telegram& t, std::uint8_t slave_sap) {
+const char* service_name(const Telegram& t, std::uint8_t slave_sap, const ExplainContext& context) {
   switch (slave_sap) {
     case sap::kExtUserPrm: return "Ext_User_Prm";
     case sap::kSetSlaveAddress: return "Set_Slave_Address";
@@ -78,7 +78,7 @@ const char* service_name(const Telegram& t, std::uint8_t slave_sap) {
     case sap::kMs1: return "MSAC1";
     case sap::kMs1Alarm: return "MSAC1 alarm";
     case sap::kMs2Rm: return "MSAC2 Initiate";
-    default: return is_msac2(t, slave_sap) ? "MSAC2" : nullptr;
+    default: return is_msac2(t, slave_sap, context) ? "MSAC2" : nullptr;
   }
 }
 
@@ -97,45 +97,45 @@ DataWords default_sap_words(const Telegram& t) {
   return detail::plain_words(t.is_request() ? "output" : "input", t.data);
 }
 
-DataWords request_words(const Telegram& t, std::uint8_t sap) {
+DataWords request_words(const Telegram& t, std::uint8_t sap, const ExplainContext& context) {
   switch (sap) {
     case sap::kSetPrm: return detail::set_prm_words(t.data);
     case sap::kChkCfg: return detail::cfg_words(t.data);
     case sap::kGlobalControl: return detail::global_control_words(t.data);
     case sap::kSetSlaveAddress: return detail::set_slave_address_words(t.data);
     case sap::kExtUserPrm: return detail::plain_words("parameter", t.data);
-    default: return is_dpv1(t, sap) ? detail::dpv1_words(t.data, false) : detail::plain_words("data", t.data);
+    default: return is_dpv1(t, sap, context) ? detail::dpv1_words(t.data, false) : detail::plain_words("data", t.data);
   }
 }
 
-DataWords response_words(const Telegram& t, std::uint8_t sap, std::optional<bool> dpv1) {
+DataWords response_words(const Telegram& t, std::uint8_t sap, const ExplainContext& context) {
   switch (sap) {
-    case sap::kSlaveDiag: return detail::diag_words(t.data, dpv1);
+    case sap::kSlaveDiag: return detail::diag_words(t.data, context.dpv1);
     case sap::kGetCfg: return detail::cfg_words(t.data);
     case sap::kReadInputs: return detail::plain_words("input", t.data);
     case sap::kReadOutputs: return detail::plain_words("output", t.data);
-    default: return is_dpv1(t, sap) ? detail::dpv1_words(t.data, true) : detail::plain_words("data", t.data);
+    default: return is_dpv1(t, sap, context) ? detail::dpv1_words(t.data, true) : detail::plain_words("data", t.data);
   }
 }
 
-DataWords data_words(const Telegram& t, std::optional<bool> dpv1 = {}) {
+DataWords data_words(const Telegram& t, const ExplainContext& context) {
   const std::optional<std::uint8_t> sap = slave_sap(t);
   if (!sap) return default_sap_words(t);
-  return t.is_request() ? request_words(t, *sap) : response_words(t, *sap, dpv1);
+  return t.is_request() ? request_words(t, *sap, context) : response_words(t, *sap, context);
 }
 
 /// True if the summary of the data adds to the name of the service.
-bool has_essentials(const Telegram& t) {
+bool has_essentials(const Telegram& t, const ExplainContext& context) {
   if (!t.data.empty()) return true;
   if (!slave_sap(t)) return is_data_transfer(t);
-  return is_dpv1(t, *slave_sap(t)) && t.is_request();
+  return is_dpv1(t, *slave_sap(t), context) && t.is_request();
 }
 
-std::string sap_words(const Telegram& t, const char* name, std::uint8_t byte, bool slave) {
+/// `service`: at this SAP, null without one.
+std::string sap_words(const char* name, std::uint8_t byte, const char* service) {
   if (is_region(byte))
     return fmt::format("{}: region/segment address {}{}", name, byte & extension::kValue,
                        (byte & extension::kFollows) != 0 ? ", another extension follows" : "");
-  const char* service = slave ? service_name(t, byte) : nullptr;
   return service != nullptr ? fmt::format("{}: {} ({})", name, byte, service) : fmt::format("{}: {}", name, byte);
 }
 
@@ -147,8 +147,8 @@ std::string address_words(const char* name, std::uint8_t byte) {
 
 class ByteExplainer {
  public:
-  ByteExplainer(const Decoded& decoded, std::optional<bool> dpv1)
-      : decoded_(decoded), telegram_(decoded.telegram), dpv1_(dpv1) {}
+  ByteExplainer(const Decoded& decoded, const ExplainContext& context)
+      : decoded_(decoded), telegram_(decoded.telegram), context_(context) {}
 
   std::vector<ExplainedByte> explain() {
     if (decoded_.bytes.empty()) return {};
@@ -178,12 +178,15 @@ class ByteExplainer {
 
   void explain_body() {
     say("FC: " + explain_fc(peek()));
-    if (telegram_.dsap) say(sap_words(telegram_, "DSAP", *telegram_.dsap, telegram_.is_request()));
-    if (telegram_.ssap) say(sap_words(telegram_, "SSAP", *telegram_.ssap, !telegram_.is_request()));
-    for (std::string& text : data_words(telegram_, dpv1_).bytes) say(std::move(text));
+    const bool request = telegram_.is_request();
+    if (telegram_.dsap) say(sap_words("DSAP", *telegram_.dsap, request ? service_at(*telegram_.dsap) : nullptr));
+    if (telegram_.ssap) say(sap_words("SSAP", *telegram_.ssap, request ? nullptr : service_at(*telegram_.ssap)));
+    for (std::string& text : data_words(telegram_, context_).bytes) say(std::move(text));
     say(fcs_words());
     say(decoded_.error == DecodeError::kEndDelimiter ? "ED: wrong, 16 is right" : "ED");
   }
+
+  const char* service_at(std::uint8_t sap) const { return service_name(telegram_, sap, context_); }
 
   std::string fcs_words() const {
     if (decoded_.error != DecodeError::kFcs) return "FCS";
@@ -209,7 +212,7 @@ class ByteExplainer {
 
   const Decoded& decoded_;
   const Telegram& telegram_;
-  std::optional<bool> dpv1_;
+  const ExplainContext& context_;
   std::size_t at_ = 0;
   std::vector<ExplainedByte> result_;
 };
@@ -223,27 +226,27 @@ std::string explain_fc(std::uint8_t fc) {
                      (fc & fc::kFcv) != 0 ? 1 : 0);
 }
 
-std::string explain_service(const Telegram& t) {
+std::string explain_service(const Telegram& t, const ExplainContext& context) {
   if (const auto sap = slave_sap(t)) {
     if (is_region(*sap)) return fmt::format("region/segment {}", *sap & extension::kValue);
-    const char* name = service_name(t, *sap);
+    const char* name = service_name(t, *sap, context);
     return name != nullptr ? name : fmt::format("SAP {}", *sap);
   }
   return is_data_transfer(t) ? "Data_Exchange" : "";
 }
 
-std::string explain_line(const Telegram& t) {
+std::string explain_line(const Telegram& t, const ExplainContext& context) {
   if (t.kind == TelegramKind::kSc) return "SC (short acknowledge)";
   if (t.kind == TelegramKind::kSd4) return fmt::format("{} -> {}  token", t.sa, t.da);
   std::string line = fmt::format("{} -> {}  {}", t.sa, t.da, explain_fc(t.fc));
-  const std::string service = explain_service(t);
+  const std::string service = explain_service(t, context);
   if (!service.empty()) line += "  " + service;
-  if (has_essentials(t)) line += ": " + data_words(t).summary;
+  if (has_essentials(t, context)) line += ": " + data_words(t, context).summary;
   return line;
 }
 
-std::vector<ExplainedByte> explain_bytes(const Decoded& decoded, std::optional<bool> dpv1) {
-  return ByteExplainer(decoded, dpv1).explain();
+std::vector<ExplainedByte> explain_bytes(const Decoded& decoded, const ExplainContext& context) {
+  return ByteExplainer(decoded, context).explain();
 }
 
 std::optional<bool> dpv1_enabled(const Telegram& telegram) { return detail::dpv1_enabled(telegram); }

@@ -17,14 +17,23 @@ struct ExplainedByte {
   std::string meaning;
 };
 
+/// Facts about a telegram from others (ExplainMemory).
+struct ExplainContext {
+  // NOLINTNEXTLINE(google-explicit-constructor): a DPV1 setting alone is a context
+  ExplainContext(std::optional<bool> setting = {}) : dpv1(setting) {}
+  /// Whether the answering slave is parameterised for DPV1, which decides how a device related diagnosis is read;
+  /// unset: both ways.
+  std::optional<bool> dpv1;
+  bool msac2 = false;  ///< an Initiate has opened the connection between its two SAPs
+};
+
 /// "1 -> 3  SRD high FCB=1 FCV=1  Slave_Diag request": addresses, function code, service and its essentials.
-std::string explain_line(const Telegram& telegram);
+std::string explain_line(const Telegram& telegram, const ExplainContext& context = {});
 /// The service of a telegram with an address: "Slave_Diag"; empty for FDL status and the like.
-std::string explain_service(const Telegram& telegram);
+std::string explain_service(const Telegram& telegram, const ExplainContext& context = {});
 /// Every byte of one telegram; empty without one. An invalid telegram is explained as far as it was understood; the
-/// last line names the fault. `dpv1`: whether the answering slave is parameterised for DPV1, which decides how a device
-/// related diagnosis is read; unset: both ways.
-std::vector<ExplainedByte> explain_bytes(const Decoded& decoded, std::optional<bool> dpv1 = {});
+/// last line names the fault.
+std::vector<ExplainedByte> explain_bytes(const Decoded& decoded, const ExplainContext& context = {});
 /// The DPV1 setting in a Set_Prm that locks its slave; nullopt for any other telegram.
 std::optional<bool> dpv1_enabled(const Telegram& telegram);
 

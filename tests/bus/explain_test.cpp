@@ -1,5 +1,7 @@
 #include "bus/telegram/explain.hpp"
 
+#include "bus/telegram/explain_memory.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -440,6 +442,39 @@ TEST(ExplainDpv1, ClassTwoIsBetweenTheMastersSap50AndTheSlavesBelow49) {
   EXPECT_EQ(data_texts(other)[0], "data 0");
   const Telegram back = make_telegram(1, 3, kAnswerFc, s7, std::uint8_t{19}, std::uint8_t{18});
   EXPECT_THAT(explain_line(back), AllOf(HasSubstr("SAP 18"), Not(HasSubstr("DS_Read"))));
+}
+
+constexpr std::uint8_t kRm = 49, kChannel = 30, kOwn = 19;  // SAPs of slave and master
+
+TEST(ExplainDpv1, AChannelOfClassTwoIsOpenFromTheAnswerToItsInitiateToItsAbort) {
+  ExplainMemory memory;
+  const auto service = [&](const Telegram& telegram) { return explain_service(telegram, memory.take(telegram)); };
+  const auto ask = [&](std::uint8_t sap, const Bytes& pdu, std::uint8_t from = kOwn, std::uint8_t master = 1) {
+    return service(make_telegram(3, master, kRequestFc, pdu, sap, from));
+  };
+  const auto tell = [&](std::uint8_t sap, const Bytes& pdu) {
+    return service(make_telegram(1, 3, kAnswerFc, pdu, kOwn, sap));
+  };
+  EXPECT_EQ(ask(kChannel, {0x5E, 1, 2, 3}), "SAP 30");  // before it
+  EXPECT_EQ(ask(kRm, {0x57, 0, 0, 0, 0, 100, 1, 0, 0, 0, 0, 0}), "MSAC2 Initiate");
+  EXPECT_EQ(ask(kChannel, {}), "SAP 30");
+  EXPECT_EQ(tell(kRm, {0x56, kChannel, 0, 100}), "MSAC2 Initiate");
+  const Telegram read = make_telegram(3, 1, kRequestFc, {0x5E, 1, 2, 240}, kChannel, kOwn);
+  EXPECT_THAT(explain_line(read, memory.take(read)), HasSubstr("MSAC2: DS_Read slot 1 index 2 length 240"));
+  EXPECT_EQ(explain_bytes(decode(encode(read)), memory.take(read)).at(7).meaning, "DSAP: 30 (MSAC2)");
+  EXPECT_EQ(tell(kChannel, {0x5E, 1, 2, 1, 9}), "MSAC2");
+  EXPECT_EQ(ask(kChannel, {0x5E, 1, 2, 3}, 20), "SAP 30");       // another SAP of the master
+  EXPECT_EQ(ask(kChannel, {0x5E, 1, 2, 3}, kOwn, 2), "SAP 30");  // another master
+  EXPECT_EQ(ask(31, {0x5E, 1, 2, 3}), "SAP 31");
+  EXPECT_EQ(ask(kChannel, {0x58, 1, 0x13}), "MSAC2");
+  EXPECT_EQ(ask(kChannel, {0x5E, 1, 2, 3}), "SAP 30");
+  tell(kRm, {0x56, kChannel, 0, 100});
+  EXPECT_EQ(tell(kChannel, {0x58, 0, 0x13}), "MSAC2");  // the slave ends it
+  EXPECT_EQ(tell(kChannel, {0x48}), "SAP 30");
+  tell(kRm, {0x56, kChannel, 0, 100});
+  memory.take(make_telegram(2, 3, kAnswerFc, {0x56, kChannel, 0, 100}, std::uint8_t{7}, kRm));
+  EXPECT_EQ(ask(kChannel, {0x48}), "SAP 30");  // it is another master's now
+  EXPECT_EQ(ask(kChannel, {0x48}, 7, 2), "MSAC2");
 }
 
 TEST(ExplainBytes, AnAddressExtensionMayBeARegion) {

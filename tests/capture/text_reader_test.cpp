@@ -9,6 +9,7 @@
 
 #include "bus/capture/telegram_printer.hpp"
 #include "bus/capture/text_reader.hpp"
+#include "bus/telegram/explain_memory.hpp"
 
 namespace dsdpv1::bus::capture {
 namespace {
@@ -26,6 +27,7 @@ Result decoded(const std::string& input) {
   std::istringstream in(input);
   std::ostringstream out;
   TelegramPrinter printer(out);
+  ExplainMemory memory;
   int right = 0, wrong = 0;
   try {
     read_text(
@@ -34,7 +36,7 @@ Result decoded(const std::string& input) {
           const Decoded decoded = decode(telegram.bytes);
           const std::string why = what_is_wrong(telegram, decoded);
           ++(why.empty() ? right : wrong);
-          printer.print(telegram, decoded, why);
+          printer.print(telegram, decoded, why, why.empty() ? memory.take(decoded.telegram) : ExplainContext());
         });
   } catch (const CaptureError& error) {
     return {2, out.str(), fmt::format("{}: {}", error.line(), error.what())};

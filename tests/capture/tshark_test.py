@@ -240,7 +240,23 @@ def rare_services(folder):
         expect(f"'{words}' is said", words in text, True)
 
 
-CASES = {case.__name__: case for case in (shipped_scenarios, services, damage, collision, link_types, installed, statistics, any_bytes, rare_services, same_bytes, killed)}
+def channels(folder):
+    """An Initiate opens MSAC2 at any SAP of a master, until the Abort; decode and the dissector name the same services."""
+    initiate, own = bytes([0x57, 0, 0, 0, 0, 100, 1, 0, 0, 0, 0, 0]), 19
+    read = bytes([0x5E, 1, 2, 3])
+    telegrams = [telegram(5, 2, 0x6D, read, 30, own), telegram(5, 2, 0x6D, initiate, 49, own),
+                 telegram(2, 5, 0x08, bytes([0x56, 30, 0, 100]), own, 49), telegram(5, 2, 0x6D, read, 30, own),
+                 telegram(2, 5, 0x08, read, own, 30), telegram(5, 2, 0x6D, read, 30, 20), telegram(5, 2, 0x6D, bytes([0x58, 1, 0x13]), 30, own),
+                 telegram(5, 2, 0x6D, read, 30, own), telegram(5, 2, 0x6D, read, 48, 50)]
+    packets = as_pcap(folder, telegrams)
+    services = ["SAP 30", "MSAC2 Initiate", "MSAC2 Initiate", "MSAC2", "MSAC2", "SAP 30", "MSAC2", "SAP 30", "MSAC2"]
+    expect("dissector", [row[0] for row in fields(folder, packets, "pbdp.service")], services)
+    sim(folder, "decode", packets, "-q", "--table", "made.tsv")
+    rows = (folder / "made.tsv").read_text(encoding="utf-8").splitlines()[1:]
+    expect("decode", [row.split("\t")[9] for row in rows], services)
+
+
+CASES = {case.__name__: case for case in (shipped_scenarios, services, damage, collision, link_types, installed, statistics, channels, any_bytes, rare_services, same_bytes, killed)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_tshark_") as name:
     CASES[sys.argv[2]](pathlib.Path(name))

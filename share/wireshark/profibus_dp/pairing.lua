@@ -3,10 +3,10 @@
 -- Which answer belongs to which request. Learnt when telegrams are seen the first time, in order; kept by frame.
 local pairing = {}
 
-local frames, pending, last_fcb, dpv1
+local frames, pending, last_fcb, dpv1, channels
 
 function pairing.reset()
-    frames, last_fcb, dpv1, pending = {}, {}, {}, nil
+    frames, last_fcb, dpv1, channels, pending = {}, {}, {}, {}, nil
 end
 pairing.reset()
 
@@ -70,5 +70,20 @@ end
 -- Whether the slave was parameterised for DPV1 when the frame was on the line; nil: not known.
 function pairing.note_dpv1(slave, enabled) dpv1[slave] = enabled end
 function pairing.dpv1_of(slave) return dpv1[slave] end
+
+-- Channels of MSAC2, by the slave and its SAP: the master and its SAP. The answer to an Initiate opens one, an Abort ends it.
+local function ends_of(t)
+    if t.request then return t.da .. "/" .. t.dsap, t.sa .. "/" .. t.ssap end
+    return t.sa .. "/" .. t.ssap, t.da .. "/" .. t.dsap
+end
+function pairing.open_msac2(t, sap)
+    local _, master = ends_of(t)
+    channels[t.sa .. "/" .. sap] = master
+end
+function pairing.is_msac2(t)
+    local slave, master = ends_of(t)
+    return channels[slave] == master
+end
+function pairing.close_msac2(t) channels[ends_of(t)] = nil end
 
 return pairing

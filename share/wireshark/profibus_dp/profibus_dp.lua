@@ -228,17 +228,17 @@ local function service_of(t, info)
     return (answered and (t.function_code >= 8 and t.function_code ~= 9)) and kDefaultSap or nil
 end
 
--- MSAC2 is between the master's SAP 50 and the slave's below 49; other protocols use these, too.
-local function is_msac2(t, sap)
+-- MSAC2 is between the slave's SAPs below 49 and the master's SAP 50 or that of an Initiate; other protocols use these, too.
+local function is_msac2(t, sap, info)
     local master
     if t.request then master = t.ssap else master = t.dsap end
-    return sap < 49 and master == 50
+    return sap < 49 and (master == 50 or info.msac2)
 end
 
 local function dissect_service(t, info, tvb, tree, root)
     local sap = service_of(t, info)
     if not sap then return nil end
-    local known_sap = sap >= 49 or is_msac2(t, sap)
+    local known_sap = sap >= 49 or is_msac2(t, sap, info)
     local name = sap == kDefaultSap and "Data_Exchange" or known_sap and words.service[sap] or "SAP " .. sap
     local title = string.format("PROFIBUS DP, %s %s", name, t.request and "request" or "response")
     local item = root:add(pbdp, tvb(t.data, t.stop - t.data), title)
@@ -288,11 +288,24 @@ local function fill_columns(pinfo, t, info, service, said)
     pinfo.cols.info = t.wrong and "Wrong telegram: " .. t.wrong or text
 end
 
+local kMs2Rm, kImmediate, kAbort = 49, 0x56, 0x58
+
+local function note_msac2(t, info, tvb)
+    if t.wrong or not (t.dsap and t.ssap) then return end
+    local pdu = t.stop > t.data and tvb(t.data, 1):uint()
+    if not t.request and t.ssap == kMs2Rm and pdu == kImmediate and t.stop > t.data + 1 then
+        pairing.open_msac2(t, tvb(t.data + 1, 1):uint())
+    end
+    info.msac2 = pairing.is_msac2(t)
+    if info.msac2 and pdu == kAbort then pairing.close_msac2(t) end
+end
+
 local function see(t, tvb, pinfo)
     if pinfo.visited then return pairing.of(pinfo.number) end
     t.frame, t.time, t.right = pinfo.number, pinfo.rel_ts, not t.wrong
     local info = pairing.see(t)
     note_dpv1(t, info, tvb)
+    note_msac2(t, info, tvb)
     return info
 end
 

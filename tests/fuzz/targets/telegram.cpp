@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "bus/capture/telegram_printer.hpp"
-#include "bus/telegram/explain.hpp"
+#include "bus/telegram/explain_memory.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace dsdpv1 {
@@ -30,7 +30,10 @@ void print(const bus::Decoded& decoded, const bus::Bytes& all) {
   std::ostringstream out;
   bus::capture::CapturedTelegram telegram;
   telegram.bytes = all;
-  bus::capture::TelegramPrinter(out).print(telegram, decoded, bus::capture::what_is_wrong(telegram, decoded));
+  const std::string wrong = bus::capture::what_is_wrong(telegram, decoded);
+  bus::ExplainMemory memory;
+  const auto context = wrong.empty() ? memory.take(decoded.telegram) : bus::ExplainContext();
+  bus::capture::TelegramPrinter(out).print(telegram, decoded, wrong, context);
   fuzz::promise(!out.str().empty(), "a telegram is printed");
 }
 
