@@ -4,7 +4,7 @@
 import json
 import pathlib
 import re
-import subprocess
+import shutil
 
 
 class Failed(Exception):
@@ -69,10 +69,10 @@ def own_rtl(chip, cells, parameters, folder, twin):
 
 def unknown_cells():
     """The iCE40's simulation models, whose flip-flops begin unknown: those of the device begin with 0, which hides a missing reset."""
-    share = subprocess.run(["yosys-config", "--datdir"], capture_output=True, text=True, check=False).stdout.strip() or "/usr/share/yosys"
-    text, found = re.subn(r"^`define SB_DFF_INIT initial Q = 0;$", "`define SB_DFF_INIT", pathlib.Path(share, "ice40/cells_sim.v").read_text(encoding="utf-8"), flags=re.M)
+    models = pathlib.Path(shutil.which("yosys")).resolve().parents[1] / "share/yosys/ice40/cells_sim.v"
+    text, found = re.subn(r"^`define SB_DFF_INIT initial Q = 0;$", "`define SB_DFF_INIT", models.read_text(encoding="utf-8"), flags=re.M)
     if found != 1:
-        raise Failed(f"{share}/ice40/cells_sim.v has no SB_DFF_INIT")
+        raise Failed(f"{models} has no SB_DFF_INIT")
     return text
 
 
