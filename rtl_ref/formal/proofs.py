@@ -19,13 +19,14 @@ class Proof:
     cut_cells: tuple = ()    # instances whose outputs become free
     cut_wires: tuple = ()    # wires that become free
     defines: tuple = ()
-    engine: str = "pdr"      # or "induction"
+    engine: str = "pdr"      # or "induction", "miter"
     depth: int = 0           # of the induction
-    twin_depth: int = 0      # cycles in which the twin's violation is looked for
+    twin_depth: int = 0      # cycles in which the twin's violation is looked for; 0: abc looks for it, without a limit
     faults: tuple = ()       # the defects, a twin each: of dsdpv1/faults.txt or dsdpv1_rsu/faults.txt,
     edit: tuple = ()         # and file, old text, new text
+    second: tuple = ()       # another such edit
     chip: str = "dsdpv1"     # whose files
-    clocks: bool = False     # each clock is an input, and a step is no edge of any
+    excepted: tuple = ()     # registers that are equal in both copies of a miter
 
 
 def states(block, file, edit, **more):
@@ -48,6 +49,15 @@ def assertions(name, title, names, **more):
 HALF_OF_STATION = ("*station*/c:u_uart_rx", "*station*/c:u_telegram_rx", "fdl/c:u_builder", "fdl/c:u_answers", "*dp_slave*/c:u_buffers",
                    "*dp_slave*/c:u_set_prm", "*dp_slave*/c:u_check_cfg", "dp_service/c:u_global_control", "*dp_slave*/c:u_diagnosis")
 SLOW_OF_STATION = ("w:u_station.u_baud_search.window_of_rate", "w:u_station.u_watchdog.last_q")
+
+# Registers without reset that keep their value until they are loaded, and the bytes that RAMs give
+NOT_RESET = (
+    "u_host_port.d_q", "u_host_port.entry?_q", "u_sequencer.mail_index_q", "u_sequencer.u_block.crc_addr_q", "u_sequencer.u_commit.type_q",
+    "u_sequencer.u_commit.verdict_wrong_q", "u_station.msac_built_q", "u_station.msac_mail_q", "u_station.u_msac.error_q",
+    "u_station.u_msac.*_same_q", "u_station.u_msac.staged_c2_q", "u_station.u_msac.u_buffers.from_?_q", "u_station.u_msac.u_buffers.head_q",
+    "u_station.u_msac.u_buffers.initiate_bank_q", "u_station.u_msac.u_buffers.long_q", "u_station.u_msac.u_buffers.requester_q",
+    "u_station.u_msac.u_buffers.s_begins_q", "u_station.u_msac.u_buffers.user_q", "u_station.u_msac.u_initiate_check.?_length_q",
+    "u_station.u_telegram_rx.head_q", "*rdata_o")
 
 PROOFS = (
     assertions("ownership", "the bound assertions of the handshake", ("l_req_is_l_sta", "one_owner"),
@@ -179,4 +189,21 @@ PROOFS = (
     Proof("writes_as_owner", "the chip writes the DPRAM only while it owns it, and B006 first", "dsdpv1", {CHIP: "writes_as_owner"},
           cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"), cut_wires=("w:u_sequencer.boot_q",), defines=ANY_PARAMETERS,
           edit=(SEQUENCER, "own_q <= state_d != SEQ_IDLE && state_d", "own_q <= state_d != SEQ_IDLE && state_d != SEQ_FLAG && state_d")),
+    Proof("newest_write", "a read gives the newest write", "dpram", {"dpram/dpram.sv": "newest_write"}, cut_cells=("c:*u_ram",), engine="induction",
+          depth=1, twin_depth=8, edit=("dpram/dpram.sv", "hit_settling || hit_second || hit_first;", "hit_settling || hit_first;")),
+    Proof("writes_taken_once", "a legal write is taken exactly once, in order, at the third edge", "host_port",
+          {"dsdpv1/host_port.sv": "writes_taken_once"}, faults=(47,),
+          edit=("dsdpv1/host_port.sv", "2'd1: oldest = entry1_q;", "2'd1: oldest = entry0_q;")),
+    Proof("sent_whole", "an answer has no gap, and PBRTS covers it with lead and trail", "uart_tx", {"profibus/uart_tx.sv": "sent_whole"},
+          engine="induction", depth=1,
+          edit=("profibus/uart_tx.sv", "count_q <= {4'd0, rts_trail_i} - 10'd1;", "count_q <= {4'd0, rts_trail_i} - 10'd2;"),
+          second=("profibus/uart_tx.sv", "bit_q == 4'd10 && index_q != length_i);", "bit_q == 4'd11 && index_q != length_i);")),
+    Proof("never_overtakes", "the sender never overtakes the builder", "fdl", {"profibus/fdl.sv": "never_overtakes"}, cut_cells=("c:u_answers",),
+          engine="induction", depth=1, edit=("profibus/answer_builder.sv", "end else if (state_q != IDLE) begin", "end else if (state_q != IDLE && state_q != FCS) begin")),
+    Proof("reset_equal", "after RESET two copies from any two states are equal", "dsdpv1", engine="miter", excepted=NOT_RESET,
+          edit=("profibus/watchdog.sv", "      state_q <= WD_OFF;\n      base_q <= 32'd0;", "      base_q <= 32'd0;")),
+    Proof("answer_clock", "the answer's clock is the time since the request's end, and the lead", "uart_rx", {"profibus/uart_rx.sv": "answer_clock"},
+          engine="induction", depth=1, twin_depth=48, edit=("profibus/uart_rx.sv", "ahead = lead_cycles + 3 - len / 2;", "ahead = lead_cycles + 4 - len / 2;")),
+    Proof("not_before_min_tsdr", "no answer before min_TSDR, nor before 11 bit times", "uart_tx", {"profibus/uart_tx.sv": "not_before_min_tsdr"},
+          engine="induction", depth=1, edit=("profibus/uart_tx.sv", "bits_q >= {1'b0, tsdr_now};", "bits_q + 9'd1 >= {1'b0, tsdr_now};")),
 )

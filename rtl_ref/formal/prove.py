@@ -39,7 +39,7 @@ def replace_once(text, old, new, where):
 
 def defects(proof):
     """The defects of its twins: faults of a list, and the edit."""
-    return proof.faults + ((proof.edit,) if proof.edit else ())
+    return proof.faults + tuple(each for each in (proof.edit, proof.second) if each)
 
 
 def files(proof):
@@ -86,13 +86,27 @@ def yosys(proof, folder, is_twin):
     defines = " ".join(f"-D{define}" for define in proof.defines + (("TWIN",) if is_twin else ()))
     names = files(proof) + ([ASSERTIONS] if proof.asserts else [])
     common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(names)}; "
-              f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}{only_asserts(proof) if proof.asserts else ''}{'clk2fflogic' if proof.clocks else 'async2sync'}; delete -output; opt_clean; "
+              f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}{only_asserts(proof) if proof.asserts else ''}async2sync; delete -output; opt_clean; "
               "memory_map; setundef -undriven -anyseq; opt -full; dffunmap; ")
-    if proof.engine == "pdr":
+    if engine_of(proof, is_twin) != "induction":
         script = common + "techmap; opt -fast; dffunmap; abc -g AND -fast; opt_clean; write_aiger -I -zinit model.aig"
     else:
         script = common + "write_smt2 -wires model.smt2"
     run(["yosys", "-q", "-e", "implicitly declared", "-l", "yosys.log", "-p", script], folder)
+
+
+def miter(proof, folder):
+    """Two copies from any two states, the excepted registers equal: those others that differ three edges after RESET, or later."""
+    excepted = " ".join(f"w:{name}" for name in proof.excepted)
+    script = (f"read_verilog -sv -I. -I{RTL.parent / 'registers'} {' '.join(files(proof))}; hierarchy -check -top {proof.top}; proc; flatten; opt_clean; "
+              f"memory_collect; opt_clean; expose -input {excepted} %u; opt_clean -purge; memory_map; opt_clean; expose -dff; async2sync; opt_clean; "
+              f"rename {proof.top} gold; copy gold gate; miter -equiv -flatten -make_outputs gold gate miter; hierarchy -top miter; "
+              "sat -verify -seq 4 -prove-skip 3 -set-at 1 in_reset_i 0 -prove trigger 0 miter; "
+              "sat -verify -seq 2 -prove-skip 1 -set-at 1 trigger 0 -prove trigger 0 miter")
+    output = run(["yosys", "-q", "-l", "yosys.log", "-p", script], folder, (0, 1))
+    if "proof did fail" in output:
+        return VIOLATED
+    return HOLDS if (folder / "yosys.log").read_text(encoding="utf-8").count("SAT proof finished - no model found: SUCCESS!") == 2 else UNKNOWN
 
 
 def run(command, folder, allowed=(0,)):
@@ -107,8 +121,13 @@ def run(command, folder, allowed=(0,)):
     return done.stdout
 
 
-def pdr(folder):
-    output = run(["yosys-abc", "-c", "read_aiger model.aig; fold; strash; pdr"], folder)
+def engine_of(proof, is_twin):
+    """A twin of an induction without a depth is a search for a trace alone."""
+    return "bmc3" if is_twin and proof.engine == "induction" and not proof.twin_depth else proof.engine
+
+
+def pdr(folder, command="pdr"):
+    output = run(["yosys-abc", "-c", f"read_aiger model.aig; fold; strash; {command}"], folder)
     (folder / "pdr.log").write_text(output, encoding="utf-8")
     if "Property proved" in output:
         return HOLDS
@@ -127,22 +146,25 @@ def induction(proof, folder, is_twin):
     return HOLDS if "Status: PASSED" in step else UNKNOWN
 
 
-def folder_of(defect):
+def folder_of(proof, defect):
     if not defect:
         return "chip"
-    return f"twin_{defect}" if isinstance(defect, int) else "twin"
+    return f"twin_{defect}" if isinstance(defect, int) else "twin_second" if defect == proof.second else "twin"
 
 
 def solve(proof, defect, out):
     """Result and seconds, of the chip or of the twin with this defect."""
-    folder = out / proof.name / folder_of(defect)
+    folder = out / proof.name / folder_of(proof, defect)
     for name, text in sources(proof, defect).items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     begin = time.monotonic()
+    engine = engine_of(proof, bool(defect))
+    if engine == "miter":
+        return miter(proof, folder), time.monotonic() - begin
     yosys(proof, folder, bool(defect))
-    result = pdr(folder) if proof.engine == "pdr" else induction(proof, folder, bool(defect))
+    result = induction(proof, folder, bool(defect)) if engine == "induction" else pdr(folder, engine)
     return result, time.monotonic() - begin
 
 
