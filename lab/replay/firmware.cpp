@@ -51,7 +51,7 @@ class InitReader {
     if (sent.prm && (in_force_ || !init_.ident)) init_.ident = ident_at(sent.prm->data, 4);
     if (!init_.cfg) init_.cfg = sent.cfg;
     if (sent.prm && bus::dpv1_enabled(*sent.prm).value_or(false)) init_.dpv1 = true;
-    if (init_.max_prm) use_lengths();
+    use_lengths();
     return std::move(init_);
   }
 

@@ -29,8 +29,15 @@ scenario::UserCpu user_of(const Firmware& firmware, const ChipKind& kind) {
 }
 
 /// Properties that the capture does not show were not requested in it.
-scenario::InitData init_of(const Firmware& firmware, bool has_gsd) {
+scenario::InitData init_of(const Firmware& firmware, bool has_gsd, const ChipKind& kind) {
   scenario::InitData init = firmware.init;
+  if (!kind.has_prm_buffer() ||
+      (has_gsd && !firmware.short_prm_buffer)) {  // all blocks have their room, or the GSD has it
+    init.max_diag.reset();
+    init.max_cfg.reset();
+    init.max_inputs.reset();
+    init.max_outputs.reset();
+  }
   if (has_gsd)
     init.ident.reset();
   else if (!init.ident)
@@ -73,7 +80,7 @@ scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmw
   slave.chip = scenario.chip;
   slave.address = recording.slave;
   slave.gsd.text = gsd;
-  slave.init = init_of(firmware, !gsd.empty());
+  slave.init = init_of(firmware, !gsd.empty(), kind);
   slave.user_cpu = user_of(firmware, kind);
   scenario.slaves.push_back(std::move(slave));
   take_inputs_of(firmware, scenario);
