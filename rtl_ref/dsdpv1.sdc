@@ -8,7 +8,7 @@ if {![info exists h]} {set h /}
 # ---- clocks. Both edges of CLK are used: the DPRAM reads at the rising one, D's register takes its byte at the falling one (figure 6), so that the
 # path from the RAM to D has half a cycle, and that from taken_q to driven_q, too. The duty cycle is half; another one goes into the uncertainty.
 create_clock -name CLK -period 20.833 -waveform {0 10.416} [get_ports clk_i]
-# Table 15: WR is low for Ts = 12.5 ns or more, and A and D stand for Td = 12.5 ns after its rise: 25 ns from rise to rise.
+# Table 15: WR is low for Ts = 12.5 ns or more. Its high time is in no document: 12.5 ns, as A and D stand for Td after the rise, are assumed.
 create_clock -name WR -period 25 -waveform {12.5 25} [get_ports wr_i]
 # RD and CSR low, the clock of open_q: no less than Tw = 31.25 ns (table 15); no document says how long RD is high between two reads, a cycle is taken.
 create_clock -name reads -period 52.083 -waveform {0 31.25} [get_nets u_host_port${h}reads]
@@ -16,7 +16,7 @@ create_clock -name reads -period 52.083 -waveform {0 31.25} [get_nets u_host_por
 # ---- pins that WR takes. Table 15, Td: A and D stand 12.5 ns before and after its rise
 set_input_delay -clock WR -max 12.5 [get_ports {a_i* d_i*}]
 set_input_delay -clock WR -min 12.5 [get_ports {a_i* d_i*}]
-# CSR is low while WR is low (figure 6): Ts = 12.5 ns before the rise, and at it
+# CSR is low at WR's rise (P5); Ts = 12.5 ns before it is assumed, no document says how long
 set_input_delay -clock WR -max 12.5 [get_ports csr_i]
 set_input_delay -clock WR -min 0 [get_ports csr_i]
 
@@ -48,7 +48,7 @@ set_max_delay 41.667 -from [get_cells u_host_port${h}entry*_q*] -to [get_cells [
 set_false_path -hold -from [get_cells u_host_port${h}entry*_q*] -to [get_cells [list u_dpram${h}*]]
 
 # ---- from CLK to WR and to reads
-# listens_q rises at R alone, and no WR rises near R (U7)
+# listens_q rises at R alone; a user who asks after R owns the DPRAM later (H6)
 set_false_path -from [get_cells u_host_port${h}listens_q*] -to [get_cells [list u_host_port${h}entry*_q* u_host_port${h}head_q* u_host_port${h}head_gray_q*]]
 # ... nor does RD fall there; if it does, that one access drives D or does not
 set_false_path -from [get_cells u_host_port${h}listens_q*] -to [get_cells u_host_port${h}open_q*]

@@ -75,7 +75,7 @@ Alarm* Alarms::find(const Alarm& alarm) {
 bool Alarms::room(const Alarm& alarm) const {
   if (open_ >= most_) return false;
   const auto others = [&](const Alarm& each) {
-    return mode_ == 0 ? each.type == alarm.type : each.sequence() == alarm.sequence();
+    return each.type == alarm.type && (mode_ == 0 || each.sequence() == alarm.sequence());
   };
   return (mode_ == 0 || open_ < kAllowed[mode_]) && std::none_of(alarms_.begin(), alarms_.begin() + open_, others);
 }
