@@ -203,9 +203,9 @@ void WaveRecorder::follows(std::size_t slave, PinNumber pin) {
   followers_.insert(followers_.begin(), follower);
 }
 
-/// The user's side changes inputs, and a bus at any time.
+/// The user's side changes inputs, a bus at any time, and outputs that follow an input at once.
 std::size_t WaveRecorder::turn_of(const PinInfo& pin, std::size_t chip) const {
-  return pin.input || pin.bus != nullptr ? Turn::kLast : chip;
+  return pin.input || pin.bus != nullptr || chips_[chip].chip->is_in_users_turn() ? Turn::kLast : chip;
 }
 
 /// A chip that receives the line has already made its own changes at that time.

@@ -112,6 +112,9 @@ class ChipView {
   /// Whether its user CPU tells its looks: ChipListener::looked.
   virtual bool tells_looks() const { return true; }
 
+  /// While an input changes in its user's turn, for a chip whose outputs may follow at once: they change in that turn.
+  virtual bool is_in_users_turn() const { return false; }
+
   /// True if it reports ChipListener::follows.
   virtual bool tells_runs() const { return false; }
 

@@ -10,7 +10,13 @@ namespace dsdpv1::kit {
 
 void OnSegment::reset_host(Tick at) {
   for (std::size_t i = 0; i < parts_.pins.size(); ++i)
-    if (parts_.pins[i].direction == kInput) set_pin(at, static_cast<PinNumber>(kOwn + i), parts_.pins[i].rest);
+    if (parts_.pins[i].direction == kInput) set(at, static_cast<PinNumber>(kOwn + i), parts_.pins[i].rest);
+}
+
+void OnSegment::set(Tick at, PinNumber pin, Level level) {
+  in_users_turn_ = true;
+  set_pin(at, pin, level);
+  in_users_turn_ = false;
 }
 
 Program::Program(const Parts& parts, OwnPins& pins, const tb::OwnSettings& settings,

@@ -24,14 +24,17 @@ class OnSegment : public tb::PinChip, private OwnPins {
       : PinChip(request.name, std::move(device), kind.pins(), kind.board_pins(), request.watched, segment),
         parts_(kind.made_of()) {}
 
+  void set_reset(Tick at, bool level) override { set(at, kReset, level ? 1 : 0); }
   void reset_host(Tick at) override;
+  bool is_in_users_turn() const override { return in_users_turn_; }
   user_cpu::UserSide* user_side() override { return static_cast<OwnPins*>(this); }
 
  private:
-  void set(Tick at, PinNumber pin, Level level) override { set_pin(at, pin, level); }
+  void set(Tick at, PinNumber pin, Level level) override;
   Level level(PinNumber pin) const override { return PinChip::level(pin); }
 
   const Parts& parts_;
+  bool in_users_turn_ = false;
 };
 
 /// Runs the program of a kind; each wait that others act in is a turn of the bench.
