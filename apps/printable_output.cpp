@@ -13,7 +13,7 @@
 namespace dsdpv1::app {
 namespace {
 
-constexpr std::string_view kUsualName = "dsdpv1-sim";
+constexpr std::string_view kUsualName = "dsdpv1-sim", kUsualNameInRoff = "dsdpv1\\-sim";
 
 }  // namespace
 
@@ -58,8 +58,9 @@ class PrintableOutput::Filter : public std::streambuf {
   }
 
   std::string renamed(std::string text) const {
-    for (std::size_t at = text.find(kUsualName); at != std::string::npos; at = text.find(kUsualName, at + name_.size()))
-      text.replace(at, kUsualName.size(), name_);
+    for (const std::string_view usual : {kUsualName, kUsualNameInRoff})
+      for (std::size_t at = text.find(usual); at != std::string::npos; at = text.find(usual, at + name_.size()))
+        text.replace(at, usual.size(), name_);
     return text;
   }
 

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 
 #include "apps/command_line.hpp"
 #include "apps/exit_codes.hpp"
@@ -88,6 +89,15 @@ int judge_output(const char* name, int status, int error) {
 }
 
 }  // namespace
+
+int program(int argc, char** argv, const char* name, const std::function<tb::ChipKinds()>& make) {
+  try {
+    return program(argc, argv, name, make());
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return kWrongInput;
+  }
+}
 
 int program(int argc, char** argv, const char* name, const tb::ChipKinds& kinds) {
   if (!ensure_stack(name)) return kWrongInput;

@@ -1,6 +1,8 @@
 #pragma once
 // The main function of a program with all commands: dsdpv1-sim, and programs with chips that are not in it
 // (docs/own_slave.md).
+#include <functional>
+
 #include "tb/chip/chip_kind.hpp"
 
 namespace dsdpv1::app {
@@ -9,5 +11,7 @@ namespace dsdpv1::app {
 /// interrupted. Call it once, first in main(). `name`: of the program in its messages. `kinds`: added to the built-in
 /// ones; they must outlive the program.
 int program(int argc, char** argv, const char* name, const tb::ChipKinds& kinds = {});
+/// Likewise, with kinds made by `make`, whose std::invalid_argument is wrong input.
+int program(int argc, char** argv, const char* name, const std::function<tb::ChipKinds()>& make);
 
 }  // namespace dsdpv1::app

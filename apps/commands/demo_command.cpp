@@ -30,7 +30,10 @@ void make_folder(const std::string& path) {
 
 class Demo : public Command {
  public:
-  Demo() : Command("demo", "Power-on to data exchange at 12 Mbit/s: a table, a wave, a log") {}
+  Demo()
+      : Command("demo",
+                "Power-on of the DSDPV1 to data exchange at 12 Mbit/s, by a shipped scenario: a table, a wave, a log") {
+  }
 
   void options(CLI::App& app) override {
     app.add_option("--out", out_, "Folder for wave, log and result, which replace those of an earlier demo")
@@ -40,7 +43,9 @@ class Demo : public Command {
 
   int carry_out() override {
     RunArguments given;
-    given.scenario = scenario_file("dsdpv1-sim demo", kScenario);
+    given.scenario = (fs::path(scenario_folder()) / kScenario).string() + ".yaml";
+    if (!fs::exists(given.scenario))
+      throw tb::InputError(given.scenario, 0, "no such file, demo needs the scenarios shipped with the DSDPV1's model");
     given.wave.file = file(kWaveEnding);
     given.log = file(".log");
     given.result = file(".json");

@@ -28,6 +28,7 @@ namespace {
 
 std::vector<std::string> shipped_names() {
   std::vector<std::string> names;
+  if (!fs::is_directory(scenario_folder())) return names;  // a user's program has none
   for (const std::string& file : shipped_scenarios()) names.push_back(fs::path(file).stem());
   return names;
 }
@@ -40,8 +41,10 @@ std::string scenario_file(const std::string& command, const std::string& word) {
   if (word.find('/') == std::string::npos && !fs::path(word).has_extension()) {
     std::string file = fs::path(scenario_folder()) / (word + ".yaml");
     if (fs::exists(file, error)) return file;
-    throw tb::InputError(command + ": there is no scenario " + word + tb::did_you_mean(word, shipped_names()) +
-                         ", expected a path and the names that traces list shows");
+    const std::vector<std::string> names = shipped_names();
+    throw tb::InputError(
+        command + ": there is no scenario " + word + tb::did_you_mean(word, names) +
+        (names.empty() ? ", expected a path" : ", expected a path and the names that traces list shows"));
   }
   const std::string name = tb::nearest_file(word).empty() ? tb::nearest(fs::path(word).stem(), shipped_names()) : "";
   if (name.empty()) return word;

@@ -151,7 +151,7 @@ void firmware(kit::Cpu& cpu) {
 }
 
 // own_slave.cpp: the kind, and the program
-kit::Parts parts() {
+kit::Parts make_parts() {
   kit::Parts parts;
   parts.name = "own_slave";
   parts.title = "16-register slave";
@@ -166,7 +166,9 @@ kit::Parts parts() {
   return parts;
 }
 
-int main(int argc, char** argv) {
-  static const kit::Kind kind(parts());
-  return app::program(argc, argv, "own_slave", {&kind});
+tb::ChipKinds make_kinds() {
+  static const kit::Kind kind(make_parts());
+  return {&kind};
 }
+
+int main(int argc, char** argv) { return app::program(argc, argv, "own_slave", make_kinds); }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "io/input/input_error.hpp"
@@ -22,6 +24,12 @@ struct NoKeys : tb::OwnSettings {};
 
 constexpr PinNumber kNoPin = tb::kMostPins - 1;
 
+std::vector<profibus::Reason> reasons_of(const Parts& parts) {
+  const profibus::ReasonTable alarms =
+      parts.capacities.alarms > 0 ? profibus::alarm_reasons() : profibus::ReasonTable{nullptr, 0};
+  return profibus::reasons_of({parts.reasons, alarms, profibus::reasons()});
+}
+
 void check(const Parts& parts) {
   const auto fail = [&parts](const std::string& what) {
     throw std::invalid_argument(fmt::format("kit::Kind {}: {}", parts.name == nullptr ? "" : parts.name, what));
@@ -33,6 +41,10 @@ void check(const Parts& parts) {
   const std::size_t interrupt = parts.interrupt ? std::size_t{*parts.interrupt} - kOwn : 0;
   if (parts.interrupt && (interrupt >= parts.pins.size() || parts.pins[interrupt].direction == kInput))
     fail("the interrupt is no output of its own");
+  std::set<std::string_view> codes;
+  for (const profibus::Reason reason : reasons_of(parts))
+    if (!codes.insert(profibus::code(reason)).second)
+      fail(fmt::format("two of its reasons have the code {}", profibus::code(reason)));
 }
 
 tb::PinTable table_of(const Parts& parts) {
@@ -42,12 +54,6 @@ tb::PinTable table_of(const Parts& parts) {
     table.push_back({pin.name, pin.width, pin.direction == kInput, pin.bus, false,
                      pin.direction == kOutput && pin.rest == kReleased});
   return table;
-}
-
-std::vector<profibus::Reason> reasons_of(const Parts& parts) {
-  const profibus::ReasonTable alarms =
-      parts.capacities.alarms > 0 ? profibus::alarm_reasons() : profibus::ReasonTable{nullptr, 0};
-  return profibus::reasons_of({parts.reasons, alarms, profibus::reasons()});
 }
 
 std::vector<tb::CodeTable> codes_of(const Parts& parts) {
@@ -103,6 +109,14 @@ constexpr std::initializer_list<const char*> kNotServed = {
 }  // namespace
 
 void Kind::check_slave(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave) const {
+  const auto check_bytes = [&](const char* what, std::size_t bytes, int line) {
+    const auto most = static_cast<std::size_t>(parts_.capacities.io);
+    if (bytes > most)
+      throw tb::InputError(scenario.file, line,
+                           fmt::format("{} of {} bytes, but {} holds {}", what, bytes, name(), most));
+  };
+  check_bytes("max_inputs", static_cast<std::size_t>(slave.init.max_inputs.value_or(0)), slave.init.line);
+  check_bytes("max_outputs", static_cast<std::size_t>(slave.init.max_outputs.value_or(0)), slave.init.line);
   for (const tb::keys::Given& key : slave.user_cpu.given)
     if (std::find(kNotServed.begin(), kNotServed.end(), key.key) != kNotServed.end())
       throw tb::InputError(scenario.file, key.line,
@@ -114,12 +128,15 @@ void Kind::check_slave(const tb::scenario::Scenario& scenario, const tb::scenari
                          fmt::format("behaviour is idle, but the program of {} always exchanges, expected loop_back, "
                                      "count or constant",
                                      name()));
-  for (const tb::scenario::Action& action : scenario.script)
-    if (action.slave.text == slave.name.text && !is_served(action.what, parts_))
+  for (const tb::scenario::Action& action : scenario.script) {
+    if (action.slave.text != slave.name.text) continue;
+    if (action.what == ActionKind::kSetInputs) check_bytes("set_inputs", action.bytes.size(), action.line);
+    if (!is_served(action.what, parts_))
       throw tb::InputError(scenario.file, action.line,
                            fmt::format("{}, but the program of {} does not serve it, expected set_inputs, {}pause_user "
                                        "or reinitialise",
                                        action.word, name(), parts_.diagnosis ? "set_diagnosis, " : ""));
+  }
 }
 
 // --- on the bench ----------------------------------------------------------------------------------------------------

@@ -5,10 +5,11 @@
 // CPU. A person writes a `UserPort`, which stands between the station and the chip's other pins, a program for the user
 // CPU, and the `Parts` that name both. `Kind` makes a kind of chip of them:
 //
-//   int main(int argc, char** argv) {
-//     static const kit::Kind kind(parts());
-//     return app::program(argc, argv, "own_slave", {&kind});  // apps/program.hpp: all commands
+//   tb::ChipKinds make_kinds() {
+//     static const kit::Kind kind(make_parts());
+//     return {&kind};
 //   }
+//   int main(int argc, char** argv) { return app::program(argc, argv, "own_slave", make_kinds); }  // apps/program.hpp
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -155,7 +156,7 @@ struct Parts {
 class Kind : public tb::ChipKind {
  public:
   /// Throws std::invalid_argument: no name, port or program; more than kMostOwnPins pins; an interrupt that is not an
-  /// output.
+  /// output; a code that another of its reasons has.
   explicit Kind(Parts parts);
 
   const Parts& made_of() const { return parts_; }

@@ -83,7 +83,7 @@ class Checker {
     const auto has_it = [&code](const Slave& slave) { return is_code(*slave.kind, code.text); };
     if (code.empty() || std::any_of(scenario_.slaves.begin(), scenario_.slaves.end(), has_it)) return;
     const std::vector<std::string>& codes = all_codes(*scenario_.kind);
-    fail(code.line, fmt::format("event {} does not exist{}, expected the codes of docs/reasons.md", code.text,
+    fail(code.line, fmt::format("event {} does not exist{}, expected the codes of dsdpv1-sim reasons", code.text,
                                 did_you_mean(code.text, codes)));
   }
 

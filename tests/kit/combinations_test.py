@@ -7,6 +7,7 @@
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -112,13 +113,26 @@ def serve(cell):
     cell.expect("serve", ("serving " in done.stdout + done.stderr, done.returncode in (0, 3)), (True, True), done.stdout + done.stderr)
 
 
+def alone(cell):
+    """A user's program has no shipped scenarios."""
+    cell.program = shutil.copy(cell.program, cell.folder / "own_slave")
+    cell.is_refused("gone.yaml: no such file", "run", "gone.yaml")
+    cell.is_refused("own_slave run: there is no scenario gone, expected a path\n", "run", "gone")
+    cell.is_refused("power_on_12m.yaml: no such file, demo needs the scenarios shipped", "demo")
+
+
 def names(cell):
     """Messages name the program that was called."""
+    alone(cell)
     cell.is_refused("own_slave: unknown command rnu (did you mean run?)", "rnu")
     cell.is_refused('kind is "own_slav" (did you mean own_slave?)', "run", "x.yaml", "--set", "chip.kind=own_slav")
     for words in (("--help",), ("run", "--help"), ("--version",), ("completion", "bash"), ("manual",)):
         text = cell.passes(*words)
         cell.expect(words, ("dsdpv1-sim" in text, "own_slave" in text), (False, True))
+    text = cell.passes("manual")
+    cell.expect("manual", (r"dsdpv1\-sim" in text, "own_slave \\- " in text, "\n\\fBown_slave\\fR " in text), (False, True, True), text[:500])
+    cell.write("y.yaml", SCENARIO.replace("event: STARTED", "event: START"))
+    cell.is_refused("expected the codes of own_slave reasons", "run", "y.yaml")
     cell.expect("schema", '"own_slave"' in cell.passes("schema"), True)
 
 

@@ -1,9 +1,12 @@
-// The kit by a small chip: 8 lamps, 8 switches and INT, which is high-active. It starts itself at the first write.
+// The kit by a small chip: 8 lamps, 8 switches, ECHO of STROBE at once, and INT, which is high-active. It starts itself
+// at the first write.
 #include "tb/kit/slave_kit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/program.hpp"
 #include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/verdict.hpp"
@@ -26,7 +30,7 @@ using kit::Tick;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-enum : PinNumber { kStrobe = kit::kOwn, kSwitches, kAlarm, kLamps, kInt };
+enum : PinNumber { kStrobe = kit::kOwn, kSwitches, kAlarm, kLamps, kInt, kEcho };
 
 /// STROBE's rise takes switches and alarm at the second edge after it, and ends INT at the first one.
 class LampPort : public kit::UserPort {
@@ -36,6 +40,7 @@ class LampPort : public kit::UserPort {
 
   void reset() override { acts_at_ = shows_at_ = profibus::kNever; }
   void input(Tick at, PinNumber pin, Level level) override {
+    if (pin == kStrobe) chip_.drive(at, kEcho, level);
     if (pin != kStrobe || level == 0) return;
     due().clear();
     shows_at_ = profibus::first_edge_after(at);
@@ -99,15 +104,21 @@ void program(kit::Cpu& cpu) {
   }
 }
 
+/// STROBE changes at one edge of the clock in four, at some of them with PBRXD.
+void strobes(kit::Cpu& cpu) {
+  cpu.wait(10 * bus::kTicksPerUs);
+  for (Level level = 1;; level = 1 - level) {
+    cpu.set(kStrobe, level);
+    cpu.wait(4 * profibus::kTicksPerCycle);
+  }
+}
+
 kit::Parts lamp_parts(const char* name, bool plans) {
   kit::Parts parts;
   parts.name = name;
   parts.title = "8 lamps";
-  parts.pins = {{"STROBE", kit::kInput, 0},
-                {"SWITCHES", kit::kInput, 0, 8},
-                {"ALARM", kit::kInput, 0},
-                {"LAMPS", kit::kOutput, 0, 8},
-                {"INT", kit::kOutput, 0}};
+  parts.pins = {{"STROBE", kit::kInput, 0},    {"SWITCHES", kit::kInput, 0, 8}, {"ALARM", kit::kInput, 0},
+                {"LAMPS", kit::kOutput, 0, 8}, {"INT", kit::kOutput, 0},        {"ECHO", kit::kOutput, 0}};
   parts.interrupt = kInt;
   parts.capacities = {0, 1, 1, 0};
   parts.diagnosis = true;
@@ -116,12 +127,18 @@ kit::Parts lamp_parts(const char* name, bool plans) {
   return parts;
 }
 
-const kit::Kind lamps(lamp_parts("lamps", true)), careless(lamp_parts("careless", false));
+kit::Parts strobed_parts() {
+  kit::Parts parts = lamp_parts("strobed", true);
+  parts.program = strobes;
+  return parts;
+}
+
+const kit::Kind lamps(lamp_parts("lamps", true)), careless(lamp_parts("careless", false)), strobed(strobed_parts());
 
 class Kit : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    for (const kit::Kind* kind : {&lamps, &careless})
+    for (const kit::Kind* kind : {&lamps, &careless, &strobed})
       if (tb::find_chip_kind(kind->name()) == nullptr) tb::add_chip_kind(*kind);
   }
   void SetUp() override { woken.clear(); }
@@ -137,19 +154,27 @@ class Kit : public testing::Test {
     tb::RunOptions options;
     options.engine = engine;
     options.trace = trace_;
+    options.wave.path = wave_;
     tb::Bench bench(scenario, options, tb::make_pin_execution());
     return bench.run([](Tick) { return true; });
   }
-  std::string traced(const std::string& text, tb::Engine engine) {
-    trace_ = (std::filesystem::path(testing::TempDir()) / "kit.trace").string();
+  std::string traced(const std::string& text, tb::Engine engine) { return written(trace_, text, engine); }
+  std::string waved(const std::string& text, tb::Engine engine) { return written(wave_, text, engine); }
+
+  std::string trace_, wave_;
+
+ private:
+  /// `path` is of an output of the run, one that has none otherwise.
+  std::string written(std::string& path, const std::string& text, tb::Engine engine) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "kit.vcd";
+    path = file.string();
     run(text, engine);
+    path.clear();
     std::ostringstream read;
-    read << std::ifstream(trace_).rdbuf();
-    std::filesystem::remove(trace_);
+    read << std::ifstream(file).rdbuf();
+    std::filesystem::remove(file);
     return read.str();
   }
-
-  std::string trace_;
 };
 
 TEST_F(Kit, AProgramSleepsUntilTheInterruptLeavesItsLevelOfRest) {
@@ -171,6 +196,12 @@ TEST_F(Kit, StepFindsWhatAPortDoesNotPlan) {
   const std::string right = scenario("lamps", ""), wrong = scenario("careless", "");
   EXPECT_EQ(traced(right, tb::Engine::kStep), traced(right, tb::Engine::kSkip));
   EXPECT_NE(traced(wrong, tb::Engine::kStep), traced(wrong, tb::Engine::kSkip)) << "INT falls late in skip";
+}
+
+/// Outputs that an input changes come after PBRXD if both change at one tick.
+TEST_F(Kit, WavesOfBothEnginesHaveOneOrderWithinATick) {
+  const std::string text = scenario("strobed", "");
+  EXPECT_TRUE(waved(text, tb::Engine::kStep) == waved(text, tb::Engine::kSkip));
 }
 
 TEST_F(Kit, AWrongRecordIsRefused) {
@@ -195,6 +226,57 @@ TEST_F(Kit, AWrongRecordIsRefused) {
               parts.pins.resize(28, {"P", kit::kInput, 0});
             }),
             "kit::Kind x: 28 pins, expected at most 27");
+  static const profibus::ReasonRow rows[] = {{profibus::Severity::kInfo, "LAMP_ON", "", "on", ""},
+                                             {profibus::Severity::kInfo, "LAMP_ON", "", "still on", ""},
+                                             {profibus::Severity::kInfo, "PRM_IDENT", "", "off", ""}};
+  EXPECT_EQ(refused([](kit::Parts& parts) {
+              parts.reasons = {rows, 2};
+            }),
+            "kit::Kind x: two of its reasons have the code LAMP_ON");
+  EXPECT_EQ(refused([](kit::Parts& parts) {
+              parts.reasons = {rows + 1, 2};
+            }),
+            "kit::Kind x: two of its reasons have the code PRM_IDENT");
+}
+
+tb::ChipKinds wrong_kinds() {
+  static const kit::Kind kind(kit::Parts{"x", "no port"});
+  return {&kind};
+}
+
+TEST_F(Kit, AProgramRefusesAWrongRecordWithOneLine) {
+  char name[] = "x", command[] = "schema";
+  char* words[] = {name, command, nullptr};
+  EXPECT_EXIT(std::exit(app::program(2, words, "x", wrong_kinds)), testing::ExitedWithCode(2),
+              "^x: kit::Kind x: no port or no program\n$");
+}
+
+kit::Parts parts() { return lamp_parts("derived", true); }
+
+class Derived : public kit::Kind {
+ public:
+  Derived() : kit::Kind(parts()) {}
+};
+
+TEST_F(Kit, ADerivedKindIsMadeByAFunctionOfAnyName) { EXPECT_STREQ(Derived().name(), "derived"); }
+
+TEST_F(Kit, AScenarioWantsNoMoreBytesThanTheChipHolds) {
+  const auto refused = [](const std::string& text) -> std::string {
+    try {
+      tb::scenario::parse(text, "x.yaml");
+    } catch (const tb::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto with = [](const char* key) {
+    std::string text = scenario("lamps", "");
+    return text.replace(text.find(std::string(key) + ": 1") + std::strlen(key) + 2, 1, "2");
+  };
+  EXPECT_EQ(refused(with("max_inputs")), "x.yaml:6: max_inputs of 2 bytes, but lamps holds 1");
+  EXPECT_EQ(refused(with("max_outputs")), "x.yaml:6: max_outputs of 2 bytes, but lamps holds 1");
+  const std::string script = "script: [{at: 1us, do: set_inputs, slave: a, bytes: 01 02}]\n";
+  EXPECT_EQ(refused(scenario("lamps", script)), "x.yaml:7: set_inputs of 2 bytes, but lamps holds 1");
 }
 
 }  // namespace
