@@ -179,13 +179,14 @@ static void copy_outputs(const xgate_frame* answer, uint8_t* outputs, uint8_t ca
   (void)memcpy(outputs, answer->data, (answer->length < capacity) ? answer->length : capacity);
 }
 
-/* Reading them clears the module's flag. */
 static xgate_result read_parameters(xgate_module* module) {
   const xgate_result result = xgate_command(module, kReadParameters, NULL, 0);
   const xgate_application* const application = &module->application;
-  if ((result == XGATE_OK) && (application->parameters != NULL))
+  if (result != XGATE_OK) return result;
+  module->parameters_due = false;
+  if (application->parameters != NULL)
     application->parameters(application->context, module->answer.data, module->answer.length);
-  return result;
+  return XGATE_OK;
 }
 
 xgate_result xgate_exchange(xgate_module* module, const uint8_t* inputs, uint8_t size, uint8_t* outputs,
@@ -199,9 +200,14 @@ xgate_result xgate_exchange(xgate_module* module, const uint8_t* inputs, uint8_t
     serve_all(module);
     while ((result == XGATE_OK) && (module->queued > 0u)) result = give_answers(module);
   }
+  /* 21 clears the module's flag. It goes before 22: newer parameters set it again. */
+  if ((result == XGATE_OK) && (module->answer.command == kExchangeKnown)) {
+    module->parameters_due = true;
+    result = xgate_command(module, kExchangeKnown, inputs, size);
+  }
   if ((result != XGATE_OK) || (module->answer.command == kRequests)) return result;
   copy_outputs(&module->answer, outputs, capacity, length);
-  return (module->answer.command == kExchangeKnown) ? read_parameters(module) : XGATE_OK;
+  return module->parameters_due ? read_parameters(module) : XGATE_OK;
 }
 
 xgate_result xgate_diagnose(xgate_module* module, const uint8_t* blocks, uint8_t length) {

@@ -93,6 +93,7 @@ typedef struct xgate_module {
   uint8_t error_class, error_code; /* of the last XGATE_ERR_MODULE */
   /* Private. */
   bool clear_acknowledged;
+  bool parameters_due; /* the module has new ones, and they have not been read */
   xgate_frame command, answer;
   xgate_pdu queue[XGATE_QUEUE]; /* answers that have not left, oldest first */
   uint8_t queued;
@@ -105,7 +106,7 @@ xgate_result xgate_command(xgate_module* module, uint8_t command, const uint8_t*
 
 xgate_result xgate_initialise(xgate_module* module, const xgate_config* config);
 
-/* Commands 20, 30, 22: inputs to the master, outputs of it. Requests and parameters of the master go to the
+/* Commands 20, 30, 21, 22: inputs to the master, outputs of it. Requests and parameters of the master go to the
    application, its answers to the module. `length`: bytes of outputs. */
 xgate_result xgate_exchange(xgate_module* module, const uint8_t* inputs, uint8_t size, uint8_t* outputs,
                             uint8_t capacity, uint8_t* length);

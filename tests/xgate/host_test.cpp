@@ -66,13 +66,17 @@ class XgateHost : public testing::TestWithParam<Choice> {
   int frames = 0;  ///< that the host has sent
   int damage = 0;  ///< of so many frames to come an answer's byte is changed
   int damaged_byte = 6;
-  bool cut = false;  ///< instead it is lost
+  int damaged_command = -1;  ///< only answers to this one are changed
+  bool cut = false;          ///< instead it is lost
 
  private:
   static XgateHost& self(void* context) { return *static_cast<XgateHost*>(context); }
   static void send(void* context, const std::uint8_t* bytes, std::uint16_t length) {
     XgateHost& test = self(context);
-    test.frames += length == 4 && bytes[0] == 0x7E ? 1 : 0;
+    if (length == 4 && bytes[0] == 0x7E) {
+      ++test.frames;
+      test.command_ = bytes[1];
+    }
     test.received_ = 0;
     const Bytes sent(bytes, bytes + length);
     if (test.spi())
@@ -85,6 +89,7 @@ class XgateHost : public testing::TestWithParam<Choice> {
     const int byte = test.spi() ? test.bench.transfer(std::uint8_t{0}) : test.next(ms);
     if (byte < 0 || (byte == 0xFF && test.received_ == 0)) return byte;
     if (++test.received_ != test.damaged_byte || test.damage == 0) return byte;
+    if (test.damaged_command >= 0 && test.command_ != test.damaged_command) return byte;
     --test.damage;
     return test.cut ? receive(context, ms) : byte ^ 0x02;
   }
@@ -109,6 +114,7 @@ class XgateHost : public testing::TestWithParam<Choice> {
   static void acknowledged(void* context) { ++self(context).acknowledgements; }
 
   std::size_t taken_ = 0;
+  int command_ = 0;   ///< that the host has sent last
   int received_ = 0;  ///< bytes of the present answer
 };
 
@@ -123,6 +129,27 @@ TEST_P(XgateHost, ExchangesAndTakesParametersOnce) {
   EXPECT_EQ(bench.service(-1, {9, 8, 7}), Bytes({4, 5, 6}));
   EXPECT_EQ(xgate_read_cfg(&host), XGATE_OK);
   EXPECT_EQ(Bytes(host.answer.data, host.answer.data + host.answer.length), ModuleBench::cfg());
+}
+
+TEST_P(XgateHost, ParametersThatItCannotReadAreReadInTheNextExchange) {
+  to_exchange();
+  for (const int command : {0x21, 0x22}) {
+    parameters_seen.clear();
+    damaged_command = command;
+    damage = 3;
+    exchange();
+    EXPECT_EQ(result, XGATE_ERR_SILENT);
+    EXPECT_EQ(damage, 0) << "three times";
+    EXPECT_FALSE(bench.int_low()) << "the module has taken 21";
+    EXPECT_TRUE(parameters_seen.empty());
+    for (int i = 0; i < 2; ++i) {
+      exchange();
+      EXPECT_EQ(result, XGATE_OK);
+      EXPECT_EQ(parameters_seen, std::vector<Bytes>{ModuleBench::prm()});
+    }
+    bench.set_prm(ModuleBench::prm());
+    bench.service(62, ModuleBench::cfg());
+  }
 }
 
 TEST_P(XgateHost, ServesRequests) {
