@@ -121,6 +121,7 @@ Error Firmware::set_step(Cycle now, const Frame& frame) {
   if (state_ != ModuleState::kReady && !started()) return error::kResource;
   if (frame.at(0) == kAnew) {
     bus_.stop(now);
+    bus_.reset();
     given_ = false;
     state_ = ModuleState::kReady;
   } else if (!given_) {

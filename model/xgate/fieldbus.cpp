@@ -169,23 +169,30 @@ void Fieldbus::outputs(Frame& answer) {
   copy(user_.outputs(), answer);
 }
 
-bool Fieldbus::prm(Frame& answer) {
+bool Fieldbus::prm(Frame& answer) const {
   if (has_prm_) copy(prm_, answer);
-  new_prm_ = false;
   return has_prm_;
 }
 
+const profibus::Block<profibus::kMaxCfg>* Fieldbus::known_cfg() const {
+  if (has_cfg_) return &cfg_;
+  return given_.any_cfg ? nullptr : &given_.cfg;
+}
+
 bool Fieldbus::cfg(Frame& answer) {
-  if (has_cfg_) copy(cfg_, answer);
+  const auto* const known = known_cfg();
+  if (known != nullptr) copy(*known, answer);
   cfg_known_ = has_cfg_;
-  return has_cfg_;
+  return known != nullptr;
 }
 
 bool Fieldbus::lengths(Frame& answer) const {
-  const profibus::CfgLengths found = profibus::cfg_lengths(cfg_.bytes.data(), cfg_.size);
+  const auto* const known = known_cfg();
+  if (known == nullptr) return false;
+  const profibus::CfgLengths found = profibus::cfg_lengths(known->bytes.data(), known->size);
   const std::uint8_t bytes[] = {static_cast<std::uint8_t>(found.output()), static_cast<std::uint8_t>(found.input())};
-  if (has_cfg_) answer.data.assign(bytes, 2);
-  return has_cfg_;
+  answer.data.assign(bytes, 2);
+  return true;
 }
 
 void Fieldbus::requests(Frame& answer) {

@@ -21,7 +21,7 @@ class Fieldbus {
   profibus::DpState state() const { return user_.mail().state.state; }
   bool exchanging() const { return state() == profibus::DpState::kDataExch; }
 
-  /// The slave has been reset.
+  /// The slave has been reset, or its host begins again.
   void reset();
   /// Through OFFLINE to WAIT_PRM with what the host gives.
   void start(Cycle now, const Initialisation& given);
@@ -40,9 +40,10 @@ class Fieldbus {
   Error set_inputs(Cycle now, const Frame& frame);
   void outputs(Frame& answer);
   bool new_prm() const { return new_prm_; }
+  /// Command 21 (X9).
   void prm_is_known() { new_prm_ = false; }
   /// Command 22, 23, 24: false: there is none yet.
-  bool prm(Frame& answer);
+  bool prm(Frame& answer) const;
   bool cfg(Frame& answer);
   bool lengths(Frame& answer) const;
   bool requests_open() const { return for_host(c1(), given_.c1_size()) || for_host(c2(), given_.c2_size()); }
@@ -76,6 +77,8 @@ class Fieldbus {
   }
   const profibus::AcyclicMail& c1() const { return user_.mail().c1; }
   const profibus::AcyclicMail& c2() const { return user_.mail().c2; }
+  /// X23: the master's configuration, before it the host's; null: there is none.
+  const profibus::Block<profibus::kMaxCfg>* known_cfg() const;
   void forget();
   void offer();
   void judge_prm(Cycle now);

@@ -79,6 +79,8 @@ TEST_P(XgateCommand, TooEarly) {
   for (const std::uint8_t command : Bytes{0x22, 0x23, 0x24}) expect(command, {}, error::kResource);
   for (const std::uint8_t step : Bytes{1, 2, 3}) expect(0x13, {1, step}, error::kResource);
   expect_done(0x04, ModuleBench::initialisation());
+  expect(0x23, {}, frame(0x23, ModuleBench::cfg()));  // from 04 on (4.5.1, 12 and 13)
+  expect(0x24, {}, frame(0x24, {3, 3}));
   expect(0x20, {1, 2, 3}, error::kNotConnected);
   expect(0x13, {1, 3}, error::kNotConnected);
   bench.diagnosis();  // the first telegram: the rate is found
@@ -87,7 +89,6 @@ TEST_P(XgateCommand, TooEarly) {
   expect(0x22, {}, error::kResource);
   bench.set_prm(ModuleBench::prm());
   expect(0x22, {}, frame(0x22, ModuleBench::prm()));
-  expect(0x23, {}, error::kResource);
   expect(0x20, {1, 2, 3}, error::kExchange);
   bench.service(62, ModuleBench::cfg());
   expect(0x23, {}, frame(0x23, {0x50, 0x60, 0x10, 0x20}));
@@ -98,7 +99,29 @@ TEST_P(XgateCommand, TooEarly) {
   expect(0x21, {1, 2, 3, 4}, error::kTooFew);
   expect(0x30, {}, error::kTooFew);
   expect(0x31, {}, error::kTooFew);
-  expect(0x20, {1, 2, 3}, frame(0x20, {0, 0, 0}));
+  expect(0x20, {1, 2, 3}, frame(0x21, {0, 0, 0}));
+}
+
+TEST_P(XgateCommand, ConfigurationOfTheHostUntilItIsGivenUp) {
+  Bytes data = ModuleBench::initialisation();
+  data[4] = 4;  // 50 61 10 20: 3 inputs, 5 outputs
+  expect(0x04, data, error::kIoLength);
+  expect(0x23, {}, error::kResource);
+  data[4] = 3;
+  data[5] = 5;
+  data[20] = 0x61;
+  expect_done(0x04, data);
+  bench.diagnosis();
+  bench.set_prm(ModuleBench::prm());
+  bench.service(62, ModuleBench::cfg());  // another one: Cfg_Fault
+  for (const std::uint8_t mode : Bytes{0, 1}) {
+    expect_done(0x12, {mode});
+    expect(0x23, {}, frame(0x23, {0x50, 0x61, 0x10, 0x20}));
+    expect(0x24, {}, frame(0x24, {5, 3}));
+  }
+  expect_done(0x12, {0});
+  expect_done(0x13, {0, 1});
+  for (const std::uint8_t command : Bytes{0x23, 0x24}) expect(command, {}, error::kResource);
 }
 
 TEST_P(XgateCommand, InitialisationWrong) {

@@ -43,7 +43,11 @@ TEST_F(XgateExchange, NewUserParametersUntilTheHostKnows) {
   bench.set_prm(ModuleBench::prm());
   EXPECT_TRUE(bench.int_low());
   EXPECT_EQ(bench.ask(0x22), frame(0x22, ModuleBench::prm()));
-  EXPECT_FALSE(bench.int_low()) << "read";
+  EXPECT_TRUE(bench.int_low()) << "only 21 clears it (4.5.1, 10)";
+  bench.service(62, ModuleBench::cfg());
+  EXPECT_EQ(exchange().at(1), 0x21);
+  know();
+  EXPECT_FALSE(bench.int_low());
 }
 
 TEST_F(XgateExchange, LeavingIt) {
@@ -62,6 +66,7 @@ TEST_F(XgateExchange, C1ReadAndWrite) {
   EXPECT_TRUE(bench.int_low());
   EXPECT_EQ(exchange(), frame(0x30, box(1, {0x5E, 1, 2, 4})));
   EXPECT_EQ(exchange(), frame(0x30, box(1, {0x5E, 1, 2, 4}))) << "still open (X24)";
+  expect(0x20, {1}, error::kTooFew);
   EXPECT_TRUE(bench.int_low());
   for (const Bytes& answer : {Bytes{0x5E, 1, 3, 1, 7}, Bytes{0x5F, 1, 2, 1}, Bytes{0x5E, 1, 2, 5, 1, 2, 3, 4, 5},
                               Bytes{0x5E, 1, 2, 4, 1, 2, 3}, Bytes{0xDE, 0x80, 0xB0}, Bytes{0xDF, 0x80, 0xB0, 0}})
@@ -82,7 +87,7 @@ TEST_F(XgateExchange, C1ReadAndWrite) {
 TEST_F(XgateExchange, AnAnswerNeedsARequestThatTheHostHasSeen) {
   bench.service(51, {0x5E, 1, 2, 1}, 51);
   expect(0x30, box(1, {0x5E, 1, 2, 1, 7}), error::kParameter);
-  exchange();
+  EXPECT_EQ(exchange().at(1), 0x30) << "before 21 (X24)";
   bench.ask(0x13, {1, 2});
   bench.set_prm(ModuleBench::prm());
   bench.service(62, ModuleBench::cfg());
@@ -249,6 +254,8 @@ TEST_F(XgateExchange, AnyConfigurationIsReadFirst) {
   ASSERT_EQ(any.send({0x7E, 0x04, 0x04, 0x11, 0x06, 0x01, 0x0F, 0x00, 0x67}), Bytes({0x7E, 0x04, 0x00, 0x11, 0x6B}));
   any.diagnosis();
   any.set_prm({});
+  for (const std::uint8_t command : Bytes{0x23, 0x24})
+    EXPECT_EQ(any.ask(command), any.wrong(command, error::kResource)) << "the master has not sent any";
   Bytes cfg;
   for (int i = 0; i < 30; ++i) cfg = cfg + Bytes{0x10, 0x20};  // more than 24 identifiers (4.7.3)
   any.service(62, cfg);
