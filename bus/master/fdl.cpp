@@ -238,7 +238,12 @@ void MasterFdl::take(const Decoded& decoded) {
 
 bool MasterFdl::answers_request(const Telegram& answer) const {
   if (request_.raw || answer.kind == TelegramKind::kSc) return true;
-  return answer.is_response() && answer.sa == request_.telegram.da && answer.da == address_;
+  const Telegram& asked = request_.telegram;
+  const auto mirrors = [](std::optional<std::uint8_t> sap, std::optional<std::uint8_t> of) {
+    return !sap || sap == of;
+  };
+  return answer.is_response() && answer.sa == asked.da && answer.da == address_ && mirrors(answer.dsap, asked.ssap) &&
+         mirrors(answer.ssap, asked.dsap);
 }
 
 void MasterFdl::succeed() {

@@ -47,7 +47,6 @@ struct Shown {
   const char* action = "";  ///< of the master meanwhile
 };
 
-/// The bench's master takes no notice of the SAP of an answer.
 const Shown kFaults[] = {
     {"Silent", "fault: silent, times: 2", "unanswered: station 5 did not answer", 2, true},
     {"Fcs", "fault: fcs, times: 2", "telegram error: wrong FCS", 2, true},
@@ -56,7 +55,7 @@ const Shown kFaults[] = {
     {"Late", "fault: late, times: 2, for: 70us", "TSDR late: station 5 answered after 8", 2, false},
     {"Sa", "fault: sa, times: 2", "unexpected answer: answer of station 4 instead of 5", 2, true},
     {"Da", "fault: da, times: 2", "", 0, true},
-    {"Sap", "fault: sap", "", 0, false, "  - {at: 4.5ms, do: slave_diag, slave: io}\n"},
+    {"Sap", "fault: sap", "", 0, true, "  - {at: 4.5ms, do: slave_diag, slave: io}\n"},
     {"Doubled", "fault: doubled, times: 2", "unexpected answer: answer of station 5", 2, false},
     {"Cut", "fault: cut, times: 2", "telegram error: ", 2, true},
 };
