@@ -1,6 +1,7 @@
 #pragma once
 // A mailbox on a segment, as the bench has it. Keeps the changes of its outputs, and its events.
 #include <cstddef>
+#include <deque>
 #include <memory>
 #include <set>
 #include <string>
@@ -68,7 +69,8 @@ struct UserConfig {
 inline std::unique_ptr<user_cpu::StationCpu> make_user(tb::PinChip& chip, const UserConfig& config) {
   auto own = std::make_shared<UserSettings>();
   own->sck_period = config.sck_period;
-  static tb::scenario::Slave slave;  // the program keeps its settings
+  static std::deque<tb::scenario::Slave> slaves;  // each program keeps its settings
+  tb::scenario::Slave& slave = slaves.emplace_back();
   slave.user_cpu.own = own;
   slave.user_cpu.cycle = config.period;
   tb::scenario::Scenario scenario;
