@@ -79,8 +79,8 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
     case sap::kSetPrm: return set_prm(now, request);
     case sap::kCheckCfg: return check_cfg(now, request);
     case sap::kGlobalControl: return refuse_state(now, request, sap::kGlobalControl);  // an SRD: only SDN is supported
-    case sap::kC1: return c1(now, request);
-    case sap::kAlarm: return alarm_sap(now, request);
+    case sap::kC1:
+    case sap::kAlarm: return ms1(now, request);
     case Msac2::kManagerSap: return c2_initiate(now, request);
     default:
       if (c2_channel(request.dsap)) return msac_->c2.handle(now, request);
@@ -113,25 +113,17 @@ Reply DpSlave::refuse_master(Cycle now, const Request& request, int sap) {
   return Reply::status(fc::kRs);
 }
 
-Reply DpSlave::c1(Cycle now, const Request& request) {
-  if (state_ != DpState::kDataExch) return refuse_state(now, request, sap::kC1);
-  if (held_by_other(request)) return refuse_master(now, request, sap::kC1);
+/// SAP 51, and SAP 50 of a slave that has alarms.
+Reply DpSlave::ms1(Cycle now, const Request& request) {
+  const bool alarms = request.dsap == sap::kAlarm;
+  if (alarms && (msac_ == nullptr || !msac_->alarms.on())) return unknown_sap(now, request);
+  if (state_ != DpState::kDataExch) return refuse_state(now, request, request.dsap);
+  if (held_by_other(request)) return refuse_master(now, request, request.dsap);
   if (!prm_.dpv1) {
-    log_.at_cycle(now, Reason::kC1Disabled, request.sa);
+    log_.at_cycle(now, alarms ? AlarmReason::kAlarmSapOff : Reason::kC1Disabled, request.sa);
     return Reply::status(fc::kRs);
   }
-  return msac_->c1.handle(now, request);
-}
-
-Reply DpSlave::alarm_sap(Cycle now, const Request& request) {
-  if (msac_ == nullptr || !msac_->alarms.on()) return unknown_sap(now, request);
-  if (state_ != DpState::kDataExch) return refuse_state(now, request, sap::kAlarm);
-  if (held_by_other(request)) return refuse_master(now, request, sap::kAlarm);
-  if (!prm_.dpv1) {
-    log_.at_cycle(now, AlarmReason::kAlarmSapOff, request.sa);
-    return Reply::status(fc::kRs);
-  }
-  return msac_->alarms.handle(now, request);
+  return alarms ? msac_->alarms.handle(now, request) : msac_->c1.handle(now, request);
 }
 
 Reply DpSlave::c2_initiate(Cycle now, const Request& request) {

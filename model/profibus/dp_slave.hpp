@@ -100,8 +100,7 @@ class DpSlave {
   // dp_slave.cpp
   Reply dispatch(Cycle now, const Request& request);
   void unanswered(Cycle now, const Request& request);
-  Reply c1(Cycle now, const Request& request);
-  Reply alarm_sap(Cycle now, const Request& request);
+  Reply ms1(Cycle now, const Request& request);
   Reply c2_initiate(Cycle now, const Request& request);
   bool c2_channel(int dsap) const;
   Reply unknown_sap(Cycle now, const Request& request);
