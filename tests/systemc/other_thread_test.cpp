@@ -30,11 +30,12 @@ class Requests : public sc_core::sc_prim_channel {
     }
     async_request_update();
   }
-  /// For a thread of the simulation: waits for requests and carries them out.
+  /// For a thread of the simulation: carries requests out and waits for more. The first ones may have come before the
+  /// simulation: their event passes before any thread waits.
   [[noreturn]] void serve() {
     for (;;) {
-      sc_core::wait(arrived_);
       for (const std::function<void()>& request : take()) request();
+      sc_core::wait(arrived_);
     }
   }
 
@@ -50,13 +51,18 @@ class Requests : public sc_core::sc_prim_channel {
   sc_core::sc_event arrived_{"arrived"};
 };
 
-/// Returns what `request` returns in the simulation.
+/// Will have what `request` returns in the simulation.
 template <class Request>
-auto ask(Requests& requests, Request request) {
+auto begin(Requests& requests, Request request) {
   const auto task = std::make_shared<std::packaged_task<decltype(request())()>>(request);
   auto answer = task->get_future();
   requests.post([task] { (*task)(); });
-  return answer.get();
+  return answer;
+}
+
+template <class Request>
+auto ask(Requests& requests, Request request) {
+  return begin(requests, request).get();
 }
 
 TEST(AnotherThread, AsksAndIsAnsweredByTheKernelsThread) {
@@ -73,6 +79,7 @@ TEST(AnotherThread, AsksAndIsAnsweredByTheKernelsThread) {
     const std::thread::id kernel = std::this_thread::get_id();
     bool at_the_kernel = true;
     std::string told;
+    std::promise<void> asked;
     std::thread other([&] {
       const auto read = [&](std::uint16_t cell) {
         return ask(requests, [&, cell] {
@@ -81,10 +88,12 @@ TEST(AnotherThread, AsksAndIsAnsweredByTheKernelsThread) {
           return cpu.read(cell);
         });
       };
-      ask(requests, [&] {
+      auto reset = begin(requests, [&] {
         cpu.write(ForeignBus<>::kRegisters + systemc::HostRegisters::kReset, 1);
         return 0;
       });
+      asked.set_value();
+      reset.get();
       read(0);  // a hundred microseconds pass
       ask(requests, [&] {
         cpu.write(ForeignBus<>::kRegisters, 3);
@@ -97,6 +106,7 @@ TEST(AnotherThread, AsksAndIsAnsweredByTheKernelsThread) {
       });
     });
     sc_core::sc_report_handler::set_actions("/dsdpv1/violation", sc_core::SC_DO_NOTHING);
+    asked.get_future().wait();  // a request that comes before the simulation starts is carried out, too
     sc_core::sc_start();
     other.join();
     return told + (at_the_kernel ? "by the kernel" : "by another");
