@@ -73,12 +73,9 @@ class Completion {
   }
 
   void fill_alarms() {
-    // Bits of DPV1_Status_2
-    constexpr std::pair<const char*, unsigned> kAlarmTypes[] = {
-        {"update_alarm_supp", 0x04},     {"status_alarm_supp", 0x08},  {"manufacturer_specific_alarm_supp", 0x10},
-        {"diagnostic_alarm_supp", 0x20}, {"process_alarm_supp", 0x40}, {"pull_plug_alarm_supp", 0x80}};
-    for (const auto& [keyword, bit] : kAlarmTypes)
-      if (flag(keyword)) gsd_.alarms.types = static_cast<std::uint8_t>(gsd_.alarms.types | bit);
+    for (std::size_t i = 0; i < kAlarmNames.size(); ++i)
+      if (flag(lower(kAlarmNames[i]) + "_alarm_supp"))
+        gsd_.alarms.types = static_cast<std::uint8_t>(gsd_.alarms.types | 1U << (kFirstAlarmBit + i));
     gsd_.alarms.extra_sap = flag("extra_alarm_sap_supp");
     gsd_.alarms.type_mode = flag("alarm_type_mode_supp");
     gsd_.alarms.sequence_count = number("alarm_sequence_mode_count").value_or(0);

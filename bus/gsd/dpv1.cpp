@@ -1,19 +1,15 @@
 // DPV1 as permitted by a GSD file.
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "bus/gsd/setup.hpp"
 
 namespace dsdpv1::bus {
 
 namespace {
 
-std::string alarm_keyword(unsigned types) {
-  constexpr const char* kKeywords[] = {"Update",     "Status",  "Manufacturer_Specific",
-                                       "Diagnostic", "Process", "Pull_Plug"};
-  for (unsigned bit = 0; bit < std::size(kKeywords); ++bit)
-    if ((types >> (bit + 2) & 1U) != 0) return kKeywords[bit];
+std::string alarm_name(unsigned types) {
+  for (std::size_t i = 0; i < kAlarmNames.size(); ++i)
+    if ((types >> (kFirstAlarmBit + i) & 1U) != 0) return kAlarmNames[i];
   return "";
 }
 
@@ -34,7 +30,7 @@ std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters) {
 
 std::string enable_alarms(const Gsd& gsd, const AlarmParameters& alarms, SlaveParameters& parameters) {
   const unsigned missing = alarms.enabled & ~unsigned{gsd.alarms.types};
-  if (missing != 0) return "the GSD file does not say " + alarm_keyword(missing) + "_Alarm_supp = 1";
+  if (missing != 0) return "the GSD file does not say " + alarm_name(missing) + "_Alarm_supp = 1";
   if (alarms.extra_sap && !gsd.alarms.extra_sap) return "the GSD file does not say Extra_Alarm_SAP_supp = 1";
   if (alarms.mode == 0 && !gsd.alarms.type_mode) return "mode 0: the GSD file does not say Alarm_Type_Mode_supp = 1";
   if (const int most = alarms_in_mode(alarms.mode); most > gsd.alarms.sequence_count)

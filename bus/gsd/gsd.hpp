@@ -38,7 +38,11 @@ struct GsdRange {
   std::int64_t low = 0, high = 0;
 };
 
-/// The data types of ExtUserPrmData. Values of several bytes are sent most significant byte first.
+/// The types of alarms as keywords name them (NAME_Alarm_supp), in the order of DPV1_Status_2 from bit 2 on.
+constexpr std::array<const char*, 6> kAlarmNames = {"Update",     "Status",  "Manufacturer_Specific",
+                                                    "Diagnostic", "Process", "Pull_Plug"};
+constexpr unsigned kFirstAlarmBit = 2;
+
 /// Alarms of DPV1.
 struct GsdAlarms {
   std::uint8_t types = 0;  ///< of ..._Alarm_supp, as bits of DPV1_Status_2
@@ -47,6 +51,7 @@ struct GsdAlarms {
   int sequence_count = 0;  ///< Alarm_Sequence_Mode_Count, 0 to 32
 };
 
+/// The data types of ExtUserPrmData. Values of several bytes are sent most significant byte first.
 enum class GsdType : std::uint8_t {
   kBit,
   kBitArea,
