@@ -1,6 +1,6 @@
 # What `cmake --install` installs, in components of the same names as those of find_package(dsdpv1 COMPONENTS ...) (docs/install.md):
-#   core      the chip: dsdpv1::core, dsdpv1::registers; needs nothing
-#   driver    the C drivers: dsdpv1::driver, dsdpv1::driver_spc3; needs nothing
+#   core      the chips: dsdpv1::core, dsdpv1::xgate, dsdpv1::registers; needs nothing
+#   driver    the C drivers: dsdpv1::driver, dsdpv1::driver_spc3, dsdpv1::driver_xgate; needs nothing
 #   bus       segment, masters, monitor, GSD files: dsdpv1::bus
 #   checks    the rules of the user's side: dsdpv1::checks
 #   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus, dsdpv1::systemc_host
@@ -81,9 +81,8 @@ endfunction()
 # dsdpv1_install_headers(COMPONENT folders...): their headers with their paths, folders in them included.
 function(dsdpv1_install_headers component)
   install(DIRECTORY ${ARGN} DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT ${component}
-          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1*.h" PATTERN "spc3*.h" PATTERN "dsdpv1_regs.svh"
-          PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE
-          PATTERN "xgate" EXCLUDE)  # no installed library has it yet
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1*.h" PATTERN "spc3*.h" PATTERN "xgate*.h" PATTERN "dsdpv1_regs.svh"
+          PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE)
 endfunction()
 
 # dsdpv1_install_former_header(COMPONENT ROOT FORMER NOW): installs at FORMER, the path before 0.2, a header that includes NOW. Will be removed with
@@ -132,12 +131,14 @@ function(dsdpv1_install_package)
 endfunction()
 
 function(dsdpv1_install_core_and_driver)
-  dsdpv1_install_targets(core core dsdpv1_registers dsdpv1_core)
+  dsdpv1_install_targets(core core dsdpv1_registers dsdpv1_core dsdpv1_xgate)
   dsdpv1_install_headers(core model registers)
   dsdpv1_install_pc(core dsdpv1-core "cycle-accurate model of the DSDPV1: the chip" LIBS dsdpv1_core)
-  dsdpv1_install_targets(driver driver dsdpv1_driver dsdpv1_driver_spc3)
+  dsdpv1_install_pc(core dsdpv1-xgate "the XGate-DPS10, a module with a DPV1 slave" LIBS dsdpv1_xgate REQUIRES dsdpv1-core)
+  dsdpv1_install_targets(driver driver dsdpv1_driver dsdpv1_driver_spc3 dsdpv1_driver_xgate)
   dsdpv1_install_headers(driver driver registers)
-  dsdpv1_install_pc(driver dsdpv1-driver "drivers for the DSDPV1 and for the SPC3 family, in C99" LIBS dsdpv1_driver dsdpv1_driver_spc3)
+  dsdpv1_install_pc(driver dsdpv1-driver "drivers for the DSDPV1, the SPC3 family and the XGate-DPS10, in C99"
+                    LIBS dsdpv1_driver dsdpv1_driver_spc3 dsdpv1_driver_xgate)
 endfunction()
 
 # dsdpv1_install_moved_headers(ROOM FORMER [NAME]): installs the headers of ROOM, or the one with this name, also at their former paths.
@@ -288,7 +289,7 @@ endfunction()
 # Builds everything that is installed, without tests: `./run examples`.
 function(dsdpv1_installed_target)
   add_custom_target(dsdpv1_installed)
-  foreach(target core driver bus checks systemc driver_systemc systemc_bus systemc_host recorder_whole bench_whole commands_whole capi dpi vpi modules python pages rtl_libraries firmware)
+  foreach(target core xgate driver driver_spc3 driver_xgate bus checks systemc driver_systemc systemc_bus systemc_host recorder_whole bench_whole commands_whole capi dpi vpi modules python pages rtl_libraries firmware)
     if(TARGET dsdpv1_${target})
       add_dependencies(dsdpv1_installed dsdpv1_${target})
     endif()

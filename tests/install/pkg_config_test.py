@@ -16,6 +16,7 @@ PROGRAMS = [
     (["dsdpv1-systemc-bus"], "tests/systemc_bus/consumer.cpp", []),
     (["dsdpv1-systemc"], "examples/tlm_platform.cpp", []),
     (["dsdpv1-capi", "dsdpv1-driver"], "examples/c_api.c", ["scenarios/dsdpv1.gsd"]),
+    (["dsdpv1-xgate", "dsdpv1-driver", "dsdpv1-bus"], "examples/xgate_host.cpp", []),
     (["dsdpv1-commands"], "examples/own_slave/own_slave.cpp", ["run", "examples/own_slave/own_slave.yaml"]),
 ]
 

@@ -15,7 +15,7 @@ set(BUILD_SHARED_LIBS ON)
 add_subdirectory(%s dsdpv1)
 """
 COMPONENTS = ["checks", "dsdpv1"]  # the latter is the former name of core, driver, bus and systemc
-LIBRARIES = ["core", "driver", "driver_spc3", "bus", "pins", "check_recorder", "checks", "systemc", "driver_systemc", "systemc_bus"]
+LIBRARIES = ["core", "xgate", "driver", "driver_spc3", "driver_xgate", "bus", "pins", "check_recorder", "checks", "systemc", "driver_systemc", "systemc_bus"]
 ARCHIVES = ["systemc_host", "host", "output", "socket"]  # always archives
 KEPT = ["CMAKE_BUILD_TYPE", "CMAKE_C_COMPILER", "CMAKE_CXX_COMPILER", "CMAKE_C_FLAGS", "CMAKE_CXX_FLAGS", "CMAKE_UNITY_BUILD",
         "CMAKE_UNITY_BUILD_BATCH_SIZE"]
