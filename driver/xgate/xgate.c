@@ -133,6 +133,7 @@ static void serve(xgate_module* module, uint8_t id, const uint8_t* pdu, uint8_t 
   answer->id = id;
   if (application->request != NULL) {
     answer->length = application->request(application->context, pdu, length, answer->bytes);
+    if (answer->length == 0u) --module->queued;
     return;
   }
   answer->bytes[0] = (uint8_t)(pdu[0] | kNegative);
@@ -140,6 +141,10 @@ static void serve(xgate_module* module, uint8_t id, const uint8_t* pdu, uint8_t 
   answer->bytes[2] = kInvalidIndex;
   answer->bytes[3] = 0u;
   answer->length = kPduHead;
+}
+
+uint8_t xgate_request_id(const xgate_module* module) {
+  return ((module == NULL) || (module->queued == 0u)) ? 0u : module->queue[module->queued - 1u].id;
 }
 
 /* The requests of an answer 30, oldest first. One that is damaged or does not fit is shown again (X24). */
@@ -200,12 +205,13 @@ xgate_result xgate_exchange(xgate_module* module, const uint8_t* inputs, uint8_t
     serve_all(module);
     while ((result == XGATE_OK) && (module->queued > 0u)) result = give_answers(module);
   }
-  /* 21 clears the module's flag. It goes before 22: newer parameters set it again. */
-  if ((result == XGATE_OK) && (module->answer.command == kExchangeKnown)) {
+  /* 21 clears the module's flag. It goes before 22: newer parameters set it again. While requests stay open 20 brings
+     no outputs, 21 does; whether there are new parameters is not to be seen then (X24). */
+  if ((result == XGATE_OK) && ((module->answer.command == kExchangeKnown) || (module->answer.command == kRequests))) {
     module->parameters_due = true;
     result = xgate_command(module, kExchangeKnown, inputs, size);
   }
-  if ((result != XGATE_OK) || (module->answer.command == kRequests)) return result;
+  if (result != XGATE_OK) return result;
   copy_outputs(&module->answer, outputs, capacity, length);
   return module->parameters_due ? read_parameters(module) : XGATE_OK;
 }

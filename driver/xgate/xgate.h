@@ -50,7 +50,8 @@ typedef struct xgate_application {
   void* context;
   /* New user parameters of the master, DPV1's three bytes first. */
   void (*parameters)(void* context, const uint8_t* bytes, uint8_t length);
-  /* A request of C1 or C2: fills `answer` (at most XGATE_MAX_PDU bytes) and returns its length. */
+  /* A request of C1 or C2: fills `answer` (at most XGATE_MAX_PDU bytes) and returns its length; 0: not yet, the next
+     exchange asks again. */
   uint8_t (*request)(void* context, const uint8_t* pdu, uint8_t length, uint8_t* answer);
   /* The master has acknowledged an alarm. */
   void (*acknowledged)(void* context);
@@ -110,6 +111,9 @@ xgate_result xgate_initialise(xgate_module* module, const xgate_config* config);
    application, its answers to the module. `length`: bytes of outputs. */
 xgate_result xgate_exchange(xgate_module* module, const uint8_t* inputs, uint8_t size, uint8_t* outputs,
                             uint8_t capacity, uint8_t* length);
+
+/* In the application's `request`: the id of the mailbox, by default 1 of C1, 2 of C2 (X7). */
+uint8_t xgate_request_id(const xgate_module* module);
 
 /* Command 31: an alarm or status block, then blocks of channels (4.4.3, 4.4.4); no bytes: no diagnosis. */
 xgate_result xgate_diagnose(xgate_module* module, const uint8_t* blocks, uint8_t length);

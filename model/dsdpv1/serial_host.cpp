@@ -70,16 +70,18 @@ Tick half_bits(const UartTiming& timing, std::int64_t count) {
 }
 
 Tick UartTelegram::tick_of(std::size_t bit) const {
-  const std::size_t behind = (bit - (bit == kBits * bytes_.size() ? 1 : 0)) / kBits;  // the end belongs to the last one
+  const std::size_t bits = timing_.bits();
+  const std::size_t behind = (bit - (bit == bits * bytes_.size() ? 1 : 0)) / bits;  // the end belongs to the last one
   return half_bits(timing_, 2 * static_cast<std::int64_t>(bit)) + static_cast<Tick>(behind) * timing_.gap +
          (behind >= faults_.pause_before.value_or(bytes_.size()) ? faults_.pause : 0);
 }
 
 bool UartTelegram::level_of(std::size_t bit) const {
   constexpr std::size_t kParity = 9;
-  const std::size_t number = bit / kBits, place = bit % kBits;
+  const std::size_t number = bit / timing_.bits(), place = bit % timing_.bits();
   if (number >= bytes_.size()) return true;
   if (number == faults_.break_at) return false;
+  if (!timing_.parity && place == kParity) return true;
   const bool right = (profibus::frame_of(bytes_[number]) >> place & 1U) != 0;
   return right != (place == kParity && faults_.wrong_parity == number);
 }

@@ -64,6 +64,9 @@ class SpiFrame {
 struct UartTiming {
   std::int64_t baud = 1'843'200;  ///< bit/s; the k-th bit of a character ends k/baud after its begin, rounded to a tick
   Tick gap = 0;                   ///< idle between two characters of a telegram
+  bool parity = true;             ///< even; without it a character has ten bits
+
+  std::size_t bits() const { return parity ? 11 : 10; }
 };
 
 /// Faults to inject into a telegram on RXD. Numbers count characters from 0.
@@ -77,7 +80,7 @@ struct UartFaults {
 /// `count` half bits in ticks, rounded once.
 Tick half_bits(const UartTiming& timing, std::int64_t count);
 
-/// Characters on RXD: start, 8 bits LSB first, even parity, stop (UA1).
+/// Characters on RXD: start, 8 bits LSB first, even parity unless there is none, stop (UA1).
 class UartTelegram {
  public:
   UartTelegram() = default;  ///< no edges
@@ -85,13 +88,12 @@ class UartTelegram {
       : timing_(timing), bytes_(std::move(bytes)), faults_(faults) {}
 
   /// One for each bit, even if RXD does not change, and one for the end of the last.
-  std::size_t size() const { return bytes_.empty() ? 0 : kBits * bytes_.size() + 1; }
+  std::size_t size() const { return bytes_.empty() ? 0 : timing_.bits() * bytes_.size() + 1; }
   SerialEdge operator[](std::size_t number) const { return {tick_of(number), Pin::kRxd, level_of(number)}; }
   /// To the end of the last stop bit.
   Tick duration() const { return size() == 0 ? 0 : tick_of(size() - 1); }
 
  private:
-  static constexpr std::size_t kBits = 11;
   Tick tick_of(std::size_t bit) const;
   bool level_of(std::size_t bit) const;
 

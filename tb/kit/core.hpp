@@ -18,6 +18,8 @@ struct Core final : Chip {
   Level level(PinNumber pin) const override { return levels[pin]; }
   profibus::UserSide& user() override { return user_side; }
   const profibus::DpSlave& slave() const override { return station.slave(); }
+  profibus::Station& dp_station() override { return station; }
+  profibus::EventLog& events() override { return log; }
   void say(Cycle now_at, const profibus::ReasonRow& reason, unsigned a, unsigned b, unsigned c) override {
     log.at_cycle(now_at, profibus::Reason(reason), a, b, c);
   }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -71,6 +70,7 @@ Kind::Kind(Parts parts) : parts_(std::move(parts)) {
   check(parts_);
   pins_ = table_of(parts_);
   board_pins_ = {kReset, kRxd, kTxd, kRts, parts_.interrupt.value_or(kNoPin)};
+  for (const PinNumber pin : parts_.told) board_pins_.told |= tb::mask_of(pin);
   reasons_ = reasons_of(parts_);
   codes_ = codes_of(parts_);
 }
@@ -100,11 +100,17 @@ using tb::scenario::ActionKind;
 bool is_served(ActionKind what, const Parts& parts) {
   if (!tb::scenario::is_for_user_cpu(what) || what == ActionKind::kOfChip) return true;
   if (what == ActionKind::kSetDiagnosis) return parts.diagnosis;
+  if (what == ActionKind::kAnswerAcyclic) return parts.acyclic;
   return what == ActionKind::kSetInputs || what == ActionKind::kReinitialise || what == ActionKind::kPauseUser;
 }
 
-constexpr std::initializer_list<const char*> kNotServed = {
-    "judge_prm", "judge_cfg", "judge_delay", "judge_in_handler", "overwrite_inputs", "retry_delay", "dpv1"};
+bool is_served(const std::string& key, const Parts& parts) {
+  if (key == "dpv1") return parts.acyclic;
+  for (const char* not_served :
+       {"judge_prm", "judge_cfg", "judge_delay", "judge_in_handler", "overwrite_inputs", "retry_delay"})
+    if (key == not_served) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -118,11 +124,11 @@ void Kind::check_slave(const tb::scenario::Scenario& scenario, const tb::scenari
   check_bytes("max_inputs", static_cast<std::size_t>(slave.init.max_inputs.value_or(0)), slave.init.line);
   check_bytes("max_outputs", static_cast<std::size_t>(slave.init.max_outputs.value_or(0)), slave.init.line);
   for (const tb::keys::Given& key : slave.user_cpu.given)
-    if (std::find(kNotServed.begin(), kNotServed.end(), key.key) != kNotServed.end())
+    if (!is_served(key.key, parts_))
       throw tb::InputError(scenario.file, key.line,
                            fmt::format("user_cpu has {}, but the program of {} does not serve it, expected behaviour, "
-                                       "constant, cycle, start_delay and keys of its own",
-                                       key.key, name()));
+                                       "constant, cycle, start_delay{} and keys of its own",
+                                       key.key, name(), parts_.acyclic ? ", dpv1" : ""));
   if (slave.user_cpu.behaviour == tb::scenario::Behaviour::kIdle)
     throw tb::InputError(scenario.file, slave.user_cpu.line,
                          fmt::format("behaviour is idle, but the program of {} always exchanges, expected loop_back, "
@@ -132,10 +138,12 @@ void Kind::check_slave(const tb::scenario::Scenario& scenario, const tb::scenari
     if (action.slave.text != slave.name.text) continue;
     if (action.what == ActionKind::kSetInputs) check_bytes("set_inputs", action.bytes.size(), action.line);
     if (!is_served(action.what, parts_))
-      throw tb::InputError(scenario.file, action.line,
-                           fmt::format("{}, but the program of {} does not serve it, expected set_inputs, {}pause_user "
-                                       "or reinitialise",
-                                       action.word, name(), parts_.diagnosis ? "set_diagnosis, " : ""));
+      throw tb::InputError(
+          scenario.file, action.line,
+          fmt::format("{}, but the program of {} does not serve it, expected set_inputs, {}{}pause_user "
+                      "or reinitialise",
+                      action.word, name(), parts_.diagnosis ? "set_diagnosis, " : "",
+                      parts_.acyclic ? "answer_acyclic, " : ""));
   }
 }
 
@@ -151,10 +159,11 @@ std::unique_ptr<tb::PinChip> Kind::make_pin_chip(const tb::ChipRequest& request,
 }
 
 tb::MakeUser Kind::make_user(const tb::UserRequest& request) const {
-  return [this, &user = request.slave.user_cpu, &pins = static_cast<OwnPins&>(*request.chip.user_side())](
-             const user_cpu::StationConfig& station, Tick start) {
-    return std::make_unique<Program>(parts_, pins, *user.own, tb::program_options(user, station), start);
-  };
+  return
+      [this, &user = request.slave.user_cpu, chip = request.slave.chip,
+       &pins = static_cast<OwnPins&>(*request.chip.user_side())](const user_cpu::StationConfig& station, Tick start) {
+        return std::make_unique<Program>(parts_, pins, *user.own, *chip, tb::program_options(user, station), start);
+      };
 }
 
 }  // namespace dsdpv1::kit

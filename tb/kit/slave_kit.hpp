@@ -68,6 +68,9 @@ class Chip {
   virtual profibus::UserSide& user() = 0;
   /// DP state, address, master.
   virtual const profibus::DpSlave& slave() const = 0;
+  /// For a port that is firmware beside the station: the station itself, and the log of its events.
+  virtual profibus::Station& dp_station() = 0;
+  virtual profibus::EventLog& events() = 0;
 
   /// An event for log, script and result: a row of Parts::reasons, with the numbers of its text (16 bits each).
   virtual void say(Cycle now, const profibus::ReasonRow& reason, unsigned a = 0, unsigned b = 0, unsigned c = 0) = 0;
@@ -110,8 +113,9 @@ class Cpu {
   virtual const user_cpu::StationConfig& station() const = 0;
   /// The scenario's `cycle`: from the begin of one exchange with the chip to the next, > 0.
   virtual Tick period() const = 0;
-  /// The scenario's keys under `user_cpu` of this kind (ChipKind::make_user_settings).
+  /// The scenario's keys under `user_cpu` of this kind (ChipKind::make_user_settings), and those under `chip`.
   virtual const tb::OwnSettings& settings() const = 0;
+  virtual const tb::OwnSettings& chip_settings() const = 0;
 
   virtual Tick now() const = 0;
   /// Returns at `at`, at once if that has passed.
@@ -120,6 +124,11 @@ class Cpu {
   /// Waits for Parts::interrupt to leave its level of rest, at most until `until`; false: it did not. A change since
   /// the last call counts.
   virtual bool wait_interrupt(Tick until) = 0;
+  /// `hear` is called at each change of an output of Parts::told, in order of time, whatever the program does; null:
+  /// not any more.
+  virtual void on_change(std::function<void(Tick at, PinNumber pin, Level level)> hear) = 0;
+  /// Waits for the next of these changes, at most until `until`.
+  virtual void wait_change(Tick until) = 0;
 
   /// Sets an input of the chip now.
   virtual void set(PinNumber pin, Level level) = 0;
@@ -130,12 +139,18 @@ class Cpu {
   virtual std::vector<std::uint8_t> inputs(std::size_t length) = 0;
   /// The diagnosis to hand over, once for each order of the script; with Parts::diagnosis.
   virtual std::optional<Diagnosis> diagnosis() = 0;
+  /// With Parts::acyclic: the scenario's objects for C1 and C2, and how a script wants them answered now.
+  virtual const user_cpu::AcyclicOptions& acyclic() const = 0;
 
   // --- For results, conditions and expectations.
   /// The program has fetched these outputs.
   virtual void received(std::vector<std::uint8_t> outputs) = 0;
   /// The program has given inputs to the chip: one exchange more.
   virtual void written() = 0;
+  /// The chip has taken its initialisation.
+  virtual void initialised() = 0;
+  /// A step of the program has failed; `code` is one of ChipKind::codes.
+  virtual void failed(const std::string& code, const std::string& text) = 0;
 };
 
 /// The parts of a kind of chip.
@@ -144,10 +159,12 @@ struct Parts {
   const char* title = nullptr;  ///< in reports
   std::vector<Pin> pins = {};
   std::optional<PinNumber> interrupt = {};  ///< an output, for Cpu::wait_interrupt
+  std::vector<PinNumber> told = {};         ///< outputs, for Cpu::on_change and wait_change
   profibus::Capacities capacities = {};     ///< bytes that the chip holds of each block
   profibus::ReasonTable reasons = {};       ///< of its port, besides those of every slave
   profibus::Words words = {};               ///< in the texts of every slave's reasons
   bool diagnosis = false;                   ///< its program hands over diagnoses; else a script that has one is refused
+  bool acyclic = false;                     ///< it answers C1 and C2; else `dpv1` under `user_cpu` is refused
   std::function<std::unique_ptr<UserPort>(Chip&)> port = {};
   std::function<void(Cpu&)> program = {};
 };

@@ -19,15 +19,16 @@ void OnSegment::set(Tick at, PinNumber pin, Level level) {
   in_users_turn_ = false;
 }
 
-Program::Program(const Parts& parts, OwnPins& pins, const tb::OwnSettings& settings,
+Program::Program(const Parts& parts, OwnPins& pins, const tb::OwnSettings& settings, const tb::OwnSettings& chip,
                  const user_cpu::ProgramOptions& options, Tick start)
-    : parts_(parts), pins_(pins), settings_(settings), options_(options) {
+    : parts_(parts), pins_(pins), settings_(settings), chip_settings_(chip), options_(options) {
+  pins_.on_change = [this](Tick at, PinNumber pin, Level level) { pin_changed(at, pin, level); };
   begin(start + options.start_delay);
 }
 
 void Program::begin(Tick at) {
   due_ = at;
-  waits_interrupt_ = false;
+  waits_interrupt_ = waits_change_ = false;
   interrupt_at_ = bus::kNever;
   fiber_ = std::make_unique<user_cpu::Fiber>([this] { parts_.program(*this); });
 }
@@ -49,6 +50,14 @@ void Program::interrupt_changed(Tick at, bool level) {
   if ((level ? 1 : 0) == rest) return;
   interrupt_at_ = std::min(interrupt_at_, at);
   announce();
+}
+
+void Program::pin_changed(Tick at, PinNumber pin, Level level) {
+  if (hear_) hear_(at, pin, level);
+  if (!waits_change_ || at >= due_) return;
+  due_ = at;
+  announce();
+  if (on_plan) on_plan();
 }
 
 void Program::command(Tick now, const user_cpu::Command& command) {
@@ -93,6 +102,14 @@ bool Program::wait_interrupt(Tick until) {
   return true;
 }
 
+void Program::wait_change(Tick until) {
+  if (until <= now_) return;
+  waits_change_ = true;
+  due_ = until;
+  fiber_->suspend();
+  waits_change_ = false;
+}
+
 std::vector<std::uint8_t> Program::inputs(std::size_t length) {
   std::vector<std::uint8_t> bytes = inputs_.next(length, outputs_, length);
   bytes.resize(length);
@@ -107,6 +124,11 @@ void Program::received(std::vector<std::uint8_t> outputs) {
 void Program::written() {
   ++counters_.program->inputs_written;
   ++counters_.program->exchanges;
+}
+
+void Program::failed(const std::string& code, const std::string& text) {
+  ++counters_.program->driver_errors;
+  if (on_error) on_error({now_, code, text});
 }
 
 }  // namespace dsdpv1::kit

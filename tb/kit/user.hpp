@@ -1,5 +1,6 @@
 #pragma once
 // The chip of a kind of the kit on the segment, and the user CPU at its pins.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,6 +16,8 @@ class OwnPins : public user_cpu::UserSide {
  public:
   virtual void set(Tick at, PinNumber pin, Level level) = 0;
   virtual Level level(PinNumber pin) const = 0;
+  /// Called at each change of Parts::told, also while the chip runs ahead of its user.
+  std::function<void(Tick at, PinNumber pin, Level level)> on_change;
 };
 
 class OnSegment : public tb::PinChip, private OwnPins {
@@ -32,6 +35,9 @@ class OnSegment : public tb::PinChip, private OwnPins {
  private:
   void set(Tick at, PinNumber pin, Level level) override;
   Level level(PinNumber pin) const override { return PinChip::level(pin); }
+  void host_pin_changed(Tick at, PinNumber pin, Level level) override {
+    if (on_change) on_change(at, pin, level);
+  }
 
   const Parts& parts_;
   bool in_users_turn_ = false;
@@ -41,8 +47,9 @@ class OnSegment : public tb::PinChip, private OwnPins {
 class Program : public user_cpu::StationCpu, private Cpu {
  public:
   /// All references must outlive it.
-  Program(const Parts& parts, OwnPins& pins, const tb::OwnSettings& settings, const user_cpu::ProgramOptions& options,
-          Tick start);
+  Program(const Parts& parts, OwnPins& pins, const tb::OwnSettings& settings, const tb::OwnSettings& chip,
+          const user_cpu::ProgramOptions& options, Tick start);
+  ~Program() override { pins_.on_change = nullptr; }
 
   // user_cpu::StationCpu
   Tick next() const override;
@@ -58,20 +65,28 @@ class Program : public user_cpu::StationCpu, private Cpu {
   const user_cpu::StationConfig& station() const override { return options_.station; }
   Tick period() const override { return options_.period; }
   const tb::OwnSettings& settings() const override { return settings_; }
+  const tb::OwnSettings& chip_settings() const override { return chip_settings_; }
   Tick now() const override { return now_; }
   void wait_until(Tick at) override;
   bool wait_interrupt(Tick until) override;
+  void on_change(std::function<void(Tick, PinNumber, Level)> hear) override { hear_ = std::move(hear); }
+  void wait_change(Tick until) override;
   void set(PinNumber pin, Level level) override { pins_.set(now_, pin, level); }
   Level level(PinNumber pin) const override { return pins_.level(pin); }
   std::vector<std::uint8_t> inputs(std::size_t length) override;
   std::optional<Diagnosis> diagnosis() override { return std::exchange(diagnosis_, std::nullopt); }
+  const user_cpu::AcyclicOptions& acyclic() const override { return options_.acyclic; }
   void received(std::vector<std::uint8_t> outputs) override;
   void written() override;
+  void initialised() override { ++counters_.program->initialisations; }
+  void failed(const std::string& code, const std::string& text) override;
 
+  void pin_changed(Tick at, PinNumber pin, Level level);
   void begin(Tick at);
   void carry_out(const user_cpu::command::SetInputs& set) { inputs_.set(set.bytes); }
   void carry_out(const user_cpu::command::SetDiagnosis& set);
   void carry_out(const user_cpu::command::Reinitialise& again);
+  void carry_out(const user_cpu::command::SetAnswering& set) { options_.acyclic.answering = set.answering; }
   void carry_out(const user_cpu::command::Stop&) { stopped_ = true; }
   void carry_out(const user_cpu::command::Resume&) { stopped_ = false; }
   template <class Refused>
@@ -80,6 +95,7 @@ class Program : public user_cpu::StationCpu, private Cpu {
   const Parts& parts_;
   OwnPins& pins_;
   const tb::OwnSettings& settings_;
+  const tb::OwnSettings& chip_settings_;
   user_cpu::ProgramOptions options_;
   user_cpu::ProgramInputs inputs_{options_};
   user_cpu::UserCounters counters_;
@@ -87,7 +103,8 @@ class Program : public user_cpu::StationCpu, private Cpu {
   std::optional<Diagnosis> diagnosis_;
   Tick now_ = 0, due_ = 0;
   Tick interrupt_at_ = bus::kNever;  ///< the pin has left its level of rest, which wait_interrupt has not told yet
-  bool waits_interrupt_ = false, stopped_ = false;
+  bool waits_interrupt_ = false, waits_change_ = false, stopped_ = false;
+  std::function<void(Tick, PinNumber, Level)> hear_;
   std::unique_ptr<user_cpu::Fiber> fiber_;
 };
 

@@ -56,7 +56,7 @@ TEST(CapiError, WhatThereIsNotIsNotFound) {
   options.kind = "spc9";
   dpsim_chip* made = nullptr;
   EXPECT_FAILS(dpsim_chip_create(&options, &made), DPSIM_ERR_NOT_FOUND,
-               "dpsim_chip_create: kind is \"spc9\", expected dsdpv1, dsdpv1_r, dsdpv1_rsu, apc3, spc3, vpc3");
+               "dpsim_chip_create: kind is \"spc9\", expected dsdpv1, dsdpv1_r, dsdpv1_rsu, apc3, spc3, vpc3, xgate");
   EXPECT_FAILS(dpsim_chip_set(chip.get(), 0, 18, 1), DPSIM_ERR_NOT_FOUND,
                "dpsim_chip_set: pin is 18, expected 0 to 17");
   uint16_t pin = 0;

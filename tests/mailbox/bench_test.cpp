@@ -141,7 +141,7 @@ TEST_F(MailboxOnTheBench, NoConfigurationIsLongerThanItHolds) {
 TEST_F(MailboxOnTheBench, AKindThatNobodyKnowsIsRefusedWithTheNamesOfThoseThatThereAre) {
   EXPECT_EQ(error_of(with("{kind: mailbix}", "{}")),
             "x.yaml:4: kind is \"mailbix\" (did you mean mailbox?), expected dsdpv1, dsdpv1_r, dsdpv1_rsu, "
-            "apc3, spc3, vpc3, mailbox");
+            "apc3, spc3, vpc3, xgate, mailbox");
 }
 
 TEST_F(MailboxOnTheBench, TheCommandLineReachesItsKeys) {

@@ -73,6 +73,7 @@ inline std::unique_ptr<user_cpu::StationCpu> make_user(tb::PinChip& chip, const 
   tb::scenario::Slave& slave = slaves.emplace_back();
   slave.user_cpu.own = own;
   slave.user_cpu.cycle = config.period;
+  slave.chip = kind().make_chip_settings();
   tb::scenario::Scenario scenario;
   std::set<const void*> left_out;
   user_cpu::StationConfig station;

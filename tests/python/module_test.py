@@ -132,7 +132,7 @@ class ErrorsTest(unittest.TestCase):
         chip.advance(100)
         self.refuses(dsdpv1.TimeError, "tick is 99, which is before the present tick 100", chip.advance, 99)
         self.refuses(dsdpv1.StateError, "", lambda: chip.station)
-        self.refuses(dsdpv1.NotFoundError, 'kind is "foo", expected dsdpv1, dsdpv1_r, dsdpv1_rsu, apc3, spc3, vpc3', dsdpv1.Chip, "foo")
+        self.refuses(dsdpv1.NotFoundError, 'kind is "foo", expected dsdpv1, dsdpv1_r, dsdpv1_rsu, apc3, spc3, vpc3, xgate', dsdpv1.Chip, "foo")
         self.refuses(dsdpv1.NotFoundError, "speed", dsdpv1.Chip, parameters={"speed": 1})
         self.refuses(dsdpv1.InputError, "nix.yaml", dsdpv1.run, "nix.yaml")
         self.refuses(dsdpv1.InputError, "x.yaml:2: .*13M", dsdpv1.run, "x.yaml", text="name: x\nbaud: 13M\n")

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+extern "C" {
+#include "driver/dsdpv1_acyclic_internal.h"
+}
+
 namespace dsdpv1::user_cpu {
 
 static_assert(kMayRead == DSDPV1_MAY_READ && kMayWrite == DSDPV1_MAY_WRITE && kMayTransport == DSDPV1_MAY_TRANSPORT);
@@ -52,6 +56,21 @@ dsdpv1_error AcyclicServer::poll(Tick now) {
   const dsdpv1_error polled = dsdpv1_acyclic_poll(&acyclic_, &result);
   count(result);
   return late == DSDPV1_OK ? polled : late;
+}
+
+/// By the driver's table alone: no device is open.
+std::optional<std::vector<std::uint8_t>> AcyclicServer::answer(unsigned master_class,
+                                                               const std::vector<std::uint8_t>& pdu) {
+  dsdpv1_channel& channel = acyclic_.channels[master_class - 1];
+  acyclic_.table = {table_.data(), table_.size(), options_.im0 ? &im0_ : nullptr};
+  std::copy_n(pdu.begin(), kAcyclicHeader, channel.request);
+  std::copy(pdu.begin() + kAcyclicHeader, pdu.end(), channel.data);
+  channel.state = DSDPV1_CHANNEL_OPEN;
+  dsdpv1_dispatch(&acyclic_, master_class - 1);
+  if (std::exchange(channel.state, DSDPV1_CHANNEL_IDLE) != DSDPV1_CHANNEL_READY) return std::nullopt;
+  std::vector<std::uint8_t> bytes(channel.answer, channel.answer + kAcyclicHeader);
+  bytes.insert(bytes.end(), channel.data, channel.data + channel.answer_length);
+  return bytes;
 }
 
 void AcyclicServer::count(const dsdpv1_acyclic_result& result) {

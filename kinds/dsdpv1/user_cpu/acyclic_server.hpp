@@ -34,6 +34,10 @@ class AcyclicServer {
   /// Fetches and answers waiting requests; `now` starts the delay of those that arrive.
   dsdpv1_error poll(Tick now);
 
+  /// A request of a master of class 1 or 2 as a PDU, for a chip that hands it over whole: the answer, nothing for
+  /// Answering::kNever. At once: the options' delay is not waited for.
+  std::optional<std::vector<std::uint8_t>> answer(unsigned master_class, const std::vector<std::uint8_t>& pdu);
+
   void set_answering(Answering answering) { options_.answering = answering; }
   const AcyclicCounters& counters() const { return counters_; }
   const std::vector<AcyclicObject>& objects() const { return options_.objects; }

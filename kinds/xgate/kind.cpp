@@ -1,0 +1,57 @@
+#include "kinds/xgate/kind.hpp"
+
+#include "kinds/xgate/host_program.hpp"
+#include "kinds/xgate/pins.hpp"
+#include "kinds/xgate/port.hpp"
+#include "kinds/xgate/settings.hpp"
+#include "model/xgate/reasons.hpp"
+
+namespace dsdpv1::xgate {
+namespace {
+
+/// Places of command 04 (4.2).
+profibus::Words words() {
+  profibus::Words words;
+  words.ident = "the ident number of command 04";
+  words.new_block = "INT";
+  return words;
+}
+
+kit::Parts make_parts() {
+  kit::Parts parts;
+  parts.name = "xgate";
+  parts.title = "XGate-DPS10";
+  parts.pins = bench_pins();
+  parts.interrupt = kInt;
+  parts.told = {kHostTxd};
+  parts.capacities = kCapacities;
+  parts.reasons = reasons();
+  parts.words = words();
+  parts.diagnosis = parts.acyclic = true;
+  parts.port = [](kit::Chip& chip) { return std::make_unique<ModulePort>(chip); };
+  parts.program = run_host;
+  return parts;
+}
+
+class XgateKind : public kit::Kind {
+ public:
+  XgateKind() : kit::Kind(make_parts()), codes_(kit::Kind::codes()) { codes_.push_back(program_codes()); }
+
+  const tb::keys::Object& chip_keys() const override { return xgate::chip_keys(); }
+  std::unique_ptr<tb::OwnSettings> make_chip_settings() const override { return std::make_unique<ChipSettings>(); }
+  const tb::keys::Object& user_keys() const override { return xgate::user_keys(); }
+  std::unique_ptr<tb::OwnSettings> make_user_settings() const override { return std::make_unique<UserSettings>(); }
+  const std::vector<tb::CodeTable>& codes() const override { return codes_; }
+
+ private:
+  std::vector<tb::CodeTable> codes_;
+};
+
+}  // namespace
+
+const kit::Kind& kind() {
+  static const XgateKind kind;
+  return kind;
+}
+
+}  // namespace dsdpv1::xgate
