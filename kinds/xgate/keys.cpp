@@ -92,7 +92,8 @@ void add_line(ObjectOf<UserSettings>& o) {
             "The host expects errors as printed (default: as the chip's errors, X3).");
   o.boolean("short_mailboxes", &U::short_mailboxes,
             "The host has mailboxes without special (default: as the chip's mailboxes, X6).");
-  o.integer("repetitions", &U::repetitions, {0, 255}, "", "Number of times that a command without a whole answer is sent again.");
+  o.integer("repetitions", &U::repetitions, {0, 255}, "",
+            "Number of times that a command without a whole answer is sent again.");
   o.integer("answer_ms", &U::answer_ms, {1, 60'000}, "ms", "Longest wait for an answer.");
   o.integer("byte_ms", &U::byte_ms, {1, 60'000}, "ms", "Longest wait for the next byte of an answer.");
   o.time("retry", &U::retry, {1, 10 * bus::kTicksPerSecond}, "Pause before command 04 is given again.");
