@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Bound into dpram (P8, P12). Of the RAM one byte is followed, at any address: its cell is read as it was before the edge, by construction in buffer_ram; the RAMs
-// themselves are free but for it. A read gives what was written last: the user's writes up to the same edge, the chip's before it.
+// Bound into dpram (P8, P12). The proof follows one byte of the RAM, at any address: its cell is read as it was before the edge, by construction in buffer_ram; all other
+// cells are free. A read gives what was written last: the user's writes up to the same edge, the chip's before it.
 wire [10:0] watch = $anyconst;
 reg [7:0] content = 8'd0, expected = 8'd0, ram = 8'd0, ram_read = 8'd0;
 reg watched = 1'b0, ran = 1'b0;

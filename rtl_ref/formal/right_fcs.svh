@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// Bound into telegram_rx (section 7). Of a telegram that is decided, SC and SD4 aside, as its characters were received, the last is ED, the one before it the
-// sum of those before without the header, and each had a right parity and stop bit.
+// Bound into telegram_rx (section 7). A telegram that is decided, SC and SD4 aside, was received with ED as its last character, before it the sum of those
+// before without the header, and each had a right parity and stop bit.
 reg [7:0] sum = 8'd0, sum_1 = 8'd0, sum_2 = 8'd0, last_1 = 8'd0, last_2 = 8'd0;
 reg [1:0] header = 2'd0;
 reg wrong = 1'b1;

@@ -12,6 +12,8 @@ class Failed(Exception):
 
 
 RTL = pathlib.Path(__file__).resolve().parents[1]
+RESETS = RTL / "gates" / "ice40_resets.v"
+SOURCES = (pathlib.Path(__file__).resolve(), RESETS)  # of what own_rtl makes of a netlist
 CELLS = ("generic", "ice40")
 CELLS_MACRO = "NO_ICE40_DEFAULT_ASSIGNMENTS"  # of cells_sim.v: Verilator takes no default of an input
 
@@ -63,16 +65,17 @@ def own_rtl(chip, cells, parameters, folder, twin):
     netlist = (folder / "netlist.v").read_text(encoding="utf-8")
     files = {"gates.sv": top(netlist, parameters), "map.yaml": f"defines: {{{CELLS_MACRO}: 1}}\n{chip_map(parameters)}"}
     if cells == "ice40":
-        files["cells_sim.v"] = unknown_cells()
+        files |= {"cells_sim.v": unknown_cells(), RESETS.name: RESETS.read_text(encoding="utf-8")}
     return {"netlist.v": inverted(netlist, chip) if twin else netlist, **files}
 
 
 def unknown_cells():
-    """The iCE40's simulation models, whose flip-flops begin unknown: those of the device begin with 0, which hides a missing reset."""
+    """The iCE40's simulation models without those of RESETS. Their flip-flops begin unknown: those of the device begin with 0, which hides a missing reset."""
     models = pathlib.Path(shutil.which("yosys")).resolve().parents[1] / "share/yosys/ice40/cells_sim.v"
-    text, found = re.subn(r"^`define SB_DFF_INIT initial Q = 0;$", "`define SB_DFF_INIT", models.read_text(encoding="utf-8"), flags=re.M)
-    if found != 1:
-        raise Failed(f"{models} has no SB_DFF_INIT")
+    text, begins = re.subn(r"^`define SB_DFF_INIT initial Q = 0;$", "`define SB_DFF_INIT", models.read_text(encoding="utf-8"), flags=re.M)
+    text, resets = re.subn(r"^module SB_DFFN?E?[RS] .*?^endmodule$", "", text, flags=re.M | re.S)
+    if (begins, resets) != (1, 8):
+        raise Failed(f"{models} has {begins} SB_DFF_INIT and {resets} flip-flops with asynchronous reset, expected 1 and 8")
     return text
 
 
