@@ -98,7 +98,7 @@ module host_uart (
   assign complete = samples && sample_q == 4'd10;
   assign break_ends = run && state_q == BREAK && rxd;
   always_comb begin
-    state_d = state_q;
+    state_d = state_q >= BREAK ? BREAK : state_q;  // 3: no such state
     if (starts) state_d = RECEIVING;
     else if (glitch || break_ends) state_d = IDLE;
     else if (complete) state_d = rxd ? IDLE : BREAK;

@@ -35,6 +35,16 @@ def states(block, file, edit, **more):
                  bind={file: f"{block}_states", **more.pop("more_binds", {})}, edit=(file, *edit), **more)
 
 
+ALWAYS = "1'b1"
+
+
+def recovers(name, file, legal, event, edit):
+    """An illegal code of a register is left at each edge with this event, whatever else an upset has changed."""
+    folder, block = file.removesuffix(".sv").split("/")
+    return Proof(name=f"{name}_recovers", title=f"{name}: an illegal code is left", top=block, bind={file: "recovers"},
+                 defines=(f"LEGAL={legal}", f"EVENT={event}"), edit=(file, *edit), chip="dsdpv1_rsu" if folder == "dsdpv1_rsu" else "dsdpv1")
+
+
 def serial(name, title, top, bind, **more):
     """For DSDPV1-RSU's serial ports."""
     return Proof(name=name, title=title, top=top, bind={f"dsdpv1_rsu/{block}.sv": properties for block, properties in bind.items()},
@@ -113,7 +123,7 @@ PROOFS = (
             "assign all_sent = state_q == SEND && bit_ends && bit_q == 4'd9")),
     states("telegram_rx", "profibus/telegram_rx.sv",
            ("field_q <= sd_q == SD_SD1 ? FCS : DATA;", "field_q <= field_q + 4'd4;")),
-    states("baud_search", "profibus/baud_search.sv", ("rate_q == RATE_LAST - ", "rate_q == RATE_LAST + 4'd1 - "),
+    states("baud_search", "profibus/baud_search.sv", ("rate_q >= RATE_LAST - ", "rate_q >= RATE_LAST + 4'd1 - "),
            cut_wires=("w:window_of_rate",)),
     states("watchdog", "profibus/watchdog.sv", ("state_d = WD_OFF;", "state_d = state_q + 2'd2;"),
            cut_wires=("w:baud_control",)),
@@ -159,6 +169,30 @@ PROOFS = (
         ("host_commit", ("FLAG: if (spi_i) state_d = CLEAR; else state_d = CHOICE;", "FLAG: if (spi_i) state_d = CLEAR; else state_d = CHOICE | CLEAR;")),
         ("host_reply", ("LENGTH: state_d = no_length ? CRC_HIGH : DATA;", "LENGTH: state_d = no_length ? CRC_HIGH : state + 4'd5;")),
         ("host_uart", ("assign complete = samples && sample_q == 4'd10;", "assign complete = samples && sample_q == 4'd11;")),
+    )),
+    # ---- illegal codes
+    *(recovers(name, file, legal, event, edit) for name, file, legal, event, edit in (
+        ("uart_rx", "profibus/uart_rx.sv", "state_q<=BREAK", ALWAYS, ("state_d = state_q >= BREAK ? BREAK : state_q;", "state_d = state_q;")),
+        ("uart_tx", "profibus/uart_tx.sv", "state_q<=TRAIL&&(!rts_q||state_q>=LEAD)", "!(send_i&&rts_q)", (" || (rts_q && state_q < LEAD));", ");")),
+        ("watchdog", "profibus/watchdog.sv", "state_q<=WD_DP_CONTROL", ALWAYS, ("state_d = dp_control_o ? WD_DP_CONTROL : state_q;", "state_d = state_q;")),
+        ("answer_builder", "profibus/answer_builder.sv", "state_q<=ED", ALWAYS, ("default: state_d = IDLE;", "default: ;")),
+        ("msac1", "profibus/msac1.sv", "state_q<=ANSWERED", ALWAYS, (" || state_q > ANSWERED) state_d", ") state_d")),
+        ("msac2", "profibus/msac2.sv", "owner_q!=2'b11", ALWAYS, (" || owner_q == 2'b11;", ";")),
+        ("dpram_sequencer", SEQUENCER, "state_q<=SEQ_ERRORS", ALWAYS, ("default: state_d = SEQ_RELEASED;", "default: ;")),
+        ("host_commit", "dsdpv1_rsu/host_commit.sv", "state_q<=CLEAR", ALWAYS, ("      default: state_d = IDLE;", "      CLEAR: state_d = IDLE;")),
+        ("host_uart", "dsdpv1_rsu/host_uart.sv", "state_q<=BREAK", ALWAYS, ("state_d = state_q >= BREAK ? BREAK : state_q;", "state_d = state_q;")),
+        ("telegram_rx", "profibus/telegram_rx.sv", "state_q<=COMPLETE", "(due_i&&!busy_i&&!valid_i)",
+         ("state_q <= NONE;  // decided, or a gap", "state_q <= state_q == COMPLETE ? NONE : state_q;")),
+        ("telegram_rx_fields", "profibus/telegram_rx.sv", "(field_q<=ED&&sd_q<=SD_SC)", "(first&&!restart_i&&!risen_i)",
+         ("field_q <= char_i == 8'h68 ? LE : DA;", "field_q <= char_i == 8'h68 ? LE : field_q | DA;")),
+        ("baud_search", "profibus/baud_search.sv", "rate_q<=RATE_LAST", "restart_o", ("rate_d = rate_q >= RATE_LAST", "rate_d = rate_q == RATE_LAST")),
+        ("msac2_channel", "profibus/msac2_channel.sv", "state_q<=C2_ABORTED", "(polls||requests||ends||watch_end||init_i)",
+         ("default: if (polls || requests) state_d = C2_FREE;", "C2_ABORTED: if (polls || requests) state_d = C2_FREE;")),
+        ("dpram_sequencer_item", SEQUENCER, "item_q<=ITEM_NOTHING", "chooses", ("else if (chooses) item_q <= pick;", "else if (chooses) item_q <= item_q | pick;")),
+        ("host_commit_area", "dsdpv1_rsu/host_commit.sv", "area_q<=AREA_C2", "(state_q==CHOICE&&!start_i)", ("area_q <= area;", "area_q <= area_q | area;")),
+        ("host_telegram", "dsdpv1_rsu/host_telegram.sv", "field_q<=CRC_LOW", "(silence_i||begins_i||ends_i)",
+         ("if (begins_i || silence_i) field_d = START;", "if (begins_i) field_d = START;")),
+        ("host_reply", "dsdpv1_rsu/host_reply.sv", "state_q<=CRC_LOW", "(gives_o||ends_i||judgement_i.replies)", ("default: state_d = OFF;", "CRC_LOW: state_d = OFF;")),
     )),
     # ---- telegrams and answers
     Proof("right_fcs", "a decided telegram has the right FCS and ED", "telegram_rx", {"profibus/telegram_rx.sv": "right_fcs"}, engine="induction",

@@ -45,7 +45,7 @@ module baud_search (
   always_comb begin
     rate_d = rate_q;
     if (start_i) rate_d = 4'd0;
-    else if (ends) rate_d = rate_q == RATE_LAST - (`FAULT(61) ? 4'd1 : 4'd0) ? 4'd0 : rate_q + 4'd1;
+    else if (ends) rate_d = rate_q >= RATE_LAST - (`FAULT(61) ? 4'd1 : 4'd0) ? 4'd0 : rate_q + 4'd1;
     window_d = loads_q ? window_of_rate : window_q - 32'd1;
 `ifdef SINGLE_FAULTS
     if (`FAULT(168) && loads_q) window_d = window_of_rate + 32'd1;

@@ -55,7 +55,7 @@ module msac1 (
     state_d = state_b;
     if (asks) state_d = code_i == MSAC_RIGHT ? OPEN : ANSWERED;
     if (polls && state_b == ANSWERED && !`FAULT(66)) state_d = IDLE;
-    if (left_i && !`FAULT(65)) state_d = IDLE;
+    if ((left_i && !`FAULT(65)) || state_q > ANSWERED) state_d = IDLE;  // 3: no such state
   end
 
   logic refused_busy;

@@ -95,7 +95,7 @@ module msac2 (
 
   // ---- whose turn it is
   logic leaves;
-  assign leaves = (owner_q & busy) == 2'b00;
+  assign leaves = (owner_q & busy) == 2'b00 || owner_q == 2'b11;  // never both
   assign owner_d = !leaves ? owner_q : `FAULT(76) && owner_q != 2'b00 ? 2'b00 : busy[0] ? 2'b01 : busy[1] ? 2'b10 : 2'b00;
   assign turn = `FAULT(77) ? accept & busy : owner_d & ~owner_q;
   assign answer = answer_i ? owner_q : 2'b00;

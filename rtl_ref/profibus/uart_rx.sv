@@ -60,7 +60,7 @@ module uart_rx (
   assign gap = `FAULT(3) ? idle_q >= gap_limit : idle_q > gap_limit;
 
   always_comb begin
-    state_d = state_q;
+    state_d = state_q >= BREAK ? BREAK : state_q;  // 3: no such state
     if (starts) state_d = RECEIVING;
     else if (glitch) state_d = IDLE;
     else if (complete) state_d = rxd_i ? IDLE : BREAK;

@@ -63,7 +63,8 @@ module uart_tx (
   assign character_starts = (state_q == LEAD && count_q == 10'd0) || (rises && no_lead) ||
                             (state_q == SEND && bit_ends && bit_q == 4'd10 && index_q != length_i);
   assign all_sent = state_q == SEND && bit_ends && bit_q == 4'd10 && index_q == length_i;
-  assign fall_o = !abort_i && ((all_sent && no_trail) || (state_q == TRAIL && count_q == 10'd0));
+  // No such state after TRAIL, and no PBRTS before LEAD: it ends there and then
+  assign fall_o = !abort_i && ((all_sent && no_trail) || (state_q == TRAIL && count_q == 10'd0) || state_q > TRAIL || (rts_q && state_q < LEAD));
   assign parity = ^data_i ^ `FAULT(44);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -127,6 +128,7 @@ module uart_tx (
 
       if (fall_o) begin
         state_q <= IDLE;
+        txd_q <= 1'b1;
         rts_q <= 1'b0;
       end
     end

@@ -39,8 +39,8 @@ module watchdog (
 
   assign ended = last_q && !commit_dp_i && !commit_baud_i && !stop_i;
   assign baud_end_o = state_q == WD_BAUD_CONTROL && ended;
-  assign dp_end_o = state_q == WD_DP_CONTROL && ended;
-  assign dp_control_o = state_q == WD_DP_CONTROL;
+  assign dp_end_o = dp_control_o && ended;
+  assign dp_control_o = state_q >= WD_DP_CONTROL;  // 3: no such state
   assign baud_control = baud_control_ms_i * 32'd48000 - 32'd2;
   assign dp_base = base_1ms_i && !`FAULT(15) ? BASE_1MS : BASE_10MS;
 
@@ -52,7 +52,7 @@ module watchdog (
   // In the order of the cycle: commit, end, telegram.
   logic dp_state;
   always_comb begin
-    state_d = state_q;
+    state_d = dp_control_o ? WD_DP_CONTROL : state_q;
     load_dp = 1'b0;
     load_baud = 1'b0;
     if (state_q != WD_OFF) begin
