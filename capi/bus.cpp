@@ -1,6 +1,7 @@
 #include "capi/bus.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "capi/chip.hpp"
 #include "capi/master.hpp"
@@ -162,8 +163,8 @@ dpsim_status dpsim_bus_add_chip(dpsim_bus* bus, const dpsim_chip_options* option
         check_station_count(*bus);
         const dpsim_chip_options given = capi::options_of(options, "options");
         const capi::Kind& kind = capi::kind_of(given.kind);
-        const auto plan = capi::plan_of(given, kind, "chip" + std::to_string(bus->next_station()));
-        bus->chips.push_back(std::make_unique<dpsim_chip>(kind, plan, *bus));
+        auto plan = capi::plan_of(given, kind, "chip" + std::to_string(bus->next_station()));
+        bus->chips.push_back(std::make_unique<dpsim_chip>(kind, std::move(plan), *bus));
         *chip = bus->chips.back().get();
       });
 }

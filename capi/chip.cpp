@@ -1,6 +1,7 @@
 #include "capi/chip.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bus/wire/character_run.hpp"
 #include "capi/bus.hpp"
@@ -24,6 +25,8 @@ ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std:
   plan.settings = kind.chip.make_chip_settings();
   plan.engine = options.engine == DPSIM_ENGINE_STEP ? tb::Engine::kStep : tb::Engine::kSkip;
   set_parameters(options.parameters, options.parameter_count, kind, *plan.settings);
+  for (std::size_t i = 0; i < options.parameter_count; ++i)
+    plan.parameters.emplace_back(options.parameters[i].name, options.parameters[i].value);
   return plan;
 }
 
@@ -106,13 +109,22 @@ dpsim_chip_status status_of(const tb::ChipStatus& own) {
 
 }  // namespace
 
-dpsim_chip::dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan)
-    : dpsim_chip(its_kind, nullptr, its_kind.chip.make_device(plan.request())) {}
+dpsim_chip::dpsim_chip(const capi::Kind& its_kind, capi::ChipPlan plan)
+    : dpsim_chip(its_kind, nullptr, make(its_kind, std::move(plan), nullptr)) {}
 
-dpsim_chip::dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan, dpsim_bus& its_bus)
-    : dpsim_chip(its_kind, &its_bus, std::make_unique<capi::BusDevice>(its_kind, plan, its_bus)) {}
+dpsim_chip::dpsim_chip(const capi::Kind& its_kind, capi::ChipPlan plan, dpsim_bus& its_bus)
+    : dpsim_chip(its_kind, &its_bus, make(its_kind, std::move(plan), &its_bus)) {}
 
-dpsim_chip::dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, std::unique_ptr<tb::PinDevice> device)
+dpsim_chip::Made dpsim_chip::make(const capi::Kind& kind, capi::ChipPlan plan, dpsim_bus* bus) {
+  Made made{std::make_unique<const capi::ChipPlan>(std::move(plan)), nullptr};
+  if (bus == nullptr)
+    made.device = kind.chip.make_device(made.plan->request());
+  else
+    made.device = std::make_unique<capi::BusDevice>(kind, *made.plan, *bus);
+  return made;
+}
+
+dpsim_chip::dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, Made made)
     : kind(its_kind),
       bus(its_bus),
       station(its_bus == nullptr ? 0 : static_cast<std::uint16_t>(its_bus->next_station() - 1)),
@@ -120,7 +132,8 @@ dpsim_chip::dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, std::uniq
       changes(clock),
       events(its_kind, station, clock),
       levels_(levels_of(its_kind)),
-      device_(std::move(device)) {
+      plan_(std::move(made.plan)),
+      device_(std::move(made.device)) {
   told_.station = station;
   device_->on_event(
       {[](void* self, const profibus::Event& event) { static_cast<dpsim_chip*>(self)->events.add(event); }, this});
@@ -130,7 +143,45 @@ void dpsim_chip::watch(tb::PinMask pins) {
   watched_ = pins;
   const bool directly = bus == nullptr && changes.are_told();
   sink_ = {directly ? tell : keep, this};
-  device_->watch(sink_, pins);
+  watch_device();
+}
+
+void dpsim_chip::watch_device() {
+  if (uart_)
+    device_->watch({hear_txd, this}, watched_ | tb::mask_of(uart_->txd()));
+  else
+    device_->watch(sink_, watched_);
+}
+
+void dpsim_chip::hear_txd(void* self, Tick at, PinNumber pin, Level level) {
+  auto* own = static_cast<dpsim_chip*>(self);
+  if (pin == own->uart_->txd()) own->uart_->txd_changed(at, level != 0);
+  if ((own->watched_ & tb::mask_of(pin)) != 0) own->sink_.call(own->sink_.self, at, pin, level);
+}
+
+void dpsim_chip::open_uart(PinNumber txd, const dsdpv1::UartTiming& timing) {
+  if (uart_) return uart_->set_rate(timing, clock.now);
+  uart_ = std::make_unique<capi::UserUart>(txd, timing);
+  watch_device();
+}
+
+capi::UserUart& dpsim_chip::uart() const {
+  if (!uart_) fail(DPSIM_ERR_STATE, "the UART is not open, call dpsim_chip_uart_open before");
+  return *uart_;
+}
+
+void dpsim_chip::resume() {
+  clock.now = device_->now();
+  changes.forget();
+  if (uart_) uart_->restart(clock.now);
+}
+
+std::int64_t dpsim_chip::parameter(const std::string& name) const {
+  for (const auto& [given, value] : plan_->parameters)
+    if (given == name) return value;
+  for (const capi::Parameter& each : kind.parameters)
+    if (each.name == name) return each.default_value;
+  return 0;
 }
 
 // Passes a change from the core directly to the caller's function; this is all that the library adds to a change.
@@ -410,8 +461,7 @@ dpsim_status dpsim_chip_restore(dpsim_chip* chip, const uint8_t* bytes, size_t s
         capi::need_outside(chip->clock);
         if (chip->bus != nullptr) refuse_state("restored");
         restore(*chip, bytes, size);
-        chip->clock.now = chip->device().now();
-        chip->changes.forget();
+        chip->resume();
       });
 }
 

@@ -10,6 +10,7 @@
 #include "capi/clock.hpp"
 #include "capi/kind.hpp"
 #include "capi/names.hpp"
+#include "capi/serial.hpp"
 #include "model/profibus/event.hpp"
 #include "tb/chip/pin_device.hpp"
 
@@ -47,9 +48,9 @@ struct dpsim_chip {
   static constexpr Tick kNotHeard = -1;
 
   /// Without a bus: only the core.
-  dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan);
+  dpsim_chip(const capi::Kind& its_kind, capi::ChipPlan plan);
   /// The next station of a bus, with the caller as its user.
-  dpsim_chip(const capi::Kind& its_kind, const capi::ChipPlan& plan, dpsim_bus& its_bus);
+  dpsim_chip(const capi::Kind& its_kind, capi::ChipPlan plan, dpsim_bus& its_bus);
   dpsim_chip(const dpsim_chip&) = delete;
   dpsim_chip& operator=(const dpsim_chip&) = delete;
 
@@ -84,6 +85,14 @@ struct dpsim_chip {
     clock.now = at;
   }
 
+  /// The value of a parameter, with which the chip was made.
+  std::int64_t parameter(const std::string& name) const;
+  void open_uart(PinNumber txd, const dsdpv1::UartTiming& timing);
+  /// Throws before open_uart.
+  capi::UserUart& uart() const;
+  /// After the device has been restored.
+  void resume();
+
   const capi::Kind& kind;
   dpsim_bus* const bus;  ///< null: alone
   const std::uint16_t station;
@@ -102,16 +111,25 @@ struct dpsim_chip {
     std::uint16_t count = 0;  ///< from `low` on; 0: it cannot be set
     bool has(Level level) const { return static_cast<std::uint16_t>(level - low) < count; }
   };
-  dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, std::unique_ptr<tb::PinDevice> device);
+  struct Made {
+    std::unique_ptr<const capi::ChipPlan> plan;  ///< whose settings the device may refer to
+    std::unique_ptr<tb::PinDevice> device;
+  };
+  static Made make(const capi::Kind& kind, capi::ChipPlan plan, dpsim_bus* bus);
+  dpsim_chip(const capi::Kind& its_kind, dpsim_bus* its_bus, Made made);
   std::array<Levels, tb::kMostPins> levels_of(const capi::Kind& kind) const;
   [[noreturn]] void refuse(std::uint16_t number, Level level) const;
   void set_watched(Tick at, PinNumber pin, Level level);
   Level heard_level() const;
   static void tell(void* self, Tick at, PinNumber pin, Level level);
   static void keep(void* self, Tick at, PinNumber pin, Level level);
+  static void hear_txd(void* self, Tick at, PinNumber pin, Level level);
+  void watch_device();
 
   std::array<Levels, tb::kMostPins> levels_;  ///< by pin
+  const std::unique_ptr<const capi::ChipPlan> plan_;
   const std::unique_ptr<tb::PinDevice> device_;
+  std::unique_ptr<capi::UserUart> uart_;
   tb::PinMask watched_ = 0;
   tb::PinSink sink_;
   dpsim_change told_{};

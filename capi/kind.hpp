@@ -3,6 +3,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capi/names.hpp"
@@ -17,6 +18,7 @@ struct ChipPlan {
   std::string name;
   std::unique_ptr<tb::OwnSettings> settings;  ///< from ChipKind::make_chip_settings
   tb::Engine engine = tb::Engine::kSkip;
+  std::vector<std::pair<std::string, std::int64_t>> parameters = {};  ///< those that `settings` was given
 
   /// Valid as long as the plan.
   tb::ChipRequest request() const { return {name, *settings, engine}; }

@@ -6,6 +6,7 @@
 
 #include "capi/error.hpp"
 #include "capi/kind.hpp"
+#include "io/input/units.hpp"
 #include "io/keys/keys.hpp"
 
 namespace dsdpv1::capi {
@@ -31,6 +32,7 @@ std::int64_t place_of(const std::string& word, const Field& field) {
 }
 
 std::string text_of(std::int64_t value, const Field& field) {
+  if (field.type.kind == tb::keys::Kind::kTime) return tb::time_text(value);
   if (field.type.kind != tb::keys::Kind::kWord) return std::to_string(value);
   return field.type.words.at(static_cast<std::size_t>(value)).text;
 }
@@ -44,6 +46,8 @@ void add(std::vector<Parameter>& all, const Field& field) {
                    place_of(field.default_text, field)});
   if (field.type.kind == tb::keys::Kind::kInteger)
     all.push_back({field.name, &field, {}, field.type.range, std::stoll(field.default_text)});
+  if (field.type.kind == tb::keys::Kind::kTime)
+    all.push_back({field.name, &field, {}, field.type.range, tb::parse_time(field.default_text).value()});
   if (field.type.kind != tb::keys::Kind::kList || field.type.element != tb::keys::Kind::kInteger) return;
   const std::vector<std::int64_t> usual = numbers_of(field.default_text);
   for (std::size_t i = 0; i < usual.size(); ++i)

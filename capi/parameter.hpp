@@ -21,7 +21,7 @@ struct Parameter {
   std::int64_t default_value;
 };
 
-/// All integers, integers in lists and words, except straps: their levels are set at the pins.
+/// All integers, integers in lists, words and times, except straps: their levels are set at the pins.
 std::vector<Parameter> parameters_of(const tb::ChipKind& chip);
 
 /// Throws for an unknown name or a value out of range.

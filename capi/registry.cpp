@@ -40,7 +40,7 @@ dpsim_pin_info pin_info(const capi::Kind& kind, std::size_t number) {
 dpsim_parameter_info parameter_info(const capi::Parameter& parameter) {
   dpsim_parameter_info info{};
   info.name = parameter.name.c_str();
-  info.unit = parameter.field->type.unit.c_str();
+  info.unit = parameter.field->type.kind == tb::keys::Kind::kTime ? "ticks" : parameter.field->type.unit.c_str();
   info.description = parameter.field->doc.c_str();
   info.minimum = parameter.range.min;
   info.maximum = parameter.range.max;

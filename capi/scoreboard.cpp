@@ -27,9 +27,9 @@ cosim::RtlTiming timing_of(const capi::Kind& kind, const capi::ChipPlan& plan) {
 /// arrives.
 struct dpsim_scoreboard {
  public:
-  dpsim_scoreboard(const capi::Kind& kind, const capi::ChipPlan& plan, const dpsim_scoreboard_options& options)
-      : chip_(kind, plan),
-        timing_(timing_of(kind, plan)),
+  dpsim_scoreboard(const capi::Kind& kind, capi::ChipPlan plan, const dpsim_scoreboard_options& options)
+      : timing_(timing_of(kind, plan)),
+        chip_(kind, std::move(plan)),
         tolerance_(options.tolerance),
         warm_up_(options.warm_up),
         begin_(warm_up_),
@@ -151,8 +151,8 @@ struct dpsim_scoreboard {
     return at;
   }
 
-  dpsim_chip chip_;
   const cosim::RtlTiming timing_;
+  dpsim_chip chip_;
   const Tick tolerance_, warm_up_;
   Tick now_ = 0;  ///< the present tick
   Tick begin_;    ///< of the comparison; kNever: RESET is high

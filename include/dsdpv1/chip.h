@@ -84,11 +84,11 @@ enum {
  * (S1), fcb_rule (S26: 0 letter, 1 content). The DSDPV1-RSU adds those of docs/chip_rsu.md; each number of a list is
  * one parameter: "uart_gaps[0]" to "uart_gaps[7]". Its straps are not parameters but the pins MODE, ADR, UBR and UIV,
  * although scenarios have keys for them (mode, address, uart_rate, interval). apc3, spc3 and vpc3 have those of
- * docs/spc3.md; a word is its place among the words of the key. */
+ * docs/spc3.md, xgate those of docs/xgate.md; a word is its place among the words of the key, a time is in ticks. */
 typedef struct dpsim_parameter_info {
   uint32_t size;
   const char* name;        /**< the key in a scenario's `chip` */
-  const char* unit;        /**< "cycles", "ms", "bit times" */
+  const char* unit;        /**< "cycles", "ms", "bit times", "ticks" */
   const char* description; /**< one sentence, with the ruling */
   int64_t minimum, maximum, default_value;
 } dpsim_parameter_info;
@@ -198,6 +198,46 @@ DPSIM_API dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_
  * DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_load(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t* value);
 DPSIM_API dpsim_status dpsim_chip_store(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t value);
+
+/* ---- serial ports of the user ---- */
+
+/* Which kinds have one; all functions refuse others, and a chip that its strap or parameter connects otherwise, with
+ * DPSIM_ERR_UNSUPPORTED:
+ *
+ *   kind         SPI                                         UART
+ *   dsdpv1_rsu   strap MODE 1: XSS, SCK, MOSI, MISO          strap MODE 2: RXD, TXD, even parity (UA1)
+ *   vpc3         strap SERIAL 1: the same pins (A59)         none
+ *   xgate        parameter port 1: NSS, SCK, MOSI, MISO      parameter port 0: RXD, TXD, no parity (4.7.2)
+ *   dsdpv1, dsdpv1_r, apc3, spc3: none */
+
+typedef struct dpsim_spi_timing {
+  uint32_t size;
+  uint32_t bit;      /**< ticks of a bit, 2 to 12 000 000; 0: 1333 (9 MHz), of an XGate-DPS10 12 000 (1 MHz) */
+  uint32_t byte_gap; /**< ticks of additional rest of SCK between two bytes, 0 to 12 000 000 */
+  uint32_t reserved;
+} dpsim_spi_timing;
+
+/** Sends `count` bytes, 1 to 4096, MSB first in one frame of XSS (NSS), with all edges, while `in`, if not NULL,
+ * receives as many from MISO; a released MISO is 1. The frame begins 500 ns after `tick`, with 200 ns from XSS to SCK
+ * at both ends. SCK has the mode of the
+ * chip's parameter spi_mode, without one 0. Returns at its `end`. `timing` NULL: the usual bit. DPSIM_ERR_ARGUMENT: a
+ * member or `count` out of range. DPSIM_ERR_TIME. */
+DPSIM_API dpsim_status dpsim_chip_spi(dpsim_chip* chip, uint64_t tick, const dpsim_spi_timing* timing,
+                                      const uint8_t* out, uint8_t* in, size_t count, uint64_t* end);
+
+/** Opens the user's UART at `rate`, 1200 to 3 000 000 bit/s: from now on it receives all that the chip sends, also
+ * while other functions advance the chip. Again: another rate; received bytes are dropped. */
+DPSIM_API dpsim_status dpsim_chip_uart_open(dpsim_chip* chip, uint32_t rate);
+/** Sends characters to RXD, back to back; the first start bit falls at `tick`. Returns at the end of the last stop
+ * bit. DPSIM_ERR_STATE: the UART is not open. DPSIM_ERR_TIME. */
+DPSIM_API dpsim_status dpsim_chip_uart_send(dpsim_chip* chip, uint64_t tick, const uint8_t* bytes, size_t count,
+                                            uint64_t* end);
+/** Takes the oldest received bytes, their number into `count`: runs until there are `capacity` of them, at most up to
+ * `until`. A byte has been received in the middle of its stop bit; one with a wrong parity or stop bit is dropped.
+ * After dpsim_chip_restore bytes are received again once TXD has rested for a character. DPSIM_ERR_STATE: the UART is
+ * not open. DPSIM_ERR_TIME. */
+DPSIM_API dpsim_status dpsim_chip_uart_receive(dpsim_chip* chip, uint64_t until, uint8_t* bytes, size_t capacity,
+                                               size_t* count);
 
 /* ---- changes of pins ---- */
 

@@ -55,7 +55,7 @@ extern "C" {
 /* The ABI described here. MAJOR is the number of the library's SONAME: it changes when callers have to be compiled
    again. MINOR grows with each function or member that is added. */
 #define DPSIM_ABI_MAJOR 0
-#define DPSIM_ABI_MINOR 5
+#define DPSIM_ABI_MINOR 6
 
 /** The ABI of the loaded library: major * 65536 + minor. A caller compiled with this header works with it if the
  * major number is the same and the minor number is not less. Also in callbacks. */

@@ -51,6 +51,13 @@ void ModulePort::reset() {
   acts_at_ = profibus::kNever;
 }
 
+std::vector<std::pair<std::string, std::uint32_t>> ModulePort::parameters() const {
+  std::vector<std::pair<std::string, std::uint32_t>> all = {{"spi_mode", chip_settings_of(chip_.settings()).spi_mode}};
+  Config config = config_;
+  config.each_parameter([&all](const char* name, std::uint32_t value) { all.emplace_back(name, value); });
+  return all;
+}
+
 /// /ISP-CFG is sampled here (X25).
 void ModulePort::release(Cycle now) {
   released_ = true;

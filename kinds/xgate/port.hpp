@@ -1,5 +1,9 @@
 #pragma once
 // The pins of an XGate-DPS10 around its firmware.
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "kinds/xgate/pins.hpp"
 #include "kinds/xgate/settings.hpp"
 #include "kinds/xgate/spi_side.hpp"
@@ -8,7 +12,7 @@
 
 namespace dsdpv1::xgate {
 
-class ModulePort : public kit::UserPort {
+class ModulePort : public kit::UserPort, private kit::StoredPort {
  public:
   explicit ModulePort(kit::Chip& chip);
 
@@ -17,8 +21,19 @@ class ModulePort : public kit::UserPort {
   void eval(Cycle now) override;
   void show(Cycle now) override;
   Cycle next() const override;
+  kit::StoredPort* stored() override { return this; }
 
  private:
+  // kit::StoredPort
+  void store(profibus::StateWriter& archive) override { store_members(archive); }
+  void store(profibus::StateReader& archive) override { store_members(archive); }
+  std::vector<std::pair<std::string, std::uint32_t>> parameters() const override;
+  template <class Archive>
+  void store_members(Archive& archive) {
+    archive(firmware_, in_, out_, spi_, released_);
+    archive.cycles(now_, acts_at_);
+  }
+
   struct SpiBytes;  // SpiSide's view of the firmware at an edge
   bool by_spi() const { return config_.port == Port::kSpi; }
   void release(Cycle now);

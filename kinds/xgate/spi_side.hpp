@@ -43,6 +43,15 @@ class SpiSide {
     if (selected_ && bits_ == 0 && rests && !late()) load(bytes);
   }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [mode, out, in, bits, is_selected, level] = *this;
+    archive.given(mode);
+    archive.within(0U, 255U, out, in);
+    archive.within(0U, 7U, bits);
+    archive(is_selected, level);
+  }
+
  private:
   bool late() const { return (mode_ & 1U) != 0; }
   template <class Bytes>

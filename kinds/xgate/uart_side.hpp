@@ -33,6 +33,15 @@ class UartOut {
   }
   Cycle next() const { return bit_ < kBits - 1 ? edge(bit_ + 1) : profibus::kNever; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [begins, rate, bits, bit] = *this;
+    archive.cycles(begins);
+    archive.within(1200U, 3'000'000U, rate);
+    archive.within(0U, 0x3FFU, bits);
+    archive.within(0, kBits - 1, bit);
+  }
+
  private:
   static constexpr int kBits = 10;
   static constexpr unsigned kStop = 0x200;
@@ -69,6 +78,16 @@ class UartIn {
     return heard;
   }
   Cycle next() const { return bit_ >= 0 ? std::min(middle(), ends_) : ends_; }
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [begins, ends, rate, bits, bit, byte] = *this;
+    archive.cycles(begins, ends);
+    archive.within(1200U, 3'000'000U, rate);
+    archive.within(0U, 255U, bits);
+    archive.within(-1, kStopBit, bit);
+    archive(byte);
+  }
 
  private:
   static constexpr int kStopBit = 9;

@@ -1,8 +1,11 @@
 #include "tb/kit/core.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
+#include "model/profibus/state_frame.hpp"
 #include "model/profibus/whole_telegrams.hpp"
 
 namespace dsdpv1::kit {
@@ -116,21 +119,90 @@ void Core::rising_edge(Cycle cycle) {
 // --- the device ------------------------------------------------------------------------------------------------------
 
 void Device::watch(const tb::PinSink& sink, tb::PinMask pins) {
-  core_.sink = sink;
-  core_.watched = sink.call != nullptr ? pins : 0;
+  core_->sink = sink;
+  core_->watched = sink.call != nullptr ? pins : 0;
 }
 
-bool Device::hear(Tick at, const profibus::CharacterRun& run) { return whole_telegrams::hear(core_, at, run); }
-void Device::leave_run(Tick at) { whole_telegrams::leave_run(core_, at); }
-void Device::advance_in_run(Tick to) { whole_telegrams::advance_in_run(core_, to); }
-profibus::Unconcerned Device::unconcerned() const { return whole_telegrams::unconcerned(core_); }
-bool Device::begins_to_send() const { return whole_telegrams::begins_to_send(core_); }
-profibus::CharacterRun Device::hide_txd() { return whole_telegrams::hide_txd(core_); }
-void Device::show_txd(Tick at) { whole_telegrams::show_txd(core_, at); }
+bool Device::hear(Tick at, const profibus::CharacterRun& run) { return whole_telegrams::hear(*core_, at, run); }
+void Device::leave_run(Tick at) { whole_telegrams::leave_run(*core_, at); }
+void Device::advance_in_run(Tick to) { whole_telegrams::advance_in_run(*core_, to); }
+profibus::Unconcerned Device::unconcerned() const { return whole_telegrams::unconcerned(*core_); }
+bool Device::begins_to_send() const { return whole_telegrams::begins_to_send(*core_); }
+profibus::CharacterRun Device::hide_txd() { return whole_telegrams::hide_txd(*core_); }
+void Device::show_txd(Tick at) { whole_telegrams::show_txd(*core_, at); }
+
+// --- saved states ----------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// The head of a state: the kind and the settings of the chip that it is from.
+struct StateHead {
+  static constexpr profibus::StateFrame kFrame{0x3130'5449'4B20'5044, 1};  // "DP KIT01"
+
+  explicit StateHead(const Core& core) {
+    const std::string_view own = core.parts.name;
+    std::copy_n(own.begin(), std::min(own.size(), name.size()), name.begin());
+    if (StoredPort* port = core.port->stored()) parameters = port->parameters();
+  }
+  template <class Archive>
+  void store_name(Archive& archive) {
+    archive(name);
+  }
+  std::string title() const { return {name.begin(), std::find(name.begin(), name.end(), 0)}; }
+
+  std::array<std::uint8_t, 32> name{};
+  std::vector<std::pair<std::string, std::uint32_t>> parameters;
+};
+
+}  // namespace
+
+template <class Archive>
+void Core::store(Archive& archive) {
+  for (Level& level : levels) archive(level);
+  archive.ticks(now);
+  archive.cycles(done, release_at);
+  archive(running);
+  station.store(archive, user_side);
+  port->stored()->store(archive);
+}
+
+void Core::take_over(const Core& observed) {
+  log = observed.log;
+  sink = observed.sink;
+  watched = observed.watched;
+  if (skips()) plan();
+}
+
+std::vector<std::uint8_t> Device::save() const {
+  if (core_->port->stored() == nullptr) return {};
+  profibus::StateWriter writer;
+  profibus::begin_frame(writer, StateHead::kFrame);
+  StateHead head(*core_);
+  head.store_name(writer);
+  for (auto& [name, value] : head.parameters) writer(value);
+  core_->store(writer);
+  return profibus::end_frame(writer.take());
+}
+
+void Device::restore(const std::uint8_t* bytes, std::size_t size) {
+  if (core_->port->stored() == nullptr)
+    throw profibus::StateError(std::string(core_->parts.name) + " cannot be restored");
+  profibus::StateReader reader = profibus::open_frame(bytes, size, StateHead::kFrame);
+  const StateHead own(*core_);
+  StateHead saved = own;
+  saved.store_name(reader);
+  profibus::check_title(saved.title(), own.title());
+  for (const auto& [name, value] : own.parameters) profibus::check_parameter(reader, name.c_str(), value);
+  auto restored = std::make_unique<Core>(core_->parts, core_->own_settings, core_->step);
+  restored->store(reader);
+  profibus::check_frame(reader);
+  restored->take_over(*core_);
+  core_ = std::move(restored);
+}
 
 tb::ChipStatus Device::status() const {
-  core_.catch_up_line(core_.done);
-  const profibus::Station& station = core_.station;
+  core_->catch_up_line(core_->done);
+  const profibus::Station& station = core_->station;
   tb::ChipStatus status;
   status.dp_state = station.slave().state();
   if (station.baud_index().known()) status.baud = station.baud_index().code();
@@ -138,9 +210,9 @@ tb::ChipStatus Device::status() const {
   status.master = station.slave().master();
   status.telegrams_received = station.telegrams_received();
   status.telegrams_answered = station.telegrams_answered();
-  status.c2 = core_.user_side.msac().c2.registry();
-  status.data_exchanges = core_.user_side.data_exchanges();
-  status.outputs_missed = core_.user_side.outputs_replaced();
+  status.c2 = core_->user_side.msac().c2.registry();
+  status.data_exchanges = core_->user_side.data_exchanges();
+  status.outputs_missed = core_->user_side.outputs_replaced();
   return status;
 }
 

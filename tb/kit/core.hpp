@@ -36,6 +36,10 @@ struct Core final : Chip {
   void hear(Tick at, bool level);
   void take_txd() { levels[kTxd] = txd(); }
 
+  template <class Archive>
+  void store(Archive& archive);
+  void take_over(const Core& observed);
+
   void set_reset(Tick at, bool high);
   void reset(Tick at);
   void rising_edge(Cycle cycle);
@@ -63,36 +67,38 @@ struct Core final : Chip {
 class Device : public tb::PinDevice {
  public:
   Device(const Parts& parts, const tb::ChipRequest& request)
-      : core_(parts, request.settings, request.engine == tb::Engine::kStep || request.inside) {}
+      : core_(std::make_unique<Core>(parts, request.settings, request.engine == tb::Engine::kStep || request.inside)) {}
 
-  void set(Tick at, PinNumber pin, Level level) override { core_.set(at, pin, level); }
-  void advance(Tick to) override { core_.advance(to); }
-  Tick now() const override { return core_.now; }
-  Tick next_event() const override { return core_.next_event(); }
-  Level level(PinNumber pin) const override { return core_.level(pin); }
+  void set(Tick at, PinNumber pin, Level level) override { core_->set(at, pin, level); }
+  void advance(Tick to) override { core_->advance(to); }
+  Tick now() const override { return core_->now; }
+  Tick next_event() const override { return core_->next_event(); }
+  Level level(PinNumber pin) const override { return core_->level(pin); }
   Level sample(Tick /*at*/) override { return kReleased; }
   void watch(const tb::PinSink& sink, tb::PinMask pins) override;
-  void on_event(const profibus::EventSink& sink) override { core_.log.attach(sink); }
+  void on_event(const profibus::EventSink& sink) override { core_->log.attach(sink); }
 
-  profibus::Unheard unheard() const override { return core_.station.unheard(); }
-  void hear(Tick at, bool level) override { core_.hear(at, level); }
+  profibus::Unheard unheard() const override { return core_->station.unheard(); }
+  void hear(Tick at, bool level) override { core_->hear(at, level); }
   bool hear(Tick at, const profibus::CharacterRun& run) override;
   void leave_run(Tick at) override;
-  bool left_run() const override { return core_.station.left_run(); }
+  bool left_run() const override { return core_->station.left_run(); }
   void advance_in_run(Tick to) override;
   profibus::Unconcerned unconcerned() const override;
-  void pass(std::uint64_t count) override { core_.station.pass(count); }
+  void pass(std::uint64_t count) override { core_->station.pass(count); }
   bool begins_to_send() const override;
   profibus::CharacterRun hide_txd() override;
   void show_txd(Tick at) override;
 
+  std::vector<std::uint8_t> save() const override;
+  void restore(const std::uint8_t* bytes, std::size_t size) override;
   tb::ChipStatus status() const override;
-  std::uint8_t address() const override { return core_.station.slave().address(); }
+  std::uint8_t address() const override { return core_->station.slave().address(); }
   std::uint8_t peek(std::uint16_t /*address*/) const override { return 0; }
   void poke(std::uint16_t /*address*/, std::uint8_t /*value*/) override {}
 
  private:
-  mutable Core core_;  // status() counts the telegrams heard up to now
+  std::unique_ptr<Core> core_;
 };
 
 }  // namespace dsdpv1::kit

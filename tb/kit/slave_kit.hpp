@@ -15,9 +15,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/time.hpp"
+#include "model/profibus/state.hpp"
 #include "model/profibus/station.hpp"
 #include "model/profibus/user_side.hpp"
 #include "tb/chip/chip_kind.hpp"
@@ -78,6 +80,17 @@ class Chip {
   virtual const tb::OwnSettings& settings() const = 0;
 };
 
+/// The state of a port, for a chip that is saved and restored alone (dpsim_chip_save). A port that has one derives from
+/// this class too; each `store` calls one template of the port that lists its members (model/profibus/state.hpp).
+class StoredPort {
+ public:
+  virtual ~StoredPort() = default;
+  virtual void store(profibus::StateWriter& archive) = 0;
+  virtual void store(profibus::StateReader& archive) = 0;
+  /// Settings of the chip by name: a state is restored in a chip with the same.
+  virtual std::vector<std::pair<std::string, std::uint32_t>> parameters() const { return {}; }
+};
+
 /// The part between the station and the chip's own pins. No call comes while RESET is low, except reset().
 class UserPort {
  public:
@@ -95,6 +108,8 @@ class UserPort {
   /// The next edge at which eval() or show() has an effect that comes from neither the station nor an earlier call of
   /// them; kNever: none. Changes of input() that an edge shows are such effects: skip evaluates no other edge.
   virtual Cycle next() const = 0;
+  /// Null: the chip cannot be saved alone.
+  virtual StoredPort* stored() { return nullptr; }
 };
 
 /// A diagnosis that the script has ordered.

@@ -81,7 +81,7 @@ TEST(CapiChip, ChipsInTwoThreadsDoWhatEachDoesAlone) {
 }
 
 TEST(CapiChip, PinsOfTheRegistryAreThoseOfTheHeaderAndOfTable1) {
-  const char* const kinds[] = {"dsdpv1", "dsdpv1_r", "dsdpv1_rsu", "apc3", "spc3", "vpc3"};
+  const char* const kinds[] = {"dsdpv1", "dsdpv1_r", "dsdpv1_rsu", "apc3", "spc3", "vpc3", "xgate"};
   ASSERT_EQ(dpsim_kind_count(), std::size(kinds));
   for (size_t i = 0; i < std::size(kinds); ++i) EXPECT_STREQ(dpsim_kind_name(i), kinds[i]);
   EXPECT_EQ(dpsim_kind_name(std::size(kinds)), nullptr);
