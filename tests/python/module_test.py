@@ -444,6 +444,82 @@ class BusTest(unittest.TestCase):
         self.assertIn(3, second.ring.stations)
 
 
+class XgateTest(unittest.TestCase):
+    """A host of the XGate-DPS10 by bytes (docs/xgate.md)."""
+
+    QUICK = {"rate": 3_000_000, "answer_delay": 10 * US, "power_up": 20 * US}
+
+    @staticmethod
+    def frame(command, data=b"", special=0x11):
+        head = bytes([0x7E, command, len(data), special]) + bytes(data)
+        return head + bytes([functools.reduce(lambda a, b: a ^ b, head)])
+
+    @staticmethod
+    def start(module):
+        module.set("RESET", 1)
+        module.uart_open(3_000_000)
+        module.advance(module.now + 40 * US)
+
+    @staticmethod
+    def ask(module, command):
+        module.uart_send(command)
+        head = module.uart_receive(4, module.now + MS)
+        return head + module.uart_receive(head[2] + 1, module.now + MS)
+
+    def test_the_host_and_a_master_exchange_data(self):
+        slave = dsdpv1.Gsd(ROOT / "scenarios" / "xgate.gsd").slave(6, ["4 bytes in, 4 bytes out, with parameters"])
+        bus = dsdpv1.Bus()
+        module = bus.add_chip(kind="xgate", parameters=self.QUICK)
+        master = bus.add_master(2)
+        master.add_slave(slave)
+        master.set_outputs(6, b"\1\2\3\4")
+        self.start(module)
+        codes = []
+        module.on_event(lambda event: codes.append(event.code))
+        self.assertEqual(self.ask(module, self.frame(0x20, bytes(4))), self.frame(0x20, [3, 4, 0], 0x91))
+        self.assertEqual(codes, ["XGATE_ERROR"])
+        given = [6, 0x01, 0x0F, len(slave.cfg), 4, 4, len(slave.user_prm), 1, 0, 0, 0, 0, 0, 10, 240, 240, 0x80, 0, 0, *slave.cfg]
+        self.assertEqual(self.ask(module, self.frame(0x04, given)), self.frame(0x04))
+        master.start()
+        bus.run(bus.now + 5 * MS)
+        self.assertEqual(module.status.dp_state, dsdpv1.DpState.DATA_EXCH)
+        self.assertEqual(module.level("INT"), 0)  # new user parameters
+        self.assertEqual(self.ask(module, self.frame(0x22)), self.frame(0x22, slave.user_prm))
+        self.assertEqual(self.ask(module, self.frame(0x21, b"abcd")), self.frame(0x21, b"\1\2\3\4"))
+        self.assertEqual(module.level("INT"), 1)
+        bus.run(bus.now + MS)
+        self.assertEqual(master.slave(6).inputs, b"abcd")
+
+    def test_a_saved_module_answers_in_another_object(self):
+        module = dsdpv1.Chip("xgate", parameters=self.QUICK)
+        self.start(module)
+        command, answer = self.frame(0x01, [9]), self.frame(0x01, b"XGate-DPS10\0")
+        module.uart_send(command[:3])
+        again = copy.copy(module)  # in the middle of a frame
+        again.uart_open(3_000_000)
+        for each in (module, again):
+            each.uart_send(command[3:])
+            self.assertEqual(each.uart_receive(len(answer), each.now + MS), answer)
+        self.assertEqual(module.now, again.now)
+
+    def test_spi_and_what_is_refused(self):
+        module = dsdpv1.Chip("xgate", parameters={**self.QUICK, "port": 1})
+        module.set("RESET", 1)
+        module.advance(40 * US)
+        self.assertEqual(module.spi(self.frame(0x24), bit=2400), b"\xFF" * 5)
+        module.advance(module.now + 20 * US)
+        self.assertEqual(module.level("INT"), 0)
+        self.assertEqual(module.spi(bytes(8)), self.frame(0x24, [4, 3, 0], 0x91))
+        with self.assertRaisesRegex(dsdpv1.UnsupportedError, "the parameter port chooses another port than UART"):
+            module.uart_open(9600)
+        with self.assertRaisesRegex(dsdpv1.UnsupportedError, "no SPI for its user"):
+            dsdpv1.Chip().spi(b"1")
+        with self.assertRaisesRegex(dsdpv1.StateError, "the UART is not open"):
+            dsdpv1.Chip("xgate").uart_send(b"1")
+        with self.assertRaisesRegex(dsdpv1.ArgumentError, "rate is 99, expected 1200 to 3000000"):
+            dsdpv1.Chip("xgate").uart_open(99)
+
+
 class AcyclicTest(unittest.TestCase):
     """A user CPU whose callback answers from a table of objects; masters of both classes, and those of a scenario."""
 

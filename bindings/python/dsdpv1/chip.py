@@ -213,6 +213,32 @@ class Chip(Handle):
         """Writes one in the same way."""
         lib.dpsim_chip_store(self, self.now if at is None else at, address, value)
 
+    # ---- serial ports of the user: DSDPV1-RSU, VPC3+ (SPI), XGate-DPS10
+    def spi(self, data: bytes, at: typing.Optional[int] = None, bit: int = 0, byte_gap: int = 0) -> bytes:
+        """Sends bytes in one frame of XSS or NSS, with all edges, and returns those of MISO; the present tick is then the end of the frame. `bit`:
+        ticks of a bit, 0: 9 MHz, of an XGate-DPS10 1 MHz. UnsupportedError: the chip has no SPI, or its strap or parameter chooses another port."""
+        timing, received = sized(_c.dpsim_spi_timing, bit=bit, byte_gap=byte_gap), ctypes.create_string_buffer(max(1, len(data)))
+        lib.dpsim_chip_spi(self, self.now if at is None else at, ctypes.byref(timing), bytes(data), ctypes.addressof(received), len(data),
+                           ctypes.byref(ctypes.c_uint64()))
+        return received.raw[:len(data)]
+
+    def uart_open(self, rate: int) -> None:
+        """Opens the user's UART at `rate` bit/s: from now on it receives all that the chip sends. Again: another rate; received bytes are dropped."""
+        lib.dpsim_chip_uart_open(self, rate)
+
+    def uart_send(self, data: bytes, at: typing.Optional[int] = None) -> int:
+        """Sends characters to RXD, back to back. Returns the end of the last stop bit, which is then the present tick. StateError: uart_open()
+        was not called."""
+        start = self.now if at is None else at
+        return int(number(lambda into: lib.dpsim_chip_uart_send(self, start, bytes(data), len(data), into), ctypes.c_uint64))
+
+    def uart_receive(self, count: int, until: typing.Optional[int] = None) -> bytes:
+        """Takes the oldest received bytes: runs until there are `count` of them, at most up to `until`; None: those that have come."""
+        received = ctypes.create_string_buffer(max(1, count))
+        size = number(lambda into: lib.dpsim_chip_uart_receive(self, self.now if until is None else until, ctypes.addressof(received), count, into),
+                      ctypes.c_size_t)
+        return received.raw[:size]
+
     def peek(self, cell: int) -> int:
         """Reads a cell without pins, time or side effects."""
         return int(number(lambda into: lib.dpsim_chip_peek(self, cell, into), ctypes.c_uint8))
