@@ -1,5 +1,6 @@
 #include "kinds/xgate/kind.hpp"
 
+#include "kinds/xgate/frame_reader.hpp"
 #include "kinds/xgate/host_program.hpp"
 #include "kinds/xgate/pins.hpp"
 #include "kinds/xgate/port.hpp"
@@ -42,6 +43,18 @@ class XgateKind : public kit::Kind {
   const tb::keys::Object& user_keys() const override { return xgate::user_keys(); }
   std::unique_ptr<tb::OwnSettings> make_user_settings() const override { return std::make_unique<UserSettings>(); }
   const std::vector<tb::CodeTable>& codes() const override { return codes_; }
+  std::unique_ptr<tb::HostReader> make_host_reader(const tb::OwnSettings& chip) const override {
+    return std::make_unique<FrameReader>(chip_settings_of(chip));
+  }
+  const std::vector<tb::PinGroup>& pin_groups() const override {
+    static const std::vector<tb::PinGroup> groups = {
+        {"line", {"PBRXD", "PBTXD", "PBRTS"}},
+        {"host", {"RESET", "INT", "ISP_CFG"}},
+        {"uart", {"RXD", "uart_request", "TXD", "uart_reply"}},
+        {"spi", {"NSS", "SCK", "MOSI", "spi_request", "MISO", "spi_reply"}},
+        {"leds", {"LED1A", "LED1B", "LED2A", "LED2B"}}};
+    return groups;
+  }
 
  private:
   std::vector<tb::CodeTable> codes_;
