@@ -16,7 +16,7 @@ constexpr int kGapBytes = 10, kSetRate = 0x03, kPrintedError = 0x83, kErrorBytes
 
 Tick ticks(std::uint32_t cycles) { return Tick{cycles} * bus::kTicksPerCycle; }
 
-/// What the bytes say of a frame.
+/// As far as the bytes go.
 Frame frame_of(const bus::Bytes& bytes) {
   Frame frame;
   const auto at = [&bytes](std::size_t place) { return place < bytes.size() ? bytes[place] : std::uint8_t{0}; };
@@ -134,7 +134,7 @@ void PinFrames::add(Side& side, Tick start, Tick end, std::uint8_t byte) {
   side.open.bytes.push_back(byte);
 }
 
-/// X4; bytes that are no frame end the same way.
+/// X4, also after bytes without a frame.
 Tick PinFrames::gap_end() const {
   if (!command_.begun()) return bus::kNever;
   const Tick bytes = by_spi() ? 0 : half(20 * kGapBytes);
