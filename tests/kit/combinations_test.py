@@ -6,56 +6,20 @@
 """
 import json
 import pathlib
-import re
 import shutil
-import subprocess
 import sys
-import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/own_slave.md"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from combinations import ROOT, Table, main  # pylint: disable=wrong-import-position
+
 SCENARIO = (ROOT / "examples/own_slave/own_slave.yaml").read_text(encoding="utf-8")
-FAILURES = []
-
-
-class Cell:
-    """A folder with the scenario."""
-
-    def __init__(self, program, folder):
-        self.program, self.folder = program, folder
-        self.write("x.yaml", SCENARIO)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text, encoding="utf-8")
-
-    def read(self, name):
-        return (self.folder / name).read_bytes()
-
-    def call(self, *words):
-        return subprocess.run([self.program, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False)
-
-    def passes(self, *words):
-        done = self.call(*words)
-        self.expect(words, done.returncode, 0, done.stdout[-1000:] + done.stderr)
-        return done.stdout
-
-    def is_refused(self, text, *words):
-        done = self.call(*words)
-        self.expect(words, (done.returncode, done.stderr.count("\n"), text in done.stderr), (2, 1, True), done.stdout[-500:] + done.stderr)
-
-    def expect(self, what, seen, wanted, said=""):
-        if seen != wanted:
-            FAILURES.append(f"{what}: {seen} instead of {wanted}\n{said}")
 
 
 def engines(cell):
     """Without waves telegrams go as whole runs: the log is the same."""
+    cell.engines_agree()
     for engine in ("skip", "step"):
-        cell.passes("run", "x.yaml", "-q", "--engine", engine, "--wave", f"{engine}.vcd", "--log", f"{engine}.log", "--trace", f"{engine}.trace")
         cell.passes("run", "x.yaml", "-q", "--engine", engine, "--log", f"{engine}.short")
-    for name in ("vcd", "log", "trace"):
-        cell.expect(name, cell.read(f"skip.{name}") == cell.read(f"step.{name}"), True)
-    for engine in ("skip", "step"):
         cell.expect("by runs", cell.read(f"{engine}.short"), cell.read("skip.log"))
     wave = cell.read("skip.vcd").decode()
     for pin in ("RESET", "PBRXD", "PBTXD", "PBRTS", "CS", "RD", "WR", "A", "INT"):
@@ -83,10 +47,7 @@ def reasons(cell):
 
 
 def saved(cell):
-    cell.passes("run", "x.yaml", "-q", "--log", "whole.log", "--save-at", "5ms", "half.run")
-    cell.passes("run", "--restore", "half.run", "-q", "--log", "rest.log")
-    rest = cell.read("rest.log").splitlines()[-20:]
-    cell.expect("the rest", cell.read("whole.log").splitlines()[-20:], rest)
+    cell.continues("5ms")
     cell.passes("run", "x.yaml", "-q", "--wave", "x.vcd", "--rewind-on", "STARTED", "10us")
 
 
@@ -94,9 +55,8 @@ def replay(cell):
     """The capture has the inputs: without it the user CPU's own, at another time."""
     cell.passes("run", "x.yaml", "-q", "--capture", "x.pcapng")
     for words in (("--chip", "own_slave"), ("--scenario", "x.yaml", "--inputs", "recorded"), ("--chip", "own_slave", "--engine", "step")):
-        text = cell.passes("replay", "x.pcapng", "--as", "5", *words, "--no-progress", "--json", "x.json")
-        result = json.loads(cell.read("x.json"))
-        cell.expect(words, (text.endswith("\nEQUAL\n"), result["compared"] > 220), (True, True), text)
+        cell.replays_equal(5, *words, "--json", "x.json")
+        cell.expect(words, json.loads(cell.read("x.json"))["compared"] > 220, True)
     cell.is_refused("--chip is own_slav (did you mean own_slave?)", "replay", "x.pcapng", "--as", "5", "--chip", "own_slav")
 
 
@@ -194,30 +154,5 @@ ROWS = [  # what, how, the function
 ]
 
 
-def table():
-    return "".join(["| with a chip of the kit | works |\n|---|---|\n", *(f"| {what} | {how} |\n" for what, how, _ in ROWS)])
-
-
-def check_page():
-    found = re.search(r"<!-- combinations -->\n(.*?)<!-- /combinations -->", PAGE.read_text(encoding="utf-8"), re.S)
-    if not found or found.group(1) != table():
-        FAILURES.append(f"{PAGE}: its table is not that of --table")
-
-
-def main():
-    if sys.argv[1] == "--table":
-        print(table(), end="")
-        return 0
-    wanted = [ROWS[int(number)] for number in sys.argv[2:]] or ROWS
-    check_page()
-    for what, _, carry_out in wanted:
-        before = len(FAILURES)
-        with tempfile.TemporaryDirectory() as folder:
-            carry_out(Cell(str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(folder)))
-        print(what if len(FAILURES) == before else f"{what}: WRONG", flush=True)
-    print("\n".join(FAILURES))
-    return 1 if FAILURES else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(Table(ROOT / "docs/own_slave.md", "with a chip of the kit", ROWS, {"": SCENARIO})))

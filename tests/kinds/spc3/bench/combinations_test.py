@@ -11,12 +11,11 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[4]
-PAGE = ROOT / "docs/spc3_use.md"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3]))
+from combinations import ROOT, Table, main  # pylint: disable=wrong-import-position
+
 KINDS = ("apc3", "spc3", "vpc3")
 SCENARIO = """name: x
 baud: 12M
@@ -29,41 +28,10 @@ masters:
 expect:
   - {slave: io, dp_state: data_exch, outputs: "01 02", by: 11ms}
 """
-FAILURES = []
-
-
-class Cell:
-    """One kind in its own folder."""
-
-    def __init__(self, simulator, kind, folder):
-        self.simulator, self.kind, self.folder = simulator, kind, folder
-        (folder / "x.yaml").write_text(SCENARIO % kind, encoding="utf-8")
-
-    def sim(self, *words):
-        return subprocess.run([self.simulator, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False)
-
-    def passes(self, *words):
-        done = self.sim(*words)
-        self.expect(words, done.returncode, 0, done.stdout[-1000:] + done.stderr)
-        return done
-
-    def is_refused(self, text, *words):
-        done = self.sim(*words)
-        self.expect(words, (done.returncode, done.stderr.count("\n"), text in done.stderr), (2, 1, True), done.stdout[-500:] + done.stderr)
-
-    def expect(self, what, seen, wanted, said=""):
-        if seen != wanted:
-            FAILURES.append(f"{self.kind}, {what}: {seen} instead of {wanted}\n{said}")
-
-    def read(self, name):
-        return (self.folder / name).read_bytes()
 
 
 def engines(cell):
-    for engine in ("skip", "step"):
-        cell.passes("run", "x.yaml", "-q", "--engine", engine, "--log", f"{engine}.log", "--trace", f"{engine}.trace")
-    cell.expect("logs", cell.read("step.log"), cell.read("skip.log"))
-    cell.expect("traces", cell.read("step.trace"), cell.read("skip.trace"))
+    cell.engines_agree()
 
 
 def outputs(cell):
@@ -75,7 +43,7 @@ def outputs(cell):
 
 def checks(cell):
     cell.passes("run", "x.yaml", "-q", "--checks", "fail")
-    done = cell.sim("run", "x.yaml", "--no-progress", "--set", "checks.ACK_TIME.max=1ns")
+    done = cell.call("run", "x.yaml", "--no-progress", "--set", "checks.ACK_TIME.max=1ns")
     cell.expect("a limit that no user keeps", (done.returncode, "ACK_TIME" in done.stdout), (1, True), done.stdout[-1000:] + done.stderr)
     cell.passes("run", "x.yaml", "-q", "--set", "checks.ACK_TIME.max=1ns", "--checks", "off")
 
@@ -88,8 +56,7 @@ def inside(cell):
 
 
 def saved(cell):
-    cell.passes("run", "x.yaml", "-q", "--log", "whole.log", "--save-at", "8ms", "x.run")
-    cell.passes("run", "--restore", "x.run", "-q")
+    cell.continues("8ms")
 
 
 def golden(cell):
@@ -101,9 +68,8 @@ def golden(cell):
 
 def replay(cell):
     cell.passes("run", "x.yaml", "-q", "--capture", "x.pcapng")
-    cell.passes("replay", "x.pcapng", "--as", "5", "--chip", cell.kind, "--no-progress")
-    done = cell.passes("replay", "x.pcapng", "--as", "5", "--scenario", "x.yaml", "--no-progress")
-    cell.expect("replay", done.stdout.rstrip().rpartition("\n")[2].startswith("EQUAL"), True, done.stdout[-500:])
+    for words in (("--chip", cell.kind), ("--scenario", "x.yaml")):
+        cell.replays_equal(5, *words)
 
 
 def campaigns(cell):
@@ -150,14 +116,10 @@ def by_spi(cell):
         cell.is_refused('bus is "spi", expected intel_async', "run", "x.yaml", "--set", "chip.bus=spi")
         return
     spi = ("--set", "chip.bus=spi", "--set", "masters.plc.start=15ms", "--set", "end=25ms", "--set", "expect.0.by=24ms")
-    for engine in ("skip", "step"):
-        cell.passes("run", "x.yaml", "-q", *spi, "--engine", engine, "--log", f"spi_{engine}.log", "--trace", f"spi_{engine}.trace", "--wave", f"{engine}.vcd")
-    cell.expect("SPI: logs", cell.read("spi_step.log"), cell.read("spi_skip.log"))
-    cell.expect("SPI: traces", cell.read("spi_step.trace"), cell.read("spi_skip.trace"))
-    cell.expect("SPI: frames in the log", "  13 00 04" in cell.read("spi_skip.log").decode(), True)
+    cell.engines_agree(*spi)
+    cell.expect("SPI: frames in the log", "  13 00 04" in cell.read("skip.log").decode(), True)
     cell.expect("SPI: signals in the wave", [name for name in ("XSS", "SCK", "MISO", "spi_request", "spi_reply") if f" {name} " not in cell.read("skip.vcd").decode()], [])
-    cell.passes("run", "x.yaml", "-q", *spi, "--save-at", "8ms", "spi.run")
-    cell.passes("run", "--restore", "spi.run", "-q")
+    cell.continues("8ms", *spi)
 
 
 def pins_of(cell):
@@ -211,7 +173,7 @@ def own_rtl(cell):
     (cell.folder / "goldens").mkdir()
     cell.passes("traces", "regenerate", "x.yaml", "--folder", "goldens", "--no-progress")
     for command in (("cosim", "x.yaml", "--stimulus", "x.stimulus"), ("traces", "check", "x.yaml", "--folder", "goldens", "--no-progress")):
-        done = cell.sim(*command, *own)
+        done = cell.call(*command, *own)
         said = done.stdout + done.stderr
         found = re.search(r"cycle (\d+) \(.*\n.*XREADY_XDTACK.*: (?:model|golden) 0, (?:RTL|here still) 1", said)
         cell.expect(command, (done.returncode, found is not None), (1, True), said[-1500:])
@@ -252,7 +214,7 @@ def not_there(cell):
     for action, why in (("do: wrong_length", "has one length of inputs"), ("do: answer_acyclic, answering: never", "has no DPV1"),
                         ("do: hold_dpram, for: 1us", "hold_dpram"), ("do: write_chip, bytes: 06 00", "expected two of the address and one or more values")):
         text = SCENARIO % cell.kind + f"script: [{{at: 1ms, slave: io, {action}}}]\n"
-        (cell.folder / "y.yaml").write_text(text, encoding="utf-8")
+        cell.write("y.yaml", text)
         cell.is_refused(why, "run", "y.yaml")
 
 
@@ -283,30 +245,5 @@ ROWS = [  # what, how, the function
 ]
 
 
-def table():
-    return "".join(["| with the SPC3 family | works |\n|---|---|\n", *(f"| {what} | {how} |\n" for what, how, _ in ROWS)])
-
-
-def check_page():
-    found = re.search(r"<!-- combinations -->\n(.*?)<!-- /combinations -->", PAGE.read_text(encoding="utf-8"), re.S)
-    if not found or found.group(1) != table():
-        FAILURES.append(f"{PAGE}: its table is not that of --table")
-
-
-def main():
-    if sys.argv[1] == "--table":
-        print(table(), end="")
-        return 0
-    wanted = [ROWS[int(number)] for number in sys.argv[2:]] or ROWS
-    check_page()
-    for what, _, carry_out in wanted:
-        for kind in KINDS:
-            with tempfile.TemporaryDirectory() as folder:
-                carry_out(Cell(sys.argv[1], kind, pathlib.Path(folder)))
-        print(what, flush=True)
-    print("\n".join(FAILURES))
-    return 1 if FAILURES else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(Table(ROOT / "docs/spc3_use.md", "with the SPC3 family", ROWS, {kind: SCENARIO % kind for kind in KINDS})))
