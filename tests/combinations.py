@@ -1,4 +1,4 @@
-"""What works with a kind of chip: the rows of a table in its page, each with a function that tries it with every command of the row.
+"""The table of the commands that work with a kind of chip: its rows are in a page, each with a function that tries it with every command of the row.
 
 A script has ROWS of (what, how, function) and calls main(Table(...)):
     SCRIPT PROGRAM [NUMBER...]   all rows, or these; compares the page's table, too
@@ -32,7 +32,7 @@ class Cell:
         return subprocess.run([self.program, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=False)
 
     def passes(self, *words):
-        """What it prints."""
+        """Returns its output."""
         done = self.call(*words)
         self.expect(words, done.returncode, 0, done.stdout[-1000:] + done.stderr)
         return done.stdout
@@ -62,7 +62,7 @@ class Cell:
         self.expect("the rest", self.read("whole.log").splitlines()[-20:], rest)
 
     def replays_equal(self, address, *options):
-        """What it prints; the capture is x.pcapng."""
+        """Returns its output; the capture is x.pcapng."""
         text = self.passes("replay", "x.pcapng", "--as", address, "--no-progress", *options)
         self.expect(options, text.endswith("\nEQUAL\n"), True, text)
         return text

@@ -131,6 +131,7 @@ Result Replay::result(bool interrupted) {
   result.station = describe_station(scenario_);
   result.started = options_.judge.started;
   result.inputs_recorded = options_.judge.supplied;
+  result.diagnoses_recorded = result.inputs_recorded && scenario_.slaves.front().kind->hands_over_diagnoses();
   result.rule = options_.judge.tsdr;
   result.requests = Judge(recording_, firmware_, supplies_, options_.judge).judge(listener_);
   result.unasked = listener_.unasked();

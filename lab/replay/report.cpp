@@ -213,16 +213,20 @@ std::string cells(const std::optional<Answer>& answer) {
   return fmt::format("{:.3f}\t{}", answer->tsdr_bits(), bytes_text(answer->bytes, answer->bytes.size()));
 }
 
+const char* inputs_text(const Result& result) {
+  if (!result.inputs_recorded)
+    return "those of the scenario's user CPU, without the script; --inputs recorded: the capture's";
+  return result.diagnoses_recorded ? "the recorded ones, and the recorded diagnoses"
+                                   : "the recorded ones; the program of this chip hands over no diagnoses";
+}
+
 }  // namespace
 
 std::string text(const Result& result, const RunResult& run) {
   std::string text = line("capture", capture_text(result));
   text += resolution_text(result);
   text += line("model", result.station);
-  text += line("inputs", result.inputs_recorded
-                             ? "the recorded ones, and the recorded diagnoses"
-                             : "those of the scenario's user CPU, without the script; --inputs recorded: the "
-                               "capture's");
+  text += line("inputs", inputs_text(result));
   text += line("lead-in", bus::moment_text(result.lead_in) + (result.started ? kStarted : ""));
   text += line("TSDR / bit times",
                fmt::format("recorded {}, model {} (min / median / max); {}", spread_text(recorded_spread(result)),

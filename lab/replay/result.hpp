@@ -72,6 +72,7 @@ struct Result {
   std::string station;      ///< initialisation of the model
   bool started = false;     ///< the lead-in has brought the model into data exchange
   bool inputs_recorded = false;
+  bool diagnoses_recorded = false;  ///< with inputs_recorded; false: the model's user CPU hands over none
   TsdrRule rule;
   std::vector<RequestResult> requests;
   /// Telegrams of the model without a request, times of the capture.

@@ -135,6 +135,8 @@ class ChipKind {
   virtual bool has_prm_buffer() const { return false; }
   /// It takes a Chk_Cfg while the user judges the parameters.
   virtual bool takes_cfg_early() const { return false; }
+  /// Its user CPU gives the chip the diagnoses of a script or a recording.
+  virtual bool hands_over_diagnoses() const { return true; }
   /// Bytes of the longest configuration; default: the protocol's maximum.
   virtual int most_cfg() const { return 244; }
 

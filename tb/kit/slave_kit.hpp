@@ -198,6 +198,7 @@ class Kind : public tb::ChipKind {
   const tb::PinTable& pins() const override { return pins_; }
   const tb::BoardPins& board_pins() const override { return board_pins_; }
   int most_cfg() const override { return parts_.capacities.cfg; }
+  bool hands_over_diagnoses() const override { return parts_.diagnosis; }
   const tb::keys::Object& chip_keys() const override;
   std::unique_ptr<tb::OwnSettings> make_chip_settings() const override;
   const tb::keys::Object& user_keys() const override;

@@ -1,5 +1,5 @@
 #pragma once
-// A slave with process alarms made with the kit: its program raises them by itself or as the script orders.
+// A slave with process alarms made with the kit: its program raises them in each cycle or as the script orders.
 #include "tb/kit/slave_kit.hpp"
 
 namespace dsdpv1::kit {

@@ -3,5 +3,6 @@
 #include "tests/kit/alarm_kind.hpp"
 
 int main(int argc, char** argv) {
-  return dsdpv1::app::program(argc, argv, "alarmer", [] { return dsdpv1::tb::ChipKinds{&dsdpv1::kit::alarm_kind()}; });
+  return dsdpv1::app::program(
+      argc, argv, "alarmer", [] { return dsdpv1::tb::ChipKinds{&dsdpv1::kit::alarm_kind()}; });
 }

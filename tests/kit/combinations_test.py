@@ -55,7 +55,8 @@ def replay(cell):
     """The capture has the inputs: without it the user CPU's own, at another time."""
     cell.passes("run", "x.yaml", "-q", "--capture", "x.pcapng")
     for words in (("--chip", "own_slave"), ("--scenario", "x.yaml", "--inputs", "recorded"), ("--chip", "own_slave", "--engine", "step")):
-        cell.replays_equal(5, *words, "--json", "x.json")
+        text = cell.replays_equal(5, *words, "--json", "x.json")
+        cell.expect("no diagnoses", "the recorded ones; the program of this chip hands over no diagnoses" in text, True, text)
         cell.expect(words, json.loads(cell.read("x.json"))["compared"] > 220, True)
     cell.is_refused("--chip is own_slav (did you mean own_slave?)", "replay", "x.pcapng", "--as", "5", "--chip", "own_slav")
 
