@@ -141,7 +141,7 @@ ROWS = [  # what, how, the function
     ("`run --engine skip`, `step`", "yes: equal pins, log and wave", engines),
     ("`--wave`, `--log`, `--trace`, `--capture`, `--result`, `--report`, `--junit`", "yes", outputs),
     ("`reasons`, advice in log and report", "its rows, and the slave's in its words", reasons),
-    ("`--save-at`, `--restore`, `--rewind-on`", "yes, of a run", saved),
+    ("`--save-at`, `--restore`, `--rewind-on`", "yes, of a run; a chip alone (`PinDevice::save`) with `UserPort::stored`", saved),
     ("`replay`", "`--chip NAME`, or `--scenario`", replay),
     ("`sweep`, `regress`", "yes", campaigns),
     ("`serve`", "yes", serve),
