@@ -68,6 +68,7 @@ NOT_RESET = (
     "u_station.u_msac.u_buffers.initiate_bank_q", "u_station.u_msac.u_buffers.long_q", "u_station.u_msac.u_buffers.requester_q",
     "u_station.u_msac.u_buffers.s_begins_q", "u_station.u_msac.u_buffers.user_q", "u_station.u_msac.u_initiate_check.?_length_q",
     "u_station.u_telegram_rx.head_q", "*rdata_o")
+NOT_RESET_RSU = ("u_serial_port.u_spi.u_shift.shift_q", "u_serial_port.u_spi.u_shift.byte_q")
 
 PROOFS = (
     assertions("ownership", "the bound assertions of the handshake", ("l_req_is_l_sta", "one_owner"),
@@ -223,6 +224,12 @@ PROOFS = (
     Proof("writes_as_owner", "the chip writes the DPRAM only while it owns it, and B006 first", "dsdpv1", {CHIP: "writes_as_owner"},
           cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"), cut_wires=("w:u_sequencer.boot_q",), defines=ANY_PARAMETERS,
           edit=(SEQUENCER, "own_q <= state_d != SEQ_IDLE && state_d", "own_q <= state_d != SEQ_IDLE && state_d != SEQ_FLAG && state_d")),
+    Proof("counts_as_ruled", "B006: 01 once in each access, with its first move, and by no other move", "dpram_sequencer",
+          {SEQUENCER: "counts_as_ruled", "dpram/dpram_block.sv": "counts_as_ruled_block"}, cut_wires=("w:boot_q",),
+          edit=("dpram/dpram_choice.sv", "addr_o = DSDPV1_REG_OFFLINE_COUNT + 11'd1;", "addr_o = DSDPV1_REG_OFFLINE_COUNT - 11'd2;"),
+          second=(SEQUENCER, "SEQ_IDLE: if (starts) state_d = SEQ_COUNT;", "SEQ_IDLE: if (starts) state_d = SEQ_USER_1;")),
+    Proof("start_up_counts", "B006 in the start-up: 00 at its turn, 01 with the last move", "dpram_sequencer", {SEQUENCER: "start_up_counts"},
+          edit=("dpram/dpram_move.sv", "SEQ_CLEAR: begin\n        we_o = 1'b1;", "SEQ_CLEAR: begin\n        wdata_o = 8'h01;\n        we_o = 1'b1;")),
     Proof("newest_write", "a read gives the newest write", "dpram", {"dpram/dpram.sv": "newest_write"}, cut_cells=("c:*u_ram",), engine="induction",
           depth=1, twin_depth=8, edit=("dpram/dpram.sv", "hit_settling || hit_second || hit_first;", "hit_settling || hit_first;")),
     Proof("writes_taken_once", "a legal write is taken exactly once, in order, at the third edge", "host_port",
@@ -236,6 +243,8 @@ PROOFS = (
           engine="induction", depth=1, edit=("profibus/answer_builder.sv", "end else if (state_q != IDLE) begin", "end else if (state_q != IDLE && state_q != FCS) begin")),
     Proof("reset_equal", "after RESET two copies from any two states are equal", "dsdpv1", engine="miter", excepted=NOT_RESET,
           edit=("profibus/watchdog.sv", "      state_q <= WD_OFF;\n      base_q <= 32'd0;", "      base_q <= 32'd0;")),
+    Proof("reset_equal_rsu", "DSDPV1-RSU: the same, with SPI and UART", "dsdpv1_rsu", engine="miter", chip="dsdpv1_rsu", excepted=(*NOT_RESET, *NOT_RESET_RSU),
+          edit=("dsdpv1_rsu/host_uart.sv", "      code_q <= 3'd0;\n      {phase_q", "      {phase_q")),
     Proof("answer_clock", "the answer's clock is the time since the request's end, and the lead", "uart_rx", {"profibus/uart_rx.sv": "answer_clock"},
           engine="induction", depth=1, twin_depth=48, edit=("profibus/uart_rx.sv", "ahead = lead_cycles + 3 - len / 2;", "ahead = lead_cycles + 4 - len / 2;")),
     Proof("not_before_min_tsdr", "no answer before min_TSDR, nor before 11 bit times", "uart_tx", {"profibus/uart_tx.sv": "not_before_min_tsdr"},
