@@ -19,7 +19,7 @@ runs() {
     for mode in spi uart parallel; do echo "rtl-random --chip dsdpv1_rsu --mode $mode --cycles 2000000 --seed 1 --jobs 1"; done
   else
     for scenario in scenarios/*.yaml; do
-      if grep -qE 'kind: (arm|dsdpv1_rsu|apc3|spc3|vpc3)' "$scenario"; then continue; fi  # firmware that would have to be built first; other RTL
+      if grep -qE 'kind: (arm|dsdpv1_rsu|apc3|spc3|vpc3|xgate)' "$scenario"; then continue; fi  # firmware that would have to be built first; other RTL
       end=$(sed -n 's/^end: *\([0-9]*\)ms$/\1/p' "$scenario")
       if [ "${end:-$end_before_ms}" -lt "$end_before_ms" ]; then echo "run $scenario --engine lockstep"; fi
     done

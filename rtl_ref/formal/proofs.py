@@ -26,6 +26,7 @@ class Proof:
     edit: tuple = ()         # and file, old text, new text
     second: tuple = ()       # another such edit
     chip: str = "dsdpv1"     # whose files
+    two_clocks: bool = False  # clocks are signals, and a step is a part of a cycle
     excepted: tuple = ()     # registers that are equal in both copies of a miter
 
 
@@ -235,6 +236,9 @@ PROOFS = (
     Proof("writes_taken_once", "a legal write is taken exactly once, in order, at the third edge", "host_port",
           {"dsdpv1/host_port.sv": "writes_taken_once"}, faults=(47,),
           edit=("dsdpv1/host_port.sv", "2'd1: oldest = entry1_q;", "2'd1: oldest = entry0_q;")),
+    Proof("writes_at_any_time", "... with CLK and WR as two clocks", "host_port", {"dsdpv1/host_port.sv": "writes_at_any_time"}, two_clocks=True, faults=(47,),
+          edit=("dsdpv1/host_port.sv", "2'd1: oldest = entry1_q;", "2'd1: oldest = entry0_q;"),
+          second=("dsdpv1/host_port.sv", "gray_q <= gray_first_q;", "gray_q <= head_gray_q;")),
     Proof("sent_whole", "an answer has no gap, and PBRTS covers it with lead and trail", "uart_tx", {"profibus/uart_tx.sv": "sent_whole"},
           engine="induction", depth=1,
           edit=("profibus/uart_tx.sv", "count_q <= {4'd0, rts_trail_i} - 10'd1;", "count_q <= {4'd0, rts_trail_i} - 10'd2;"),

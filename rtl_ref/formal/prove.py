@@ -86,7 +86,7 @@ def yosys(proof, folder, is_twin):
     defines = " ".join(f"-D{define}" for define in proof.defines + (("TWIN",) if is_twin else ()))
     names = files(proof) + ([ASSERTIONS] if proof.asserts else [])
     common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(names)}; "
-              f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}{only_asserts(proof) if proof.asserts else ''}async2sync; delete -output; opt_clean; "
+              f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}{only_asserts(proof) if proof.asserts else ''}{'clk2fflogic' if proof.two_clocks else 'async2sync'}; delete -output; opt_clean; "
               "memory_map; setundef -undriven -anyseq; opt -full; dffunmap; ")
     if engine_of(proof, is_twin) != "induction":
         script = common + "techmap; opt -fast; dffunmap; abc -g AND -fast; opt_clean; write_aiger -I -zinit model.aig"
