@@ -1,4 +1,8 @@
 // serve: offers a scenario's segment at a pseudo-terminal, a TCP port or a serial port.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -24,6 +28,7 @@
 #include "tb/serve/ports.hpp"
 #include "tb/serve/run/control_port.hpp"
 #include "tb/serve/run/real_time_execution.hpp"
+#include "tb/serve/run/user_port.hpp"
 
 namespace dsdpv1::app {
 namespace {
@@ -38,6 +43,7 @@ class Serve : public Command {
   void options(CLI::App& app) override {
     app.add_option("SCENARIO", scenario_, "Scenario in YAML; it needs no masters, and its end is ignored")->required();
     add_port_options(app);
+    add_user_options(app);
     app.add_option("--baud", baud_, "Baud rate (default: that of the scenario)");
     app.add_option("--for", duration_, "End after this time, for example 10s (default: Ctrl-C)");
     add_wave_options(app, wave_);
@@ -64,7 +70,8 @@ class Serve : public Command {
                            "  dsdpv1-sim serve scenarios/serve_19k2.yaml --pty dp --log serve.log\n"
                            "  dsdpv1-sim serve scenarios/serve_19k2.yaml --tcp 5020\n"
                            "  dsdpv1-sim serve scenarios/serve_19k2.yaml --serial /dev/ttyUSB0 --baud 93.75k\n"
-                           "docs/pyprofibus.md and docs/usb_rs485.md take you through it.\n") +
+                           "  dsdpv1-sim serve scenarios/xgate_uart.yaml --user-pty host\n"
+                           "docs/pyprofibus.md, docs/usb_rs485.md and docs/xgate.md take you through it.\n") +
                kExitCodes);
   }
 
@@ -77,6 +84,10 @@ class Serve : public Command {
     scenario.end = duration_.empty() ? kOpenEnd : time_of("dsdpv1-sim serve: --for", duration_, 1);
     take_run_words(kinds(scenario));
     if (gdb_) attach_gdb(scenario);
+    if (has_user())
+      attach_user(scenario);
+    else if (!user_of_.empty())
+      throw tb::InputError("dsdpv1-sim serve: --user-of requires --user-pty or --user-tcp");
     run_.orders = control_.has_value();
     check_files(scenario);
     WantedFile result_file(result_), junit_file(junit_);
@@ -85,6 +96,8 @@ class Serve : public Command {
 
     std::optional<tb::serve::ControlPort> control;
     if (control_) control.emplace(*control_);
+    std::optional<tb::serve::UserPort> user;
+    if (has_user()) user.emplace(open_user_port(), user_line_);
     auto port = open_port(scenario.baud);
     const std::string name = port->name();
     auto made = std::make_unique<tb::serve::RealTimeExecution>(std::move(port), scenario.baud);
@@ -96,13 +109,18 @@ class Serve : public Command {
       std::cerr << "serve: " << text << '\n';
       bench.log(at, "host", "serve", text);
     };
+    if (user) {
+      std::cerr << "serve: the user CPU of " << run_.outside->slave << " is the program at " << user->name() << '\n';
+      user->say = execution.say;
+    }
     execution.link().on_early = [&bench](tb::Tick at, const bus::Bytes& telegram) { bench.host_early(at, telegram); };
     execution.link().on_gone = [&bench] { bench.host_gone(); };
     bench.leave_untimed([&execution](tb::Tick start) { return execution.link().line().began_at(start); });
-    if (control) {
-      std::cerr << "serve: takes actions at " << control->address() << '\n';
-      execution.on_round = [&] { control->look([&bench](const std::string& line) { return answer_to(bench, line); }); };
-    }
+    if (control) std::cerr << "serve: takes actions at " << control->address() << '\n';
+    execution.on_round = [&](tb::Tick now) {
+      if (control) control->look([&bench](const std::string& line) { return answer_to(bench, line); });
+      if (user) user->look(now);
+    };
     catch_signals();
     std::cout << "serving \"" << bus::printable(scenario.name) << "\" at " << bus::baud(scenario.baud).name << " on "
               << name << "; Ctrl-C ends\n"
@@ -146,6 +164,42 @@ class Serve : public Command {
         ->needs(tcp);
     app.add_flag("--rts", rts_, "Switch the transceiver by RTS of the serial port (default: it switches automatically)")
         ->needs(serial);
+  }
+
+  void add_user_options(CLI::App& app) {
+    CLI::Option* pty = app.add_option("--user-pty", user_link_,
+                                      "A program of yours is the user CPU, by a UART: at a pseudo-terminal with this "
+                                      "name as a link to it (docs/xgate.md)")
+                           ->expected(0, 1);
+    CLI::Option* tcp = app.add_option("--user-tcp", user_tcp_, "The same at a TCP port of 127.0.0.1 (0: any free one)")
+                           ->type_name("PORT")
+                           ->check(CLI::Range(0, 65535));
+    app.add_option("--user-of", user_of_, "Its slave (default: the only one with a UART for it)");
+    pty->excludes(tcp);
+    user_pty_ = pty;
+  }
+
+  bool has_user() const { return user_pty_->count() != 0 || user_tcp_ >= 0; }
+
+  void attach_user(const tb::scenario::Scenario& scenario) {
+    std::vector<std::string> able;
+    for (const tb::scenario::Slave& slave : scenario.slaves)
+      if (slave.kind->has_outside_line(slave)) able.push_back(slave.name.text);
+    const std::string option = user_tcp_ >= 0 ? "--user-tcp" : "--user-pty";
+    if (able.empty())
+      throw tb::InputError("dsdpv1-sim serve: " + option + " needs a slave with a UART for its user CPU, " +
+                           scenario.file + " has none");
+    const bool named = std::find(able.begin(), able.end(), user_of_) != able.end();
+    if (!named && (able.size() > 1 || !user_of_.empty()))
+      throw tb::InputError(
+          fmt::format("dsdpv1-sim serve: --user-of is {}, expected a slave with a UART for its user CPU: {}",
+                      user_of_.empty() ? "missing" : bus::printable(user_of_), fmt::join(able, ", ")));
+    run_.outside = tb::OutsideUser{named ? user_of_ : able.front(), &user_line_};
+  }
+
+  std::unique_ptr<tb::serve::HostConnection> open_user_port() const {
+    if (user_tcp_ >= 0) return tb::serve::open_tcp("127.0.0.1", user_tcp_, std::chrono::seconds(0));
+    return tb::serve::open_pty(user_link_, 0);
   }
 
   void take_run_words(const tb::ChipKinds& kinds) {
@@ -194,6 +248,11 @@ class Serve : public Command {
   std::string checks_;  ///< empty: as the scenario says
   std::vector<std::string> set_;
   std::optional<int> gdb_, control_;
+  CLI::Option* user_pty_ = nullptr;
+  std::string user_link_;  ///< of its pseudo-terminal; empty: none
+  int user_tcp_ = -1;      ///< port; 0: any free one; -1: no TCP
+  std::string user_of_;    ///< a slave; empty: the only one that can have it
+  user_cpu::OutsideLine user_line_;
   CaptureArguments capture_;
   bool quiet_ = false;
 };

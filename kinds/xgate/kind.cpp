@@ -2,10 +2,12 @@
 
 #include "kinds/xgate/frame_reader.hpp"
 #include "kinds/xgate/host_program.hpp"
+#include "kinds/xgate/outside_host.hpp"
 #include "kinds/xgate/pins.hpp"
 #include "kinds/xgate/port.hpp"
 #include "kinds/xgate/settings.hpp"
 #include "model/xgate/reasons.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::xgate {
 namespace {
@@ -54,6 +56,12 @@ class XgateKind : public kit::Kind {
         {"spi", {"NSS", "SCK", "MOSI", "spi_request", "MISO", "spi_reply"}},
         {"leds", {"LED1A", "LED1B", "LED2A", "LED2B"}}};
     return groups;
+  }
+  bool has_outside_line(const tb::scenario::Slave& slave) const override {
+    return chip_settings_of(*slave.chip).port == Port::kUart;
+  }
+  tb::MakeUser make_user(const tb::UserRequest& request) const override {
+    return request.outside != nullptr ? outside_host(request) : kit::Kind::make_user(request);
   }
 
  private:

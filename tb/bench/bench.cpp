@@ -99,7 +99,7 @@ void Bench::add_slave(const scenario::Slave& slave) {
   const bool late = !needs_all_pins() && port == nullptr;  // checks do not mind
   std::unique_ptr<ChipView> chip = execution_->make_chip(
       *slave.kind, {slave.name.text, *slave.chip, options_.engine, options_.wave.inside, watched_pins(slave), late});
-  MakeUser make_user = slave.kind->make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
+  MakeUser make_user = slave.kind->make_user({scenario_, slave, *chip, gdb_of(slave), left_out_, outside_of(slave)});
   auto& slaves = stations_.slaves;
   slaves.push_back(std::make_unique<SlaveStation>(slaves.size(), slave, std::move(station), std::move(chip),
                                                   std::move(make_user), *execution_, observers_));
@@ -123,6 +123,10 @@ const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {
   const auto first = std::find_if(slaves.begin(), slaves.end(),
                                   [](const scenario::Slave& each) { return each.kind->has_debugger(each); });
   return options_.gdb && first != slaves.end() && &*first == &slave ? &*options_.gdb : nullptr;
+}
+
+user_cpu::OutsideLine* Bench::outside_of(const scenario::Slave& slave) const {
+  return options_.outside && options_.outside->slave == slave.name.text ? options_.outside->line : nullptr;
 }
 
 void Bench::add_monitor() {

@@ -32,14 +32,21 @@ namespace dsdpv1::tb {
 
 class Script;
 
+/// A program outside of the simulation; `line` must outlive the bench.
+struct OutsideUser {
+  std::string slave;
+  user_cpu::OutsideLine* line;
+};
+
 struct RunOptions {
   Engine engine = Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
   WaveOptions wave;
-  std::string log, trace;         ///< paths, empty: none
-  bool log_whole = false;         ///< the log contains all bytes
-  CaptureRequest capture;         ///< of the telegrams
-  std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that supports one
+  std::string log, trace;              ///< paths, empty: none
+  bool log_whole = false;              ///< the log contains all bytes
+  CaptureRequest capture;              ///< of the telegrams
+  std::optional<GdbRequest> gdb;       ///< debugger of the first user CPU that supports one
+  std::optional<OutsideUser> outside;  ///< the user of one chip is a program outside of the simulation
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< lines printed by user CPUs
   std::optional<ChecksMode> checks;                                                  ///< absent: as in the scenario
   Tick from = 0;  ///< start of log, trace, capture, wave and the output of user CPUs
@@ -116,6 +123,7 @@ class Bench : private Observer {
   void add_agents();
   void add_observers();
   const GdbRequest* gdb_of(const scenario::Slave& slave) const;
+  user_cpu::OutsideLine* outside_of(const scenario::Slave& slave) const;
   ChipNews wanted_news(const ChipView& chip) const;
   void interrupt(std::size_t slave, Tick at, bool level) override {
     stations_.slaves[slave]->interrupt_changed(at, level);

@@ -18,6 +18,7 @@
 #include "tb/chip/pins/pins.hpp"
 #include "tb/chip/timing_diagram.hpp"
 #include "tb/chip/user_cpu/debug_history.hpp"
+#include "tb/chip/user_cpu/outside_line.hpp"
 #include "tb/chip/user_cpu/program.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
 
@@ -117,6 +118,7 @@ struct UserRequest {
   const GdbRequest* gdb;  ///< null without a debugger
   /// Receives the addresses of actions and expectations that the program cannot execute or report.
   std::set<const void*>& left_out;
+  user_cpu::OutsideLine* outside = nullptr;  ///< the program is outside of the simulation
 };
 
 class ChipKind {
@@ -179,6 +181,8 @@ class ChipKind {
   virtual MakeUser make_user(const UserRequest& request) const = 0;
   /// Whether a debugger can be connected to the slave's user CPU.
   virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
+  /// True if a program outside of the simulation can be the slave's user, by a serial line (UserRequest::outside).
+  virtual bool has_outside_line(const scenario::Slave& /*slave*/) const { return false; }
   /// Whether the slave's user CPU is a process of its own, which a copy of this one does not have.
   virtual bool has_process(const scenario::Slave& /*slave*/) const { return false; }
   /// True if --view tlm cannot have the slave's user CPU: it sets pins in this scenario for which that view only has

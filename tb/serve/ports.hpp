@@ -10,7 +10,7 @@
 namespace dsdpv1::tb::serve {
 
 /// A pseudo-terminal; `link` is a symbolic link to it, removed at the end; empty: none. Warns if the host sets another
-/// speed than `bits_per_second`.
+/// speed than `bits_per_second`; 0: any is right.
 std::unique_ptr<HostConnection> open_pty(const std::string& link, int bits_per_second);
 
 /// A TCP port at the numeric address `bind`, one host at a time: others are accepted and wait for their turn in order

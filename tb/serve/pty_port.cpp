@@ -99,7 +99,7 @@ class PtyPort : public HostConnection {
 
   void first_bytes() override {
     const int speed = speed_of(master_.get());
-    if (speed == 0 || std::abs(speed - speed_) * 50 <= speed_) return;
+    if (speed == 0 || speed_ == 0 || std::abs(speed - speed_) * 50 <= speed_) return;
     say(
         fmt::format("{}: the host has set {} bit/s, the segment runs at {} (--baud); a pseudo-terminal passes the "
                     "bytes on all the same",

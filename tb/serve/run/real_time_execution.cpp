@@ -16,7 +16,7 @@ void RealTimeExecution::run(Tick end, const std::function<bool()>& stopped) {
   link_.begin(timeline_.now());
   while (!stopped() && timeline_.now() < end) {
     link_.take(timeline_.now());
-    on_round();
+    on_round(timeline_.now());
     const Tick to = std::min(link_.limit(timeline_.now()), end);
     if (to > timeline_.now()) timeline_.run_until(to);
     link_.give(timeline_.now());

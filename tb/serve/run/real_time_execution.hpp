@@ -19,7 +19,7 @@ class RealTimeExecution : public Execution {
   void run(Tick end, const std::function<bool()>& stopped) override;
 
   /// Called in each round, between two steps of simulated time.
-  std::function<void()> on_round = [] {};
+  std::function<void(Tick now)> on_round = [](Tick) {};
   HostLink& link() { return link_; }
   /// Prints one line about the port or the pace.
   std::function<void(Tick at, const std::string& text)> say = [](Tick, const std::string&) {};
