@@ -193,7 +193,7 @@ function(dsdpv1_install_recorder)
   set_target_properties(dsdpv1_recorder_whole PROPERTIES EXPORT_NAME recorder)
   install(FILES kinds/systemc/chip_recorder.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/kinds/systemc COMPONENT recorder)
   dsdpv1_install_pc(recorder dsdpv1-recorder "checks, summary, waves and captures of a chip in a SystemC platform" LIBS dsdpv1_recorder boost_context z dl
-                    REQUIRES dsdpv1-systemc dsdpv1-checks fmt yaml-cpp pugixml)
+                    REQUIRES dsdpv1-systemc dsdpv1-xgate dsdpv1-checks fmt yaml-cpp pugixml)
 endfunction()
 
 # Called by apps/, whose targets these are.
@@ -206,7 +206,7 @@ function(dsdpv1_install_bench)
   endforeach()
   install(FILES ${PROJECT_SOURCE_DIR}/apps/program.hpp DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/apps COMPONENT bench)
   dsdpv1_install_pc(bench dsdpv1-bench "bench for DP slave chips, and a kit for chips of one's own" LIBS dsdpv1_bench boost_context minizip lzma md z dl
-                    REQUIRES dsdpv1-checks dsdpv1-driver yaml-cpp pugixml)
+                    REQUIRES dsdpv1-checks dsdpv1-xgate dsdpv1-driver yaml-cpp pugixml)
   dsdpv1_install_pc(bench dsdpv1-commands "the commands of dsdpv1-sim, for programs with chips of one's own" LIBS dsdpv1_commands
                     REQUIRES dsdpv1-bench dsdpv1-systemc-bus)
 endfunction()
