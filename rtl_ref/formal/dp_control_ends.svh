@@ -11,5 +11,6 @@ always @* begin
 `ifndef TWIN  // what makes this inductive
   if (state_q == WD_DP_CONTROL && !load_dp_q) assert (base_start_q >= 32'd2 && (last_q || rest != 48'd0));
   if (state_q == WD_DP_CONTROL) assert (!load_baud_q);
+  assert (state_q <= WD_DP_CONTROL);
 `endif
 end
