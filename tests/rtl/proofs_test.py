@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 # SPDX-License-Identifier: Apache-2.0 OR MIT
-"""The table of docs/rtl.md has a row for each proof of rtl_ref/formal, with as many defects as it has twins; each file there belongs to a proof."""
+"""The tables of docs/rtl.md have a row for each proof of rtl_ref/formal, with the faults of its twins, and for each register with illegal codes."""
 import pathlib
 import re
 import sys
@@ -44,11 +44,37 @@ def complaints(page, known, files):
             yield f"the row of {', '.join(names)} does not name the faults {sorted(of_list - faults(cells[4]))}"
 
 
+def registers(texts):
+    """(block, register, first illegal code, last one) of each register of an enumeration that has fewer names than codes."""
+    shared = {}
+    for name, text in sorted(texts.items(), key=lambda each: not each[0].endswith(".svh")):
+        here = dict(shared)
+        for width, body, kind in re.findall(r"typedef enum logic \[(\d+):0\] \{(.*?)\} (\w+);", text, re.S):
+            here[kind] = len(re.findall(r"^\s*\w+ = \d+'d\d+", body, re.M)), 2 ** (int(width) + 1)
+        if name.endswith(".svh"):
+            shared = here
+            continue
+        declared = re.findall(r"^  (\w+_t) ([\w, ]+);", text, re.M) + [(kind, kind.replace("_t", "_q")) for kind in here if kind not in shared]
+        for kind, names in declared:
+            yield from ((name.split("/")[1][:-3], each, here[kind][0], here[kind][1] - 1) for each in names.split(", ")
+                        if kind in here and each.endswith("_q") and here[kind][0] < here[kind][1])
+
+
+def without_row(page, texts):
+    """The registers of which the table of illegal codes has no right row."""
+    table = page.split("| register | illegal | left |")[1].split("\n\n")[0].splitlines()[2:]
+    for block, register, first, last in registers(texts):
+        codes = {str(first)} if first == last else {f"{first}, {last}", f"{first} to {last}"}
+        if not any(f"`{block}`" in row and f"`{register}`" in row and any(each in row.split(" | ")[1] for each in codes) for row in table):
+            yield f"docs/rtl.md, illegal codes: no row of {block} {register}, {first} to {last}"
+
+
 def main():
     page = (ROOT / "docs" / "rtl.md").read_text(encoding="utf-8")
     known = {proof.name: proof for proof in proofs.PROOFS}
     files = {path.stem for path in FORMAL.glob("*.svh")}
-    found = list(complaints(page, known, files))
+    texts = {str(path.relative_to(FORMAL.parent)): path.read_text(encoding="utf-8") for pattern in ("*.svh", "*/*.sv") for path in FORMAL.parent.glob(pattern)}
+    found = [*complaints(page, known, files), *without_row(page, texts)]
     # Each kind of disagreement is found
     name = "banks_dpv1"
     broken = (
@@ -59,7 +85,9 @@ def main():
         (page, known, files - {name}),
         (page.replace("fault 47: CSR", "fault 48: CSR"), known, files),
     )
-    found += [f"disagreement {number} was not found" for number, each in enumerate(broken) if len(list(complaints(*each))) <= len(found)]
+    found += [f"disagreement {number} was not found" for number, each in enumerate(broken) if not set(complaints(*each)) - set(found)]
+    another = {**texts, "dsdpv1/another.sv": "  typedef enum logic [1:0] {\n    IDLE = 2'd0,\n    RUN = 2'd1\n  } state_t;\n"}
+    found += [] if len(list(without_row(page, another))) > len(list(without_row(page, texts))) else ["a register without a row was not found"]
     print("\n".join(found) or f"{len(known)} proofs, {sum(len(prove.defects(proof)) for proof in known.values())} twins, {len(files)} files: as docs/rtl.md says")
     return 1 if found else 0
 
