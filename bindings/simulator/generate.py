@@ -114,8 +114,10 @@ def parameters(kind):
     for name, members in lists.items():
         first, count = members[0], len(members)
         comment = f"{first.unit + ', ' if first.unit else ''}{first.minimum} to {first.maximum}. {first.description}"
-        if count == 1:
+        if count == 1 and first.maximum < 2**31:
             yield name.upper(), "integer", str(first.default), comment
+        elif count == 1:
+            yield name.upper(), "longint", f"64'd{first.default}", comment
         else:
             defaults = ", ".join(f"16'd{each.default}" for each in reversed(members))
             yield name.upper(), f"logic [{16 * count - 1}:0]", f"{{{defaults}}}", f"16 bits each, [0] lowest; {comment}"

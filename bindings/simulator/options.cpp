@@ -55,7 +55,7 @@ int64_t number_of(const Option& option, int64_t minimum, int64_t maximum) {
 NativeOptions::NativeOptions(const ChipOptions& options) {
   parameters.reserve(options.parameters.size());
   for (const Option& each : options.parameters)
-    parameters.push_back({each.name.c_str(), number_of(each, INT32_MIN, INT32_MAX)});
+    parameters.push_back({each.name.c_str(), number_of(each, INT64_MIN, INT64_MAX)});
   chosen.size = sizeof chosen;
   chosen.kind = options.kind.c_str();
   chosen.parameters = parameters.data();

@@ -30,6 +30,11 @@ class Kinds(unittest.TestCase):
         self.assertIn('`include "other_inputs.svh"', text)
         self.assertEqual(sorted(generate.packing([DSDPV1, kind])), ["dsdpv1_inputs.svh", "dsdpv1_outputs.svh", "other_inputs.svh", "other_outputs.svh"])
 
+    def test_a_parameter_that_may_exceed_32_bits_is_a_longint(self):
+        lines = [line for line in generate.module(generate.kind_of("xgate"), "model").splitlines() if "parameter " in line]
+        self.assertIn("  parameter longint HOST_SHOWN = 64'd6000000000,", lines)
+        self.assertIn("  parameter integer RATE = 115200,", lines)
+
     def test_one_with_the_pins_of_another_has_its_top(self):
         self.assertEqual(generate.top_of(dataclasses.replace(DSDPV1, name="other")), "dsdpv1")
 
