@@ -44,7 +44,7 @@ class HostBus {
   explicit HostBus(const dpsim_chip& chip) : pins_(chip.kind.chip.pins()) {
     const auto row = std::find_if(kHostBuses.begin(), kHostBuses.end(),
                                   [this](const HostBusRow& each) { return find(each.csr) != kNone; });
-    if (row == kHostBuses.end()) capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
+    if (row == kHostBuses.end()) capi::refuse_host_bus();
     for (const char* strap : row->straps)
       if (strap != nullptr && find(strap) != kNone && chip.level(find(strap)) != 0)
         capi::fail(DPSIM_ERR_UNSUPPORTED, "the straps choose another bus than the asynchronous one of Intel");

@@ -155,6 +155,8 @@ dpsim_status dpsim_checker_create(const dpsim_checker_options* options, dpsim_ch
         need(checker, "checker");
         const dpsim_checker_options given = capi::options_of(options, "options");
         const capi::Kind& kind = capi::kind_of(given.kind);
+        if (kind.chip.rules().size() == 0)
+          fail(DPSIM_ERR_UNSUPPORTED, "there are no checks of the user of a chip of this kind");
         *checker = std::make_unique<dpsim_checker>(kind, limits_of(given, kind.chip.rules())).release();
       });
 }

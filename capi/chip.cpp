@@ -59,6 +59,7 @@ bool may_float(const tb::PinInfo& pin) { return pin.bus != nullptr; }
 Level highest_of(const tb::PinInfo& pin) { return static_cast<Level>((1 << pin.width) - 1); }
 
 void check_address(const dpsim_chip& chip, std::uint16_t address) {
+  if (chip.kind.chip.cells() == 0) fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind shares no memory with its user");
   capi::need_range("address", address, 0, chip.kind.chip.cells() - 1);
 }
 
@@ -354,6 +355,7 @@ dpsim_status dpsim_chip_sample(dpsim_chip* chip, uint64_t tick, dpsim_level* lev
       [&] {
         need(chip, "chip");
         need(level, "level");
+        if (!chip->kind.has_host_bus) capi::refuse_host_bus();
         const capi::Running running(chip->clock);
         const Tick at = capi::tick_from(tick, chip->clock.now);
         *level = chip->device().sample(at);

@@ -1,5 +1,7 @@
 #include "capi/kind.hpp"
 
+#include <algorithm>
+
 #include "capi/error.hpp"
 
 namespace dsdpv1::capi {
@@ -14,10 +16,21 @@ std::vector<tb::Level> reset_levels_of(const tb::ChipKind& chip) {
   return levels;
 }
 
+/// Two pins are the directions of one bus.
+bool has_data_bus(const tb::ChipKind& chip) {
+  return std::any_of(
+      chip.pins().begin(), chip.pins().end(), [](const tb::PinInfo& pin) { return pin.bus != nullptr; });
+}
+
 }  // namespace
 
 Kind::Kind(const tb::ChipKind& its_chip)
-    : chip(its_chip), reset_levels(reset_levels_of(chip)), parameters(parameters_of(chip)) {}
+    : chip(its_chip),
+      reset_levels(reset_levels_of(chip)),
+      parameters(parameters_of(chip)),
+      has_host_bus(has_data_bus(chip)) {}
+
+void refuse_host_bus() { fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus"); }
 
 const std::deque<Kind>& kinds() {
   static const std::deque<Kind> all = [] {

@@ -30,7 +30,10 @@ struct Kind {
   const tb::ChipKind& chip;
   const std::vector<tb::Level> reset_levels;  ///< before the first call of a chip at power-on, by pin
   const std::vector<Parameter> parameters;
+  const bool has_host_bus;  ///< a parallel one, whose D is sampled
 };
+
+[[noreturn]] void refuse_host_bus();
 
 /// The first one is the default.
 const std::deque<Kind>& kinds();

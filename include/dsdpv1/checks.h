@@ -64,7 +64,8 @@ typedef struct dpsim_checker_options {
   const dpsim_limit* limits; /**< rules with other limits than the default */
 } dpsim_checker_options;
 
-/** `options` NULL: all rules of the first kind with their defaults. DPSIM_ERR_NOT_FOUND: no such kind or rule. */
+/** `options` NULL: all rules of the first kind with their defaults. DPSIM_ERR_NOT_FOUND: no such kind or rule.
+ * DPSIM_ERR_UNSUPPORTED: a kind without rules. */
 DPSIM_API dpsim_status dpsim_checker_create(const dpsim_checker_options* options, dpsim_checker** checker);
 DPSIM_API void dpsim_checker_destroy(dpsim_checker* checker);
 

@@ -321,7 +321,8 @@ typedef struct dpsim_chip_status {
 DPSIM_API dpsim_status dpsim_chip_get_status(const dpsim_chip* chip, dpsim_chip_status* status);
 
 /** Reads one cell of the memory shared by chip and user, without pins, time or side effects: for debuggers and
- * checks. DPSIM_ERR_ARGUMENT: `address` beyond it (DSDPV1: 0x7FF). Also in callbacks. */
+ * checks. DPSIM_ERR_ARGUMENT: `address` beyond it (DSDPV1: 0x7FF). DPSIM_ERR_UNSUPPORTED: an XGate-DPS10, which has no
+ * such memory. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_chip_peek(const dpsim_chip* chip, uint16_t address, uint8_t* value);
 /** Writes one cell; the chip finds it (a flag, for example) at its next access. */
 DPSIM_API dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value);

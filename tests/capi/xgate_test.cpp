@@ -328,6 +328,31 @@ TEST(CapiSerial, OtherKindsAnswerByTheirPorts) {
           "dpsim_chip_uart_open: a chip of this kind has no UART for its user");
 }
 
+TEST(CapiXgate, WhatOtherKindsHaveIsRefusedWithTheReason) {
+  const auto chip = make_module();
+  dpsim_level level = 0;
+  uint8_t byte = 0;
+  uint64_t end = 0;
+  const std::string bus = "a chip of this kind has no parallel host bus";
+  refused(dpsim_chip_sample(chip.get(), 0, &level), DPSIM_ERR_UNSUPPORTED, ("dpsim_chip_sample: " + bus).c_str());
+  refused(dpsim_chip_read(chip.get(), 0, 0, nullptr, &level, &end), DPSIM_ERR_UNSUPPORTED,
+          ("dpsim_chip_read: " + bus).c_str());
+  refused(dpsim_chip_write(chip.get(), 0, 0, 0, nullptr, &end), DPSIM_ERR_UNSUPPORTED,
+          ("dpsim_chip_write: " + bus).c_str());
+  refused(dpsim_chip_load(chip.get(), 0, 0, &byte), DPSIM_ERR_UNSUPPORTED,
+          "dpsim_chip_load: a chip of this kind is accessed by the pins of its host bus or port");
+  refused(dpsim_chip_peek(chip.get(), 0, &byte), DPSIM_ERR_UNSUPPORTED,
+          "dpsim_chip_peek: a chip of this kind shares no memory with its user");
+  refused(dpsim_chip_poke(chip.get(), 0, 0), DPSIM_ERR_UNSUPPORTED,
+          "dpsim_chip_poke: a chip of this kind shares no memory with its user");
+  auto options = sized<dpsim_checker_options>();
+  options.kind = "xgate";
+  dpsim_checker* checker = nullptr;
+  const dpsim_status status = dpsim_checker_create(&options, &checker);
+  EXPECT_EQ(status, dpsim_rule_count("xgate") == 0 ? DPSIM_ERR_UNSUPPORTED : DPSIM_OK) << dpsim_error_message();
+  dpsim_checker_destroy(checker);
+}
+
 TEST(CapiXgate, SerialPortsAreRefusedWithTheReason) {
   const auto other = make_chip(), module = make_module(), by_spi = make_module(DPSIM_ENGINE_SKIP, 1);
   uint8_t byte = 0;
