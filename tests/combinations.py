@@ -19,7 +19,7 @@ class Cell:
     """A program in its own folder with the scenario x.yaml. `kind` tells kinds apart that share the rows."""
 
     def __init__(self, program, folder, scenario, kind=""):
-        self.program, self.folder, self.kind = program, folder, kind
+        self.program, self.folder, self.kind, self.scenario = program, folder, kind, scenario
         self.write("x.yaml", scenario)
 
     def write(self, name, text):

@@ -12,6 +12,7 @@
 #include "io/input/suggest.hpp"
 #include "kinds/dsdpv1/checks/markdown.hpp"
 #include "kinds/spc3/checks/markdown.hpp"
+#include "kinds/xgate/checks_markdown.hpp"
 #include "tb/bench/ruling_place.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/report/text_table.hpp"
@@ -179,7 +180,7 @@ class Reasons : public Command {
 
   int carry_out() override {
     const tb::ChipKind& kind = *tb::chip_kinds().front();
-    const std::string text = checks_     ? checks::markdown() + spc3_checks::markdown()
+    const std::string text = checks_     ? checks::markdown() + spc3_checks::markdown() + xgate_checks::markdown()
                              : markdown_ ? as_markdown(kind)
                                          : as_text(kind, code_);
     return print_or_write("dsdpv1-sim reasons", text, output_);

@@ -45,7 +45,7 @@ class HostProgram {
 
   /// The firmware of the module needs its time before it hears anything.
   void run() {
-    cpu_.wait(chip_.power_time + bus::kTicksPerMs);
+    cpu_.wait(own_.reset_wait.value_or(chip_.power_time + bus::kTicksPerMs));
     initialise();
     for (Tick turn = cpu_.now();; turn = std::max(turn + cpu_.period(), cpu_.now())) {
       cpu_.wait_until(turn);

@@ -86,6 +86,8 @@ const ObjectOf<HostSpi>& spi_keys() {
 void add_line(ObjectOf<UserSettings>& o) {
   using U = UserSettings;
   o.integer("rate", &U::rate, kRates, "bit/s", "The host's rate (default: the chip's).");
+  o.time("reset_wait", &U::reset_wait, {0, 10 * bus::kTicksPerSecond},
+         "From the rise of /Rst to the host's first byte (default: the chip's power_up and 1 ms, X18).");
   o.time("byte_gap", &U::byte_gap, {0, bus::kTicksPerSecond}, "Idle time between two bytes of a command by UART.");
   o.object("spi", &U::spi, spi_keys(), "Its end of SPI, with port: spi of the chip.");
   o.boolean("printed_errors", &U::printed_errors,

@@ -1,7 +1,9 @@
 #include "kinds/xgate/kind.hpp"
 
+#include "kinds/xgate/checks.hpp"
 #include "kinds/xgate/frame_reader.hpp"
 #include "kinds/xgate/host_program.hpp"
+#include "kinds/xgate/orders.hpp"
 #include "kinds/xgate/outside_host.hpp"
 #include "kinds/xgate/pins.hpp"
 #include "kinds/xgate/port.hpp"
@@ -62,6 +64,21 @@ class XgateKind : public kit::Kind {
   }
   tb::MakeUser make_user(const tb::UserRequest& request) const override {
     return request.outside != nullptr ? outside_host(request) : kit::Kind::make_user(request);
+  }
+
+  const std::vector<tb::Order>& orders() const override { return xgate::orders(); }
+  void check_order(const std::string& order, const tb::OwnSettings& /*user*/, const tb::OwnSettings& chip,
+                   const tb::keys::Source& source, int where) const override {
+    xgate::check_order(order, chip_settings_of(chip).port, source.file, where);
+  }
+
+  const checks::RuleTable& rules() const override { return xgate_checks::rules(); }
+  tb::PinMask checked_pins() const override { return xgate_checks::Checks::watched(); }
+  std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
+                                                  const tb::OwnSettings* chip) const override {
+    const ChipSettings usual;
+    const ChipSettings& own = chip == nullptr ? usual : chip_settings_of(*chip);
+    return std::make_unique<xgate_checks::Checks>(limits, pins(), own.config(), own.spi_mode);
   }
 
  private:

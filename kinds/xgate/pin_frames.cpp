@@ -55,6 +55,7 @@ void PinFrames::set_rate(std::uint32_t rate) {
   from_host_.begin(0, 1, kForever);
   from_module_.begin(0, 1, kForever);
   rate_at_ = bus::kNever;
+  rate_changed();
 }
 
 void PinFrames::reset(Tick at, bool low) {
@@ -134,12 +135,10 @@ void PinFrames::add(Side& side, Tick start, Tick end, std::uint8_t byte) {
   side.open.bytes.push_back(byte);
 }
 
+Tick PinFrames::longest_gap() const { return std::max(ticks(config_.frame_gap), by_spi() ? 0 : half(20 * kGapBytes)); }
+
 /// X4, also after bytes without a frame.
-Tick PinFrames::gap_end() const {
-  if (!command_.begun()) return bus::kNever;
-  const Tick bytes = by_spi() ? 0 : half(20 * kGapBytes);
-  return command_.open.end + std::max(ticks(config_.frame_gap), bytes);
-}
+Tick PinFrames::gap_end() const { return command_.begun() ? command_.open.end + longest_gap() : bus::kNever; }
 
 void PinFrames::host_byte(Tick start, Tick end, std::uint8_t byte) {
   if (command_.begun() && command_.open.bytes[0] != kFrameStart && byte == kFrameStart) end_command("no frame");
@@ -147,6 +146,8 @@ void PinFrames::host_byte(Tick start, Tick end, std::uint8_t byte) {
     command_.open.heard = !awaits_ && start >= serves_from_;
     deaf_ = awaits_ ? "not heard: the last command has no answer yet" : "not heard: the firmware has not started";
   }
+  if (command_.begun() && command_.open.heard && command_.open.bytes[0] == kFrameStart)
+    byte_of_frame(end, command_.open.end);
   add(command_, start, end, byte);
   const bus::Bytes& bytes = command_.open.bytes;
   if (bytes[0] != kFrameStart || bytes.size() < kFrameHead || bytes.size() < kFrameHead + bytes[2] + 1U) return;

@@ -41,10 +41,19 @@ class PinFrames : private tb::SpiFrameReader {
   PinFrames& operator=(const PinFrames&) = delete;
   /// When it has ended, at the latest when that is known.
   virtual void frame(const HostFrame& frame) = 0;
+  /// A byte of a frame of the host that has begun; `last_end`: of the byte before it.
+  virtual void byte_of_frame(Tick /*end*/, Tick /*last_end*/) {}
+  /// SPI: NSS rose at `at`, after so many bits.
+  virtual void nss_rose(Tick /*at*/, unsigned /*bits*/) {}
+  /// Command 03 or /Rst has set the rate.
+  virtual void rate_changed() {}
   /// The module has been reset; frames in progress are dropped.
   virtual void module_reset() {}
   /// From an answered command on to the end of its answer.
   bool awaits_answer() const { return awaits_; }
+  const UartTiming& timing() const { return timing_; }
+  /// Between the ends of two bytes of a frame (X4).
+  Tick longest_gap() const;
 
  private:
   /// A side of the line.
@@ -73,6 +82,7 @@ class PinFrames : private tb::SpiFrameReader {
   // tb::SpiFrameReader
   void frame_began(Tick /*at*/) override {}
   void byte(Tick at, std::uint8_t mosi, std::uint8_t miso) override;
+  void frame_ended(Tick at) override { nss_rose(at, bits()); }
 
   const Config config_;
   UartTiming timing_;

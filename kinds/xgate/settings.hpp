@@ -36,6 +36,7 @@ struct UserSettings : tb::OwnSettings {
   std::optional<bool> printed_errors, short_mailboxes;
   std::optional<std::uint32_t> rate;
   Tick byte_gap = 0;
+  std::optional<Tick> reset_wait;
   HostSpi spi;
   int repetitions = 2, answer_ms = 20, byte_ms = 5;
   Tick retry = bus::kTicksPerMs;  ///< from a command 04 without a right answer to the next

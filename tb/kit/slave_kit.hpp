@@ -154,6 +154,8 @@ class Cpu {
   virtual std::vector<std::uint8_t> inputs(std::size_t length) = 0;
   /// The diagnosis to hand over, once for each order of the script; with Parts::diagnosis.
   virtual std::optional<Diagnosis> diagnosis() = 0;
+  /// The next order of the script that this kind alone has (ChipKind::orders), once.
+  virtual std::optional<user_cpu::command::OfChip> order() = 0;
   /// With Parts::acyclic: the scenario's objects for C1 and C2, and how a script wants them answered now.
   virtual const user_cpu::AcyclicOptions& acyclic() const = 0;
 

@@ -116,6 +116,13 @@ std::vector<std::uint8_t> Program::inputs(std::size_t length) {
   return bytes;
 }
 
+std::optional<user_cpu::command::OfChip> Program::order() {
+  if (orders_.empty()) return std::nullopt;
+  user_cpu::command::OfChip next = std::move(orders_.front());
+  orders_.pop_front();
+  return next;
+}
+
 void Program::received(std::vector<std::uint8_t> outputs) {
   outputs_ = std::move(outputs);
   ++counters_.program->outputs_received;

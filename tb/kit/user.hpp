@@ -1,5 +1,6 @@
 #pragma once
 // The chip of a kind of the kit on the segment, and the user CPU at its pins.
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -75,6 +76,7 @@ class Program : public user_cpu::StationCpu, private Cpu {
   Level level(PinNumber pin) const override { return pins_.level(pin); }
   std::vector<std::uint8_t> inputs(std::size_t length) override;
   std::optional<Diagnosis> diagnosis() override { return std::exchange(diagnosis_, std::nullopt); }
+  std::optional<user_cpu::command::OfChip> order() override;
   const user_cpu::AcyclicOptions& acyclic() const override { return options_.acyclic; }
   void received(std::vector<std::uint8_t> outputs) override;
   void written() override;
@@ -87,6 +89,7 @@ class Program : public user_cpu::StationCpu, private Cpu {
   void carry_out(const user_cpu::command::SetDiagnosis& set);
   void carry_out(const user_cpu::command::Reinitialise& again);
   void carry_out(const user_cpu::command::SetAnswering& set) { options_.acyclic.answering = set.answering; }
+  void carry_out(const user_cpu::command::OfChip& order) { orders_.push_back(order); }
   void carry_out(const user_cpu::command::Stop&) { stopped_ = true; }
   void carry_out(const user_cpu::command::Resume&) { stopped_ = false; }
   template <class Refused>
@@ -101,6 +104,7 @@ class Program : public user_cpu::StationCpu, private Cpu {
   user_cpu::UserCounters counters_;
   std::vector<std::uint8_t> outputs_;
   std::optional<Diagnosis> diagnosis_;
+  std::deque<user_cpu::command::OfChip> orders_;
   Tick now_ = 0, due_ = 0;
   Tick interrupt_at_ = bus::kNever;  ///< the pin has left its level of rest, which wait_interrupt has not told yet
   bool waits_interrupt_ = false, waits_change_ = false, stopped_ = false;

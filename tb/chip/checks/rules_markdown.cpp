@@ -21,7 +21,7 @@ std::string limit_text(const Rule& rule) {
 
 /// A clause with the rulings in it as links to their places.
 std::string linked(const std::string& clause, std::string (*place)(const std::string& ruling)) {
-  static const std::regex ruling("\\b(?:R|SP|UA|[APHDSVU])[0-9]+\\b");
+  static const std::regex ruling("\\b(?:R|SP|UA|[APHDSUVX])[0-9]+\\b");
   std::string text;
   auto rest = clause.begin();
   for (std::sregex_iterator each(clause.begin(), clause.end(), ruling), end; each != end; ++each) {

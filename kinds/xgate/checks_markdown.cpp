@@ -1,0 +1,36 @@
+#include "kinds/xgate/checks_markdown.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "kinds/xgate/check.hpp"
+#include "tb/chip/checks/rules_markdown.hpp"
+
+namespace dsdpv1::xgate_checks {
+namespace {
+
+const char* const kIntroduction = R"(
+## The checks of the host of an XGate-DPS10
+
+The checks of `xgate` (`kinds/xgate/`) see the pins between host and module, and read bytes and frames from them. Modes, limits and records are those above. Clauses and tables are
+those of the module's data sheet, rulings those of [xgate.md](xgate.md). Only the port in use is judged, UART or SPI. A run takes rates and times from its scenario.
+
+`ANSWER_AWAITED` is stricter than the module's event `XGATE_LOST`: the module loses a byte that ends before its answer has left, the check asks that none begins. Bytes that the module does not
+hear are neither frames nor gaps. A host that waits for longer than `answer_delay` and `frame_gap` may send again.
+
+The pins do not show why /INT is low. `INT_SERVED` ends with the next exchange; `QUEUE_ANSWERED`, `PARAMETERS_TAKEN` and `ALARM_CLEARED` begin with the answer that tells the host. Requests and parameters
+end with data exchange, as the module's errors 3/1 to 3/4 tell. With `errors: printed` an answer with `len` 83H is an error (X3), also to a host with 131 bytes of outputs.
+)";
+
+std::string place_of(const std::string& ruling) {
+  std::string anchor = ruling;
+  std::transform(anchor.begin(), anchor.end(), anchor.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return "xgate.md#" + anchor;
+}
+
+}  // namespace
+
+std::string markdown() { return kIntroduction + checks::rules_markdown(rules(), place_of); }
+
+}  // namespace dsdpv1::xgate_checks
