@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "model/dsdpv1/serial_host.hpp"
 #include "tests/capi/capi.hpp"
 #include "tests/conformance/host_telegrams.hpp"
 
@@ -217,6 +218,25 @@ void spell(std::vector<dpsim_change>& edges, const char* name, uint64_t at, uint
     edges.push_back({at + i * uint64_t{bit}, 0, pin(name), static_cast<dpsim_level>(levels >> i & 1), 0});
 }
 
+/// By SPI: /Rst, a command, its answer.
+std::vector<dpsim_change> life_by_spi() {
+  std::vector<dpsim_change> edges = {{kUs, 0, pin("RESET"), 1, 0}};
+  dsdpv1::SpiTiming timing;
+  timing.high = timing.low = 1200;
+  uint64_t at = 40 * kUs;
+  for (const Bytes& bytes : {frame(0x01, {1}), Bytes(7, 0x55)}) {
+    const dsdpv1::SpiFrame frame(bytes, timing);
+    for (size_t i = 0; i < frame.size(); ++i) {
+      const dsdpv1::SerialEdge edge = frame[i];
+      if (edge.pin == dsdpv1::Pin::kMiso) continue;
+      const char* name = edge.pin == dsdpv1::Pin::kSck ? "SCK" : edge.pin == dsdpv1::Pin::kMosi ? "MOSI" : "NSS";
+      edges.push_back({at + static_cast<uint64_t>(edge.at), 0, pin(name), static_cast<dpsim_level>(edge.level), 0});
+    }
+    at += 100 * kUs;
+  }
+  return edges;
+}
+
 /// A whole life: /Rst, command 04, Slave_Diag three times, Set_Prm, a wrong command.
 std::vector<dpsim_change> life() {
   std::vector<dpsim_change> edges = {{kUs, 0, pin("RESET"), 1, 0}};
@@ -238,10 +258,10 @@ std::vector<dpsim_change> life() {
 }
 
 /// All changes in that life of a module that is exchanged for its saved state every `apart` ticks.
-std::vector<dpsim_change> live(dpsim_engine engine, uint64_t apart) {
-  auto chip = make_module(engine);
+std::vector<dpsim_change> live(dpsim_engine engine, uint64_t apart, int port = 0) {
+  auto chip = make_module(engine, port);
   ok(dpsim_chip_watch(chip.get(), DPSIM_ALL_PINS, nullptr, nullptr));
-  const std::vector<dpsim_change> edges = life();
+  const std::vector<dpsim_change> edges = port == 0 ? life() : life_by_spi();
   const uint64_t end = edges.back().tick + 200 * kUs;
   std::vector<dpsim_change> all;
   auto edge = edges.begin();
@@ -255,7 +275,7 @@ std::vector<dpsim_change> live(dpsim_engine engine, uint64_t apart) {
     std::vector<uint8_t> state(DPSIM_MAX_CHIP_STATE);
     size_t size = 0;
     ok(dpsim_chip_save(chip.get(), state.data(), state.size(), &size));
-    chip = make_module(engine);
+    chip = make_module(engine, port);
     ok(dpsim_chip_watch(chip.get(), DPSIM_ALL_PINS, nullptr, nullptr));
     ok(dpsim_chip_restore(chip.get(), state.data(), size));
   }
@@ -266,8 +286,11 @@ TEST(CapiXgate, ARestoredModuleGoesOnAsTheOneThatWasSaved) {
   for (const char* name : {"PBTXD", "TXD", "LED2A"})
     EXPECT_TRUE(std::any_of(whole.begin(), whole.end(), [&](const auto& change) { return change.pin == pin(name); }))
         << name;
-  EXPECT_EQ(live(DPSIM_ENGINE_SKIP, 1777), whole);
+  EXPECT_EQ(live(DPSIM_ENGINE_SKIP, 3777), whole);
   EXPECT_EQ(live(DPSIM_ENGINE_STEP, 77'777), whole);
+  const auto by_spi = live(DPSIM_ENGINE_SKIP, DPSIM_LAST_TICK, 1);
+  EXPECT_GT(std::count_if(by_spi.begin(), by_spi.end(), [](const auto& each) { return each.pin == pin("MISO"); }), 20);
+  EXPECT_EQ(live(DPSIM_ENGINE_SKIP, 1777, 1), by_spi);
 }
 
 TEST(CapiXgate, AStateFitsAModuleWithTheSameSettingsOnly) {
