@@ -5,6 +5,7 @@
 #include "apps/program.hpp"
 #include "kinds/dsdpv1/board/arm_user.hpp"
 #include "kinds/spc3/board/arm_user.hpp"
+#include "kinds/xgate/board/arm_user.hpp"
 
 namespace {
 
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
 #ifdef DSDPV1_WITH_ARM_BOARD
   dsdpv1::tb::add_arm_board();
   dsdpv1::tb::add_spc3_arm_board();
+  dsdpv1::xgate::add_arm_board();
 #endif
   return dsdpv1::app::program(argc, argv, "dsdpv1-sim");
 }

@@ -21,15 +21,16 @@ SpiTiming spi_of(const UserSettings& user, const ChipSettings& chip) {
   return timing;
 }
 
+}  // namespace
+
 kit::PinNumber bench_pin(dsdpv1::Pin pin) {
   switch (pin) {
     case dsdpv1::Pin::kXss: return kNss;
     case dsdpv1::Pin::kSck: return kSck;
+    case dsdpv1::Pin::kRxd: return kHostRxd;
     default: return kMosi;
   }
 }
-
-}  // namespace
 
 HostLine::HostLine(kit::Cpu& cpu)
     : cpu_(cpu),

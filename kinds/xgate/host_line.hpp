@@ -12,6 +12,9 @@
 
 namespace dsdpv1::xgate {
 
+/// The module's pin for one of a controller: kXss, kSck, kMosi, kRxd.
+kit::PinNumber bench_pin(dsdpv1::Pin pin);
+
 /// Lives on the program's stack. By UART it receives at all times.
 class HostLine {
  public:

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "io/input/input_error.hpp"
 #include "kinds/xgate/settings.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::xgate {
 namespace {
@@ -83,6 +85,19 @@ const ObjectOf<HostSpi>& spi_keys() {
   return keys;
 }
 
+constexpr std::array<const char*, 5> kArmKeys = {"kind", "elf", "without_mailbox", "switches", "cpi"};
+
+void add_processor(ObjectOf<UserSettings>& o) {
+  o.word("kind", &UserSettings::kind,
+         std::vector<tb::keys::WordFor<HostCpu>>{
+             {HostCpu::kNative, "native", "a program of the bench with driver/xgate, whose computing takes no time"},
+             {HostCpu::kArm, "arm", tb::kArmText}},
+         "The host.");
+  tb::add_elf_key(o);
+  tb::add_without_mailbox_key(o);
+  tb::add_processor_keys(o);
+}
+
 void add_line(ObjectOf<UserSettings>& o) {
   using U = UserSettings;
   o.integer("rate", &U::rate, kRates, "bit/s", "The host's rate (default: the chip's).");
@@ -147,11 +162,29 @@ const tb::keys::Object& user_keys() {
   static const ObjectOf<UserSettings> keys = [] {
     ObjectOf<UserSettings> o(
         "user_cpu", "The host of an XGate-DPS10: driver/xgate, its line, and what it gives in command 04 (4.2).");
+    add_processor(o);
     add_line(o);
     add_initialisation(o);
     return o;
   }();
   return keys;
+}
+
+void check_cpu(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave) {
+  constexpr tb::WiredPins kUart = {0x000C, 0, 0, 0, 0x0010, 0, 0x0040}, kSpi = {0x00F0, 0, 0, 0, 0x0010, 0, 0x0040};
+  const UserSettings& user = user_settings_of(*slave.user_cpu.own);
+  const bool arm = user.kind == HostCpu::kArm;
+  for (const tb::keys::Given& key : slave.user_cpu.given) {
+    const bool of_board = std::find(kArmKeys.begin(), kArmKeys.end(), key.key) != kArmKeys.end();
+    if (arm && !of_board && user_keys().find(key.key) != nullptr)
+      throw tb::InputError(
+          scenario.file, key.line,
+          fmt::format("{} is that of kind: native, the firmware of an ARM board has its own", key.key));
+    if (!arm && (key.key == "cpi" || key.key == "without_mailbox"))
+      throw tb::InputError(scenario.file, key.line, fmt::format("{} without kind: arm, expected both", key.key));
+  }
+  tb::check_board_keys(user, arm, chip_settings_of(*slave.chip).port == Port::kSpi ? kSpi : kUart, scenario.file,
+                       slave.name.text, slave.line);
 }
 
 }  // namespace dsdpv1::xgate

@@ -1,5 +1,6 @@
 #include "kinds/xgate/kind.hpp"
 
+#include "io/input/input_error.hpp"
 #include "kinds/xgate/checks.hpp"
 #include "kinds/xgate/frame_reader.hpp"
 #include "kinds/xgate/host_program.hpp"
@@ -38,6 +39,10 @@ kit::Parts make_parts() {
   return parts;
 }
 
+MakeArmUser arm_maker = nullptr;
+
+bool is_arm(const tb::scenario::Slave& slave) { return user_settings_of(*slave.user_cpu.own).kind == HostCpu::kArm; }
+
 class XgateKind : public kit::Kind {
  public:
   XgateKind() : kit::Kind(make_parts()), codes_(kit::Kind::codes()) { codes_.push_back(program_codes()); }
@@ -59,11 +64,20 @@ class XgateKind : public kit::Kind {
         {"leds", {"LED1A", "LED1B", "LED2A", "LED2B"}}};
     return groups;
   }
-  bool has_outside_line(const tb::scenario::Slave& slave) const override {
-    return chip_settings_of(*slave.chip).port == Port::kUart;
+  void check_slave(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave) const override {
+    kit::Kind::check_slave(scenario, slave);
+    check_cpu(scenario, slave);
   }
+  bool has_outside_line(const tb::scenario::Slave& slave) const override {
+    return chip_settings_of(*slave.chip).port == Port::kUart && !is_arm(slave);
+  }
+  bool has_debugger(const tb::scenario::Slave& slave) const override { return is_arm(slave); }
   tb::MakeUser make_user(const tb::UserRequest& request) const override {
-    return request.outside != nullptr ? outside_host(request) : kit::Kind::make_user(request);
+    if (request.outside != nullptr) return outside_host(request);
+    if (!is_arm(request.slave)) return kit::Kind::make_user(request);
+    if (arm_maker != nullptr) return arm_maker(request);
+    throw tb::InputError(request.scenario.file, request.slave.user_cpu.line,
+                         "kind is arm, but this program has no ARM board, allowed without it is native");
   }
 
   const std::vector<tb::Order>& orders() const override { return xgate::orders(); }
@@ -86,6 +100,8 @@ class XgateKind : public kit::Kind {
 };
 
 }  // namespace
+
+void set_arm_maker(MakeArmUser make) { arm_maker = make; }
 
 const kit::Kind& kind() {
   static const XgateKind kind;

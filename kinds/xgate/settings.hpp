@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "kinds/board/board_keys.hpp"
 #include "kinds/board/spi_keys.hpp"
 #include "model/dsdpv1/serial_host.hpp"
 #include "model/xgate/config.hpp"
@@ -31,8 +32,11 @@ struct HostSpi : tb::SpiTimes {
   HostSpi() { clock_khz = 1000; }
 };
 
+enum class HostCpu : std::uint8_t { kNative, kArm };
+
 /// Under `user_cpu`: the host and what it gives in command 04. Absent: as the module's.
-struct UserSettings : tb::OwnSettings {
+struct UserSettings : tb::OwnSettings, tb::BoardKeys {
+  HostCpu kind = HostCpu::kNative;
   std::optional<bool> printed_errors, short_mailboxes;
   std::optional<std::uint32_t> rate;
   Tick byte_gap = 0;
@@ -60,7 +64,7 @@ inline UartTiming uart_timing(std::uint32_t rate, Tick gap = 0) { return {rate, 
 // The keys (ChipKind::chip_keys, user_keys).
 const tb::keys::Object& chip_keys();
 const tb::keys::Object& user_keys();
-/// ChipKind::check_chip and check_user; throw InputError.
-void check_user(const UserSettings& user, const ChipSettings& chip, const std::string& file, int where);
+/// Throws InputError for keys that only the other kind of user CPU has.
+void check_cpu(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave);
 
 }  // namespace dsdpv1::xgate

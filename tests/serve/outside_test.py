@@ -16,6 +16,7 @@ SCENARIO = """name: a host outside
 baud: 500k
 end: 100ms
 chip: {kind: xgate}
+allow: [{event: FRAME_GAP}, {event: FRAME_FORM}, {event: RESET_AWAITED}]
 slaves:
   - {name: module, address: 8, init: {ident: 0x0F01, max_inputs: 2, max_outputs: 2, cfg: 11 21}}
 masters:
@@ -126,6 +127,8 @@ def both_ports(program):
         serve = served(program, body, port)
         check(serve.result["slaves"][0]["dp_state"] == "DATA_EXCH", serve.summary)
         check([line for line in serve.log if "56 78" in line.text], "the master never had the new inputs")
+        said = {line.text.split()[0] for line in serve.log if line.kind == "allowed"}
+        check({"FRAME_GAP", "FRAME_FORM"} <= said <= {"FRAME_GAP", "FRAME_FORM", "RESET_AWAITED"}, "checks: %s" % said)
 
 
 def with_a_real_master(program):
