@@ -81,9 +81,9 @@ class XgateKind : public kit::Kind {
   }
 
   const std::vector<tb::Order>& orders() const override { return xgate::orders(); }
-  void check_order(const std::string& order, const tb::OwnSettings& /*user*/, const tb::OwnSettings& chip,
+  void check_order(const std::string& order, const tb::OwnSettings& user, const tb::OwnSettings& chip,
                    const tb::keys::Source& source, int where) const override {
-    xgate::check_order(order, chip_settings_of(chip).port, source.file, where);
+    xgate::check_order(order, user_settings_of(user).kind, chip_settings_of(chip).port, source.file, where);
   }
 
   const checks::RuleTable& rules() const override { return xgate_checks::rules(); }

@@ -41,7 +41,9 @@ const std::vector<tb::Order>& orders() {
   return all;
 }
 
-void check_order(const std::string& order, Port port, const std::string& file, int line) {
+void check_order(const std::string& order, HostCpu cpu, Port port, const std::string& file, int line) {
+  if (cpu == HostCpu::kArm)
+    throw tb::InputError(file, line, fmt::format("{} is of no use with kind: arm, expected kind: native", order));
   if (order == kTalkOverReply && port == Port::kSpi)
     throw tb::InputError(file, line,
                          fmt::format("{} is of no use with port: spi of the chip, expected port: uart", order));

@@ -17,8 +17,8 @@ constexpr const char* kTalkOverReply = "talk_over_reply";
 constexpr const char* kHostTelegram = "host_telegram";
 
 const std::vector<tb::Order>& orders();
-/// Throws tb::InputError for an order that has no effect on this port.
-void check_order(const std::string& order, Port port, const std::string& file, int line);
+/// Throws tb::InputError for an order that has no effect on this host or port.
+void check_order(const std::string& order, HostCpu cpu, Port port, const std::string& file, int line);
 
 /// The faults that wait for the host's next commands.
 class LineFaults {

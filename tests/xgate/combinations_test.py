@@ -97,6 +97,29 @@ def serve(cell):
     cell.passes("serve", "x.yaml", "--tcp", "0", "--for", "60ms")
 
 
+def outside(cell):
+    """More of it: tests/serve/outside_test.py. No host program comes: nothing is exchanged."""
+    words = ("serve", "x.yaml", "--tcp", "0", "--user-tcp", "0", "--for", "20ms")
+    if only(cell, "spi"):
+        cell.is_refused("needs a slave with a UART for its user CPU", *words)
+    else:
+        cell.expect("without a host", cell.call(*words).returncode, 1)
+
+
+def board(cell):
+    """More of it: scenarios/xgate_arm_uart.yaml and xgate_arm_spi.yaml."""
+    arm = ("--set", "user_cpu.kind=arm", "--set", "user_cpu.elf=x.yaml")
+    cell.is_refused("--gdb needs a slave whose user_cpu has kind: arm", "run", "x.yaml", "--gdb", "0")
+    cell.write("x.yaml", cell.scenario.replace("cycle: 1ms, answer_ms: 5, ", ""))
+    cell.is_refused("is not an ELF file", "run", "x.yaml", *arm)
+    cell.write("y.yaml", cell.scenario.replace("cycle: 1ms, answer_ms: 5, ", "").replace("script:\n", "script:\n  - {at: 20ms, slave: io, do: flip_bit}\n"))
+    cell.is_refused("flip_bit is of no use with kind: arm", "run", "y.yaml", *arm)
+
+
+def process(cell):
+    cell.is_refused('kind is "process", expected native', "run", "x.yaml", "--set", "user_cpu.kind=process")
+
+
 def files(cell):
     cell.passes("run", "x.yaml", "-q", "--wave", "a.vcd", "--capture", "x.pcapng")
     cell.passes("compare", "a.vcd", "a.vcd")
@@ -167,6 +190,9 @@ ROWS = [  # what, how, the function
     ("`replay`", "with `--chip xgate`, or `--scenario`; a host takes milliseconds, so that inputs which change and diagnoses come at another time, and differ", replay),
     ("`sweep`, `regress`", "yes", campaigns),
     ("`serve`", "yes", serve),
+    ("`serve --user-pty`, `--user-tcp`", "[a host program of yours](#a-host-program-on-your-pc), by UART; by SPI refused", outside),
+    ("ARM board, `--gdb`", "[firmware as the host](arm_board.md#an-xgate-dps10), without faults on order", board),
+    ("host process", "refused: `user_cpu` has not this `kind`", process),
     ("`compare`, `decode`, `gsd`", "yes: about lines and files", files),
     ("C API, Python", "scenarios; [a module](#in-programs) by its host's bytes", c_api_and_python),
     ("`--view tlm`", "refused: the host moves pins", systemc),
