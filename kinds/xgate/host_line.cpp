@@ -16,7 +16,7 @@ bool is_whole(const std::vector<std::uint8_t>& frame) {
 }
 
 SpiTiming spi_of(const UserSettings& user, const ChipSettings& chip) {
-  SpiTiming timing = tb::spi_timing_of(user.spi);
+  SpiTiming timing = tb::spi_timing_of(user.spi.value_or(HostSpi()));
   timing.mode = chip.spi_mode;
   return timing;
 }
@@ -36,8 +36,7 @@ HostLine::HostLine(kit::Cpu& cpu)
     : cpu_(cpu),
       own_(user_settings_of(cpu.settings())),
       by_spi_(chip_settings_of(cpu.chip_settings()).port == Port::kSpi),
-      uart_(uart_timing(user_settings_of(cpu.settings()).rate.value_or(chip_settings_of(cpu.chip_settings()).rate),
-                        user_settings_of(cpu.settings()).byte_gap)),
+      uart_(uart_timing(own_.rate.value_or(chip_settings_of(cpu.chip_settings()).rate), own_.byte_gap)),
       spi_(spi_of(user_settings_of(cpu.settings()), chip_settings_of(cpu.chip_settings()))),
       receiver_(uart_) {
   cpu_.on_change([this](Tick at, kit::PinNumber pin, kit::Level level) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "driver/xgate/xgate.h"
 #include "io/input/input_error.hpp"
 #include "kinds/xgate/settings.hpp"
 #include "tb/scenario/scenario.hpp"
@@ -145,6 +146,36 @@ Config ChipSettings::config() const {
   config.serial = words_of(serial_number);
   config.name = words_of(product);
   return config;
+}
+
+void check_ids(const ChipSettings& chip, const std::string& file) {
+  if (chip.c1_id == chip.c2_id)
+    throw tb::InputError(file, chip.line,
+                         fmt::format("c1_id and c2_id are both {}, expected different ids (X7)", chip.c1_id));
+}
+
+void check_line(const UserSettings& user, const ChipSettings& chip, const std::string& file) {
+  if (user.rate && chip.port != Port::kUart)
+    throw tb::InputError(file, user.line, "rate with port: spi of the chip, expected port: uart");
+  if (user.spi && chip.port != Port::kSpi)
+    throw tb::InputError(file, user.spi->line, "spi with port: uart of the chip, expected port: spi");
+  if (user.spi) tb::check_mosi(*user.spi, file);
+}
+
+/// Command 04 has no place for some data, and for a long configuration.
+void check_slave(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave) {
+  constexpr std::array kServed = {"ident", "max_inputs", "max_outputs", "cfg", "fail_safe", "dpv1"};
+  for (const tb::keys::Given& key : slave.init.given)
+    if (std::find(kServed.begin(), kServed.end(), key.key) == kServed.end())
+      throw tb::InputError(scenario.file, key.line,
+                           fmt::format("init has {}, but command 04 of an XGate-DPS10 has no place for it, expected {}",
+                                       key.key, fmt::join(kServed, ", ")));
+  const std::size_t cfg = slave.init.cfg ? slave.init.cfg->size() : 0;
+  if (cfg > XGATE_MAX_CFG && !user_settings_of(*slave.user_cpu.own).any_cfg)
+    throw tb::InputError(scenario.file, slave.init.line,
+                         fmt::format("cfg has {} bytes, but command 04 holds {}, expected any_cfg: true of the user "
+                                     "CPU (4.7.3)",
+                                     cfg, XGATE_MAX_CFG));
 }
 
 const tb::keys::Object& chip_keys() {

@@ -51,6 +51,19 @@ class XgateKind : public kit::Kind {
   std::unique_ptr<tb::OwnSettings> make_chip_settings() const override { return std::make_unique<ChipSettings>(); }
   const tb::keys::Object& user_keys() const override { return xgate::user_keys(); }
   std::unique_ptr<tb::OwnSettings> make_user_settings() const override { return std::make_unique<UserSettings>(); }
+  void check_chip(const tb::OwnSettings& settings, const tb::keys::Source& source) const override {
+    check_ids(chip_settings_of(settings), source.file);
+  }
+  void check_user(const tb::OwnSettings& settings, const tb::OwnSettings& chip, const tb::keys::Source& source,
+                  const std::string& /*slave*/, int /*where*/) const override {
+    check_line(user_settings_of(settings), chip_settings_of(chip), source.file);
+  }
+  void check_slave(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave) const override {
+    kit::Kind::check_slave(scenario, slave);
+    xgate::check_slave(scenario, slave);
+    check_cpu(scenario, slave);
+  }
+  std::string place_of(const std::string& init_key) const override;
   const std::vector<tb::CodeTable>& codes() const override { return codes_; }
   std::unique_ptr<tb::HostReader> make_host_reader(const tb::OwnSettings& chip) const override {
     return std::make_unique<FrameReader>(chip_settings_of(chip));
@@ -63,10 +76,6 @@ class XgateKind : public kit::Kind {
         {"spi", {"NSS", "SCK", "MOSI", "spi_request", "MISO", "spi_reply"}},
         {"leds", {"LED1A", "LED1B", "LED2A", "LED2B"}}};
     return groups;
-  }
-  void check_slave(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave) const override {
-    kit::Kind::check_slave(scenario, slave);
-    check_cpu(scenario, slave);
   }
   bool has_outside_line(const tb::scenario::Slave& slave) const override {
     return chip_settings_of(*slave.chip).port == Port::kUart && !is_arm(slave);
@@ -98,6 +107,15 @@ class XgateKind : public kit::Kind {
  private:
   std::vector<tb::CodeTable> codes_;
 };
+
+/// Data of command 04 (4.2).
+std::string XgateKind::place_of(const std::string& init_key) const {
+  if (init_key == "ident") return "command 04, data 1 and 2";
+  if (init_key == "cfg") return "command 04, data 19 and on; its sums data 4 and 5";
+  if (init_key == "dpv1") return "command 04, data 16 bit 7";
+  if (init_key == "fail_safe") return "command 04, data 16 bit 1";
+  return "";
+}
 
 }  // namespace
 

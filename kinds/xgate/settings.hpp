@@ -8,6 +8,7 @@
 #include "model/dsdpv1/serial_host.hpp"
 #include "model/xgate/config.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::xgate {
 
@@ -41,7 +42,7 @@ struct UserSettings : tb::OwnSettings, tb::BoardKeys {
   std::optional<std::uint32_t> rate;
   Tick byte_gap = 0;
   std::optional<Tick> reset_wait;
-  HostSpi spi;
+  std::optional<HostSpi> spi;
   int repetitions = 2, answer_ms = 20, byte_ms = 5;
   Tick retry = bus::kTicksPerMs;  ///< from a command 04 without a right answer to the next
 
@@ -66,5 +67,9 @@ const tb::keys::Object& chip_keys();
 const tb::keys::Object& user_keys();
 /// Throws InputError for keys that only the other kind of user CPU has.
 void check_cpu(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave);
+// ChipKind::check_chip, check_slave and check_user; they throw InputError.
+void check_ids(const ChipSettings& chip, const std::string& file);
+void check_slave(const tb::scenario::Scenario& scenario, const tb::scenario::Slave& slave);
+void check_line(const UserSettings& user, const ChipSettings& chip, const std::string& file);
 
 }  // namespace dsdpv1::xgate

@@ -62,6 +62,8 @@ class XgateHost : public testing::TestWithParam<Choice> {
   xgate_result result = XGATE_OK;
   std::vector<Bytes> parameters_seen, requests_seen;
   Bytes reply = {0x5E, 1, 2, 2, 7, 8};
+  Bytes ids_seen;
+  int late = 0;  ///< so many requests are answered later
   int acknowledgements = 0;
   int frames = 0;  ///< that the host has sent
   int damage = 0;  ///< of so many frames to come an answer's byte is changed
@@ -106,6 +108,8 @@ class XgateHost : public testing::TestWithParam<Choice> {
   static std::uint8_t request(void* context, const std::uint8_t* pdu, std::uint8_t length, std::uint8_t* answer) {
     XgateHost& test = self(context);
     test.requests_seen.emplace_back(pdu, pdu + length);
+    test.ids_seen.push_back(xgate_request_id(&test.host));
+    if (test.late > 0 && test.late-- > 0) return 0;
     Bytes bytes = test.reply;
     bytes[0] = static_cast<std::uint8_t>(pdu[0] | (bytes[0] & 0x80));
     std::copy(bytes.begin(), bytes.end(), answer);
@@ -193,6 +197,25 @@ TEST_P(XgateHost, LongAnswersLeaveOneAfterTheOther) {
   EXPECT_EQ(result, XGATE_OK) << "nothing is left of the answers that were refused";
   EXPECT_EQ(bench.poll(51, 51), reply);
   EXPECT_EQ(bench.poll(48, 50), reply);
+}
+
+/// The request stays, and data exchange goes on by 21 (X24).
+TEST_P(XgateHost, ARequestMayBeAnsweredLater) {
+  to_exchange();
+  bench.service(-1, {9, 8, 7});
+  exchange();
+  connect_c2();
+  bench.service(51, {0x5E, 1, 2, 4}, 51);
+  bench.service(48, {0x5E, 1, 2, 4}, 50);
+  late = 3;
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(exchange(), Bytes({9, 8, 7}));
+  EXPECT_EQ(ids_seen, Bytes({1, 2, 1, 2}));
+  EXPECT_EQ(bench.poll(51, 51), Bytes()) << "late";
+  EXPECT_EQ(bench.poll(48, 50), reply) << "the fourth";
+  EXPECT_EQ(exchange(), Bytes({9, 8, 7}));
+  EXPECT_EQ(bench.poll(51, 51), reply);
+  EXPECT_EQ(xgate_request_id(nullptr), 0);
+  EXPECT_EQ(xgate_request_id(&host), 0);
 }
 
 TEST_P(XgateHost, AnAnswerThatTheModuleRefusesIsAskedForAgain) {
