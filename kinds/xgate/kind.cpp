@@ -45,7 +45,10 @@ bool is_arm(const tb::scenario::Slave& slave) { return user_settings_of(*slave.u
 
 class XgateKind : public kit::Kind {
  public:
-  XgateKind() : kit::Kind(make_parts()), codes_(kit::Kind::codes()) { codes_.push_back(program_codes()); }
+  XgateKind() : kit::Kind(make_parts()), codes_(kit::Kind::codes()) {
+    for (std::size_t i = 0; i < reasons().size(); ++i) add_example(codes_.front().codes[i], reasons()[i]);
+    codes_.push_back(program_codes());
+  }
 
   const tb::keys::Object& chip_keys() const override { return xgate::chip_keys(); }
   std::unique_ptr<tb::OwnSettings> make_chip_settings() const override { return std::make_unique<ChipSettings>(); }
@@ -105,6 +108,12 @@ class XgateKind : public kit::Kind {
   }
 
  private:
+  /// The text with values, if it has places for them.
+  void add_example(tb::CodeText& code, profibus::Reason reason) const {
+    const std::string example = describe({0, reason, 5, 12, 1});
+    if (example != code.text) code.example = example;
+  }
+
   std::vector<tb::CodeTable> codes_;
 };
 

@@ -199,7 +199,7 @@ TEST_P(XgateHost, LongAnswersLeaveOneAfterTheOther) {
   EXPECT_EQ(bench.poll(48, 50), reply);
 }
 
-/// The request stays, and data exchange goes on by 21 (X24).
+/// The request stays, data exchange continues by 21 (X24).
 TEST_P(XgateHost, ARequestMayBeAnsweredLater) {
   to_exchange();
   bench.service(-1, {9, 8, 7});

@@ -27,6 +27,8 @@ bus::Bytes frame(std::uint8_t command, const bus::Bytes& data, std::uint8_t spec
 
 class Seen : public PinFrames {
  public:
+  using Tick = bus::Tick;
+
   explicit Seen(const Config& config) : PinFrames(config, 0) {
     pin(0, kit::kReset, 0);
     pin(10, kit::kReset, 1);
