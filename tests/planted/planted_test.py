@@ -122,7 +122,7 @@ class Lists(unittest.TestCase):
         self.assertGreaterEqual(len(lists.read("mutants")), 300)
         self.assertGreaterEqual(counts["driver"], 20)
         self.assertGreaterEqual(counts["board"], 10)
-        checks = "".join(path.read_text(encoding="utf-8") for path in lists.ROOT.glob("kinds/*/checks/check_table.inc"))
+        checks = "".join(path.read_text(encoding="utf-8") for path in lists.ROOT.glob("kinds/**/check_table.inc"))
         ids, names = set(re.findall(r'^X\(\w+, "(\w+)"', checks, re.M)), {fault.name for fault in lists.read("checks")}
         self.assertLessEqual(ids, names)
         self.assertEqual([name for name in names - ids if not any(name.startswith(f"{each}_") for each in ids)], [], "a second fault of a check")

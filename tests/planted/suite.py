@@ -21,7 +21,7 @@ STAGES = {
     "systemc": (*(Stage(f"systemc_{name}_test") for name in SYSTEMC), SCENARIOS),
     "driver": (Stage("driver_spc3_model_test"), Stage("driver_test"), Stage("user_cpu_test"), SCENARIOS),
     "board": (Stage("arm_test"), Stage("app_arm_board_test", calls_sim=True), SCENARIOS),
-    "checks": (Stage("spc3_checks_test"), Stage("checks_test"), Stage("user_cpu_test"), SCENARIOS),
+    "checks": (Stage("xgate_checks_test"), Stage("spc3_checks_test"), Stage("checks_test"), Stage("user_cpu_test"), SCENARIOS),
 }
 SECONDS = 600  # per stage: the time limit of its tests
 
