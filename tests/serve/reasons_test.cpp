@@ -35,7 +35,7 @@ TEST(Reasons, EveryCodeOfScenariosAndLogsHasATextAnAdviceAndARulingOrClause) {
 TEST(Reasons, OneCodeIsPrintedAlone) {
   const app_test::Called printed = call("reasons PRM_IDENT", DSDPV1_SOURCE_DIR);
   EXPECT_EQ(printed.status, 0) << printed.err;
-  EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 5);
+  EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 6);
   EXPECT_NE(printed.out.find("    see S6 (docs/chip.md#s6), T19-4 (docs/conformance.md#t19-4)\n"), std::string::npos)
       << printed.out;
   EXPECT_EQ(printed.out.rfind(
