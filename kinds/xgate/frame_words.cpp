@@ -35,7 +35,7 @@ const char* error_name(unsigned type, unsigned code) {
   switch (type << 8 | code) {
     case 0x101: return "XOR of the initialisation";
     case 0x102: return "address";
-    case 0x103: return "lengths of inputs and outputs";
+    case 0x103: return "length of the I/O configuration";
     case 0x104: return "configuration";
     case 0x201: return "overflow";
     case 0x202: return "too few bytes";
@@ -44,7 +44,7 @@ const char* error_name(unsigned type, unsigned code) {
     case 0x210: return "ring buffer overflow";
     case 0x301: return "parameters differ";
     case 0x302: return "configuration differs";
-    case 0x303: return "no data exchange";
+    case 0x303: return "data exchange";
     case 0x304: return "not connected";
     case 0x401: return "command";
     case 0x402: return "parameter of the command";

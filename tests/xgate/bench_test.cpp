@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(XgateOnTheBench, FramesAreInLogAndWave) {
   run(kUse);
   for (const char* line :
-       {"04 initialise, 21 bytes", "04 initialise, 0 bytes", "20 error 3/3: no data exchange",
+       {"04 initialise, 21 bytes", "04 initialise, 0 bytes", "20 error 3/3: data exchange",
         "21 outputs, new user parameters, 3 bytes", "21 exchange, user parameters known", "22 read user parameters, 0",
         "30 requests: id 1, read slot 1 index 2 length 4", "30 answers: id 1, read slot 1 index 2 length 4",
         "31 error 4/2: parameter of the command", "XGATE_ERR_MODULE: command 31: the module's error 4/2"})

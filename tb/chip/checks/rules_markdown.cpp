@@ -9,8 +9,8 @@ namespace {
 
 std::string limit_text(const Rule& rule) {
   if (rule.bound == Bound::kRule) return "-";
-  if (rule.limit == kNoLimit) return "at most: none";
   const char* const word = rule.bound == Bound::kMin ? "at least" : "at most";
+  if (rule.limit == kNoLimit) return fmt::format("{}: none", word);
   if (rule.bound == Bound::kMost) return fmt::format("{} {}", word, rule.limit);
   const Tick thousandths = rule.limit * 1000 / bus::kTicksPerNs;
   std::string number = fmt::format("{}.{:03}", thousandths / 1000, thousandths % 1000);
