@@ -190,7 +190,8 @@ const tb::CodeTable& program_codes() {
   static const tb::CodeTable table{
       "Host program",
       "Errors of `driver/xgate` on an XGate-DPS10's user CPU.",
-      {{"XGATE_ERR_ARGUMENT", "refusal", "X16", "an argument out of its range", "Give a diagnosis that fits in a frame."},
+      {{"XGATE_ERR_ARGUMENT", "refusal", "X16", "an argument out of its range",
+        "Give a diagnosis that fits in a frame."},
        {"XGATE_ERR_SILENT", "refusal", "X2", "no whole answer after all repetitions",
         "Compare rate, port and form of errors with the module's; give it more time."},
        {"XGATE_ERR_ANSWER", "refusal", "X2", "an answer that is none to this command",
