@@ -20,7 +20,7 @@ those of the module's data sheet, rulings those of [xgate.md](xgate.md). Only th
 hear are neither frames nor gaps. A host that waits for longer than `answer_delay` and `frame_gap` may send again.
 
 The pins do not show why /INT is low. `INT_SERVED` ends with the next exchange; `QUEUE_ANSWERED`, `PARAMETERS_TAKEN` and `ALARM_CLEARED` begin with the answer that tells the host. Requests and parameters
-end with data exchange, as the module's errors 3/1 to 3/4 tell. A command 30 with one of two answers, or with a wrong one, ends `QUEUE_ANSWERED` too; the next answer 30 begins it again.
+end with data exchange, as the module's errors 3/1 to 3/4 tell. Each request has its own time, until the module takes an answer to it, or the master withdraws it.
 
 The data sheet asks for more than these four, without a time: serve a request at once (4.4.1), answer it by the very next command (4.5.1, 14), clear the flag by the next one (4.3.1). No document
 has the 100 ms.

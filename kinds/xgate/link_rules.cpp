@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
+
+#include "model/xgate/mailbox.hpp"
 
 namespace dsdpv1::xgate_checks {
 namespace {
@@ -21,10 +24,18 @@ bool is_cut(const HostFrame& frame) {
 }
 bool is_error(const HostFrame& frame) { return (frame.frame.special & xgate::kErrorFlag) != 0; }
 
+std::vector<std::uint8_t> ids_of(const HostFrame& frame, xgate::MailboxForm form) {
+  std::vector<std::uint8_t> ids;
+  xgate::Mailbox box;
+  for (xgate::MailboxReader reader(frame.frame, form); !reader.at_end() && reader.read(box);) ids.push_back(box.id);
+  return ids;
+}
+
 }  // namespace
 
 void LinkRules::reset(Tick at, bool low) {
-  for (checks::Duty* duty : {&int_, &queue_, &parameters_, &alarm_}) duty->ends();
+  for (checks::Duty* duty : {&int_, &parameters_, &alarm_}) duty->ends();
+  queue_.clear();
   early_ = answered_ = released_ = std::nullopt;
   last_answer_ = -1;
   opens_ = bus::kNever;
@@ -83,7 +94,7 @@ void LinkRules::fulfil(const HostFrame& frame) {
   const bool exchange =
       command == kExchange || command == kExchangeKnown || command == kRequests || command == kDiagnosis;
   if (exchange) int_.met(recorder_, Check::kIntServed, frame.end, text);
-  if (command == kRequests) queue_.met(recorder_, Check::kQueueAnswered, frame.end, text);
+  if (command == kRequests) given_ = frame;
   if (command == kExchangeKnown) parameters_.met(recorder_, Check::kParametersTaken, frame.end, text);
   if ((frame.frame.special & xgate::kAlarmFlag) != 0) alarm_.met(recorder_, Check::kAlarmCleared, frame.end, text);
 }
@@ -107,10 +118,10 @@ void LinkRules::answer(const HostFrame& frame) {
   answered_ = last_answer_;
   if (const auto start = std::exchange(early_, std::nullopt)) early(*start, last_answer_);
   if (is_error(frame) && frame.frame.size() > 0 && frame.frame.at(0) == kBusError) {
-    queue_.ends();  // data exchange was left
+    queue_.clear();  // data exchange was left
     parameters_.ends();
   }
-  if (!is_error(frame) && frame.frame.command == kRequests) queue_.begins(frame.end);
+  if (!is_error(frame)) requests(frame);
   if (frame.asked == kExchange && frame.frame.command == kExchangeKnown) parameters_.begins(frame.end);
   if ((frame.frame.special & xgate::kAlarmFlag) != 0)
     alarm_.begins(frame.end);
@@ -118,13 +129,27 @@ void LinkRules::answer(const HostFrame& frame) {
     alarm_.ends();
 }
 
+/// A right answer to 30 ends the requests that 30 has answered, one to 20 has those that are still open.
+void LinkRules::requests(const HostFrame& frame) {
+  if (frame.asked == kRequests)
+    for (const std::uint8_t id : ids_of(given_, config_.mailboxes))
+      queue_[id].met(recorder_, Check::kQueueAnswered, given_.end, [&] { return words(given_); });
+  if (frame.asked != kExchange) return;
+  std::map<std::uint8_t, checks::Duty> open;
+  if (frame.frame.command == kRequests)
+    for (const std::uint8_t id : ids_of(frame, config_.mailboxes)) (open[id] = queue_[id]).begins(frame.end);
+  queue_ = std::move(open);
+}
+
 // --- time ------------------------------------------------------------------------------------------------------------
 
 void LinkRules::pass(Tick now) {
-  int_.pass(
-      recorder_, Check::kIntServed, now, [] { return std::string("it is low still"); });
-  queue_.pass(
-      recorder_, Check::kQueueAnswered, now, [] { return std::string("no command 30"); });
+  int_.pass(recorder_, Check::kIntServed, now, [] { return std::string("it is low still"); });
+  for (auto& [id, duty] : queue_) {
+    const int request = id;
+    duty.pass(recorder_, Check::kQueueAnswered, now,
+              [request] { return fmt::format("no command 30 for the request with id {}", request); });
+  }
   parameters_.pass(
       recorder_, Check::kParametersTaken, now, [] { return std::string("no command 21"); });
   alarm_.pass(recorder_, Check::kAlarmCleared, now, [] { return std::string("no command with special bit 6"); });

@@ -1,5 +1,7 @@
 #pragma once
 // The rules of commands, answers and /INT, by UART and SPI alike.
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +41,7 @@ class LinkRules {
   void unheard(Tick start);
   void fulfil(const xgate::HostFrame& frame);
   void answer(const xgate::HostFrame& frame);
+  void requests(const xgate::HostFrame& frame);
   void early(Tick start, Tick answered);
 
   checks::Recorder& recorder_;
@@ -49,7 +52,9 @@ class LinkRules {
   std::optional<Tick> early_;     ///< begin of what came before the answer's end
   std::optional<Tick> answered_;  ///< end of the last answer; no command since
   Tick last_answer_ = -1;         ///< its end
-  checks::Duty int_, queue_, parameters_, alarm_;
+  checks::Duty int_, parameters_, alarm_;
+  std::map<std::uint8_t, checks::Duty> queue_;  ///< by the id of a request
+  xgate::HostFrame given_;                      ///< the last command 30
 };
 
 }  // namespace dsdpv1::xgate_checks

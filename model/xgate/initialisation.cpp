@@ -21,7 +21,7 @@ Error read_cfg(const Frame& frame, const Config& config, Initialisation& read) {
   read.any_cfg = size == 0;
   if (read.any_cfg) return error::kNone;  // input and output are ignored (4.2.1)
   if (input > profibus::kMaxIo || output > profibus::kMaxIo) return error::kIoLength;
-  if (size > static_cast<int>(config.most_cfg)) return error::kConfiguration;
+  if (size > static_cast<int>(config.most_cfg)) return error::kIoLength;
   read.cfg.assign(frame.data.bytes.data() + kCfgAt, size);
   const profibus::CfgLengths lengths = profibus::cfg_lengths(read.cfg.bytes.data(), size);
   if (!lengths.complete()) return error::kConfiguration;

@@ -179,7 +179,7 @@ TEST(XgateInitialisation, WhatIsWrongWithIt) {
   EXPECT_EQ(init(with(4, 245)), error::kIoLength);
   EXPECT_EQ(init(with(22, 0x40)), error::kConfiguration) << "an identifier without its length";
   EXPECT_EQ(init(with_cfg(Bytes(24, 0x10), 24, 0)), error::kNone);
-  EXPECT_EQ(init(with_cfg(Bytes(25, 0x10), 25, 0)), error::kConfiguration) << "4.7.3: 24";
+  EXPECT_EQ(init(with_cfg(Bytes(25, 0x10), 25, 0)), error::kIoLength) << "4.7.3: 24; table 4.11";
   for (const int size : {0, 4, 237}) EXPECT_EQ(init(with(6, static_cast<std::uint8_t>(size))), error::kNone) << size;
   for (const int size : {1, 2, 3, 238, 255})
     EXPECT_EQ(init(with(6, static_cast<std::uint8_t>(size))), error::kParameter) << size;

@@ -31,6 +31,13 @@ Bytes frame(std::uint8_t command, std::uint8_t special, const Bytes& data) {
   return bytes;
 }
 
+const Bytes kRequest1 = {1, 4, 0, 0x5E, 1, 2, 8, 0x55}, kRequest2 = {2, 4, 0, 0x5E, 1, 3, 8, 0x54};
+const Bytes kAnswer1 = {1, 5, 0, 0x5E, 1, 2, 1, 9, 0x55}, kAnswer2 = {2, 5, 0, 0x5E, 1, 3, 1, 9, 0x54};
+Bytes both(Bytes first, const Bytes& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 /// Host and module at the pins, byte by byte: 100 kbit/s by UART, 1 Mbit/s by SPI.
 class Line {
  public:
@@ -98,6 +105,13 @@ class Line {
     pass(100 * kUs);
   }
 
+  /// Command 30, with a right answer or error 4/2.
+  void answer_requests(const Bytes& answers, bool right = true) {
+    host(frame(0x30, 0x11, answers));
+    module(right ? frame(0x20, 0x11, {3}) : frame(0x20, 0x91, {4, 2, 0}));
+    pass(100 * kUs);
+  }
+
   /// The rules that were broken, each with what is said.
   std::map<std::string, std::string> finish() {
     pass(5 * kMs);
@@ -133,8 +147,8 @@ void use(Line& line) {
   line.exchange(0x20, 0x21, {3});
   line.exchange(0x21, 0x21, {3});
   line.exchange(0x22, 0x22, {0, 0, 0, 9});
-  line.exchange(0x20, 0x30, {1, 4, 0, 0x5E, 1, 2, 8, 0x55});
-  line.exchange(0x30, 0x20, {3});
+  line.exchange(0x20, 0x30, kRequest1);
+  line.answer_requests(kAnswer1);
   line.pin(kInt, 1);
   line.exchange(0x31, 0x20, {3}, 0x11, 0x51);
   line.exchange(0x20, 0x20, {3}, 0x51);
@@ -238,10 +252,26 @@ const Planted kPlanted[] = {
      "it is low still"},
     {"QUEUE_ANSWERED", Port::kSpi,
      [](Line& line) {
-       line.exchange(0x20, 0x30, {1, 0, 0, 0});
+       line.exchange(0x20, 0x30, kRequest1);
        line.pass(101 * kMs);
      },
-     "no command 30"},
+     "no command 30 for the request with id 1"},
+    {"QUEUE_ANSWERED", Port::kUart,  // the module refuses the answer
+     [](Line& line) {
+       line.exchange(0x20, 0x30, kRequest1);
+       line.answer_requests(kAnswer1, false);
+       line.pass(101 * kMs);
+     },
+     "no command 30 for the request with id 1"},
+    {"QUEUE_ANSWERED", Port::kUart,  // one of two is answered again and again
+     [](Line& line) {
+       for (int turn = 0; turn < 6; ++turn) {
+         line.exchange(0x20, 0x30, both(kRequest1, kRequest2));
+         line.answer_requests(kAnswer1);
+         line.pass(20 * kMs);
+       }
+     },
+     "no command 30 for the request with id 2"},
     {"PARAMETERS_TAKEN", Port::kUart,
      [](Line& line) {
        line.exchange(0x20, 0x21, {1});
@@ -285,11 +315,21 @@ TEST(XgateChecks, FollowTheRateOfCommand03) {
 
 TEST(XgateChecks, NeitherRequestsNorParametersOutliveDataExchange) {
   Line line;
-  line.exchange(0x20, 0x30, {1, 0, 0, 0});
+  line.exchange(0x20, 0x30, kRequest1);
   line.exchange(0x20, 0x21, {1});
   line.exchange(0x20, 0x20, {3, 3, 0}, 0x11, 0x91);
   line.pass(200 * kMs);
   EXPECT_THAT(line.finish(), IsEmpty());
+}
+
+TEST(XgateChecks, RequestsThatTheMasterWithdrawsNeedNoAnswer) {
+  Line line;
+  line.exchange(0x20, 0x30, both(kRequest1, kRequest2));
+  line.exchange(0x20, 0x30, kRequest2);
+  line.answer_requests(kAnswer2);
+  line.pass(200 * kMs);
+  EXPECT_THAT(line.finish(), IsEmpty());
+  EXPECT_EQ(line.count(xgate_checks::Check::kQueueAnswered), 1U);
 }
 
 }  // namespace
