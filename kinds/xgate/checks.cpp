@@ -40,7 +40,9 @@ bool Checks::applies(checks::CheckId check) const {
   }
 }
 
+/// Time passes with these pins alone: a wave or a trace brings the others, too, and finds the same.
 void Checks::pin(Tick at, tb::PinNumber pin, tb::Level level) {
+  if ((watched() & tb::mask_of(pin)) == 0) return;
   advance(at);
   history_.add(at, pin, level);
   if (pin == kit::kReset) reset(at, level == 0);

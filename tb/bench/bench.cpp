@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "io/input/input_error.hpp"
 #include "tb/bench/script.hpp"
 
 namespace dsdpv1::tb {
@@ -192,7 +193,14 @@ void Bench::add_answer_faults() {
   }
 }
 
-void Bench::order(const std::string& json) { script_->order(scenario::parse_action(json, "control", scenario_)); }
+void Bench::order(const std::string& json) {
+  const scenario::Action action = scenario::parse_action(json, "control", scenario_);
+  if (scenario::is_for_user_cpu(action.what) && !stations_.slave(action.slave.text).carries_out(action.word))
+    throw InputError(
+        "control", 0,
+        fmt::format("{} is for the program of {}, which cannot be told anything", action.word, action.slave.text));
+  script_->order(action);
+}
 
 /// The chips are already in the timeline; then stations in the order in which they answer each other, the script last.
 void Bench::add_agents() {

@@ -43,7 +43,7 @@ Script::Script(const scenario::Scenario& scenario, Stations& stations, bus::Segm
     plan(expectation.at.value_or(expectation.by.value_or(scenario.end)), Kind::kExpectation, i);
   }
   for (ExpectationResult& each : expectations_) {
-    if (each.left_out) each.seen = "not known, the firmware has no mailbox";
+    if (each.left_out) each.seen = "not known, the program does not report it";
     judged_.push_back(each.left_out);
   }
 }

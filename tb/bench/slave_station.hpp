@@ -36,6 +36,8 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
 
   /// Passes a command to the user program and wakes it.
   void command(Tick now, const user_cpu::Command& command);
+  /// See StationCpu; a program that has not begun yet will.
+  bool carries_out(const std::string& word) const { return user_ == nullptr || user_->carries_out(word); }
   void reinitialise(Tick now, std::optional<int> address, const std::optional<bus::Bytes>& cfg);
   void interrupt_changed(Tick at, bool level);
 

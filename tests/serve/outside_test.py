@@ -147,6 +147,21 @@ def with_a_real_master(program):
     served(program, body, ("--user-pty", "host"), ALONE)
 
 
+def control(program):
+    """Actions that are for the program are refused: it cannot be told anything. Those of chip and line are done."""
+    def body(serve):
+        number = int(serve.said().split("takes actions at 127.0.0.1:")[1].split("\n")[0])
+        with host_at(serve, "--user-tcp") as host, socket.create_connection(("127.0.0.1", number)) as peer, peer.makefile() as answers:
+            comes_to_data(host.fileno(), b"\xca\xfe")
+            for word, more in {"flip_bit": "", "set_inputs": ', "bytes": "01 02"', "pause_user": ', "for": "1ms"', "reinitialise": ""}.items():
+                peer.sendall(('{"do": "%s", "slave": "module"%s}\n' % (word, more)).encode())
+                check(answers.readline() == "control: %s is for the program of module, which cannot be told anything\n" % word, word)
+            peer.sendall(b'{"do": "reset_chip", "slave": "module"}\n')
+            check(answers.readline() == "ok\n", "/Rst")
+            comes_to_data(host.fileno(), b"\xca\xfe")
+    served(program, body, ("--user-tcp", "0"), SCENARIO, "--control", "0")
+
+
 def bad_options(program):
     spi = SCENARIO.replace("kind: xgate", "kind: xgate, port: spi")
     two = ALONE + ALONE.split("slaves:\n")[1].replace("module", "other").replace("address: 8", "address: 9")
@@ -166,7 +181,7 @@ def bad_options(program):
                   "%s: %d %r" % (options, called.returncode, called.stderr))
 
 
-CASES = {case.__name__: case for case in (both_ports, with_a_real_master, bad_options)}
+CASES = {case.__name__: case for case in (both_ports, with_a_real_master, control, bad_options)}
 
 
 def main():

@@ -9,6 +9,7 @@
 #include "driver/host/dsdpv1_bench_wire.h"
 #include "kinds/dsdpv1/user_cpu/callers.hpp"
 #include "kinds/dsdpv1/user_cpu/child_process.hpp"
+#include "kinds/dsdpv1/user_cpu/orders.hpp"
 #include "kinds/dsdpv1/user_cpu/serial_port.hpp"
 #include "kinds/user_cpu/act_log.hpp"
 #include "kinds/user_cpu/handshake_counters.hpp"
@@ -42,6 +43,7 @@ class ProcessUser : public StationCpu {
   void command(Tick now, const Command& command) override;
   UserCounters counters() const override;
   bool tells() const override { return false; }
+  bool carries_out(const std::string& word) const override { return word == kSpoilReads; }
   std::uint64_t outputs_received() const override { return 0; }
   const std::vector<std::uint8_t>& outputs() const override { return no_outputs_; }
   std::optional<Place> where(const Act& act) const override;

@@ -34,6 +34,8 @@ class StationCpu : public bus::Agent {
   virtual std::uint64_t outputs_received() const = 0;
   /// Whether the program reports its counters, its errors, and the outputs that it fetches.
   virtual bool tells() const { return true; }
+  /// Whether its program carries out a script's action with this word.
+  virtual bool carries_out(const std::string& /*word*/) const { return tells(); }
   /// The outputs that the program fetched last.
   virtual const std::vector<std::uint8_t>& outputs() const = 0;
   /// Absent without such a board.
