@@ -40,9 +40,10 @@ RTL_CELLS = "rtl"  # no netlist: Icarus alone
 ALL_CELLS = (RTL_CELLS, *netlists.CELLS)
 BENCH = RTL / "gates" / "golden_bench.sv"
 
-# The scenarios, and the modes and cycles of random cases; what each twin must differ in comes first
+# The scenarios, and the modes of random cases; what each twin must differ in comes first
 SCENARIOS = {"dsdpv1": ("bus_timing", "violations"), "dsdpv1_rsu": ("rsu_spi_timing", "rsu_uart_timing")}
-RANDOM = {"dsdpv1": (("parallel", 2_000_000),), "dsdpv1_rsu": (("spi", 1_000_000), ("uart", 1_000_000), ("parallel", 1_000_000))}
+RANDOM = {"dsdpv1": ("parallel",), "dsdpv1_rsu": ("spi", "uart", "parallel")}
+RANDOM_CYCLES = {"generic": 1_000_000, "ice40": 100_000}  # at least, of each mode: the iCE40's are ten times slower
 # Golden, slave, cycles. RTL: 82 000 cycles are data exchange, 300 000 over SPI as well. Netlists are ten to thirty times slower.
 GOLDENS = {
     ("dsdpv1", RTL_CELLS): (("power_on_12m", "demo", 84_000), ("violations", "early", 960_000), ("violations", "short_writes", 960_000)),
@@ -151,9 +152,9 @@ class Plan:
                 self.icarus(chip, cells, goldens[:1], whole, twin=True)
         if "random" in self.kinds:
             short = self.netlist(chip, cells, "short", netlists.short_windows(chip))
-            for mode, cycles in RANDOM[chip]:
-                self.random(chip, cells, mode, cycles, short)
-            self.random(chip, cells, *RANDOM[chip][0], short, twin=True)
+            for mode in RANDOM[chip]:
+                self.random(chip, cells, mode, short)
+            self.random(chip, cells, RANDOM[chip][0], short, twin=True)
 
     def netlist(self, chip, cells, name, parameters):
         def run(folder):
@@ -199,7 +200,9 @@ class Plan:
 
         self.add(chip, cells, f"scenario {name}" + " twin" * twin, run, lambda: [ROOT / f"scenarios/{name}.yaml", *self.model()], needs=[netlist])
 
-    def random(self, chip, cells, mode, cycles, netlist, twin=False):
+    def random(self, chip, cells, mode, netlist, twin=False):
+        cycles = RANDOM_CYCLES[cells]
+
         def run(folder):
             build = folder.parent / ("build_short_twin" if twin else "build_short")
             how = ["--chip", chip, "--mode", mode] if chip != "dsdpv1" else []
