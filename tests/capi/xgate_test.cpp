@@ -213,7 +213,8 @@ TEST(CapiXgate, ExchangesDataWithAMaster) {
 }
 
 /// The bits of characters at a pin from `at` on.
-void spell(std::vector<dpsim_change>& edges, const char* name, uint64_t at, uint32_t bit, unsigned bits, uint32_t levels) {
+void spell(std::vector<dpsim_change>& edges, const char* name, uint64_t at, uint32_t bit, unsigned bits,
+           uint32_t levels) {
   for (unsigned i = 0; i < bits; ++i)
     edges.push_back({at + i * uint64_t{bit}, 0, pin(name), static_cast<dpsim_level>(levels >> i & 1), 0});
 }
