@@ -19,7 +19,7 @@ bus::Bytes frame(std::uint8_t command, const bus::Bytes& data, std::uint8_t spec
   Frame whole;
   whole.command = command;
   whole.special = special;
-  whole.data.assign(data.data(), static_cast<int>(data.size()));
+  if (!data.empty()) whole.data.assign(data.data(), static_cast<int>(data.size()));
   Wire wire;
   compose(whole, wire);
   return {wire.bytes.data(), wire.bytes.data() + wire.size};
