@@ -153,6 +153,12 @@ void print_others(std::string& text, const tb::CodeText& first) {
   for (const auto& [advice, kinds] : others) text += tb::named_line("", fmt::format("{}: {}", kinds, advice), 0);
 }
 
+/// docs/checks.md.
+std::string checks_page() {
+  return checks::markdown(tb::ruling_place) + spc3_checks::markdown(tb::ruling_place) +
+         xgate_checks::markdown(tb::ruling_place);
+}
+
 std::string as_text(const tb::ChipKind& kind, const std::string& code) {
   const std::vector<tb::CodeText> all = all_codes(kind);
   std::string text;
@@ -180,9 +186,7 @@ class Reasons : public Command {
 
   int carry_out() override {
     const tb::ChipKind& kind = *tb::chip_kinds().front();
-    const std::string text = checks_     ? checks::markdown() + spc3_checks::markdown() + xgate_checks::markdown()
-                             : markdown_ ? as_markdown(kind)
-                                         : as_text(kind, code_);
+    const std::string text = checks_ ? checks_page() : markdown_ ? as_markdown(kind) : as_text(kind, code_);
     return print_or_write("dsdpv1-sim reasons", text, output_);
   }
 

@@ -1,8 +1,5 @@
 #include "kinds/xgate/checks_markdown.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 #include "kinds/xgate/check.hpp"
 #include "tb/chip/checks/rules_markdown.hpp"
 
@@ -28,15 +25,8 @@ has the 100 ms.
 With `errors: printed` an answer with `len` 83H is an error (X3) if the first byte of its data is a class, 1 to 4, and the fourth the XOR. 131 bytes of outputs may begin so.
 )";
 
-std::string place_of(const std::string& ruling) {
-  std::string anchor = ruling;
-  std::transform(anchor.begin(), anchor.end(), anchor.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return "xgate.md#" + anchor;
-}
-
 }  // namespace
 
-std::string markdown() { return kIntroduction + checks::rules_markdown(rules(), place_of); }
+std::string markdown(checks::RulingPlace place) { return kIntroduction + checks::rules_markdown(rules(), place); }
 
 }  // namespace dsdpv1::xgate_checks

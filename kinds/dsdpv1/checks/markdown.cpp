@@ -1,8 +1,5 @@
 #include "kinds/dsdpv1/checks/markdown.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 #include "kinds/dsdpv1/checks/check.hpp"
 #include "tb/chip/checks/rules_markdown.hpp"
 
@@ -139,16 +136,8 @@ again. In between the chip stays away (H1). A hold begins with R_STA's rise and 
 the DPRAM lasts while both are high: it ends with the first fall (P12). Rulings are those of [chip.md](chip.md), tables and chapters those of the datasheet.
 )";
 
-std::string place_of(const std::string& ruling) {
-  const bool of_sisters = ruling[0] == 'R' || ruling.compare(0, 2, "SP") == 0 || ruling.compare(0, 2, "UA") == 0;
-  std::string anchor = ruling;
-  std::transform(anchor.begin(), anchor.end(), anchor.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return (of_sisters ? "chip_rsu.md#" : "chip.md#") + anchor;
-}
-
 }  // namespace
 
-std::string markdown() { return kIntroduction + rules_markdown(rules(Part::kRsu), place_of); }
+std::string markdown(RulingPlace place) { return kIntroduction + rules_markdown(rules(Part::kRsu), place); }
 
 }  // namespace dsdpv1::checks

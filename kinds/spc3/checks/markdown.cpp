@@ -1,8 +1,5 @@
 #include "kinds/spc3/checks/markdown.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 #include "kinds/spc3/checks/check.hpp"
 #include "tb/chip/checks/rules_markdown.hpp"
 
@@ -43,15 +40,8 @@ The accesses do not show:
 A scenario with a user that does wrong on purpose names the check under `allow`, or switches it off.
 )";
 
-std::string place_of(const std::string& ruling) {
-  std::string anchor = ruling;
-  std::transform(anchor.begin(), anchor.end(), anchor.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return (ruling[0] == 'A' ? "spc3.md#" : "chip.md#") + anchor;
-}
-
 }  // namespace
 
-std::string markdown() { return kIntroduction + checks::rules_markdown(rules(), place_of); }
+std::string markdown(checks::RulingPlace place) { return kIntroduction + checks::rules_markdown(rules(), place); }
 
 }  // namespace dsdpv1::spc3_checks

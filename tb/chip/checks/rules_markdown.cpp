@@ -20,7 +20,7 @@ std::string limit_text(const Rule& rule) {
 }
 
 /// A clause with the rulings in it as links to their places.
-std::string linked(const std::string& clause, std::string (*place)(const std::string& ruling)) {
+std::string linked(const std::string& clause, RulingPlace place) {
   static const std::regex ruling("\\b(?:R|SP|UA|[APHDSUVX])[0-9]+\\b");
   std::string text;
   auto rest = clause.begin();
@@ -40,7 +40,7 @@ std::string section(const Rule& rule) {
 
 }  // namespace
 
-std::string rules_markdown(const RuleTable& rules, std::string (*place)(const std::string& ruling)) {
+std::string rules_markdown(const RuleTable& rules, RulingPlace place) {
   std::string text = "\n| check | clause | default limit |\n|---|---|---|\n";
   for (const Rule& each : rules)
     text += fmt::format("| `{}` | {} | {} |\n", each.id, linked(each.clause, place), limit_text(each));

@@ -6,7 +6,10 @@
 
 namespace dsdpv1::checks {
 
-/// A row for each rule, then a section for each. `place`: the page and anchor of a ruling, "chip.md#s6" for S6.
-std::string rules_markdown(const RuleTable& rules, std::string (*place)(const std::string& ruling));
+/// The page and anchor of a ruling, "chip.md#s6" for S6; tb::ruling_place.
+using RulingPlace = std::string (*)(const std::string& ruling);
+
+/// A row for each rule, then a section for each.
+std::string rules_markdown(const RuleTable& rules, RulingPlace place);
 
 }  // namespace dsdpv1::checks
